@@ -1,0 +1,30 @@
+# One set of compile options for the whole build. The instruction set must be
+# the same everywhere: it decides the layout of Eigen's types. Eigen's alignment
+# is held at 16 bytes because Debian's Ceres was built so, and matrices cross
+# that border.
+if(NOT LARARIUM_ISA)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set(LARARIUM_ISA x86-64-v3)
+  elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+    set(LARARIUM_ISA armv8-a)
+  endif()
+endif()
+
+add_library(lararium_options INTERFACE)
+target_compile_options(lararium_options INTERFACE
+  -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $<$<BOOL:${LARARIUM_ISA}>:-march=${LARARIUM_ISA}>)
+target_compile_definitions(lararium_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+target_include_directories(lararium_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/generated)
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O2")
+
+if(LARARIUM_SANITIZE)
+  target_compile_options(lararium_options INTERFACE
+    -fsanitize=${LARARIUM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  target_link_options(lararium_options INTERFACE -fsanitize=${LARARIUM_SANITIZE})
+endif()
+
+if(LARARIUM_TIDY)
+  find_program(LARARIUM_CLANG_TIDY NAMES clang-tidy-14 clang-tidy REQUIRED)
+  set(CMAKE_CXX_CLANG_TIDY ${LARARIUM_CLANG_TIDY})
+endif()

@@ -1,0 +1,54 @@
+# Every library that Lararium uses, as an imported target. All come from Debian
+# packages (packages.txt); nothing is vendored. System headers, so that their
+# warnings are not ours.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Ceres 2.1 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(glfw3 3.3 REQUIRED)
+find_package(glm REQUIRED)
+find_package(assimp 5.2 REQUIRED)
+find_package(OpenEXR 3.1 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(spdlog 1.10 REQUIRED)
+find_package(GTest REQUIRED)
+find_package(benchmark REQUIRED)
+pkg_check_modules(libav REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
+pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
+pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4)
+pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(sodium REQUIRED IMPORTED_TARGET libsodium)
+pkg_check_modules(flatbuffers REQUIRED IMPORTED_TARGET flatbuffers)
+find_program(FLATC flatc REQUIRED)
+
+# OpenCV's own CMake files come only with the package of all its modules, which
+# pulls in VTK; the modules that we use are found one by one.
+find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+foreach(module core imgproc imgcodecs videoio video features2d calib3d)
+  find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
+  add_library(opencv_${module} INTERFACE)
+  target_include_directories(opencv_${module} SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
+  target_link_libraries(opencv_${module} INTERFACE ${OPENCV_${module}_LIBRARY})
+  if(NOT module STREQUAL core)
+    target_link_libraries(opencv_${module} INTERFACE opencv_core)
+  endif()
+endforeach()
+
+# Debian's imgui is one static library with its back ends.
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+find_library(IMGUI_LIBRARY imgui REQUIRED)
+find_library(STB_LIBRARY stb)
+add_library(imgui_imported INTERFACE)
+target_include_directories(imgui_imported SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR} ${IMGUI_INCLUDE_DIR}/backends)
+target_link_libraries(imgui_imported INTERFACE ${IMGUI_LIBRARY} $<$<BOOL:${STB_LIBRARY}>:${STB_LIBRARY}> ${CMAKE_DL_LIBS})
+
+# FLANN: its pkg-config file names libraries that we do not want.
+find_path(FLANN_INCLUDE_DIR flann/flann.hpp REQUIRED)
+find_library(FLANN_LIBRARY flann_cpp REQUIRED)
+find_library(LZ4_LIBRARY lz4 REQUIRED)
+add_library(flann_imported INTERFACE)
+target_include_directories(flann_imported SYSTEM INTERFACE ${FLANN_INCLUDE_DIR})
+target_link_libraries(flann_imported INTERFACE ${FLANN_LIBRARY} ${LZ4_LIBRARY})

@@ -1,0 +1,38 @@
+# lararium_library(ROOM SOURCES ... [PUBLIC ...] [PRIVATE ...])
+# One static library for a room, named lararium_ROOM.
+function(lararium_library room)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(lararium_${room} STATIC ${arg_SOURCES})
+  target_link_libraries(lararium_${room} PUBLIC lararium_options ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+endfunction()
+
+# lararium_flatbuffer(ROOM SCHEMA.fbs): generates SCHEMA_generated.h for that
+# room under generated/ with the schema's own folder.
+function(lararium_flatbuffer room schema)
+  get_filename_component(stem ${schema} NAME_WE)
+  file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set(out ${CMAKE_BINARY_DIR}/generated/${folder})
+  add_custom_command(
+    OUTPUT ${out}/${stem}_generated.h
+    COMMAND ${FLATC} --cpp --scoped-enums --cpp-std c++17 -o ${out} ${CMAKE_CURRENT_SOURCE_DIR}/${schema}
+    DEPENDS ${schema}
+    COMMENT "flatc ${schema}")
+  target_sources(lararium_${room} PRIVATE ${out}/${stem}_generated.h)
+endfunction()
+
+# lararium_test(NAME LABEL label SOURCES ... LINK ... [TIMEOUT s])
+# A GoogleTest program. LABEL: unit (no GL, under a second a test), data (reads
+# scenes/ or LARARIUM_DATA_DIR), gl (draws, software Mesa suffices), ui, slow.
+function(lararium_test name)
+  cmake_parse_arguments(arg "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINK} lararium_test_support GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    LARARIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" LARARIUM_DATA_DIR="${LARARIUM_DATA_DIR}")
+  string(REGEX REPLACE "_(data_|gl_|ui_|slow_)?test$" "" room ${name})
+  gtest_discover_tests(${name} TEST_PREFIX "${room}/" DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+endfunction()

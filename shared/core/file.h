@@ -1,0 +1,47 @@
+#pragma once
+
+// Reading, mapping and safely replacing files.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shared/core/status.h"
+
+namespace lararium {
+
+// The largest file that ReadBytes and ReadText take unless told otherwise.
+inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 30;
+
+Result<std::vector<std::byte>> ReadBytes(const std::filesystem::path& path,
+                                         uint64_t max_bytes = kMaxFileBytes);
+Result<std::string> ReadText(const std::filesystem::path& path, uint64_t max_bytes = kMaxFileBytes);
+
+// Replaces path as a whole or leaves it as it was, also across a crash: writes
+// beside it, fsyncs, renames, fsyncs the folder.
+Status WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> content);
+Status WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
+
+// A file mapped read-only into memory. Move-only; unmapped by the destructor.
+class MappedFile {
+ public:
+  static Result<MappedFile> Open(const std::filesystem::path& path);
+
+  MappedFile(MappedFile&& other) noexcept;
+  MappedFile& operator=(MappedFile&& other) noexcept;
+  ~MappedFile();
+
+  std::span<const std::byte> bytes() const { return {data_, size_}; }
+
+ private:
+  MappedFile(const std::byte* data, size_t size) : data_(data), size_(size) {}
+
+  const std::byte* data_ = nullptr;
+  size_t size_ = 0;
+};
+
+}  // namespace lararium

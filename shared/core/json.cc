@@ -1,0 +1,135 @@
+#include "shared/core/json.h"
+
+#include <cmath>
+
+#include "shared/core/file.h"
+
+namespace lararium {
+
+Result<Json> ParseJson(std::string_view text, std::string_view place) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    // The library's text carries an identifier in brackets first.
+    std::string_view what = error.what();
+    if (const size_t end = what.find("] "); end != std::string_view::npos) {
+      what.remove_prefix(end + 2);
+    }
+    return Status::Error(place, "not valid JSON: " + std::string(what));
+  }
+}
+
+Result<Json> LoadJson(const std::filesystem::path& path) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(path, 256 << 20));
+  return ParseJson(text, path.string());
+}
+
+Status SaveJson(const std::filesystem::path& path, const Json& json) {
+  return WriteFileAtomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+bool JsonView::Has(std::string_view key) const {
+  return json_->is_object() && json_->contains(key);
+}
+
+Result<JsonView> JsonView::Field(std::string_view key) const {
+  if (!json_->is_object()) {
+    return Problem("must be an object");
+  }
+  const auto found = json_->find(key);
+  if (found == json_->end()) {
+    return Problem("the field \"" + std::string(key) + "\" is missing");
+  }
+  const bool at_root = place_.ends_with(".json") || place_.find(": ") == std::string::npos;
+  return JsonView(*found, place_ + (at_root ? ": " : ".") + std::string(key));
+}
+
+Result<std::vector<JsonView>> JsonView::Array(size_t max_count) const {
+  if (!json_->is_array()) {
+    return Problem("must be a list");
+  }
+  if (json_->size() > max_count) {
+    return Problem("has more than the " + std::to_string(max_count) + " entries that are allowed");
+  }
+  std::vector<JsonView> views;
+  views.reserve(json_->size());
+  for (size_t i = 0; i < json_->size(); ++i) {
+    views.emplace_back((*json_)[i], place_ + "[" + std::to_string(i) + "]");
+  }
+  return views;
+}
+
+Result<double> JsonView::Number(double min, double max) const {
+  if (!json_->is_number() || !std::isfinite(json_->get<double>())) {
+    return Problem("must be a finite number");
+  }
+  const double value = json_->get<double>();
+  if (value < min || value > max) {
+    return Problem("must lie between " + std::to_string(min) + " and " + std::to_string(max));
+  }
+  return value;
+}
+
+Result<int64_t> JsonView::Integer(int64_t min, int64_t max) const {
+  const bool fits = json_->is_number_integer() &&
+                    !(json_->is_number_unsigned() &&
+                      json_->get<uint64_t>() > uint64_t{std::numeric_limits<int64_t>::max()});
+  if (!fits || json_->get<int64_t>() < min || json_->get<int64_t>() > max) {
+    return Problem("must be a whole number from " + std::to_string(min) + " to " +
+                   std::to_string(max));
+  }
+  return json_->get<int64_t>();
+}
+
+Result<bool> JsonView::Boolean() const {
+  if (!json_->is_boolean()) {
+    return Problem("must be true or false");
+  }
+  return json_->get<bool>();
+}
+
+Result<std::string> JsonView::Text(size_t max_bytes) const {
+  if (!json_->is_string()) {
+    return Problem("must be a text");
+  }
+  auto text = json_->get<std::string>();
+  if (text.size() > max_bytes) {
+    return Problem("is longer than the " + std::to_string(max_bytes) + " bytes that are allowed");
+  }
+  return text;
+}
+
+Result<std::vector<double>> JsonView::Numbers(size_t count) const {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> items, Array());
+  if (items.size() != count) {
+    return Problem("must be a list of " + std::to_string(count) + " numbers");
+  }
+  std::vector<double> numbers;
+  for (const JsonView& item : items) {
+    LARARIUM_ASSIGN_OR_RETURN(const double number, item.Number());
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+Result<double> JsonView::Number(std::string_view key, double min, double max) const {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, Field(key));
+  return field.Number(min, max);
+}
+
+Result<int64_t> JsonView::Integer(std::string_view key, int64_t min, int64_t max) const {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, Field(key));
+  return field.Integer(min, max);
+}
+
+Result<std::string> JsonView::Text(std::string_view key, size_t max_bytes) const {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, Field(key));
+  return field.Text(max_bytes);
+}
+
+Result<std::vector<double>> JsonView::Numbers(std::string_view key, size_t count) const {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, Field(key));
+  return field.Numbers(count);
+}
+
+}  // namespace lararium

@@ -1,0 +1,62 @@
+#pragma once
+
+// JSON with checked access: every error names the file and the field.
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shared/core/status.h"
+
+namespace lararium {
+
+using Json = nlohmann::json;  // keys are sorted, so that files diff well
+
+// place: what error messages call the text, normally its file.
+Result<Json> ParseJson(std::string_view text, std::string_view place);
+Result<Json> LoadJson(const std::filesystem::path& path);
+Status SaveJson(const std::filesystem::path& path, const Json& json);
+
+// A view of one JSON value that knows its path within the file. Errors read
+// "project.json: stage.scale: must be a finite number".
+class JsonView {
+ public:
+  JsonView(const Json& json, std::string place) : json_(&json), place_(std::move(place)) {}
+
+  const Json& json() const { return *json_; }
+  const std::string& place() const { return place_; }
+  Status Problem(std::string_view problem, std::string_view remedy = {}) const {
+    return Status::Error(place_, problem, remedy);
+  }
+
+  bool Has(std::string_view key) const;
+  Result<JsonView> Field(std::string_view key) const;
+  // All elements of an array of at most max_count elements.
+  Result<std::vector<JsonView>> Array(size_t max_count = 1'000'000) const;
+
+  // The value itself, checked for type and range.
+  Result<double> Number(double min = std::numeric_limits<double>::lowest(),
+                        double max = std::numeric_limits<double>::max()) const;
+  Result<int64_t> Integer(int64_t min, int64_t max) const;
+  Result<bool> Boolean() const;
+  Result<std::string> Text(size_t max_bytes = 1 << 20) const;
+  Result<std::vector<double>> Numbers(size_t count) const;
+
+  // The same for a field of an object.
+  Result<double> Number(std::string_view key,
+                        double min = std::numeric_limits<double>::lowest(),
+                        double max = std::numeric_limits<double>::max()) const;
+  Result<int64_t> Integer(std::string_view key, int64_t min, int64_t max) const;
+  Result<std::string> Text(std::string_view key, size_t max_bytes = 1 << 20) const;
+  Result<std::vector<double>> Numbers(std::string_view key, size_t count) const;
+
+ private:
+  const Json* json_;
+  std::string place_;
+};
+
+}  // namespace lararium

@@ -1,0 +1,132 @@
+#include "shared/geometry/camera_model.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lararium::geometry {
+namespace {
+
+// Distorts a point on the plane z = 1; fills the 2x2 Jacobian when asked.
+Eigen::Vector2d Distort(const CameraModel& c, const Eigen::Vector2d& p, Eigen::Matrix2d* jacobian) {
+  const double x = p.x();
+  const double y = p.y();
+  const double r2 = x * x + y * y;
+  const double radial = 1.0 + r2 * (c.k1 + r2 * c.k2);
+  if (jacobian != nullptr) {
+    const double slope = 2.0 * (c.k1 + 2.0 * c.k2 * r2);  // d radial / d r2, times 2
+    (*jacobian)(0, 0) = radial + x * x * slope + 2.0 * c.p1 * y + 6.0 * c.p2 * x;
+    (*jacobian)(0, 1) = x * y * slope + 2.0 * c.p1 * x + 2.0 * c.p2 * y;
+    (*jacobian)(1, 0) = x * y * slope + 2.0 * c.p2 * y + 2.0 * c.p1 * x;
+    (*jacobian)(1, 1) = radial + y * y * slope + 6.0 * c.p1 * y + 2.0 * c.p2 * x;
+  }
+  return {x * radial + 2.0 * c.p1 * x * y + c.p2 * (r2 + 2.0 * x * x),
+          y * radial + c.p1 * (r2 + 2.0 * y * y) + 2.0 * c.p2 * x * y};
+}
+
+constexpr std::string_view kPlace = "camera intrinsics";
+
+}  // namespace
+
+Status CameraModel::Validate() const {
+  if (width < 16 || height < 16 || width > 16384 || height > 16384) {
+    return Status::Error(kPlace, "image size must lie between 16 and 16384 pixels");
+  }
+  for (const double value : {fx, fy, cx, cy, k1, k2, p1, p2}) {
+    if (!std::isfinite(value)) {
+      return Status::Error(kPlace, "all numbers must be finite");
+    }
+  }
+  const double side = std::max(width, height);
+  if (fx < 0.05 * side || fy < 0.05 * side || fx > 100.0 * side || fy > 100.0 * side) {
+    return Status::Error(kPlace, "the focal length is impossible for this image size",
+                         "give fx and fy in pixels");
+  }
+  if (cx < -side || cy < -side || cx > 2.0 * side || cy > 2.0 * side) {
+    return Status::Error(kPlace, "the principal point is far outside the image",
+                         "give cx and cy in pixels");
+  }
+  // Undistorting a pixel must lead back to it, also in the corners.
+  for (const double x : {-0.5, 0.5 * width, width - 0.5}) {
+    for (const double y : {-0.5, 0.5 * height, height - 0.5}) {
+      const Eigen::Vector2d pixel(x, y);
+      const double error = (PixelFromPlane(PlaneFromPixel(pixel)) - pixel).norm();
+      if (!(error < 1e-3)) {
+        return Status::Error(kPlace, "the distortion folds the image over itself",
+                             "check k1, k2, p1, p2");
+      }
+    }
+  }
+  return Status();
+}
+
+std::optional<Eigen::Vector2d> CameraModel::Project(const Eigen::Vector3d& point_in_camera) const {
+  if (point_in_camera.z() <= 1e-9) {
+    return std::nullopt;
+  }
+  return PixelFromPlane(point_in_camera.hnormalized());
+}
+
+Eigen::Vector2d CameraModel::PixelFromPlane(const Eigen::Vector2d& plane) const {
+  const Eigen::Vector2d d = HasDistortion() ? Distort(*this, plane, nullptr) : plane;
+  return {fx * d.x() + cx, fy * d.y() + cy};
+}
+
+Eigen::Vector2d CameraModel::PlaneFromPixel(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d target((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
+  if (!HasDistortion()) {
+    return target;
+  }
+  Eigen::Vector2d point = target;
+  for (int i = 0; i < 20; ++i) {
+    Eigen::Matrix2d jacobian;
+    const Eigen::Vector2d residual = Distort(*this, point, &jacobian) - target;
+    if (residual.squaredNorm() < 1e-20 || std::abs(jacobian.determinant()) < 1e-9) {
+      break;
+    }
+    point -= jacobian.inverse() * residual;
+  }
+  return point;
+}
+
+CameraModel CameraModel::Resized(int new_width, int new_height) const {
+  const double sx = static_cast<double>(new_width) / width;
+  const double sy = static_cast<double>(new_height) / height;
+  CameraModel resized = *this;
+  resized.width = new_width;
+  resized.height = new_height;
+  resized.fx = sx * fx;
+  resized.fy = sy * fy;
+  resized.cx = sx * (cx + 0.5) - 0.5;
+  resized.cy = sy * (cy + 0.5) - 0.5;
+  return resized;
+}
+
+CameraModel CameraModel::DisplayPinhole() const {
+  CameraModel display = *this;
+  display.k1 = display.k2 = display.p1 = display.p2 = 0.0;
+  if (!HasDistortion()) {
+    return display;
+  }
+  // The largest rectangle, about the axis, of which every border point lies
+  // inside the undistorted image border.
+  std::array<double, 4> inner = {-1e9, 1e9, -1e9, 1e9};  // left, right, top, bottom on z = 1
+  constexpr int kSteps = 64;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double x = -0.5 + static_cast<double>(width) * i / kSteps;
+    const double y = -0.5 + static_cast<double>(height) * i / kSteps;
+    inner[0] = std::max(inner[0], PlaneFromPixel({-0.5, y}).x());
+    inner[1] = std::min(inner[1], PlaneFromPixel({width - 0.5, y}).x());
+    inner[2] = std::max(inner[2], PlaneFromPixel({x, -0.5}).y());
+    inner[3] = std::min(inner[3], PlaneFromPixel({x, height - 0.5}).y());
+  }
+  // One focal length keeps pixels square; the window is cut to the aspect.
+  const double focal = std::max(width / (inner[1] - inner[0]), height / (inner[3] - inner[2]));
+  display.fx = display.fy = focal;
+  display.cx = 0.5 * (width - 1) - focal * 0.5 * (inner[0] + inner[1]);
+  display.cy = 0.5 * (height - 1) - focal * 0.5 * (inner[2] + inner[3]);
+  return display;
+}
+
+}  // namespace lararium::geometry

@@ -1,0 +1,57 @@
+#pragma once
+
+// A pinhole camera with OpenCV's radial and tangential distortion (k1, k2, p1,
+// p2). Pixels: integer coordinates are pixel centres, the top-left pixel is
+// (0, 0). Camera axes: x right, y down, z forward.
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "shared/core/status.h"
+
+namespace lararium::geometry {
+
+struct CameraModel {
+  int width = 0;
+  int height = 0;
+  double fx = 0.0;
+  double fy = 0.0;
+  double cx = 0.0;
+  double cy = 0.0;
+  double k1 = 0.0;
+  double k2 = 0.0;
+  double p1 = 0.0;
+  double p2 = 0.0;
+
+  // Says which field is impossible: sizes, focal lengths, non-finite numbers, or
+  // a distortion that folds the image over itself.
+  Status Validate() const;
+
+  bool HasDistortion() const { return k1 != 0.0 || k2 != 0.0 || p1 != 0.0 || p2 != 0.0; }
+  // Mean focal length: turns lengths on the plane z = 1 into pixels.
+  double Focal() const { return 0.5 * (fx + fy); }
+
+  // Raw pixel of a point in camera coordinates; nullopt behind the camera.
+  std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& point_in_camera) const;
+  // Raw pixel of a point (x, y) on the plane z = 1.
+  Eigen::Vector2d PixelFromPlane(const Eigen::Vector2d& plane) const;
+  // Point (x, y) on the plane z = 1 that is seen at a raw pixel: distortion
+  // inverted by Newton's method, to 1e-10.
+  Eigen::Vector2d PlaneFromPixel(const Eigen::Vector2d& pixel) const;
+
+  // The same camera for the image resized to width x height, c' = s (c + 0.5) - 0.5.
+  CameraModel Resized(int new_width, int new_height) const;
+
+  // The undistorted pinhole of the same size whose whole image is covered by
+  // this camera's: the largest field of view without blank corners.
+  CameraModel DisplayPinhole() const;
+
+  bool Contains(const Eigen::Vector2d& pixel) const {
+    return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < width - 0.5 &&
+           pixel.y() < height - 0.5;
+  }
+
+  friend bool operator==(const CameraModel&, const CameraModel&) = default;
+};
+
+}  // namespace lararium::geometry

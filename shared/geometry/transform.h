@@ -1,0 +1,76 @@
+#pragma once
+
+// Rigid motions and similarities. A transform is named a_from_b and maps b's
+// coordinates to a's; compose by matching the inner names:
+// camera_from_stage = camera_from_map * map_from_stage.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
+
+#include "shared/core/status.h"
+
+namespace lararium::geometry {
+
+// x_a = rotation * x_b + translation. The rotation is a unit quaternion.
+struct Rigid3 {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  static Rigid3 FromMatrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+    return rotation * point + translation;
+  }
+  Rigid3 operator*(const Rigid3& other) const {
+    return {(rotation * other.rotation).normalized(), rotation * other.translation + translation};
+  }
+  Rigid3 Inverse() const {
+    const Eigen::Quaterniond inverse = rotation.conjugate();
+    return {inverse, -(inverse * translation)};
+  }
+  // [R | t], row by row.
+  Eigen::Matrix<double, 3, 4> Matrix3x4() const;
+
+  // Of camera_from_world: where the camera is, in world coordinates.
+  Eigen::Vector3d Center() const { return -(rotation.conjugate() * translation); }
+};
+
+// x_a = scale * (rotation * x_b) + translation, scale > 0.
+struct Similarity3 {
+  double scale = 1.0;
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+    return scale * (rotation * point) + translation;
+  }
+  Similarity3 operator*(const Similarity3& other) const {
+    return {scale * other.scale, (rotation * other.rotation).normalized(),
+            scale * (rotation * other.translation) + translation};
+  }
+  Similarity3 Inverse() const {
+    const Eigen::Quaterniond inverse = rotation.conjugate();
+    return {1.0 / scale, inverse, -(inverse * translation) / scale};
+  }
+};
+
+// A camera pose in b, from the pose in a and the similarity a_from_b. The
+// result is rigid and measures in b's units: with b = stage it is metric.
+// Projections of a point agree through either path.
+Rigid3 CameraFromB(const Rigid3& camera_from_a, const Similarity3& a_from_b);
+
+// Least-squares a_from_b of corresponding points (Umeyama, "Least-squares
+// estimation of transformation parameters between two point patterns", PAMI
+// 1991). Needs three points that are not on a line.
+Result<Similarity3> EstimateSimilarity(std::span<const Eigen::Vector3d> points_in_a,
+                                       std::span<const Eigen::Vector3d> points_in_b);
+
+// The rotation by |w| radians about w, and its inverse. |w| <= pi.
+Eigen::Quaterniond RotationFromVector(const Eigen::Vector3d& w);
+Eigen::Vector3d VectorFromRotation(const Eigen::Quaterniond& rotation);
+
+// [v]x, so that Skew(v) * u = v x u.
+Eigen::Matrix3d Skew(const Eigen::Vector3d& v);
+
+}  // namespace lararium::geometry

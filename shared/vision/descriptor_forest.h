@@ -1,0 +1,77 @@
+#pragma once
+
+// Randomised k-d trees over descriptors, searched best bin first: Beis & Lowe,
+// "Shape indexing using approximate nearest-neighbour search in
+// high-dimensional spaces", CVPR 1997; Silpa-Anan & Hartley, "Optimised
+// KD-trees for fast image descriptor matching", CVPR 2008. A flat array, so that
+// it is stored in the scene database and used where it lies.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shared/core/status.h"
+#include "shared/vision/features.h"
+
+namespace lararium::vision {
+
+// Inner node: descriptors with [dimension] < threshold lie to the left. Leaf
+// (dimension == kLeaf): order[first, first + count).
+struct ForestNode {
+  static constexpr uint16_t kLeaf = 0xffff;
+  uint16_t dimension = kLeaf;
+  uint16_t threshold = 0;
+  uint32_t first = 0;  // inner: index of the left child, the right one follows it
+  uint32_t count = 0;  // leaf: number of descriptors
+};
+
+struct DescriptorForest {
+  std::vector<uint32_t> roots;  // one for each tree
+  std::vector<ForestNode> nodes;
+  std::vector<uint32_t> order;  // descriptor indices, grouped by leaf
+
+  // Every index in range, no cycles, for a forest over descriptor_count descriptors.
+  Status Validate(size_t descriptor_count) const;
+};
+
+struct ForestOptions {
+  int trees = 4;
+  int leaf_size = 8;
+  uint64_t seed = 1;
+};
+
+DescriptorForest BuildForest(std::span<const Descriptor> descriptors, const ForestOptions& options);
+
+struct Neighbour {
+  uint32_t descriptor = 0;
+  uint32_t squared_distance = 0;
+};
+
+// Working memory of searches; keep one for each thread.
+class ForestSearcher {
+ public:
+  // Borrows both for its life.
+  ForestSearcher(const DescriptorForest& forest, std::span<const Descriptor> descriptors);
+
+  // The found.size() nearest neighbours, nearest first, after looking at up to
+  // max_checks descriptors. Returns how many were found. Allocates nothing in
+  // steady state.
+  size_t Search(const Descriptor& query, int max_checks, std::span<Neighbour> found);
+
+ private:
+  struct Branch {
+    uint32_t node;
+    uint32_t squared_distance;
+  };
+  void Descend(uint32_t node, uint32_t squared_distance, const Descriptor& query);
+
+  const DescriptorForest& forest_;
+  std::span<const Descriptor> descriptors_;
+  std::vector<Branch> heap_;
+  std::vector<uint32_t> seen_;  // number of the search that last looked at a descriptor
+  uint32_t search_ = 0;
+};
+
+uint32_t SquaredDistance(const Descriptor& a, const Descriptor& b);
+
+}  // namespace lararium::vision

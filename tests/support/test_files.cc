@@ -1,0 +1,21 @@
+#include "tests/support/test_files.h"
+
+#include <cstdlib>
+#include <string>
+
+#include "shared/core/check.h"
+
+namespace lararium::test {
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "lararium_test.XXXXXX").string();
+  CHECK(mkdtemp(name.data()) != nullptr);
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace lararium::test
