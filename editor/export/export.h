@@ -1,0 +1,42 @@
+#pragma once
+
+// Packs what visitors need of a project into a bundle.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "shared/core/progress.h"
+#include "shared/core/status.h"
+#include "shared/stage/place.h"
+
+namespace lararium::exporter {
+
+struct PlaceContent {
+  stage::Place place;            // with its occluders' meshes
+  std::vector<std::byte> scene;  // a serialised scene database (.larscene)
+};
+
+struct CastContent {
+  std::string name;
+  std::vector<std::byte> human;  // a serialised human (.larhuman)
+};
+
+// Everything that goes into a bundle, as plain data.
+struct ExportContent {
+  std::string title;
+  std::string credits;  // of the project; those of the cast are added
+  std::string drama;    // Lua source
+  std::vector<PlaceContent> places;
+  std::vector<CastContent> cast;
+};
+
+// Checks the parts with the player's own parsers, writes the bundle, and opens it
+// again as the player would. On failure a file that was there before is left as
+// it was.
+Status ExportBundle(const ExportContent& content,
+                    const std::filesystem::path& path,
+                    Progress& progress);
+
+}  // namespace lararium::exporter

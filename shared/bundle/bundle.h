@@ -1,0 +1,42 @@
+#pragma once
+
+// A show as visitors get it: the .larshow file. A zip archive of one fixed form
+// (docs/file-formats.md): manifest.json first, every member stored and aligned,
+// each byte either checked or known. It is mapped, verified and used in place.
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "shared/bundle/show_manifest.h"
+#include "shared/core/file.h"
+#include "shared/core/status.h"
+
+namespace lararium::bundle {
+
+class Bundle {
+ public:
+  // Verifies everything before it returns: the archive's structure, and the size
+  // and SHA-256 of every member. Uses constant memory beside the mapped file.
+  // Errors say that the file is damaged, foreign or too new, and what to do.
+  static Result<Bundle> Open(const std::filesystem::path& path);
+
+  const ShowManifest& manifest() const { return manifest_; }
+  const std::string& place() const { return place_; }
+
+  // The bytes of a member where they are mapped, aligned to 64 bytes; they live
+  // as long as the bundle. The members that manifest() names always exist.
+  Result<std::span<const std::byte>> member(std::string_view name) const;
+
+ private:
+  Bundle(std::string place, MappedFile file) : place_(std::move(place)), file_(std::move(file)) {}
+
+  std::string place_;  // what errors call it
+  MappedFile file_;
+  ShowManifest manifest_;
+  std::map<std::string, std::span<const std::byte>, std::less<>> members_;
+};
+
+}  // namespace lararium::bundle

@@ -1,0 +1,30 @@
+#pragma once
+
+// Writes bundles. A target of its own (lararium_bundle_writer): players read
+// bundles without libzip.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "shared/bundle/show_manifest.h"
+#include "shared/core/status.h"
+
+namespace lararium::bundle {
+
+// A member to be: its bytes, or the file that holds them.
+struct MemberContent {
+  std::string name;
+  std::variant<std::vector<std::byte>, std::filesystem::path> content;
+};
+
+// Writes manifest and members to path, in their order, replacing it as a whole
+// or leaving it as it was. manifest.members is computed here. The same content
+// gives the same bytes.
+Status WriteBundle(const std::filesystem::path& path,
+                   ShowManifest manifest,
+                   const std::vector<MemberContent>& members);
+
+}  // namespace lararium::bundle

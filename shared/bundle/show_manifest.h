@@ -1,0 +1,61 @@
+#pragma once
+
+// manifest.json of a bundle: what the show consists of, and which members hold it.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shared/core/status.h"
+#include "shared/geometry/transform.h"
+#include "shared/light/spherical_harmonics.h"
+
+namespace lararium::bundle {
+
+// Every file of a bundle but the manifest itself.
+struct Member {
+  std::string name;
+  uint64_t size = 0;
+  std::array<uint8_t, 32> sha256 = {};
+};
+
+struct OccluderEntry {
+  std::string name;
+  std::string mesh;  // member, .larmesh
+  geometry::Similarity3 stage_from_mesh;
+};
+
+struct PlaceEntry {
+  std::string name;
+  std::string scene;  // member, .larscene
+  geometry::Similarity3 map_from_stage;
+  Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres along camera axes
+  std::vector<OccluderEntry> occluders;
+  light::ShRgb light = {};  // radiance, stage axes
+};
+
+struct CastEntry {
+  std::string name;
+  std::string human;  // member, .larhuman
+};
+
+struct ShowManifest {
+  static constexpr int kSchema = 1;
+
+  std::string title;
+  std::string credits;
+  std::string drama;               // member, Lua source
+  std::vector<PlaceEntry> places;  // at least one; names are unique
+  std::vector<CastEntry> cast;     // names are unique
+  std::vector<Member> members;     // in their order in the file
+};
+
+// Checks every field, that names are unique, and that each member which an
+// entry names is listed. place: what errors call the text.
+Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& place);
+std::string FormatShowManifest(const ShowManifest& manifest);
+
+}  // namespace lararium::bundle

@@ -1,0 +1,36 @@
+#pragma once
+
+// A real place on which dramas are staged: how its map lies under the stage,
+// what hides people there, and the light that falls on them.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "shared/geometry/transform.h"
+#include "shared/geometry/triangle_mesh.h"
+#include "shared/light/spherical_harmonics.h"
+
+namespace lararium::stage {
+
+// Something real that hides what is behind it; drawn into depth only.
+struct Occluder {
+  std::string name;
+  geometry::TriangleMesh mesh;
+  geometry::Similarity3 stage_from_mesh;  // the mesh may be modelled in any unit
+};
+
+struct Place {
+  std::string name;
+  // The stage: metres, right-handed, Y up, -Z forward. The map: as trained.
+  geometry::Similarity3 map_from_stage;
+  // Moves the camera along its own axes, in metres: x right, y down, z forward.
+  Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();
+  std::vector<Occluder> occluders;
+  light::ShRgb light = {};  // radiance, in stage axes
+};
+
+// The pose from which the stage is drawn: rigid and metric, nudge applied.
+geometry::Rigid3 CameraFromStage(const Place& place, const geometry::Rigid3& camera_from_map);
+
+}  // namespace lararium::stage
