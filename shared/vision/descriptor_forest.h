@@ -63,13 +63,19 @@ class ForestSearcher {
     uint32_t node;
     uint32_t squared_distance;
   };
+  // Walks to a leaf and looks at it, leaving the other branches on the heap.
   void Descend(uint32_t node, uint32_t squared_distance, const Descriptor& query);
+  void Look(const ForestNode& leaf, const Descriptor& query);
+  void Insert(Neighbour neighbour);
 
   const DescriptorForest& forest_;
   std::span<const Descriptor> descriptors_;
   std::vector<Branch> heap_;
   std::vector<uint32_t> seen_;  // number of the search that last looked at a descriptor
   uint32_t search_ = 0;
+  std::span<Neighbour> found_;  // of the search at hand
+  size_t count_ = 0;
+  int checks_left_ = 0;
 };
 
 uint32_t SquaredDistance(const Descriptor& a, const Descriptor& b);

@@ -1,0 +1,29 @@
+#pragma once
+
+// The Gaussian and difference-of-Gaussian pyramid of Lowe, IJCV 2004, section 3.
+// Used by ExtractFeatures only.
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace lararium::vision {
+
+// Blur of an octave's first level, in pixels of the octave.
+inline constexpr float kBaseSigma = 1.6f;
+
+// Levels of one sampling: level l is blurred to kBaseSigma * 2^(l / scales)
+// octave pixels. A pixel x of the octave lies at image pixel
+// pixel_size * x + origin.
+struct Octave {
+  float pixel_size = 1.0f;
+  float origin = 0.0f;
+  std::vector<cv::Mat> gaussians;    // CV_32FC1 [scales + 3], grey 0..1
+  std::vector<cv::Mat> differences;  // CV_32FC1 [scales + 2], level l + 1 minus l
+};
+
+// grey: CV_8UC1, assumed blurred by 0.5 pixels. first_octave: -1 doubles the
+// image, 0 starts with it, each 1 more starts at half the size. Stops when an
+// octave would be too small to hold an extremum.
+std::vector<Octave> BuildScaleSpace(const cv::Mat& grey, int first_octave, int scales_per_octave);
+
+}  // namespace lararium::vision

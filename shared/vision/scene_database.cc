@@ -1,0 +1,411 @@
+#include "shared/vision/scene_database.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+
+#include "shared/core/check.h"
+#include "shared/core/file.h"
+#include "shared/core/parallel.h"
+#include "shared/vision/scene_database_generated.h"
+
+namespace lararium::vision {
+namespace {
+
+constexpr uint32_t kVersion = 1;
+constexpr size_t kMaxPoints = 10'000'000;
+constexpr size_t kMaxDescriptors = 50'000'000;
+constexpr size_t kMaxKeyframes = 20'000;
+constexpr size_t kMaxNameBytes = 4096;
+constexpr int kJpegQuality = 95;
+
+// A place's bounds, in map units, far beyond any that training makes.
+constexpr double kMaxCoordinate = 1e9;
+
+bool Plausible(double value) { return std::abs(value) < kMaxCoordinate; }  // false for NaN
+
+template <typename Vector>
+bool AllPlausible(const Vector& v) {
+  return Plausible(v.x()) && Plausible(v.y()) && Plausible(v.z());
+}
+
+// ------------------------------------------------------------ invariants
+
+Status Broken(std::string_view what) {
+  return Status::Error("scene database", what, "train the place again");
+}
+
+Status ValidatePoints(const SceneDatabase& db) {
+  const size_t count = db.points.size();
+  if (count > kMaxPoints || db.descriptors.size() > kMaxDescriptors) {
+    return Broken("has too many points or descriptors");
+  }
+  if (db.normals.size() != count || db.observation_counts.size() != count ||
+      db.session_masks.size() != count) {
+    return Broken("the arrays over points differ in length");
+  }
+  for (size_t i = 0; i < count; ++i) {
+    if (!AllPlausible(db.points[i])) {
+      return Broken("a point is not finite");
+    }
+    if (!(std::abs(db.normals[i].squaredNorm() - 1.0f) < 1e-3f)) {
+      return Broken("a normal does not have unit length");
+    }
+  }
+  return Status();
+}
+
+Status ValidateDescriptors(const SceneDatabase& db) {
+  const auto& begin = db.descriptor_begin;
+  if (begin.size() != db.points.size() + 1 || begin.front() != 0 ||
+      begin.back() != db.descriptors.size() || !std::is_sorted(begin.begin(), begin.end())) {
+    return Broken("the descriptor ranges of the points are inconsistent");
+  }
+  if (db.descriptor_point.size() != db.descriptors.size()) {
+    return Broken("descriptor_point has the wrong length");
+  }
+  for (size_t point = 0; point < db.points.size(); ++point) {
+    for (uint32_t d = begin[point]; d < begin[point + 1]; ++d) {
+      if (db.descriptor_point[d] != point) {
+        return Broken("descriptor_point disagrees with the descriptor ranges");
+      }
+    }
+  }
+  return db.forest.Validate(db.descriptors.size());
+}
+
+Status ValidateKeyframes(const SceneDatabase& db) {
+  if (db.keyframes.size() > kMaxKeyframes) {
+    return Broken("has too many keyframes");
+  }
+  for (const Keyframe& keyframe : db.keyframes) {
+    const geometry::Rigid3& pose = keyframe.camera_from_map;
+    if (!(std::abs(pose.rotation.squaredNorm() - 1.0) < 1e-6) || !AllPlausible(pose.translation)) {
+      return Broken("a keyframe's pose is not a rigid motion");
+    }
+    if (keyframe.session >= 32) {
+      return Broken("a keyframe's session is above 31");
+    }
+    if (keyframe.name.size() > kMaxNameBytes) {
+      return Broken("a keyframe's name is too long");
+    }
+    if (keyframe.grey.type() != CV_8UC1 || keyframe.grey.cols != db.camera.width ||
+        keyframe.grey.rows != db.camera.height) {
+      return Broken("a keyframe's image does not have the camera's size");
+    }
+  }
+  return Status();
+}
+
+Status ValidateObservations(const SceneDatabase& db) {
+  const Observation* previous = nullptr;
+  for (const Observation& o : db.observations) {
+    if (o.point >= db.points.size() || o.keyframe >= db.keyframes.size()) {
+      return Broken("an observation's point or keyframe does not exist");
+    }
+    if (!Plausible(o.x) || !Plausible(o.y) || !(o.scale > 0.0f && Plausible(o.scale))) {
+      return Broken("an observation's position or scale is impossible");
+    }
+    if (previous != nullptr && (previous->keyframe > o.keyframe ||
+                                (previous->keyframe == o.keyframe && previous->point > o.point))) {
+      return Broken("the observations are not sorted by keyframe and point");
+    }
+    previous = &o;
+  }
+  return Status();
+}
+
+// ------------------------------------------------------------ keyframe images
+
+// The size that a JPEG's frame header claims, so that nothing is decoded that
+// would not fit (ITU-T T.81, B.1 and B.2.2); nullopt when it is no JPEG.
+std::optional<cv::Size> JpegSize(std::span<const uint8_t> jpeg) {
+  if (jpeg.size() < 4 || jpeg[0] != 0xff || jpeg[1] != 0xd8) {
+    return std::nullopt;
+  }
+  size_t at = 2;
+  while (at + 4 <= jpeg.size() && jpeg[at] == 0xff) {
+    const uint8_t marker = jpeg[at + 1];
+    const size_t length = static_cast<size_t>(jpeg[at + 2]) << 8 | jpeg[at + 3];
+    const bool is_frame_header =
+        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (is_frame_header) {
+      if (at + 9 > jpeg.size()) {
+        return std::nullopt;
+      }
+      return cv::Size(jpeg[at + 7] << 8 | jpeg[at + 8], jpeg[at + 5] << 8 | jpeg[at + 6]);
+    }
+    at += 2 + length;
+  }
+  return std::nullopt;
+}
+
+Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const std::string& place) {
+  const Status bad = Status::Error(place, "a keyframe's image is damaged", "train the place again");
+  // A block of 8 x 8 pixels takes at least two bits; less is a decompression bomb.
+  constexpr int64_t kPixelsPerByte = 256;
+  if (JpegSize(jpeg) != size ||
+      static_cast<int64_t>(jpeg.size()) * kPixelsPerByte < static_cast<int64_t>(size.area())) {
+    return bad;
+  }
+  try {
+    const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8UC1,
+                        const_cast<uint8_t*>(jpeg.data()));
+    cv::Mat grey = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    if (grey.size() != size || grey.type() != CV_8UC1) {
+      return bad;
+    }
+    return grey;
+  } catch (const cv::Exception&) {
+    return bad;
+  }
+}
+
+std::vector<uint8_t> EncodeGrey(const cv::Mat& grey) {
+  std::vector<uint8_t> jpeg;
+  CHECK(cv::imencode(".jpg", grey, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}));
+  return jpeg;
+}
+
+// ------------------------------------------------------------ from file form
+
+geometry::CameraModel CameraFrom(const fb::Camera& c) {
+  return {.width = c.width(),
+          .height = c.height(),
+          .fx = c.fx(),
+          .fy = c.fy(),
+          .cx = c.cx(),
+          .cy = c.cy(),
+          .k1 = c.k1(),
+          .k2 = c.k2(),
+          .p1 = c.p1(),
+          .p2 = c.p2()};
+}
+
+std::vector<Eigen::Vector3f> VectorsFrom(const flatbuffers::Vector<const fb::Vector3*>& from) {
+  std::vector<Eigen::Vector3f> to;
+  to.reserve(from.size());
+  for (const fb::Vector3* v : from) {
+    to.emplace_back(v->x(), v->y(), v->z());
+  }
+  return to;
+}
+
+template <typename T>
+std::vector<T> NumbersFrom(const flatbuffers::Vector<T>& from) {
+  return {from.begin(), from.end()};
+}
+
+void ReadForest(const fb::Scene& scene, DescriptorForest& forest) {
+  forest.roots = NumbersFrom(*scene.forest_roots());
+  forest.order = NumbersFrom(*scene.forest_order());
+  forest.nodes.reserve(scene.forest_nodes()->size());
+  for (const fb::ForestNode* n : *scene.forest_nodes()) {
+    forest.nodes.push_back({n->dimension(), n->threshold(), n->first(), n->count()});
+  }
+}
+
+// Descriptors, and to which point each belongs.
+Status ReadDescriptors(const fb::Scene& scene, const std::string& place, SceneDatabase& db) {
+  const auto& bytes = *scene.descriptors();
+  if (bytes.size() % kDescriptorSize != 0) {
+    return Status::Error(place, "the descriptors are cut off", "train the place again");
+  }
+  db.descriptors.resize(bytes.size() / kDescriptorSize);
+  for (size_t i = 0; i < db.descriptors.size(); ++i) {
+    std::copy_n(bytes.data() + i * kDescriptorSize, kDescriptorSize, db.descriptors[i].begin());
+  }
+  db.descriptor_begin = NumbersFrom(*scene.descriptor_begin());
+  if (!std::is_sorted(db.descriptor_begin.begin(), db.descriptor_begin.end())) {
+    return Status::Error(place, "the descriptor ranges of the points are inconsistent",
+                         "train the place again");
+  }
+  db.descriptor_point.assign(db.descriptors.size(), 0);
+  for (size_t point = 0; point + 1 < db.descriptor_begin.size(); ++point) {
+    const size_t end = std::min<size_t>(db.descriptor_begin[point + 1], db.descriptors.size());
+    for (size_t d = db.descriptor_begin[point]; d < end; ++d) {
+      db.descriptor_point[d] = static_cast<uint32_t>(point);
+    }
+  }
+  return Status();
+}
+
+Status ReadKeyframes(const fb::Scene& scene, const std::string& place, SceneDatabase& db) {
+  const auto& from = *scene.keyframes();
+  if (from.size() > kMaxKeyframes) {
+    return Status::Error(place, "has too many keyframes");
+  }
+  const cv::Size size(db.camera.width, db.camera.height);
+  db.keyframes.resize(from.size());
+  std::vector<Status> problems(from.size());
+  ParallelFor(from.size(), [&](size_t i) {
+    const fb::Keyframe& source = *from.Get(static_cast<uint32_t>(i));
+    const fb::Pose& pose = *source.camera_from_map();
+    Keyframe& keyframe = db.keyframes[i];
+    keyframe.frame_index = source.frame_index();
+    keyframe.name = source.name() != nullptr ? source.name()->str() : std::string();
+    keyframe.session = source.session();
+    keyframe.camera_from_map.rotation =
+        Eigen::Quaterniond(pose.qw(), pose.qx(), pose.qy(), pose.qz());
+    keyframe.camera_from_map.translation = {pose.tx(), pose.ty(), pose.tz()};
+    auto grey = DecodeGrey({source.grey_jpeg()->data(), source.grey_jpeg()->size()}, size, place);
+    if (grey) {
+      keyframe.grey = *grey;
+    } else {
+      problems[i] = grey.status();
+    }
+  });
+  for (const Status& problem : problems) {
+    LARARIUM_RETURN_IF_ERROR(problem);
+  }
+  return Status();
+}
+
+// ------------------------------------------------------------ to file form
+
+std::vector<fb::Vector3> VectorsTo(const std::vector<Eigen::Vector3f>& from) {
+  std::vector<fb::Vector3> to;
+  to.reserve(from.size());
+  for (const Eigen::Vector3f& v : from) {
+    to.emplace_back(v.x(), v.y(), v.z());
+  }
+  return to;
+}
+
+fb::Camera CameraTo(const geometry::CameraModel& c) {
+  return fb::Camera(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2);
+}
+
+fb::Pose PoseTo(const geometry::Rigid3& pose) {
+  const Eigen::Quaterniond& q = pose.rotation;
+  const Eigen::Vector3d& t = pose.translation;
+  return fb::Pose(q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z());
+}
+
+flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<fb::Keyframe>>> WriteKeyframes(
+    const SceneDatabase& db, flatbuffers::FlatBufferBuilder& builder) {
+  std::vector<std::vector<uint8_t>> images(db.keyframes.size());
+  ParallelFor(images.size(), [&](size_t i) { images[i] = EncodeGrey(db.keyframes[i].grey); });
+  std::vector<flatbuffers::Offset<fb::Keyframe>> keyframes;
+  for (size_t i = 0; i < images.size(); ++i) {
+    const Keyframe& keyframe = db.keyframes[i];
+    const auto name = builder.CreateString(keyframe.name);
+    const auto jpeg = builder.CreateVector(images[i]);
+    const fb::Pose pose = PoseTo(keyframe.camera_from_map);
+    keyframes.push_back(
+        fb::CreateKeyframe(builder, keyframe.frame_index, name, keyframe.session, &pose, jpeg));
+  }
+  return builder.CreateVector(keyframes);
+}
+
+std::vector<fb::Observation> ObservationsTo(const std::vector<Observation>& from) {
+  std::vector<fb::Observation> to;
+  to.reserve(from.size());
+  for (const Observation& o : from) {
+    to.emplace_back(o.point, o.keyframe, o.x, o.y, o.scale);
+  }
+  return to;
+}
+
+std::vector<fb::ForestNode> NodesTo(const std::vector<ForestNode>& from) {
+  std::vector<fb::ForestNode> to;
+  to.reserve(from.size());
+  for (const ForestNode& n : from) {
+    to.emplace_back(n.dimension, n.threshold, n.first, n.count);
+  }
+  return to;
+}
+
+}  // namespace
+
+Status SceneDatabase::Validate() const {
+  LARARIUM_RETURN_IF_ERROR(camera.Validate());
+  if (!(mean_reprojection_error_px >= 0.0 && Plausible(mean_reprojection_error_px))) {
+    return Broken("the mean reprojection error is impossible");
+  }
+  LARARIUM_RETURN_IF_ERROR(ValidatePoints(*this));
+  LARARIUM_RETURN_IF_ERROR(ValidateDescriptors(*this));
+  LARARIUM_RETURN_IF_ERROR(ValidateKeyframes(*this));
+  return ValidateObservations(*this);
+}
+
+Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
+                                         const std::string& place) {
+  const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
+  constexpr std::string_view kRemedy = "train the place again, or copy the file again";
+  constexpr size_t kSmallest = 8;  // root offset and identifier
+  if (bytes.size() < kSmallest || bytes.size() > FLATBUFFERS_MAX_BUFFER_SIZE ||
+      !fb::SceneBufferHasIdentifier(data)) {
+    return Status::Error(place, "is not a scene database", kRemedy);
+  }
+  flatbuffers::Verifier verifier(data, bytes.size(), 64, kMaxKeyframes + 64);
+  if (!fb::VerifySceneBuffer(verifier)) {
+    return Status::Error(place, "is damaged or cut off", kRemedy);
+  }
+  const fb::Scene& scene = *fb::GetScene(data);
+  if (scene.version() != kVersion) {
+    return Status::Error(place,
+                         "has format version " + std::to_string(scene.version()) +
+                             ", this program reads version " + std::to_string(kVersion),
+                         "train the place with this version");
+  }
+  SceneDatabase db;
+  db.camera = CameraFrom(*scene.camera());
+  if (const Status status = db.camera.Validate(); !status.ok()) {
+    return status.At(place);
+  }
+  db.mean_reprojection_error_px = scene.mean_reprojection_error_px();
+  db.points = VectorsFrom(*scene.points());
+  db.normals = VectorsFrom(*scene.normals());
+  db.observation_counts = NumbersFrom(*scene.observation_counts());
+  db.session_masks = NumbersFrom(*scene.session_masks());
+  LARARIUM_RETURN_IF_ERROR(ReadDescriptors(scene, place, db));
+  ReadForest(scene, db.forest);
+  for (const fb::Observation* o : *scene.observations()) {
+    db.observations.push_back({o->point(), o->keyframe(), o->x(), o->y(), o->scale()});
+  }
+  LARARIUM_RETURN_IF_ERROR(ReadKeyframes(scene, place, db));
+  if (const Status status = db.Validate(); !status.ok()) {
+    return status.At(place);
+  }
+  return db;
+}
+
+Result<SceneDatabase> LoadSceneDatabase(const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const MappedFile mapped, MappedFile::Open(file));
+  return ParseSceneDatabase(mapped.bytes(), file.string());
+}
+
+std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db) {
+  flatbuffers::FlatBufferBuilder builder(1 << 20);
+  const fb::Camera camera = CameraTo(db.camera);
+  const auto points = builder.CreateVectorOfStructs(VectorsTo(db.points));
+  const auto normals = builder.CreateVectorOfStructs(VectorsTo(db.normals));
+  const auto counts = builder.CreateVector(db.observation_counts);
+  const auto sessions = builder.CreateVector(db.session_masks);
+  const auto descriptor_begin = builder.CreateVector(db.descriptor_begin);
+  const auto descriptors =
+      builder.CreateVector(db.descriptors.empty() ? nullptr : db.descriptors.front().data(),
+                           db.descriptors.size() * kDescriptorSize);
+  const auto keyframes = WriteKeyframes(db, builder);
+  const auto observations = builder.CreateVectorOfStructs(ObservationsTo(db.observations));
+  const auto roots = builder.CreateVector(db.forest.roots);
+  const auto nodes = builder.CreateVectorOfStructs(NodesTo(db.forest.nodes));
+  const auto order = builder.CreateVector(db.forest.order);
+  fb::FinishSceneBuffer(
+      builder, fb::CreateScene(builder, kVersion, &camera, db.mean_reprojection_error_px, points,
+                               normals, counts, sessions, descriptor_begin, descriptors, keyframes,
+                               observations, roots, nodes, order));
+  const auto* begin = reinterpret_cast<const std::byte*>(builder.GetBufferPointer());
+  return {begin, begin + builder.GetSize()};
+}
+
+Status SaveSceneDatabase(const std::filesystem::path& file, const SceneDatabase& database) {
+  if (const Status status = database.Validate(); !status.ok()) {
+    return status.At(file.string());
+  }
+  return WriteFileAtomically(file, SerializeSceneDatabase(database));
+}
+
+}  // namespace lararium::vision
