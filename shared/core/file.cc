@@ -33,6 +33,9 @@ class Descriptor {
   int value_;
 };
 
+// Without O_NONBLOCK, opening a pipe would wait for a writer.
+constexpr int kReadFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
+
 // The size of an open regular file.
 Result<uint64_t> RegularFileSize(const std::filesystem::path& path, int descriptor) {
   struct stat info {};
@@ -46,7 +49,7 @@ Result<uint64_t> RegularFileSize(const std::filesystem::path& path, int descript
 }
 
 Status ReadInto(const std::filesystem::path& path, uint64_t max_bytes, auto& content) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor file(::open(path.c_str(), kReadFlags));
   if (file.get() < 0) {
     return SystemError(path, "cannot open");
   }
@@ -130,7 +133,7 @@ Status WriteFileAtomically(const std::filesystem::path& path, std::string_view c
 }
 
 Result<MappedFile> MappedFile::Open(const std::filesystem::path& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor file(::open(path.c_str(), kReadFlags));
   if (file.get() < 0) {
     return SystemError(path, "cannot open");
   }

@@ -3,6 +3,7 @@
 // Generation ids: a handle that was kept too long is recognised as stale
 // instead of reaching whatever took its place. The zero id names nothing.
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>

@@ -3,6 +3,7 @@
 // A single-slot mailbox between two threads in which the newest message wins: a
 // slow reader drops messages, it never queues them.
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -41,6 +42,13 @@ class Mailbox {
     if (stop.stop_requested()) {
       return std::nullopt;
     }
+    return std::exchange(slot_, std::nullopt);
+  }
+
+  // The same, waiting no longer than timeout.
+  std::optional<T> TakeFor(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    filled_.wait_for(lock, timeout, [this] { return slot_.has_value() || closed_; });
     return std::exchange(slot_, std::nullopt);
   }
 

@@ -1,0 +1,123 @@
+#include "shared/show/frame_pipeline.h"
+
+#include <condition_variable>
+#include <utility>
+
+namespace lararium::show {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Result<std::optional<geometry::Frame>> TimedNext(const FrameStages& stages) {
+  const ScopedStageTimer timer(stages.statistics.capture);
+  return stages.source.Next();
+}
+
+vision::TrackedFrame TimedTrack(const FrameStages& stages, const geometry::Frame& frame) {
+  const ScopedStageTimer timer(stages.statistics.track);
+  return stages.poses.Track(frame);
+}
+
+void TimedStage(const FrameStages& stages,
+                vision::TrackedFrame tracked,
+                double time,
+                StagedFrame& staged) {
+  const ScopedStageTimer timer(stages.statistics.simulate);
+  stages.statistics.tracking.Add(tracked);
+  stages.show.StageFrame(std::move(tracked), time, staged);
+}
+
+// Sleeps until due, or until stop is requested.
+void SleepUntil(Clock::time_point due, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  std::condition_variable_any never;
+  never.wait_until(lock, stop, due, [] { return false; });
+}
+
+}  // namespace
+
+Result<bool> LockStep::Next(StagedFrame& staged) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::optional<geometry::Frame> frame, TimedNext(stages_));
+  if (!frame) {
+    return false;
+  }
+  staged.arrival = Clock::now();
+  TimedStage(stages_, TimedTrack(stages_, *frame), clock_.ShowTime(*frame), staged);
+  return true;
+}
+
+RealtimePipeline::RealtimePipeline(FrameStages stages)
+    : stages_(stages),
+      capture_thread_([this](std::stop_token stop) { Capture(std::move(stop)); }),
+      track_thread_([this](std::stop_token stop) { Track(std::move(stop)); }),
+      simulate_thread_([this](std::stop_token stop) { Simulate(std::move(stop)); }) {}
+
+RealtimePipeline::~RealtimePipeline() { Stop(); }
+
+void RealtimePipeline::Stop() {
+  for (std::jthread* thread : {&capture_thread_, &track_thread_, &simulate_thread_}) {
+    thread->request_stop();
+  }
+  for (std::jthread* thread : {&capture_thread_, &track_thread_, &simulate_thread_}) {
+    if (thread->joinable()) {
+      thread->join();
+    }
+  }
+  stages_.statistics.dropped_frames = captured_.dropped() + located_.dropped() + staged_.dropped();
+}
+
+Status RealtimePipeline::status() const {
+  const std::lock_guard lock(status_mutex_);
+  return status_;
+}
+
+std::unique_ptr<StagedFrame> RealtimePipeline::Take(std::chrono::milliseconds timeout) {
+  return staged_.TakeFor(timeout).value_or(nullptr);
+}
+
+void RealtimePipeline::Capture(std::stop_token stop) {
+  const Clock::time_point start = Clock::now();
+  FrameClock clock;
+  while (!stop.stop_requested()) {
+    Result<std::optional<geometry::Frame>> next = TimedNext(stages_);
+    if (!next.ok()) {
+      const std::lock_guard lock(status_mutex_);
+      status_ = next.status();
+      break;
+    }
+    if (!*next) {
+      break;
+    }
+    if (!stages_.source.live()) {
+      const std::chrono::duration<double> due(clock.ShowTime(**next));
+      SleepUntil(start + std::chrono::duration_cast<Clock::duration>(due), stop);
+    }
+    captured_.Put({std::move(**next), Clock::now()});
+  }
+  captured_.Close();
+}
+
+void RealtimePipeline::Track(std::stop_token stop) {
+  while (std::optional<CapturedFrame> captured = captured_.Take(stop)) {
+    located_.Put({TimedTrack(stages_, captured->frame), captured->arrival});
+  }
+  located_.Close();
+}
+
+void RealtimePipeline::Simulate(std::stop_token stop) {
+  FrameClock clock;
+  while (std::optional<LocatedFrame> located = located_.Take(stop)) {
+    std::unique_ptr<StagedFrame> staged = drawn_.TryTake().value_or(nullptr);
+    if (staged == nullptr) {
+      staged = std::make_unique<StagedFrame>();
+    }
+    staged->arrival = located->arrival;
+    const double time = clock.ShowTime(located->tracked.frame);
+    TimedStage(stages_, std::move(located->tracked), time, *staged);
+    staged_.Put(std::move(staged));
+  }
+  staged_.Close();
+}
+
+}  // namespace lararium::show

@@ -1,0 +1,106 @@
+#pragma once
+
+// The way of a frame from its source to whoever draws it, in two paces: lock-step
+// (every frame once, in order: deterministic) and a pipeline of threads with
+// mailboxes in between (real time: a slow stage drops frames, it never queues).
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "shared/capture/frame_source.h"
+#include "shared/core/mailbox.h"
+#include "shared/core/status.h"
+#include "shared/show/show.h"
+#include "shared/show/show_statistics.h"
+#include "shared/vision/tracked_frame.h"
+
+namespace lararium::show {
+
+// What the frames pass through. Borrowed; each is used by one thread at a time.
+struct FrameStages {
+  capture::FrameSource& source;
+  vision::PoseSource& poses;
+  Show& show;
+  ShowStatistics& statistics;
+};
+
+// The drama's time of a frame is its capture time since the first frame's.
+class FrameClock {
+ public:
+  double ShowTime(const geometry::Frame& frame) {
+    if (!first_) {
+      first_ = frame.capture_time;
+    }
+    return frame.capture_time - *first_;
+  }
+
+ private:
+  std::optional<double> first_;
+};
+
+// Each call takes one frame through all stages.
+class LockStep {
+ public:
+  explicit LockStep(FrameStages stages) : stages_(stages) {}
+
+  // False at the end of the source.
+  Result<bool> Next(StagedFrame& staged);
+
+ private:
+  FrameStages stages_;
+  FrameClock clock_;
+};
+
+// Capture, tracking and simulation on a thread each; the caller draws. Recorded
+// sources are played at their own rate.
+class RealtimePipeline {
+ public:
+  explicit RealtimePipeline(FrameStages stages);
+  // Stops the threads and waits for them.
+  ~RealtimePipeline();
+  RealtimePipeline(const RealtimePipeline&) = delete;
+  RealtimePipeline& operator=(const RealtimePipeline&) = delete;
+
+  // The newest frame that is ready to be drawn; nullptr when none came in time.
+  std::unique_ptr<StagedFrame> Take(std::chrono::milliseconds timeout);
+  // Gives a drawn frame back, so that its buffers serve again.
+  void Recycle(std::unique_ptr<StagedFrame> staged) { drawn_.Put(std::move(staged)); }
+
+  // True when the source has ended and its last frame was taken.
+  bool Finished() const { return staged_.Finished(); }
+  // Why the source ended, if it failed.
+  Status status() const;
+
+  // Stops early. Statistics are complete after this.
+  void Stop();
+
+ private:
+  struct CapturedFrame {
+    geometry::Frame frame;
+    std::chrono::steady_clock::time_point arrival;
+  };
+  struct LocatedFrame {
+    vision::TrackedFrame tracked;
+    std::chrono::steady_clock::time_point arrival;
+  };
+
+  void Capture(std::stop_token stop);
+  void Track(std::stop_token stop);
+  void Simulate(std::stop_token stop);
+
+  FrameStages stages_;
+  Mailbox<CapturedFrame> captured_;
+  Mailbox<LocatedFrame> located_;
+  Mailbox<std::unique_ptr<StagedFrame>> staged_;
+  Mailbox<std::unique_ptr<StagedFrame>> drawn_;
+  mutable std::mutex status_mutex_;
+  Status status_;
+  std::jthread capture_thread_;
+  std::jthread track_thread_;
+  std::jthread simulate_thread_;
+};
+
+}  // namespace lararium::show

@@ -1,0 +1,77 @@
+#pragma once
+
+// One running drama on one place: brings the stage to the moment of a tracked
+// frame and hands out what is to be drawn over it.
+
+#include <chrono>
+#include <glm/mat4x4.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "shared/core/log.h"
+#include "shared/core/status.h"
+#include "shared/drama/drama.h"
+#include "shared/geometry/transform.h"
+#include "shared/show/show_content.h"
+#include "shared/stage/stage.h"
+#include "shared/vision/tracked_frame.h"
+
+namespace lararium::show {
+
+// A visible actor at the moment of a frame.
+struct StagedActor {
+  uint32_t cast = 0;  // index into ShowContent::cast
+  glm::mat4 stage_from_actor = glm::mat4(1.0f);
+  uint32_t skin_begin = 0;  // its matrices in StagedFrame::skin
+  uint32_t skin_count = 0;
+};
+
+// A tracked image with the stage as it stands at its moment. Reused from frame
+// to frame, so that steady play allocates nothing here.
+struct StagedFrame {
+  vision::TrackedFrame tracked;
+  std::optional<geometry::Rigid3> camera_from_stage;  // rigid, metric; set when tracking
+  double time = 0.0;                                  // of the drama, seconds
+  std::chrono::steady_clock::time_point arrival;      // when the image was there
+  std::vector<StagedActor> actors;
+  std::vector<glm::mat4> skin;  // of all actors, one after the other
+};
+
+class Show {
+ public:
+  // Fails only where the script does not compile; later script errors are in
+  // drama().errors() and the show goes on. Borrows log.
+  static Result<std::unique_ptr<Show>> Create(ShowContent content,
+                                              const drama::DramaOptions& options,
+                                              Log& log);
+
+  const ShowContent& content() const { return content_; }
+  const drama::Drama& drama() const { return *drama_; }
+
+  // For interactive staging: another transform, nudge, light or occluders.
+  void SetPlace(stage::Place place) { content_.place = std::move(place); }
+
+  // Brings the drama to time (seconds, at least 0) and fills staged. The drama
+  // runs in ticks of 1/120 s; what lies between two ticks is interpolated. Going
+  // back, or far ahead, seeks.
+  void StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged);
+
+ private:
+  explicit Show(ShowContent content) : content_(std::move(content)) {}
+
+  void AdvanceTo(double time);
+  void TickOnce();
+
+  ShowContent content_;
+  stage::Stage stage_;
+  std::vector<stage::ActorId> actor_ids_;  // of each cast member
+  std::vector<stage::Poser> posers_;       // of each cast member
+  std::unique_ptr<drama::Drama> drama_;
+  int64_t tick_ = 0;               // that current_ shows
+  stage::StageSnapshot previous_;  // one tick before
+  stage::StageSnapshot current_;
+  stage::StageSnapshot drawn_;  // between the two
+};
+
+}  // namespace lararium::show

@@ -1,0 +1,65 @@
+#include "shared/core/file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "tests/support/test_files.h"
+
+namespace lararium {
+namespace {
+
+TEST(File, WritesWhatItReads) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "a", "text\0more").ok());
+  ASSERT_TRUE(WriteFileAtomically(folder / "a", std::string_view("one\0two", 7)).ok());
+  EXPECT_EQ(ReadText(folder / "a").value(), std::string("one\0two", 7));
+  EXPECT_EQ(ReadBytes(folder / "a").value().size(), 7u);
+}
+
+TEST(File, AFailedWriteLeavesTheOldFileAndNoOther) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "a", "old").ok());
+  // A folder in the place of the target makes the final rename fail.
+  std::filesystem::create_directory(folder / "b");
+  std::ofstream(folder / "b/keep") << "x";
+  EXPECT_FALSE(WriteFileAtomically(folder / "b", "new").ok());
+  EXPECT_EQ(ReadText(folder / "a").value(), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
+}
+
+TEST(File, ErrorsNameTheFile) {
+  const test::TemporaryFolder folder;
+  EXPECT_NE(ReadText(folder / "none").message().find("none"), std::string::npos);
+  EXPECT_NE(ReadText(folder.path()).message().find("not a regular file"), std::string::npos);
+  EXPECT_FALSE(WriteFileAtomically(folder / "no/such", "x").ok());
+}
+
+TEST(File, RefusesWhatIsTooLarge) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "a", "12345").ok());
+  EXPECT_TRUE(ReadText(folder / "a", 5).ok());
+  EXPECT_FALSE(ReadText(folder / "a", 4).ok());
+}
+
+TEST(File, DoesNotHangOnAPipe) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_FALSE(ReadText(folder / "pipe").ok());
+  EXPECT_FALSE(MappedFile::Open(folder / "pipe").ok());
+}
+
+TEST(MappedFile, ShowsTheBytesAndRefusesAnEmptyFile) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "a", "bytes").ok());
+  Result<MappedFile> opened = MappedFile::Open(folder / "a");
+  ASSERT_TRUE(opened.ok());
+  const MappedFile file = *std::move(opened);
+  EXPECT_EQ(std::string_view(reinterpret_cast<const char*>(file.bytes().data()), 5), "bytes");
+  ASSERT_TRUE(WriteFileAtomically(folder / "b", "").ok());
+  EXPECT_NE(MappedFile::Open(folder / "b").message().find("empty"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lararium
