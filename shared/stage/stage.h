@@ -63,8 +63,8 @@ struct StageSnapshot {
   friend bool operator==(const StageSnapshot&, const StageSnapshot&) = default;
 };
 
-// Fades from what the actor plays to clip, from its first key, over
-// fade_seconds. Starting the clip that already plays changes nothing.
+// Fades from what the actor plays to clip, from its beginning, over fade_seconds.
+// A fade that was still going on is cut short.
 void StartClip(Animation& animation, int clip, float fade_seconds);
 
 class Stage {
@@ -72,13 +72,15 @@ class Stage {
   // Names are unique: an error says which is taken. A new actor is hidden and
   // stands at the origin in its rest pose.
   Result<ActorId> Add(std::string name, std::shared_ptr<const human::Human> human);
-  bool Remove(ActorId id) { return actors_.Remove(id); }
+  // False when the id is stale.
+  bool Remove(ActorId id);
 
   std::optional<ActorId> Find(std::string_view name) const;
   // nullptr when the id is stale.
   Actor* Find(ActorId id) { return actors_.Find(id); }
   const Actor* Find(ActorId id) const { return actors_.Find(id); }
-  std::vector<ActorId> actors() const { return actors_.ids(); }
+  // In the order of their slots.
+  std::span<const ActorId> actors() const { return order_; }
 
   // Lets clips and fades run on.
   void Advance(double seconds);
@@ -93,9 +95,10 @@ class Stage {
   std::vector<ActorId> order_;
 };
 
-// The stage between two snapshots, alpha 0..1. Headings turn the shorter way.
-// An actor that is missing in previous, or was shown, hidden or given another
-// clip since, takes that from current. Allocates nothing in steady state.
+// The stage between two snapshots of neighbouring ticks, alpha 0..1. Headings
+// turn the shorter way. What does not go on from previous (a new actor, one that
+// was shown, hidden or put elsewhere, another clip) is as in current. Allocates
+// nothing in steady state.
 void Interpolate(const StageSnapshot& previous,
                  const StageSnapshot& current,
                  float alpha,
@@ -120,7 +123,7 @@ class Poser {
  private:
   std::shared_ptr<const human::Human> human_;
   std::vector<human::JointTransform> pose_;
-  std::vector<human::JointTransform> previous_pose_;
+  std::vector<human::JointTransform> faded_in_;
   std::vector<glm::mat4> actor_from_joint_;
   std::vector<glm::mat4> skin_;
 };

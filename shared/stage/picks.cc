@@ -1,0 +1,331 @@
+#include "shared/stage/picks.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include "shared/geometry/triangulation.h"
+
+namespace lararium::stage {
+namespace {
+
+using vision::Keyframe;
+using vision::SceneDatabase;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kMinTriangulationAngle = 1.0 * kDegree;
+constexpr double kMinCorner = 3.0 * kDegree;   // at the origin, between forward and floor
+constexpr double kMinGrazing = 5.0 * kDegree;  // between a single pick's ray and its plane
+constexpr size_t kMaxPlanePoints = 24;
+constexpr size_t kMinPlanePoints = 6;
+constexpr double kPlaneRadius = 0.15;  // of the image width
+
+// A pick that lies in a keyframe of the map.
+struct Sight {
+  uint32_t keyframe = 0;
+  Eigen::Vector2d pixel;
+};
+
+struct Plane {
+  Eigen::Vector3d normal;
+  double offset = 0.0;  // normal . x = offset
+
+  double Distance(const Eigen::Vector3d& x) const { return std::abs(normal.dot(x) - offset); }
+};
+
+Status Problem(const Anchor& anchor, std::string_view problem, std::string_view remedy) {
+  return Status::Error("stage: '" + anchor.name + "'", problem, remedy);
+}
+
+std::vector<Sight> FindSights(const Anchor& anchor, const SceneDatabase& database) {
+  std::vector<Sight> sights;
+  for (const Pick& pick : anchor.picks) {
+    const auto found = std::find_if(database.keyframes.begin(), database.keyframes.end(),
+                                    [&](const Keyframe& keyframe) {
+                                      return keyframe.frame_index == pick.frame_index &&
+                                             (pick.frame.empty() || pick.frame == keyframe.name);
+                                    });
+    if (found != database.keyframes.end() && database.camera.Contains(pick.pixel)) {
+      sights.push_back({static_cast<uint32_t>(found - database.keyframes.begin()), pick.pixel});
+    }
+  }
+  return sights;
+}
+
+// Points of the map that are seen around a pixel of a keyframe, nearest first.
+std::vector<Eigen::Vector3d> PointsAround(const Sight& sight, const SceneDatabase& database) {
+  const auto begin = std::lower_bound(
+      database.observations.begin(), database.observations.end(), sight.keyframe,
+      [](const vision::Observation& o, uint32_t keyframe) { return o.keyframe < keyframe; });
+  std::vector<std::pair<double, uint32_t>> near;  // distance in pixels, point
+  for (auto o = begin; o != database.observations.end() && o->keyframe == sight.keyframe; ++o) {
+    const double distance = (Eigen::Vector2d(o->x, o->y) - sight.pixel).norm();
+    if (distance <= kPlaneRadius * database.camera.width) {
+      near.emplace_back(distance, o->point);
+    }
+  }
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), kMaxPlanePoints));
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& [distance, point] : near) {
+    points.push_back(database.points[point].cast<double>());
+  }
+  return points;
+}
+
+double MedianDistance(const Plane& plane,
+                      std::span<const Eigen::Vector3d> points,
+                      std::vector<double>& distances) {
+  distances.clear();
+  for (const Eigen::Vector3d& point : points) {
+    distances.push_back(plane.Distance(point));
+  }
+  const auto middle = distances.begin() + static_cast<ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+std::optional<Plane> PlaneThrough(const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b,
+                                  const Eigen::Vector3d& c) {
+  const Eigen::Vector3d cross = (b - a).cross(c - a);
+  const double size = (b - a).norm() * (c - a).norm();
+  if (!(cross.norm() > 0.05 * size)) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d normal = cross.normalized();
+  return Plane{normal, normal.dot(a)};
+}
+
+Plane LeastSquaresPlane(std::span<const Eigen::Vector3d> points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) {
+    mean += point / static_cast<double>(points.size());
+  }
+  Eigen::MatrixX3d centred(points.size(), 3);
+  for (size_t i = 0; i < points.size(); ++i) {
+    centred.row(static_cast<Eigen::Index>(i)) = (points[i] - mean).transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(centred, Eigen::ComputeFullV);
+  const Eigen::Vector3d normal = svd.matrixV().col(2);
+  return {normal, normal.dot(mean)};
+}
+
+// Least median of squares (Rousseeuw, "Least Median of Squares Regression", JASA
+// 1984) over all triples, then least squares on the inliers. Up to half of the
+// points may lie elsewhere.
+std::optional<Plane> FitPlane(std::span<const Eigen::Vector3d> points) {
+  std::optional<Plane> best;
+  double best_median = 0.0;
+  std::vector<double> distances;
+  for (size_t i = 0; i < points.size(); ++i) {
+    for (size_t j = i + 1; j < points.size(); ++j) {
+      for (size_t k = j + 1; k < points.size(); ++k) {
+        const std::optional<Plane> plane = PlaneThrough(points[i], points[j], points[k]);
+        const double median = plane ? MedianDistance(*plane, points, distances) : 0.0;
+        if (plane && (!best || median < best_median)) {
+          best = plane;
+          best_median = median;
+        }
+      }
+    }
+  }
+  if (!best) {
+    return std::nullopt;
+  }
+  std::vector<Eigen::Vector3d> inliers;
+  const double robust_deviation = 1.4826 * best_median;
+  for (const Eigen::Vector3d& point : points) {
+    if (best->Distance(point) <= 2.5 * robust_deviation) {
+      inliers.push_back(point);
+    }
+  }
+  return inliers.size() < 4 ? best : LeastSquaresPlane(inliers);
+}
+
+Result<Eigen::Vector3d> PointOnPlane(const Anchor& anchor,
+                                     const Sight& sight,
+                                     const SceneDatabase& database) {
+  constexpr char kRemedy[] = "pick it in a second training image as well";
+  const std::vector<Eigen::Vector3d> points = PointsAround(sight, database);
+  if (points.size() < kMinPlanePoints) {
+    return Problem(anchor, "one pick, and too few points of the map around it", kRemedy);
+  }
+  const std::optional<Plane> plane = FitPlane(points);
+  if (!plane) {
+    return Problem(anchor, "one pick, and the points of the map around it lie on a line", kRemedy);
+  }
+  const geometry::Rigid3 map_from_camera =
+      database.keyframes[sight.keyframe].camera_from_map.Inverse();
+  const Eigen::Vector2d on_plane = database.camera.PlaneFromPixel(sight.pixel);
+  const Eigen::Vector3d ray = (map_from_camera.rotation * on_plane.homogeneous()).normalized();
+  const Eigen::Vector3d& center = map_from_camera.translation;
+  const double sine = plane->normal.dot(ray);
+  const double depth = (plane->offset - plane->normal.dot(center)) / sine;
+  if (std::abs(sine) < std::sin(kMinGrazing) || depth <= 0.0) {
+    return Problem(anchor, "one pick, and the surface there is seen edge on", kRemedy);
+  }
+  return Eigen::Vector3d(center + depth * ray);
+}
+
+Result<Eigen::Vector3d> LocateAnchor(const Anchor& anchor,
+                                     std::span<const Sight> sights,
+                                     const SceneDatabase& database) {
+  if (sights.empty()) {
+    return Problem(anchor, "no pick lies in a keyframe of this map",
+                   "pick it in one of the keyframes, better in two");
+  }
+  if (sights.size() == 1) {
+    return PointOnPlane(anchor, sights[0], database);
+  }
+  std::vector<geometry::Rigid3> cameras;
+  std::vector<Eigen::Vector2d> plane_points;
+  for (const Sight& sight : sights) {
+    cameras.push_back(database.keyframes[sight.keyframe].camera_from_map);
+    plane_points.push_back(database.camera.PlaneFromPixel(sight.pixel));
+  }
+  const std::optional<Eigen::Vector3d> point = geometry::TriangulatePoint(cameras, plane_points);
+  if (!point) {
+    return Problem(anchor, "the picks do not meet in a point before the cameras",
+                   "pick the same point in keyframes taken from different places");
+  }
+  return *point;
+}
+
+double WidestAngle(std::span<const Sight> sights,
+                   const Eigen::Vector3d& point,
+                   const SceneDatabase& database) {
+  double widest = 0.0;
+  for (size_t i = 0; i < sights.size(); ++i) {
+    for (size_t j = i + 1; j < sights.size(); ++j) {
+      widest = std::max(
+          widest, geometry::TriangulationAngle(
+                      database.keyframes[sights[i].keyframe].camera_from_map.Center(),
+                      database.keyframes[sights[j].keyframe].camera_from_map.Center(), point));
+    }
+  }
+  return widest;
+}
+
+double ReprojectionError(std::span<const Sight> sights,
+                         const Eigen::Vector3d& point,
+                         const SceneDatabase& database) {
+  double sum = 0.0;
+  for (const Sight& sight : sights) {
+    const geometry::Rigid3& camera_from_map = database.keyframes[sight.keyframe].camera_from_map;
+    const auto pixel = database.camera.Project(camera_from_map * point);
+    sum += pixel ? (*pixel - sight.pixel).squaredNorm() : 0.0;
+  }
+  return std::sqrt(sum / static_cast<double>(sights.size()));
+}
+
+Result<AnchorReport> SolveAnchor(const Anchor& anchor, const SceneDatabase& database) {
+  const std::vector<Sight> sights = FindSights(anchor, database);
+  LARARIUM_ASSIGN_OR_RETURN(const Eigen::Vector3d point, LocateAnchor(anchor, sights, database));
+  const double angle = WidestAngle(sights, point, database);
+  if (sights.size() > 1 && angle < kMinTriangulationAngle) {
+    return Problem(anchor, "the picks see it from almost the same direction",
+                   "pick it in keyframes taken farther apart");
+  }
+  return AnchorReport{anchor.name, static_cast<int>(sights.size()),
+                      ReprojectionError(sights, point, database), angle, point};
+}
+
+// Sum of squared changes of the anchor's distance from other when each
+// coordinate of each pick moves by one pixel: central differences over half
+// pixels, through the whole solution.
+double DistanceVariance(const Anchor& anchor,
+                        const Eigen::Vector3d& other,
+                        const SceneDatabase& database) {
+  double variance = 0.0;
+  std::vector<Sight> sights = FindSights(anchor, database);
+  for (Sight& sight : sights) {
+    for (int axis = 0; axis < 2; ++axis) {
+      std::array<double, 2> distance = {0.0, 0.0};
+      const double exact = sight.pixel[axis];
+      for (int side = 0; side < 2; ++side) {
+        sight.pixel[axis] = exact + side - 0.5;
+        const Result<Eigen::Vector3d> moved = LocateAnchor(anchor, sights, database);
+        distance[static_cast<size_t>(side)] = moved.ok() ? (*moved - other).norm() : 0.0;
+      }
+      sight.pixel[axis] = exact;
+      variance += (distance[1] - distance[0]) * (distance[1] - distance[0]);
+    }
+  }
+  return variance;
+}
+
+// +Y of the stage, in the map.
+Result<Eigen::Vector3d> UpDirection(const Anchor& floor_anchor,
+                                    const Eigen::Vector3d& origin,
+                                    const Eigen::Vector3d& forward,
+                                    const Eigen::Vector3d& floor,
+                                    const SceneDatabase& database) {
+  const Eigen::Vector3d cross = (forward - origin).cross(floor - origin);
+  const double size = (forward - origin).norm() * (floor - origin).norm();
+  if (!(cross.norm() > std::sin(kMinCorner) * size)) {
+    return Problem(floor_anchor, "lies on the line from origin to forward",
+                   "pick a point of the floor well to the side of that line");
+  }
+  const Eigen::Vector3d normal = cross.normalized();
+  ptrdiff_t cameras_above = 0;
+  for (const Keyframe& keyframe : database.keyframes) {
+    cameras_above += normal.dot(keyframe.camera_from_map.Center() - origin) > 0.0 ? 1 : -1;
+  }
+  return Eigen::Vector3d(cameras_above >= 0 ? normal : -normal);
+}
+
+}  // namespace
+
+Result<StageSolution> SolveStage(const StagePicks& picks, const SceneDatabase& database) {
+  if (!(picks.length_m > 0.0) || !std::isfinite(picks.length_m)) {
+    return Status::Error("stage", "the known length must be more than 0 m", "enter it in metres");
+  }
+  const Anchor& from = picks.length_from.picks.empty() ? picks.origin : picks.length_from;
+  const Anchor& to = picks.length_to.picks.empty() ? picks.forward : picks.length_to;
+  LARARIUM_ASSIGN_OR_RETURN(const AnchorReport origin, SolveAnchor(picks.origin, database));
+  LARARIUM_ASSIGN_OR_RETURN(const AnchorReport forward, SolveAnchor(picks.forward, database));
+  LARARIUM_ASSIGN_OR_RETURN(const AnchorReport floor, SolveAnchor(picks.floor, database));
+  LARARIUM_ASSIGN_OR_RETURN(const AnchorReport length_from, SolveAnchor(from, database));
+  LARARIUM_ASSIGN_OR_RETURN(const AnchorReport length_to, SolveAnchor(to, database));
+  LARARIUM_ASSIGN_OR_RETURN(const Eigen::Vector3d up,
+                            UpDirection(picks.floor, origin.point_in_map, forward.point_in_map,
+                                        floor.point_in_map, database));
+  const double length = (length_to.point_in_map - length_from.point_in_map).norm();
+  if (!(length > 0.0)) {
+    return Problem(to, "lies at the other end of the known length", "pick two different points");
+  }
+
+  StageSolution solution;
+  const Eigen::Vector3d back = (origin.point_in_map - forward.point_in_map).normalized();
+  Eigen::Matrix3d map_from_stage;
+  map_from_stage << up.cross(back), up, back;  // the images of X, Y and Z
+  solution.map_from_stage = {length / picks.length_m,
+                             Eigen::Quaterniond(map_from_stage).normalized(), origin.point_in_map};
+  solution.anchors = {origin, forward, floor};
+  if (!picks.length_from.picks.empty()) {
+    solution.anchors.push_back(length_from);
+  }
+  if (!picks.length_to.picks.empty()) {
+    solution.anchors.push_back(length_to);
+  }
+  solution.length_spread = std::sqrt(DistanceVariance(from, length_to.point_in_map, database) +
+                                     DistanceVariance(to, length_from.point_in_map, database)) /
+                           length;
+  return solution;
+}
+
+geometry::Similarity3 AdjustStage(const geometry::Similarity3& map_from_stage,
+                                  const StageAdjust& adjust) {
+  const geometry::Similarity3 stage_from_adjusted = {
+      adjust.scale, Eigen::Quaterniond(Eigen::AngleAxisd(adjust.heading, Eigen::Vector3d::UnitY())),
+      adjust.translation};
+  return map_from_stage * stage_from_adjusted;
+}
+
+}  // namespace lararium::stage
