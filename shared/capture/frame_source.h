@@ -24,8 +24,11 @@ class FrameSource {
   // Continues at frame index. Only for recorded sources; exact to the frame.
   virtual Status Seek(int64_t index) = 0;
 
-  // Number of frames; nullopt for a live camera or where only reading tells.
+  // Number of frames; nullopt for a live camera, and for a video until it was
+  // read to its end: containers miscount.
   virtual std::optional<int64_t> frame_count() const = 0;
+  // For progress bars and sliders, right within a few frames; 0 where unknown.
+  virtual int64_t estimated_frame_count() const { return frame_count().value_or(0); }
   virtual int width() const = 0;
   virtual int height() const = 0;
   virtual double frames_per_second() const = 0;
@@ -36,18 +39,24 @@ class FrameSource {
   virtual std::string FrameName(int64_t index) const = 0;
 };
 
-// Decodes with libav; Seek() is frame exact. Errors name the file.
+// "%06d.png": the name of a frame that has none of its own.
+std::string NumberedFrameName(int64_t index);
+
+// Decodes with libav. Frames count in the order of decoding from the start;
+// Seek() is exact, and quick within the part that was decoded before.
+// Undecodable packets give no frame. A file that is cut off is an error.
 Result<std::unique_ptr<FrameSource>> OpenVideo(const std::filesystem::path& file);
 
 // All images (png, jpg, jpeg, bmp, tif, tiff) of a folder in order of their
-// names; all must have one size.
+// names, numbers within names by value (2 before 10). All must have one size.
+// Pixels stay as stored: EXIF orientation is ignored. 30 frames per second.
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder);
 
 // A live V4L2 camera.
 Result<std::unique_ptr<FrameSource>> OpenCamera(int number);
 
 // The focal length in pixels that the EXIF data of an image file give, by its
-// 35 mm equivalent; nullopt where there is none.
+// 35 mm equivalent (of equal diagonal); nullopt where there is none. Reads JPEG.
 std::optional<double> ExifFocalPixels(const std::filesystem::path& file, int width, int height);
 
 }  // namespace lararium::capture

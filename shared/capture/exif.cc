@@ -1,0 +1,121 @@
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "shared/capture/frame_source.h"
+#include "shared/core/file.h"
+
+// Exchangeable image file format for digital still cameras (JEITA CP-3451):
+// FocalLengthIn35mmFilm, a SHORT in the Exif directory of the TIFF structure in
+// a JPEG's APP1 segment.
+
+namespace lararium::capture {
+namespace {
+
+constexpr uint16_t kExifDirectory = 0x8769;
+constexpr uint16_t kFocalLengthIn35mmFilm = 0xa405;
+constexpr double kFilmDiagonal = 43.2666153;  // millimetres, of 36 x 24
+
+using Bytes = std::span<const std::byte>;
+
+std::optional<uint32_t> BigEndian16(Bytes bytes, size_t at) {
+  if (bytes.size() < 2 || at > bytes.size() - 2) {
+    return std::nullopt;
+  }
+  return std::to_integer<uint32_t>(bytes[at]) << 8 | std::to_integer<uint32_t>(bytes[at + 1]);
+}
+
+// A TIFF structure with checked access.
+class Tiff {
+ public:
+  static std::optional<Tiff> Open(Bytes bytes) {
+    const std::optional<uint32_t> order = BigEndian16(bytes, 0);
+    if (order != 0x4949 && order != 0x4d4d) {
+      return std::nullopt;
+    }
+    return Tiff(bytes, order == 0x4949);
+  }
+
+  std::optional<uint32_t> U16(size_t at) const {
+    const std::optional<uint32_t> value = BigEndian16(bytes_, at);
+    if (!value || !little_endian_) {
+      return value;
+    }
+    return (*value & 0xff) << 8 | *value >> 8;
+  }
+  std::optional<uint32_t> U32(size_t at) const {
+    const std::optional<uint32_t> first = U16(at);
+    const std::optional<uint32_t> second = first ? U16(at + 2) : std::nullopt;
+    if (!second) {
+      return std::nullopt;
+    }
+    return little_endian_ ? *second << 16 | *first : *first << 16 | *second;
+  }
+
+  // Where the value of a tag in the directory at an offset lies.
+  std::optional<size_t> FindValue(uint32_t directory, uint16_t tag) const {
+    const uint32_t count = U16(directory).value_or(0);
+    for (uint32_t i = 0; i < count; ++i) {
+      const size_t entry = size_t{directory} + 2 + size_t{12} * i;
+      if (U16(entry) == tag) {
+        return entry + 8;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Tiff(Bytes bytes, bool little_endian) : bytes_(bytes), little_endian_(little_endian) {}
+
+  Bytes bytes_;
+  bool little_endian_;
+};
+
+std::optional<uint32_t> FocalLengthIn35mmFilm(Bytes exif) {
+  const std::optional<Tiff> tiff = Tiff::Open(exif);
+  if (!tiff) {
+    return std::nullopt;
+  }
+  const auto pointer = tiff->FindValue(tiff->U32(4).value_or(0), kExifDirectory);
+  const auto directory = pointer ? tiff->U32(*pointer) : std::nullopt;
+  const auto value = directory ? tiff->FindValue(*directory, kFocalLengthIn35mmFilm) : std::nullopt;
+  return value ? tiff->U16(*value) : std::nullopt;
+}
+
+// The TIFF structure in the segments before the image data; empty where none.
+Bytes FindExif(Bytes jpeg) {
+  static constexpr char kSignature[] = {'E', 'x', 'i', 'f', 0, 0};
+  if (BigEndian16(jpeg, 0) != 0xffd8) {
+    return {};
+  }
+  size_t at = 2;
+  while (const std::optional<uint32_t> marker = BigEndian16(jpeg, at)) {
+    const uint32_t length = BigEndian16(jpeg, at + 2).value_or(0);
+    if (*marker < 0xff00 || *marker == 0xffda || length < 2 || length > jpeg.size() - at - 2) {
+      return {};
+    }
+    const Bytes content = jpeg.subspan(at + 4, length - 2);
+    if (*marker == 0xffe1 && content.size() > sizeof(kSignature) &&
+        std::memcmp(content.data(), kSignature, sizeof(kSignature)) == 0) {
+      return content.subspan(sizeof(kSignature));
+    }
+    at += 2 + length;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<double> ExifFocalPixels(const std::filesystem::path& file, int width, int height) {
+  const Result<MappedFile> mapped = MappedFile::Open(file);
+  if (!mapped.ok()) {
+    return std::nullopt;
+  }
+  const uint32_t focal = FocalLengthIn35mmFilm(FindExif(mapped->bytes())).value_or(0);
+  if (focal == 0) {
+    return std::nullopt;
+  }
+  return focal * std::hypot(width, height) / kFilmDiagonal;
+}
+
+}  // namespace lararium::capture

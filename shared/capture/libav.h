@@ -1,0 +1,32 @@
+#pragma once
+
+// Owners of libav's objects. Private to capture.
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
+
+#include <array>
+#include <memory>
+#include <string>
+
+namespace lararium::capture {
+
+struct LibavDeleter {
+  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(SwsContext* context) const { sws_freeContext(context); }
+};
+template <typename T>
+using LibavPtr = std::unique_ptr<T, LibavDeleter>;
+
+inline std::string LibavMessage(int error) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
+  av_strerror(error, text.data(), text.size());
+  return text.data();
+}
+
+}  // namespace lararium::capture

@@ -1,0 +1,393 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "shared/capture/frame_pool.h"
+#include "shared/capture/frame_source.h"
+#include "shared/capture/libav.h"
+
+namespace lararium::capture {
+namespace {
+
+using geometry::Frame;
+
+// Only plain containers of video: playlists and the like would open further
+// files or addresses that the file names.
+constexpr char kContainers[] =
+    "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,ogg,flv,asf,ivf,m4v,h264,hevc,mjpeg";
+
+struct FormatDeleter {
+  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
+};
+
+// One pass through the file: demuxer and decoder.
+struct Decoder {
+  std::unique_ptr<AVFormatContext, FormatDeleter> format;
+  LibavPtr<AVCodecContext> codec;
+  AVStream* stream = nullptr;
+  bool draining = false;
+};
+
+Status VideoError(const std::filesystem::path& file, std::string_view problem) {
+  return Status::Error(file.string(), problem, "give a complete video file, for example MP4");
+}
+
+// Containers with an index (MP4) tell where each picture lies.
+Status CheckComplete(const std::filesystem::path& file, Decoder& decoder) {
+  const int64_t file_size = avio_size(decoder.format->pb);
+  const int count = avformat_index_get_entries_count(decoder.stream);
+  for (int i = 0; i < count; ++i) {
+    const AVIndexEntry* entry = avformat_index_get_entry(decoder.stream, i);
+    if (entry->pos < 0 || entry->pos > file_size - entry->size) {
+      return VideoError(file, "is cut off: picture " + std::to_string(i) + " of " +
+                                  std::to_string(count) + " lies beyond its end");
+    }
+  }
+  return Status();
+}
+
+Status OpenFormat(const std::filesystem::path& file, Decoder& decoder) {
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  av_dict_set(&options, "format_whitelist", kContainers, 0);
+  AVFormatContext* context = nullptr;
+  const int error =
+      avformat_open_input(&context, ("file:" + file.string()).c_str(), nullptr, &options);
+  av_dict_free(&options);
+  if (error < 0) {
+    return VideoError(file, "cannot be opened as a video (" + LibavMessage(error) + ")");
+  }
+  decoder.format.reset(context);
+  if (const int found = avformat_find_stream_info(context, nullptr); found < 0) {
+    return VideoError(file, "cannot be read as a video (" + LibavMessage(found) + ")");
+  }
+  return Status();
+}
+
+Status OpenCodec(const std::filesystem::path& file, Decoder& decoder) {
+  AVFormatContext* format = decoder.format.get();
+  const AVCodec* codec = nullptr;
+  const int index = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+  if (index < 0) {
+    return VideoError(file, "holds no video that can be decoded");
+  }
+  decoder.stream = format->streams[index];
+  for (unsigned i = 0; i < format->nb_streams; ++i) {
+    if (static_cast<int>(i) != index) {
+      format->streams[i]->discard = AVDISCARD_ALL;
+    }
+  }
+  decoder.codec.reset(avcodec_alloc_context3(codec));
+  if (decoder.codec == nullptr ||
+      avcodec_parameters_to_context(decoder.codec.get(), decoder.stream->codecpar) < 0) {
+    return VideoError(file, "has broken video parameters");
+  }
+  decoder.codec->pkt_timebase = decoder.stream->time_base;
+  decoder.codec->thread_count = 0;  // one for each core
+  if (const int error = avcodec_open2(decoder.codec.get(), codec, nullptr); error < 0) {
+    return VideoError(file, "cannot be decoded (" + LibavMessage(error) + ")");
+  }
+  return Status();
+}
+
+Result<Decoder> OpenDecoder(const std::filesystem::path& file) {
+  Decoder decoder;
+  LARARIUM_RETURN_IF_ERROR(OpenFormat(file, decoder));
+  LARARIUM_RETURN_IF_ERROR(OpenCodec(file, decoder));
+  LARARIUM_RETURN_IF_ERROR(CheckComplete(file, decoder));
+  return decoder;
+}
+
+double FramesPerSecond(const AVStream& stream) {
+  for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
+    const double value = rate.den > 0 ? av_q2d(rate) : 0.0;
+    if (value >= 0.1 && value <= 1000.0) {
+      return value;
+    }
+  }
+  return 30.0;
+}
+
+int64_t EstimateFrameCount(const Decoder& decoder, double frames_per_second) {
+  if (decoder.stream->nb_frames > 0) {
+    return decoder.stream->nb_frames;
+  }
+  if (decoder.format->duration > 0) {
+    return std::llround(static_cast<double>(decoder.format->duration) / AV_TIME_BASE *
+                        frames_per_second);
+  }
+  return 0;
+}
+
+// The matrix of YCbCr; files that do not say use BT.709 from 720 lines on.
+const int* ColourMatrix(const AVFrame& frame) {
+  int matrix = frame.colorspace;
+  if (matrix == AVCOL_SPC_UNSPECIFIED || matrix == AVCOL_SPC_RGB) {
+    matrix = frame.height >= 720 ? SWS_CS_ITU709 : SWS_CS_ITU601;
+  }
+  return sws_getCoefficients(matrix);
+}
+
+bool IsFullRange(const AVFrame& frame) {
+  return frame.color_range == AVCOL_RANGE_JPEG || frame.format == AV_PIX_FMT_YUVJ420P ||
+         frame.format == AV_PIX_FMT_YUVJ422P || frame.format == AV_PIX_FMT_YUVJ444P;
+}
+
+// Frames are numbered in the order in which they come out of the decoder when
+// the file is read from its start: containers miscount, and packets may be
+// undecodable. Times of frames are learned while decoding; a jump lands on a
+// key frame, recognises by its time which frame it is, and decodes forward. A
+// part of the file that was never decoded is reached by decoding up to it.
+class VideoSource final : public FrameSource {
+ public:
+  VideoSource(std::filesystem::path file, Decoder decoder)
+      : file_(std::move(file)),
+        decoder_(std::move(decoder)),
+        packet_(av_packet_alloc()),
+        picture_(av_frame_alloc()),
+        frames_per_second_(FramesPerSecond(*decoder_.stream)),
+        estimated_count_(EstimateFrameCount(decoder_, frames_per_second_)) {}
+
+  // Decodes the first frame, which settles the size.
+  Status Start() {
+    LARARIUM_ASSIGN_OR_RETURN(const bool decoded, Decode());
+    if (!decoded) {
+      return VideoError(file_, "holds no frame that can be decoded");
+    }
+    width_ = picture_->width;
+    height_ = picture_->height;
+    if (width_ < 16 || height_ < 16 || width_ > 16384 || height_ > 16384) {
+      return VideoError(file_, "has an image size outside 16 to 16384 pixels");
+    }
+    pending_ = true;
+    return Status();
+  }
+
+  Result<std::optional<Frame>> Next() override {
+    if (!pending_) {
+      LARARIUM_ASSIGN_OR_RETURN(const bool decoded, Decode());
+      if (!decoded) {
+        return std::optional<Frame>();
+      }
+    }
+    pending_ = false;
+    LARARIUM_ASSIGN_OR_RETURN(Frame frame, Convert());
+    return std::optional<Frame>(std::move(frame));
+  }
+
+  Status Seek(int64_t index) override {
+    if (index < 0) {
+      return Status::Error(file_.string(), "frame " + std::to_string(index) + " does not exist");
+    }
+    if (index != next_index_ - 1 || !has_picture_) {
+      LARARIUM_RETURN_IF_ERROR(Reach(index));
+    }
+    pending_ = true;
+    return Status();
+  }
+
+  std::optional<int64_t> frame_count() const override { return count_; }
+  int64_t estimated_frame_count() const override { return count_.value_or(estimated_count_); }
+  int width() const override { return width_; }
+  int height() const override { return height_; }
+  double frames_per_second() const override { return frames_per_second_; }
+  bool live() const override { return false; }
+  std::string FrameName(int64_t index) const override { return NumberedFrameName(index); }
+
+ private:
+  // Brings frame index into picture_.
+  Status Reach(int64_t index) {
+    const auto next_key = std::lower_bound(key_frames_.begin(), key_frames_.end(), next_index_);
+    const bool key_on_the_way = next_key != key_frames_.end() && *next_key <= index;
+    if (index < next_index_ || key_on_the_way) {
+      LARARIUM_RETURN_IF_ERROR(Jump(index));
+    }
+    while (next_index_ <= index) {
+      LARARIUM_ASSIGN_OR_RETURN(const bool decoded, Decode());
+      if (!decoded) {
+        return Status::Error(file_.string(), "frame " + std::to_string(index) +
+                                                 " does not exist, it has " +
+                                                 std::to_string(next_index_) + " frames");
+      }
+    }
+    return Status();
+  }
+
+  // Continues at a frame at or before index: at a known key frame, else at the start.
+  Status Jump(int64_t index) {
+    if (times_are_ordered_) {
+      auto key = std::upper_bound(key_frames_.begin(), key_frames_.end(), index);
+      for (int attempt = 0; attempt < 2 && key != key_frames_.begin(); ++attempt) {
+        --key;
+        LARARIUM_ASSIGN_OR_RETURN(const bool landed, JumpToTime(times_[*key], index));
+        if (landed) {
+          return Status();
+        }
+      }
+    }
+    LARARIUM_ASSIGN_OR_RETURN(decoder_, OpenDecoder(file_));
+    next_index_ = 0;
+    has_picture_ = false;
+    return Status();
+  }
+
+  // False when the demuxer did not land on a known frame at or before index.
+  Result<bool> JumpToTime(int64_t time, int64_t index) {
+    if (av_seek_frame(decoder_.format.get(), decoder_.stream->index, time, AVSEEK_FLAG_BACKWARD) <
+        0) {
+      return false;
+    }
+    avcodec_flush_buffers(decoder_.codec.get());
+    decoder_.draining = false;
+    LARARIUM_ASSIGN_OR_RETURN(const bool decoded, ReceivePicture());
+    const auto known =
+        std::lower_bound(times_.begin(), times_.end(), picture_->best_effort_timestamp);
+    if (!decoded || known == times_.end() || *known != picture_->best_effort_timestamp ||
+        known - times_.begin() > index) {
+      return false;
+    }
+    next_index_ = known - times_.begin() + 1;
+    has_picture_ = true;
+    return true;
+  }
+
+  // The next frame into picture_; false at the end.
+  Result<bool> Decode() {
+    LARARIUM_ASSIGN_OR_RETURN(has_picture_, ReceivePicture());
+    if (!has_picture_) {
+      count_ = next_index_;
+      return false;
+    }
+    if (next_index_ == static_cast<int64_t>(times_.size())) {
+      Learn();
+    }
+    ++next_index_;
+    return true;
+  }
+
+  void Learn() {
+    const int64_t time = picture_->best_effort_timestamp;
+    times_are_ordered_ =
+        times_are_ordered_ && time != AV_NOPTS_VALUE && (times_.empty() || time > times_.back());
+    times_.push_back(time);
+    if (picture_->key_frame != 0) {
+      key_frames_.push_back(next_index_);
+    }
+  }
+
+  // Undecodable packets are passed over, as every player does; false at the end.
+  Result<bool> ReceivePicture() {
+    while (true) {
+      const int received = avcodec_receive_frame(decoder_.codec.get(), picture_.get());
+      if (received == 0) {
+        return true;
+      }
+      if (received == AVERROR_EOF) {
+        return false;
+      }
+      LARARIUM_RETURN_IF_ERROR(SendPacket());
+    }
+  }
+
+  Status SendPacket() {
+    if (decoder_.draining) {
+      return VideoError(file_, "cannot be decoded to its end");
+    }
+    const int read = av_read_frame(decoder_.format.get(), packet_.get());
+    if (read == AVERROR_EOF) {
+      decoder_.draining = true;
+      avcodec_send_packet(decoder_.codec.get(), nullptr);
+      return Status();
+    }
+    if (read < 0) {
+      return VideoError(file_, "cannot be read after frame " + std::to_string(next_index_ - 1) +
+                                   " (" + LibavMessage(read) + ")");
+    }
+    if (packet_->stream_index == decoder_.stream->index) {
+      avcodec_send_packet(decoder_.codec.get(), packet_.get());
+    }
+    av_packet_unref(packet_.get());
+    return Status();
+  }
+
+  Result<Frame> Convert() {
+    if (picture_->width != width_ || picture_->height != height_) {
+      return VideoError(file_,
+                        "changes its image size at frame " + std::to_string(next_index_ - 1));
+    }
+    LARARIUM_RETURN_IF_ERROR(PrepareScaler());
+    Frame frame;
+    frame.index = next_index_ - 1;
+    frame.capture_time = CaptureTime(frame.index);
+    frame.bgr = pool_.Take(height_, width_, CV_8UC3);
+    uint8_t* planes[] = {frame.bgr.data};
+    const int strides[] = {static_cast<int>(frame.bgr.step)};
+    sws_scale(scaler_.get(), picture_->data, picture_->linesize, 0, height_, planes, strides);
+    frame.grey = pool_.Take(height_, width_, CV_8UC1);
+    cv::cvtColor(frame.bgr, frame.grey, cv::COLOR_BGR2GRAY);
+    return frame;
+  }
+
+  Status PrepareScaler() {
+    const auto format = static_cast<AVPixelFormat>(picture_->format);
+    scaler_.reset(sws_getCachedContext(
+        scaler_.release(), width_, height_, format, width_, height_, AV_PIX_FMT_BGR24,
+        SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr));
+    if (scaler_ == nullptr) {
+      return VideoError(file_, "has a pixel format that cannot be converted");
+    }
+    sws_setColorspaceDetails(scaler_.get(), ColourMatrix(*picture_), IsFullRange(*picture_) ? 1 : 0,
+                             sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
+    return Status();
+  }
+
+  double CaptureTime(int64_t index) const {
+    if (!times_are_ordered_) {
+      return static_cast<double>(index) / frames_per_second_;
+    }
+    return static_cast<double>(times_[index] - times_[0]) * av_q2d(decoder_.stream->time_base);
+  }
+
+  std::filesystem::path file_;
+  Decoder decoder_;
+  LibavPtr<AVPacket> packet_;
+  LibavPtr<AVFrame> picture_;
+  LibavPtr<SwsContext> scaler_;
+  FramePool pool_;
+  double frames_per_second_;
+  int64_t estimated_count_;
+  std::optional<int64_t> count_;
+  int width_ = 0;
+  int height_ = 0;
+
+  int64_t next_index_ = 0;      // of the frame that the decoder gives next
+  bool has_picture_ = false;    // picture_ is frame next_index_ - 1
+  bool pending_ = false;        // ... and Next() has not handed it out yet
+  std::vector<int64_t> times_;  // of the frames decoded so far, in the stream's time base
+  std::vector<int64_t> key_frames_;
+  bool times_are_ordered_ = true;
+};
+
+}  // namespace
+
+std::string NumberedFrameName(int64_t index) {
+  std::array<char, 32> name = {};
+  std::snprintf(name.data(), name.size(), "%06lld.png", static_cast<long long>(index));
+  return name.data();
+}
+
+Result<std::unique_ptr<FrameSource>> OpenVideo(const std::filesystem::path& file) {
+  av_log_set_level(AV_LOG_FATAL);  // its errors are reported as Status
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    return Status::Error(file.string(), "is not a file", "give the path of a video");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(Decoder decoder, OpenDecoder(file));
+  auto source = std::make_unique<VideoSource>(file, std::move(decoder));
+  LARARIUM_RETURN_IF_ERROR(source->Start());
+  return std::unique_ptr<FrameSource>(std::move(source));
+}
+
+}  // namespace lararium::capture

@@ -1,0 +1,203 @@
+#include "shared/capture/video_writer.h"
+
+#include <cmath>
+#include <string>
+#include <system_error>
+
+#include "shared/capture/libav.h"
+
+namespace lararium::capture {
+
+namespace {
+
+struct MuxerDeleter {
+  void operator()(AVFormatContext* context) const {
+    if (context->pb != nullptr) {
+      avio_closep(&context->pb);
+    }
+    avformat_free_context(context);
+  }
+};
+
+}  // namespace
+
+struct VideoWriter::Encoder {
+  std::filesystem::path file;
+  std::filesystem::path temporary;
+  std::unique_ptr<AVFormatContext, MuxerDeleter> muxer;
+  LibavPtr<AVCodecContext> codec;
+  LibavPtr<AVFrame> picture;
+  LibavPtr<AVPacket> packet;
+  LibavPtr<SwsContext> scaler;
+  AVStream* stream = nullptr;
+  int64_t next_index = 0;
+
+  ~Encoder() {
+    muxer.reset();
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+  }
+
+  Status Problem(std::string_view problem, int error) const {
+    return Status::Error(file.string(), std::string(problem) + " (" + LibavMessage(error) + ")",
+                         "check the folder and the free space");
+  }
+
+  Status OpenCodec(int width, int height, double frames_per_second) {
+    const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
+    if (h264 == nullptr) {
+      h264 = avcodec_find_encoder(AV_CODEC_ID_H264);
+    }
+    codec.reset(h264 == nullptr ? nullptr : avcodec_alloc_context3(h264));
+    if (codec == nullptr) {
+      return Status::Error(file.string(), "no H.264 encoder is installed", "install libx264");
+    }
+    const AVRational rate = av_d2q(frames_per_second, 100000);
+    codec->width = width;
+    codec->height = height;
+    codec->pix_fmt = AV_PIX_FMT_YUV420P;
+    codec->time_base = av_inv_q(rate);
+    codec->framerate = rate;
+    codec->color_range = AVCOL_RANGE_MPEG;
+    codec->colorspace = AVCOL_SPC_BT709;
+    codec->color_primaries = AVCOL_PRI_BT709;
+    codec->color_trc = AVCOL_TRC_BT709;
+    codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "crf", "18", 0);
+    av_dict_set(&options, "preset", "veryfast", 0);
+    const int error = avcodec_open2(codec.get(), h264, &options);
+    av_dict_free(&options);
+    return error < 0 ? Problem("the H.264 encoder does not start", error) : Status();
+  }
+
+  Status OpenMuxer() {
+    const std::string url = "file:" + temporary.string();
+    AVFormatContext* context = nullptr;
+    if (const int error = avformat_alloc_output_context2(&context, nullptr, "mp4", url.c_str());
+        error < 0) {
+      return Problem("cannot be written as MP4", error);
+    }
+    muxer.reset(context);
+    stream = avformat_new_stream(context, nullptr);
+    if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, codec.get()) < 0) {
+      return Problem("cannot be written as MP4", AVERROR(ENOMEM));
+    }
+    stream->time_base = codec->time_base;
+    stream->avg_frame_rate = codec->framerate;
+    if (const int error = avio_open(&context->pb, url.c_str(), AVIO_FLAG_WRITE); error < 0) {
+      return Problem("cannot be written", error);
+    }
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "movflags", "+faststart", 0);
+    const int error = avformat_write_header(context, &options);
+    av_dict_free(&options);
+    return error < 0 ? Problem("cannot be written", error) : Status();
+  }
+
+  Status OpenPicture() {
+    packet.reset(av_packet_alloc());
+    picture.reset(av_frame_alloc());
+    scaler.reset(sws_getContext(codec->width, codec->height, AV_PIX_FMT_BGR24, codec->width,
+                                codec->height, AV_PIX_FMT_YUV420P,
+                                SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr,
+                                nullptr, nullptr));
+    if (packet == nullptr || picture == nullptr || scaler == nullptr) {
+      return Problem("cannot be written", AVERROR(ENOMEM));
+    }
+    sws_setColorspaceDetails(scaler.get(), sws_getCoefficients(SWS_CS_DEFAULT), 1,
+                             sws_getCoefficients(SWS_CS_ITU709), 0, 0, 1 << 16, 1 << 16);
+    picture->format = codec->pix_fmt;
+    picture->width = codec->width;
+    picture->height = codec->height;
+    const int error = av_frame_get_buffer(picture.get(), 0);
+    return error < 0 ? Problem("cannot be written", error) : Status();
+  }
+
+  // A null picture drains the encoder.
+  Status Encode(const AVFrame* frame) {
+    if (const int error = avcodec_send_frame(codec.get(), frame); error < 0) {
+      return Problem("a frame cannot be encoded", error);
+    }
+    while (true) {
+      const int error = avcodec_receive_packet(codec.get(), packet.get());
+      if (error == AVERROR(EAGAIN) || error == AVERROR_EOF) {
+        return Status();
+      }
+      if (error < 0) {
+        return Problem("a frame cannot be encoded", error);
+      }
+      packet->duration = 1;
+      av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
+      packet->stream_index = stream->index;
+      if (const int written = av_interleaved_write_frame(muxer.get(), packet.get()); written < 0) {
+        return Problem("cannot be written", written);
+      }
+    }
+  }
+};
+
+VideoWriter::VideoWriter(std::unique_ptr<Encoder> encoder) : encoder_(std::move(encoder)) {}
+VideoWriter::~VideoWriter() = default;
+
+Result<std::unique_ptr<VideoWriter>> VideoWriter::Create(const std::filesystem::path& file,
+                                                         int width,
+                                                         int height,
+                                                         double frames_per_second) {
+  if (width < 16 || height < 16 || width > 16384 || height > 16384 || width % 2 != 0 ||
+      height % 2 != 0) {
+    return Status::Error(
+        file.string(),
+        "a video cannot be " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
+        "width and height must be even, from 16 to 16384");
+  }
+  if (!(frames_per_second >= 0.1 && frames_per_second <= 1000.0)) {
+    return Status::Error(file.string(), "the frame rate must lie between 0.1 and 1000");
+  }
+  av_log_set_level(AV_LOG_FATAL);  // its errors are reported as Status
+  auto encoder = std::make_unique<Encoder>();
+  encoder->file = file;
+  encoder->temporary = file;
+  encoder->temporary += ".part";
+  LARARIUM_RETURN_IF_ERROR(encoder->OpenCodec(width, height, frames_per_second));
+  LARARIUM_RETURN_IF_ERROR(encoder->OpenMuxer());
+  LARARIUM_RETURN_IF_ERROR(encoder->OpenPicture());
+  return std::unique_ptr<VideoWriter>(new VideoWriter(std::move(encoder)));
+}
+
+Status VideoWriter::Write(const cv::Mat& bgr) {
+  CHECK(encoder_ != nullptr);
+  Encoder& e = *encoder_;
+  if (bgr.type() != CV_8UC3 || bgr.cols != e.codec->width || bgr.rows != e.codec->height) {
+    return Status::Error(e.file.string(), "a frame is " + std::to_string(bgr.cols) + "x" +
+                                              std::to_string(bgr.rows) + ", the video " +
+                                              std::to_string(e.codec->width) + "x" +
+                                              std::to_string(e.codec->height));
+  }
+  if (const int error = av_frame_make_writable(e.picture.get()); error < 0) {
+    return e.Problem("a frame cannot be encoded", error);
+  }
+  const uint8_t* planes[] = {bgr.data};
+  const int strides[] = {static_cast<int>(bgr.step)};
+  sws_scale(e.scaler.get(), planes, strides, 0, bgr.rows, e.picture->data, e.picture->linesize);
+  e.picture->pts = e.next_index++;
+  return e.Encode(e.picture.get());
+}
+
+Status VideoWriter::Finish() {
+  CHECK(encoder_ != nullptr);
+  const std::unique_ptr<Encoder> e = std::move(encoder_);
+  LARARIUM_RETURN_IF_ERROR(e->Encode(nullptr));
+  if (const int error = av_write_trailer(e->muxer.get()); error < 0) {
+    return e->Problem("cannot be completed", error);
+  }
+  if (const int error = avio_closep(&e->muxer->pb); error < 0) {
+    return e->Problem("cannot be completed", error);
+  }
+  std::error_code error;
+  std::filesystem::rename(e->temporary, e->file, error);
+  return error ? Status::Error(e->file.string(), "cannot be put in place: " + error.message())
+               : Status();
+}
+
+}  // namespace lararium::capture

@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "shared/capture/frame_source.h"
+#include "shared/core/file.h"
+#include "shared/core/random.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::capture {
+namespace {
+
+std::string Number(uint32_t value, int bytes, bool little_endian) {
+  std::string text;
+  for (int i = 0; i < bytes; ++i) {
+    const int shift = 8 * (little_endian ? i : bytes - 1 - i);
+    text.push_back(static_cast<char>(value >> shift & 0xff));
+  }
+  return text;
+}
+
+// A JPEG's head with a focal length of focal mm (35 mm film) in its EXIF data.
+std::string JpegWithFocal(uint32_t focal, bool little_endian) {
+  const auto number = [&](uint32_t value, int bytes) {
+    return Number(value, bytes, little_endian);
+  };
+  std::string tiff = little_endian ? "II" : "MM";
+  tiff += number(42, 2) + number(8, 4);
+  tiff += number(1, 2) + number(0x8769, 2) + number(4, 2) + number(1, 4) + number(26, 4);
+  tiff += number(0, 4);
+  tiff += number(2, 2) + number(0x9000, 2) + number(7, 2) + number(4, 4) + "0230";
+  tiff += number(0xa405, 2) + number(3, 2) + number(1, 4) + number(focal, 2) + number(0, 2);
+  tiff += number(0, 4);
+  const std::string exif = std::string("Exif\0\0", 6) + tiff;
+  const std::string comment = "a comment";
+  return "\xff\xd8\xff\xfe" + Number(2 + comment.size(), 2, false) + comment + "\xff\xe1" +
+         Number(2 + exif.size(), 2, false) + exif + "\xff\xda" + Number(2, 2, false);
+}
+
+std::optional<double> FocalOf(const std::string& content) {
+  test::TemporaryFolder folder;
+  EXPECT_TRUE(WriteFileAtomically(folder / "image.jpg", content).ok());
+  return ExifFocalPixels(folder / "image.jpg", 4000, 3000);
+}
+
+TEST(Exif, ReadsTheFocalLengthInBothByteOrders) {
+  const double expected = 28.0 * 5000.0 / std::hypot(36.0, 24.0);
+  for (const bool little_endian : {false, true}) {
+    const auto focal = FocalOf(JpegWithFocal(28, little_endian));
+    ASSERT_TRUE(focal.has_value());
+    EXPECT_NEAR(*focal, expected, 1e-3);
+  }
+}
+
+TEST(Exif, FindsNothingWhereThereIsNothing) {
+  EXPECT_FALSE(FocalOf("").has_value());
+  EXPECT_FALSE(FocalOf("text").has_value());
+  EXPECT_FALSE(FocalOf(JpegWithFocal(0, true)).has_value());
+  EXPECT_FALSE(ExifFocalPixels("/nonexistent/image.jpg", 4000, 3000).has_value());
+}
+
+TEST(Exif, SurvivesCutsAndFlippedBytes) {
+  const std::string valid = JpegWithFocal(28, true);
+  for (size_t size = 0; size + 6 < valid.size(); ++size) {
+    FocalOf(valid.substr(0, size));
+  }
+  Random random(11);
+  for (int i = 0; i < 300; ++i) {
+    std::string broken = valid;
+    broken[random.Below(static_cast<uint32_t>(broken.size()))] =
+        static_cast<char>(random.Below(256));
+    FocalOf(broken);
+  }
+}
+
+}  // namespace
+}  // namespace lararium::capture

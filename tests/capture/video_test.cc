@@ -1,0 +1,211 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "shared/capture/frame_source.h"
+#include "shared/capture/video_writer.h"
+#include "shared/core/file.h"
+#include "shared/core/random.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::capture {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 96;
+constexpr int kBits = 10;
+constexpr int kFrames = 300;  // more than one group of pictures of the encoder
+
+// The number of a frame as ten black or white bars.
+cv::Mat NumberedImage(int number) {
+  cv::Mat image(kHeight, kWidth, CV_8UC3, cv::Scalar::all(0));
+  for (int bit = 0; bit < kBits; ++bit) {
+    if ((number >> bit & 1) != 0) {
+      image.colRange(16 * bit, 16 * bit + 16).setTo(cv::Scalar::all(255));
+    }
+  }
+  return image;
+}
+
+int ReadNumber(const cv::Mat& grey) {
+  int number = 0;
+  for (int bit = 0; bit < kBits; ++bit) {
+    const double mean = cv::mean(grey(cv::Rect(16 * bit + 4, 8, 8, kHeight - 16)))[0];
+    number |= (mean > 127.0 ? 1 : 0) << bit;
+  }
+  return number;
+}
+
+Status WriteNumberedVideo(const std::filesystem::path& file, int frames) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto writer, VideoWriter::Create(file, kWidth, kHeight, 30.0));
+  for (int i = 0; i < frames; ++i) {
+    LARARIUM_RETURN_IF_ERROR(writer->Write(NumberedImage(i)));
+  }
+  return writer->Finish();
+}
+
+class NumberedVideo : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new test::TemporaryFolder;
+    const Status written = WriteNumberedVideo(File(), kFrames);
+    ASSERT_TRUE(written.ok()) << written.message();
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::filesystem::path File() { return *folder_ / "numbers.mp4"; }
+
+  static std::unique_ptr<FrameSource> Open() {
+    auto source = OpenVideo(File());
+    EXPECT_TRUE(source.ok()) << source.message();
+    return std::move(source).value();
+  }
+
+  static test::TemporaryFolder* folder_;
+};
+test::TemporaryFolder* NumberedVideo::folder_ = nullptr;
+
+TEST_F(NumberedVideo, ReadsEveryFrameOnceInOrder) {
+  const auto source = Open();
+  EXPECT_EQ(source->width(), kWidth);
+  EXPECT_EQ(source->height(), kHeight);
+  EXPECT_DOUBLE_EQ(source->frames_per_second(), 30.0);
+  EXPECT_EQ(source->estimated_frame_count(), kFrames);
+  EXPECT_FALSE(source->frame_count().has_value());
+  for (int i = 0; i < kFrames; ++i) {
+    const auto frame = source->Next();
+    ASSERT_TRUE(frame.ok()) << frame.message();
+    ASSERT_TRUE(frame->has_value());
+    EXPECT_EQ((*frame)->index, i);
+    EXPECT_EQ(ReadNumber((*frame)->grey), i);
+    EXPECT_NEAR((*frame)->capture_time, i / 30.0, 1e-4);
+  }
+  const auto end = source->Next();
+  ASSERT_TRUE(end.ok());
+  EXPECT_FALSE(end->has_value());
+  EXPECT_EQ(source->frame_count(), kFrames);
+}
+
+TEST_F(NumberedVideo, SeeksToTheExactFrameInAnyOrder) {
+  const auto source = Open();
+  Random random(7);
+  for (int i = 0; i < 40; ++i) {
+    const int target = static_cast<int>(random.Below(kFrames));
+    const Status sought = source->Seek(target);
+    ASSERT_TRUE(sought.ok()) << sought.message();
+    for (int k = 0; k < 2 && target + k < kFrames; ++k) {
+      const auto frame = source->Next();
+      ASSERT_TRUE(frame.ok() && frame->has_value()) << "seed 7, frame " << target + k;
+      EXPECT_EQ((*frame)->index, target + k);
+      EXPECT_EQ(ReadNumber((*frame)->grey), target + k);
+    }
+  }
+}
+
+TEST_F(NumberedVideo, SeekingAgainGivesTheSamePixels) {
+  const auto source = Open();
+  ASSERT_TRUE(source->Seek(271).ok());
+  const cv::Mat first = source->Next()->value().bgr.clone();
+  ASSERT_TRUE(source->Seek(3).ok());
+  ASSERT_TRUE(source->Next()->has_value());
+  ASSERT_TRUE(source->Seek(271).ok());
+  EXPECT_EQ(cv::norm(first, source->Next()->value().bgr, cv::NORM_INF), 0.0);
+}
+
+TEST_F(NumberedVideo, SeekingOutsideIsAnErrorThatNamesTheFile) {
+  const auto source = Open();
+  EXPECT_THAT(source->Seek(-1).message(), HasSubstr("numbers.mp4"));
+  EXPECT_THAT(source->Seek(kFrames).message(), HasSubstr("300 frames"));
+  ASSERT_TRUE(source->Seek(5).ok());
+  EXPECT_EQ(ReadNumber(source->Next()->value().grey), 5);
+}
+
+TEST_F(NumberedVideo, FramesThatAreHeldKeepTheirPixels) {
+  const auto source = Open();
+  std::vector<geometry::Frame> held;
+  for (int i = 0; i < 40; ++i) {
+    held.push_back(source->Next()->value());
+  }
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_EQ(ReadNumber(held[i].grey), i);
+  }
+}
+
+TEST_F(NumberedVideo, CutOffFilesAreOneClearError) {
+  const auto bytes = ReadBytes(File());
+  ASSERT_TRUE(bytes.ok());
+  for (const double part : {0.01, 0.3, 0.9, 0.999}) {
+    const auto file = *folder_ / "cut.mp4";
+    const size_t size = static_cast<size_t>(part * static_cast<double>(bytes->size()));
+    ASSERT_TRUE(WriteFileAtomically(file, std::span(*bytes).first(size)).ok());
+    const auto source = OpenVideo(file);
+    ASSERT_FALSE(source.ok()) << part;
+    EXPECT_THAT(source.message(), HasSubstr("cut.mp4: "));
+  }
+}
+
+TEST(OpenVideo, RefusesWhatIsNoVideo) {
+  test::TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "empty.mp4", "").ok());
+  ASSERT_TRUE(WriteFileAtomically(folder / "text.mp4", "This is a letter, not a video.\n").ok());
+  ASSERT_TRUE(WriteFileAtomically(folder / "list.m3u8", "#EXTM3U\n#EXTINF:1,\nother.ts\n").ok());
+  for (const char* name : {"empty.mp4", "text.mp4", "list.m3u8", "absent.mp4", "."}) {
+    const auto source = OpenVideo(folder / name);
+    ASSERT_FALSE(source.ok()) << name;
+    EXPECT_THAT(source.message(), HasSubstr(name));
+  }
+}
+
+TEST(VideoWriter, KeepsColours) {
+  test::TemporaryFolder folder;
+  const auto file = folder / "colours.mp4";
+  const cv::Vec3b colours[] = {{40, 40, 200},   {40, 180, 60}, {190, 70, 50},
+                               {128, 128, 128}, {10, 10, 10},  {245, 245, 245}};
+  cv::Mat image(128, 192, CV_8UC3);
+  for (int i = 0; i < 6; ++i) {
+    image.colRange(32 * i, 32 * i + 32).setTo(colours[i]);
+  }
+  auto writer = VideoWriter::Create(file, image.cols, image.rows, 25.0);
+  ASSERT_TRUE(writer.ok()) << writer.message();
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE((*writer)->Write(image).ok());
+  }
+  ASSERT_TRUE((*writer)->Finish().ok());
+  const auto source = OpenVideo(file);
+  ASSERT_TRUE(source.ok()) << source.message();
+  const cv::Mat read = (*source)->Next()->value().bgr;
+  for (int i = 0; i < 6; ++i) {
+    const cv::Scalar mean = cv::mean(read(cv::Rect(32 * i + 8, 8, 16, 112)));
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(mean[c], colours[i][c], 3.0) << "colour " << i << " channel " << c;
+    }
+  }
+}
+
+TEST(VideoWriter, LeavesNothingWhenUnfinished) {
+  test::TemporaryFolder folder;
+  {
+    auto writer = VideoWriter::Create(folder / "half.mp4", kWidth, kHeight, 30.0);
+    ASSERT_TRUE(writer.ok()) << writer.message();
+    ASSERT_TRUE((*writer)->Write(NumberedImage(1)).ok());
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(VideoWriter, RefusesWhatItCannotWrite) {
+  test::TemporaryFolder folder;
+  EXPECT_THAT(VideoWriter::Create(folder / "odd.mp4", 161, 96, 30.0).message(), HasSubstr("even"));
+  EXPECT_THAT(VideoWriter::Create(folder / "rate.mp4", 160, 96, 0.0).message(),
+              HasSubstr("frame rate"));
+  EXPECT_FALSE(VideoWriter::Create(folder / "no" / "such.mp4", 160, 96, 30.0).ok());
+  auto writer = VideoWriter::Create(folder / "size.mp4", kWidth, kHeight, 30.0);
+  ASSERT_TRUE(writer.ok());
+  EXPECT_THAT((*writer)->Write(cv::Mat(10, 10, CV_8UC3)).message(), HasSubstr("10x10"));
+}
+
+}  // namespace
+}  // namespace lararium::capture
