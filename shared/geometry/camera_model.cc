@@ -1,5 +1,6 @@
 #include "shared/geometry/camera_model.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
