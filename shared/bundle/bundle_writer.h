@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -14,10 +15,10 @@
 
 namespace lararium::bundle {
 
-// A member to be: its bytes, or the file that holds them.
+// A member to be: its bytes, which are borrowed, or the file that holds them.
 struct MemberContent {
   std::string name;
-  std::variant<std::vector<std::byte>, std::filesystem::path> content;
+  std::variant<std::span<const std::byte>, std::filesystem::path> content;
 };
 
 // Writes manifest and members to path, in their order, replacing it as a whole

@@ -3,12 +3,12 @@
 // manifest.json of a bundle: what the show consists of, and which members hold it.
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "shared/bundle/sha256.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
 #include "shared/light/spherical_harmonics.h"
@@ -19,7 +19,7 @@ namespace lararium::bundle {
 struct Member {
   std::string name;
   uint64_t size = 0;
-  std::array<uint8_t, 32> sha256 = {};
+  Sha256 sha256 = {};
 };
 
 struct OccluderEntry {

@@ -1,0 +1,104 @@
+#include "shared/bundle/bundle.h"
+
+#include <zlib.h>
+
+#include <vector>
+
+#include "shared/bundle/member_name.h"
+#include "shared/bundle/zip_layout.h"
+#include "shared/bundle/zip_reader.h"
+#include "shared/core/parallel.h"
+
+namespace lararium::bundle {
+namespace {
+
+constexpr char kCopyAgain[] = "copy the bundle again, or export it again";
+
+// The manifest vouches for all other members; for itself it has the archive's
+// CRC-32, which tells every change of a few bytes.
+Result<ShowManifest> ReadManifest(const ZipMember& member, const std::string& place) {
+  if (member.name != kManifestName || member.data.size() > kMaxManifestBytes) {
+    return Status::Error(place, "not a bundle of this program: it does not begin with a manifest",
+                         "export the bundle with lararium-editor");
+  }
+  const auto* bytes = reinterpret_cast<const Bytef*>(member.data.data());
+  if (crc32_z(0, bytes, member.data.size()) != member.crc32) {
+    return Status::Error(place, "the bundle is damaged: its manifest was changed", kCopyAgain);
+  }
+  const std::string_view text(reinterpret_cast<const char*>(bytes), member.data.size());
+  return ParseShowManifest(text, place + ": " + std::string(kManifestName));
+}
+
+// What is in the archive is what the manifest lists, in the same order.
+Status CheckListing(const ShowManifest& manifest,
+                    std::span<const ZipMember> members,
+                    const std::string& place) {
+  for (size_t i = 0; i < manifest.members.size(); ++i) {
+    const Member& listed = manifest.members[i];
+    if (i >= members.size() || members[i].name != listed.name) {
+      return Status::Error(
+          place, "the bundle is damaged: the member '" + listed.name + "' is not in its place",
+          kCopyAgain);
+    }
+    if (members[i].data.size() != listed.size) {
+      return Status::Error(place,
+                           "the bundle is damaged: '" + listed.name + "' has " +
+                               std::to_string(members[i].data.size()) + " bytes instead of " +
+                               std::to_string(listed.size),
+                           kCopyAgain);
+    }
+  }
+  if (members.size() > manifest.members.size()) {
+    const std::string name(members[manifest.members.size()].name);
+    return Status::Error(place, "the bundle is damaged: the manifest does not list '" + name + "'",
+                         kCopyAgain);
+  }
+  return Status();
+}
+
+Status CheckHashes(const ShowManifest& manifest,
+                   std::span<const ZipMember> members,
+                   const std::string& place) {
+  std::vector<char> intact(members.size(), 0);
+  ParallelFor(members.size(), [&](size_t i) {
+    intact[i] = ComputeSha256(members[i].data) == manifest.members[i].sha256 ? 1 : 0;
+  });
+  for (size_t i = 0; i < members.size(); ++i) {
+    if (intact[i] == 0) {
+      return Status::Error(place,
+                           "the bundle is damaged: '" + manifest.members[i].name + "' was changed",
+                           kCopyAgain);
+    }
+  }
+  return Status();
+}
+
+}  // namespace
+
+Result<Bundle> Bundle::Open(const std::filesystem::path& path) {
+  const std::string place = path.string();
+  LARARIUM_ASSIGN_OR_RETURN(MappedFile file, MappedFile::Open(path));
+  Bundle bundle(place, std::move(file));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<ZipMember> all, ReadZip(bundle.file_.bytes(), place));
+  if (all.empty()) {
+    return Status::Error(place, "the bundle has no members", kCopyAgain);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(bundle.manifest_, ReadManifest(all[0], place));
+  const std::span<const ZipMember> members = std::span(all).subspan(1);
+  LARARIUM_RETURN_IF_ERROR(CheckListing(bundle.manifest_, members, place));
+  LARARIUM_RETURN_IF_ERROR(CheckHashes(bundle.manifest_, members, place));
+  for (const ZipMember& member : members) {
+    bundle.members_.emplace(member.name, member.data);
+  }
+  return bundle;
+}
+
+Result<std::span<const std::byte>> Bundle::member(std::string_view name) const {
+  const auto found = members_.find(name);
+  if (found == members_.end()) {
+    return Status::Error(place_, "there is no member '" + std::string(name) + "'");
+  }
+  return found->second;
+}
+
+}  // namespace lararium::bundle

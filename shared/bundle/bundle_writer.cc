@@ -1,0 +1,145 @@
+#include "shared/bundle/bundle_writer.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zip.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include "shared/bundle/member_name.h"
+#include "shared/bundle/zip_layout.h"
+#include "shared/core/file.h"
+
+namespace lararium::bundle {
+namespace {
+
+// Ends an archive without writing, unless it was written before.
+struct Discard {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+using Archive = std::unique_ptr<zip_t, Discard>;
+
+Status ZipError(const std::filesystem::path& path, zip_error_t* error) {
+  return Status::Error(path.string(), std::string("cannot write: ") + zip_error_strerror(error));
+}
+
+Result<Archive> OpenArchive(const std::filesystem::path& path) {
+  int code = 0;
+  zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
+  if (archive == nullptr) {
+    zip_error_t error;
+    zip_error_init_with_code(&error, code);
+    const Status status = ZipError(path, &error);
+    zip_error_fini(&error);
+    return status;
+  }
+  return Archive(archive);
+}
+
+// Where the bytes of a member lie while the archive is written.
+struct Source {
+  std::string name;
+  std::span<const std::byte> bytes;
+};
+
+// Adds a member whose local header will begin at offset, and moves offset on.
+bool AddMember(zip_t* archive, const Source& source, uint64_t& offset) {
+  zip_source_t* buffer = zip_source_buffer(archive, source.bytes.data(), source.bytes.size(), 0);
+  if (buffer == nullptr) {
+    return false;
+  }
+  const zip_int64_t added = zip_file_add(archive, source.name.c_str(), buffer, ZIP_FL_ENC_GUESS);
+  if (added < 0) {
+    zip_source_free(buffer);
+    return false;
+  }
+  const auto index = static_cast<zip_uint64_t>(added);
+  const size_t extra_size = ExtraSize(offset, source.name.size());
+  std::vector<zip_uint8_t> extra(extra_size - kExtraHeaderSize, 0);
+  extra[0] = kAlignment;
+  offset += kLocalSize + source.name.size() + extra_size + source.bytes.size();
+  return zip_set_file_compression(archive, index, ZIP_CM_STORE, 0) == 0 &&
+         zip_file_set_dostime(archive, index, kDosTime, kDosDate, 0) == 0 &&
+         zip_file_set_external_attributes(archive, index, 0, ZIP_OPSYS_DOS, 0) == 0 &&
+         zip_file_extra_field_set(archive, index, kAlignmentField, ZIP_EXTRA_FIELD_NEW,
+                                  extra.data(), static_cast<zip_uint16_t>(extra.size()),
+                                  ZIP_FL_LOCAL) == 0;
+}
+
+Status WriteArchive(const std::filesystem::path& path, const std::vector<Source>& sources) {
+  LARARIUM_ASSIGN_OR_RETURN(Archive archive, OpenArchive(path));
+  uint64_t offset = 0;
+  for (const Source& source : sources) {
+    if (!AddMember(archive.get(), source, offset)) {
+      return ZipError(path, zip_get_error(archive.get()));
+    }
+  }
+  if (offset > kMaxBundleBytes) {
+    return Status::Error(path.string(), "the bundle would be larger than 4 GiB",
+                         "leave out or shrink what is large");
+  }
+  if (zip_close(archive.get()) != 0) {
+    return ZipError(path, zip_get_error(archive.get()));
+  }
+  static_cast<void>(archive.release());  // zip_close has freed it
+  return Status();
+}
+
+// Makes what was written to `from` durable, and gives it its name.
+Status Publish(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const auto sync = [](const std::filesystem::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+    if (descriptor >= 0) {
+      ::close(descriptor);
+    }
+    return synced;
+  };
+  if (!sync(from) || ::rename(from.c_str(), to.c_str()) != 0) {
+    return Status::Error(to.string(), std::string("cannot replace: ") + std::strerror(errno));
+  }
+  sync(to.has_parent_path() ? to.parent_path() : std::filesystem::path("."));
+  return Status();
+}
+
+}  // namespace
+
+Status WriteBundle(const std::filesystem::path& path,
+                   ShowManifest manifest,
+                   const std::vector<MemberContent>& members) {
+  std::vector<MappedFile> files;
+  std::vector<Source> sources = {{std::string(kManifestName), {}}};
+  manifest.members.clear();
+  for (const MemberContent& member : members) {
+    std::span<const std::byte> bytes;
+    if (const auto* file = std::get_if<std::filesystem::path>(&member.content)) {
+      LARARIUM_ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::Open(*file));
+      bytes = mapped.bytes();
+      files.push_back(std::move(mapped));
+    } else {
+      bytes = std::get<std::span<const std::byte>>(member.content);
+    }
+    sources.push_back({member.name, bytes});
+    manifest.members.push_back({member.name, bytes.size(), ComputeSha256(bytes)});
+  }
+  const std::string text = FormatShowManifest(manifest);
+  if (const auto parsed = ParseShowManifest(text, path.string() + ": manifest.json");
+      !parsed.ok()) {
+    return parsed.status();
+  }
+  sources[0].bytes = std::as_bytes(std::span(text));
+
+  const std::filesystem::path unfinished = path.string() + ".part";
+  Status status = WriteArchive(unfinished, sources);
+  if (status.ok()) {
+    status = Publish(unfinished, path);
+  }
+  if (!status.ok()) {
+    ::unlink(unfinished.c_str());
+  }
+  return status;
+}
+
+}  // namespace lararium::bundle

@@ -1,0 +1,218 @@
+#include "shared/bundle/show_manifest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "shared/bundle/member_name.h"
+#include "shared/bundle/zip_layout.h"
+#include "shared/core/json.h"
+
+namespace lararium::bundle {
+namespace {
+
+constexpr size_t kMaxName = 200;
+constexpr size_t kMaxTitle = 1000;
+constexpr size_t kMaxPlaces = 64;
+constexpr size_t kMaxCast = 256;
+constexpr size_t kMaxOccluders = 256;
+constexpr size_t kMaxCredits = 1 << 20;
+
+// The field key of a list, element by element through parse.
+template <typename T>
+Result<std::vector<T>> ParseList(const JsonView& json,
+                                 std::string_view key,
+                                 size_t max_count,
+                                 Result<T> (*parse)(const JsonView&)) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field(key));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> items, field.Array(max_count));
+  std::vector<T> list;
+  std::set<std::string> names;
+  for (const JsonView& item : items) {
+    LARARIUM_ASSIGN_OR_RETURN(T entry, parse(item));
+    if (entry.name.empty() || !names.insert(entry.name).second) {
+      return item.Problem("the name '" + entry.name + "' is empty or used twice");
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Result<std::string> ParseMemberName(const JsonView& json, std::string_view key) {
+  LARARIUM_ASSIGN_OR_RETURN(std::string name, json.Text(key, kMaxMemberName));
+  if (!IsMemberName(name) || name == kManifestName) {
+    return json.Problem("the field \"" + std::string(key) + "\" is not a possible member name");
+  }
+  return name;
+}
+
+Result<geometry::Similarity3> ParseSimilarity(const JsonView& json, std::string_view key) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field(key));
+  LARARIUM_ASSIGN_OR_RETURN(const double scale, field.Number("scale", 1e-9, 1e9));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> q, field.Numbers("rotation", 4));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> t, field.Numbers("translation", 3));
+  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(rotation.norm() - 1.0) < 1e-6)) {
+    return field.Problem("the rotation is not a unit quaternion");
+  }
+  return geometry::Similarity3{scale, rotation, Eigen::Vector3d(t[0], t[1], t[2])};
+}
+
+Json FormatSimilarity(const geometry::Similarity3& a_from_b) {
+  const Eigen::Quaterniond& q = a_from_b.rotation;
+  const Eigen::Vector3d& t = a_from_b.translation;
+  return {{"scale", a_from_b.scale},
+          {"rotation", {q.w(), q.x(), q.y(), q.z()}},
+          {"translation", {t.x(), t.y(), t.z()}}};
+}
+
+Result<light::ShRgb> ParseLight(const JsonView& json) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> numbers,
+                            json.Numbers("light", 3 * light::kShCount));
+  light::ShRgb light;
+  for (size_t i = 0; i < light.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto value = static_cast<float>(numbers[3 * i + static_cast<size_t>(channel)]);
+      if (!std::isfinite(value)) {
+        return json.Problem("the light holds a number that is too large");
+      }
+      light[i][channel] = value;
+    }
+  }
+  return light;
+}
+
+Json FormatLight(const light::ShRgb& light) {
+  Json numbers = Json::array();
+  for (const glm::vec3& coefficient : light) {
+    numbers.insert(numbers.end(), {coefficient.r, coefficient.g, coefficient.b});
+  }
+  return numbers;
+}
+
+Result<OccluderEntry> ParseOccluder(const JsonView& json) {
+  OccluderEntry occluder;
+  LARARIUM_ASSIGN_OR_RETURN(occluder.name, json.Text("name", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(occluder.mesh, ParseMemberName(json, "mesh"));
+  LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(json, "stage_from_mesh"));
+  return occluder;
+}
+
+Result<PlaceEntry> ParsePlace(const JsonView& json) {
+  PlaceEntry place;
+  LARARIUM_ASSIGN_OR_RETURN(place.name, json.Text("name", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(place.scene, ParseMemberName(json, "scene"));
+  LARARIUM_ASSIGN_OR_RETURN(place.map_from_stage, ParseSimilarity(json, "map_from_stage"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> nudge, json.Numbers("camera_nudge", 3));
+  place.camera_nudge = {nudge[0], nudge[1], nudge[2]};
+  LARARIUM_ASSIGN_OR_RETURN(place.occluders,
+                            ParseList(json, "occluders", kMaxOccluders, ParseOccluder));
+  LARARIUM_ASSIGN_OR_RETURN(place.light, ParseLight(json));
+  return place;
+}
+
+Result<CastEntry> ParseCast(const JsonView& json) {
+  CastEntry cast;
+  LARARIUM_ASSIGN_OR_RETURN(cast.name, json.Text("name", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(cast.human, ParseMemberName(json, "human"));
+  return cast;
+}
+
+Result<Member> ParseMember(const JsonView& json) {
+  Member member;
+  LARARIUM_ASSIGN_OR_RETURN(member.name, ParseMemberName(json, "name"));
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t size, json.Integer("size", 0, kMaxBundleBytes));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, json.Text("sha256", 64));
+  const std::optional<Sha256> hash = ParseSha256(text);
+  if (!hash) {
+    return json.Problem("the field \"sha256\" is not 64 hexadecimal digits");
+  }
+  member.size = static_cast<uint64_t>(size);
+  member.sha256 = *hash;
+  return member;
+}
+
+// Everything that names a member names one that is listed.
+Status CheckReferences(const ShowManifest& manifest, const JsonView& json) {
+  std::set<std::string_view> known;
+  for (const Member& member : manifest.members) {
+    known.insert(member.name);
+  }
+  std::vector<std::string_view> used = {manifest.drama};
+  for (const CastEntry& cast : manifest.cast) {
+    used.push_back(cast.human);
+  }
+  for (const PlaceEntry& place : manifest.places) {
+    used.push_back(place.scene);
+    for (const OccluderEntry& occluder : place.occluders) {
+      used.push_back(occluder.mesh);
+    }
+  }
+  for (const std::string_view name : used) {
+    if (!known.contains(name)) {
+      return json.Problem("the member '" + std::string(name) + "' is used but not listed",
+                          "export the bundle again");
+    }
+  }
+  return Status();
+}
+
+}  // namespace
+
+Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& place) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json root, ParseJson(text, place));
+  const JsonView json(root, place);
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t schema,
+                            json.Integer("schema", 1, std::numeric_limits<int32_t>::max()));
+  if (schema > ShowManifest::kSchema) {
+    return json.Problem("the bundle has version " + std::to_string(schema) +
+                            ", this program reads up to " + std::to_string(ShowManifest::kSchema),
+                        "it needs a newer player");
+  }
+  ShowManifest manifest;
+  LARARIUM_ASSIGN_OR_RETURN(manifest.title, json.Text("title", kMaxTitle));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.credits, json.Text("credits", kMaxCredits));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.drama, ParseMemberName(json, "drama"));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.places, ParseList(json, "places", kMaxPlaces, ParsePlace));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.cast, ParseList(json, "cast", kMaxCast, ParseCast));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.members,
+                            ParseList(json, "members", kMaxMembers - 1, ParseMember));
+  if (manifest.places.empty()) {
+    return json.Problem("the show has no place", "export the bundle again");
+  }
+  LARARIUM_RETURN_IF_ERROR(CheckReferences(manifest, json));
+  return manifest;
+}
+
+std::string FormatShowManifest(const ShowManifest& manifest) {
+  Json json = {{"schema", ShowManifest::kSchema}, {"title", manifest.title},
+               {"credits", manifest.credits},     {"drama", manifest.drama},
+               {"places", Json::array()},         {"cast", Json::array()},
+               {"members", Json::array()}};
+  for (const PlaceEntry& place : manifest.places) {
+    Json occluders = Json::array();
+    for (const OccluderEntry& occluder : place.occluders) {
+      occluders.push_back({{"name", occluder.name},
+                           {"mesh", occluder.mesh},
+                           {"stage_from_mesh", FormatSimilarity(occluder.stage_from_mesh)}});
+    }
+    const Eigen::Vector3d& nudge = place.camera_nudge;
+    json["places"].push_back({{"name", place.name},
+                              {"scene", place.scene},
+                              {"map_from_stage", FormatSimilarity(place.map_from_stage)},
+                              {"camera_nudge", {nudge.x(), nudge.y(), nudge.z()}},
+                              {"occluders", std::move(occluders)},
+                              {"light", FormatLight(place.light)}});
+  }
+  for (const CastEntry& cast : manifest.cast) {
+    json["cast"].push_back({{"name", cast.name}, {"human", cast.human}});
+  }
+  for (const Member& member : manifest.members) {
+    json["members"].push_back(
+        {{"name", member.name}, {"size", member.size}, {"sha256", FormatSha256(member.sha256)}});
+  }
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lararium::bundle
