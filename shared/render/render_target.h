@@ -1,0 +1,41 @@
+#pragma once
+
+// Where pictures are drawn: sRGB-encoded, 8 bits, top row first.
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+
+#include "shared/core/status.h"
+#include "shared/render/gl_object.h"
+
+namespace lararium::render {
+
+class RenderTarget {
+ public:
+  static Result<RenderTarget> Create(int width, int height);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  // As ImGui takes it: texture coordinate (0, 0) is the top-left corner.
+  uint32_t texture() const { return colour_.id(); }
+  uint32_t framebuffer() const { return framebuffer_.id(); }
+
+  // Waits for the drawing. bgr: CV_8UC3, allocated when its size is another.
+  void ReadPixels(cv::Mat& bgr) const;
+
+  // Draws the picture as large as it fits into the window's framebuffer, with
+  // black bars where the proportions differ.
+  void Present(int framebuffer_width, int framebuffer_height) const;
+
+ private:
+  RenderTarget() = default;
+
+  int width_ = 0;
+  int height_ = 0;
+  GlTexture colour_;
+  GlRenderbuffer depth_;  // for overlays
+  GlFramebuffer framebuffer_;
+  mutable cv::Mat read_;  // RGBA, kept between calls
+};
+
+}  // namespace lararium::render

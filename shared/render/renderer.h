@@ -1,0 +1,49 @@
+#pragma once
+
+// Draws people into the camera's image. OpenGL 3.3 core, or ES 3.0.
+//
+// Passes: occluders into depth only; the camera image, undistorted, behind
+// everything; people, skinned on the GPU and lit by spherical harmonics. All in
+// linear light with 16-bit floats; the last pass clips and encodes as sRGB.
+
+#include <memory>
+
+#include "shared/core/status.h"
+#include "shared/geometry/triangle_mesh.h"
+#include "shared/human/human.h"
+#include "shared/render/render_scene.h"
+#include "shared/render/render_target.h"
+
+namespace lararium::render {
+
+struct RendererOptions {
+  int samples = 4;  // of each pixel, for smooth edges; 1: none. At most what the driver offers.
+};
+
+class Renderer {
+ public:
+  // Needs a current context; everything else happens on its thread.
+  static Result<std::unique_ptr<Renderer>> Create(const RendererOptions& options = {});
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // What is added must be valid (TriangleMesh::Validate, Human::Validate).
+  MeshHandle AddMesh(const geometry::TriangleMesh& mesh);
+  HumanHandle AddHuman(const human::Human& human);
+  void RemoveMesh(MeshHandle mesh);
+  void RemoveHuman(HumanHandle human);
+
+  // Fills the whole target. On error (a stale handle, matrices missing, out of
+  // memory) the target's content is undefined.
+  Status Draw(const RenderScene& scene, const RenderTarget& target);
+
+ private:
+  friend class Overlay;
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lararium::render

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+
+#include "shared/render/gl_object.h"
+
+namespace lararium::render {
+
+// An image on the GPU.
+class Texture {
+ public:
+  enum class Encoding {
+    kRaw,     // shaders see the stored numbers: for ImGui
+    kLinear,  // stored as sRGB, shaders see linear light
+  };
+  explicit Texture(Encoding encoding = Encoding::kRaw) : encoding_(encoding) {}
+
+  // bgr: CV_8UC3, not empty. Storage is kept while the size stays the same.
+  void Upload(const cv::Mat& bgr);
+
+  // 0 before the first upload. Coordinate (0, 0) is the top-left corner.
+  uint32_t id() const { return texture_.id(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  Encoding encoding_;
+  GlTexture texture_;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+}  // namespace lararium::render

@@ -1,0 +1,71 @@
+#pragma once
+
+// A window with an OpenGL 3.3 core context (GLFW).
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "shared/core/status.h"
+
+struct GLFWwindow;
+
+namespace lararium::render {
+
+struct WindowOptions {
+  std::string title = "Lararium";
+  int width = 1280;  // screen coordinates, of a window that is not full screen
+  int height = 720;
+  std::optional<int> monitor;  // full screen on this monitor, 0 is the primary one
+  bool vsync = true;
+  bool visible = true;
+};
+
+// Codes are GLFW's. Positions are in screen coordinates from the top-left corner.
+struct WindowCallbacks {
+  std::function<void(int key, int action, int modifiers)> key;
+  std::function<void(int button, int action, int modifiers)> mouse_button;
+  std::function<void(double x, double y)> cursor;
+  std::function<void(double x, double y)> scroll;
+  std::function<void(int width, int height)> resize;  // framebuffer, pixels
+};
+
+// Move-only. Use it on the main thread only.
+class Window {
+ public:
+  // Makes the window's context current. Fails with a clear message where there
+  // is no display or no OpenGL 3.3.
+  static Result<Window> Create(const WindowOptions& options);
+  Window(Window&&) noexcept;
+  Window& operator=(Window&&) noexcept;
+  ~Window();
+
+  void SetCallbacks(WindowCallbacks callbacks);
+  void SetTitle(const std::string& title);
+
+  // Shows what was drawn; waits for the display when vsync is on.
+  void SwapBuffers();
+  // Handles input, without waiting; WaitEvents sleeps until something happens.
+  void PollEvents();
+  void WaitEvents(double timeout_seconds);
+
+  bool ShouldClose() const;
+  void RequestClose();
+
+  struct Size {
+    int width = 0;
+    int height = 0;
+  };
+  Size framebuffer_size() const;  // pixels; 0 x 0 while minimised
+  float content_scale() const;    // 2 on a display of double density
+  GLFWwindow* handle() const;     // for ImGui's back end
+
+ private:
+  struct State;
+  explicit Window(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lararium::render
