@@ -1,0 +1,200 @@
+#include "editor/bake/probe.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <exception>
+#include <glm/common.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "shared/core/file.h"
+
+namespace lararium::bake {
+namespace {
+
+constexpr int kMaxWidth = 16384;
+// Negative texels down to this share of the mean are taken for ringing.
+constexpr double kMaxRinging = 0.05;
+// Outdoors or by a window the brightest texel exceeds the mean many times over.
+constexpr double kLowDynamicRange = 4.0;
+
+Status CheckSize(const std::string& place, int64_t width, int64_t height) {
+  if (width < 8 || width > kMaxWidth || width != 2 * height) {
+    return Status::Error(place,
+                         "the probe is " + std::to_string(width) + " x " + std::to_string(height),
+                         "a probe is equirectangular, twice as wide as high, 8 to " +
+                             std::to_string(kMaxWidth) + " pixels wide");
+  }
+  return Status();
+}
+
+// The RGB channels of an OpenEXR file's data window.
+Result<ProbeImage> ReadExr(const std::filesystem::path& file) {
+  try {
+    Imf::InputFile input(file.c_str());
+    const Imath::Box2i window = input.header().dataWindow();
+    const int64_t width = int64_t{window.max.x} - window.min.x + 1;
+    const int64_t height = int64_t{window.max.y} - window.min.y + 1;
+    LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), width, height));
+    ProbeImage image{static_cast<int>(width), static_cast<int>(height), {}, {}};
+    image.pixels.resize(static_cast<size_t>(width * height));
+    Imf::FrameBuffer buffer;
+    const char* names[3] = {"R", "G", "B"};
+    for (int channel = 0; channel < 3; ++channel) {
+      const Imf::Channel* found = input.header().channels().findChannel(names[channel]);
+      if (found == nullptr || found->xSampling != 1 || found->ySampling != 1) {
+        return Status::Error(file.string(), std::string("no full channel '") + names[channel] + "'",
+                             "save the probe as plain RGB");
+      }
+      buffer.insert(names[channel], Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][channel], window,
+                                                     sizeof(glm::vec3), sizeof(glm::vec3) * width));
+    }
+    input.setFrameBuffer(buffer);
+    input.readPixels(window.min.y, window.max.y);
+    return image;
+  } catch (const std::exception& error) {
+    return Status::Error(file.string(), std::string("cannot be read as OpenEXR: ") + error.what());
+  }
+}
+
+Result<ProbeImage> ReadRadiance(const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+  const std::string_view magic(reinterpret_cast<const char*>(bytes.data()),
+                               std::min<size_t>(bytes.size(), 2));
+  if (magic != "#?") {
+    return Status::Error(file.string(), "not a Radiance .hdr image");
+  }
+  try {
+    const cv::Mat bgr = cv::imdecode(
+        cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::byte*>(bytes.data())),
+        cv::IMREAD_ANYDEPTH | cv::IMREAD_COLOR);
+    if (bgr.empty() || bgr.type() != CV_32FC3) {
+      return Status::Error(file.string(), "cannot be read as a Radiance .hdr image");
+    }
+    LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), bgr.cols, bgr.rows));
+    ProbeImage image{bgr.cols, bgr.rows, {}, {}};
+    image.pixels.reserve(bgr.total());
+    for (int row = 0; row < bgr.rows; ++row) {
+      for (int column = 0; column < bgr.cols; ++column) {
+        const cv::Vec3f& texel = bgr.at<cv::Vec3f>(row, column);
+        image.pixels.emplace_back(texel[2], texel[1], texel[0]);
+      }
+    }
+    return image;
+  } catch (const std::exception& error) {
+    return Status::Error(file.string(), std::string("cannot be read: ") + error.what());
+  }
+}
+
+std::string PixelName(const ProbeImage& image, size_t index) {
+  return "pixel (" + std::to_string(index % image.width) + ", " +
+         std::to_string(index / image.width) + ")";
+}
+
+float Smallest(const glm::vec3& v) { return std::min({v.r, v.g, v.b}); }
+
+// The mean of the finite texels, over pixels and channels.
+Result<double> MeanRadiance(const ProbeImage& image, const std::string& place) {
+  double sum = 0.0;
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const glm::vec3& texel = image.pixels[i];
+    if (!std::isfinite(texel.r) || !std::isfinite(texel.g) || !std::isfinite(texel.b)) {
+      return Status::Error(place, PixelName(image, i) + " is not a finite number",
+                           "repair the image where it was made");
+    }
+    sum += (static_cast<double>(texel.r) + texel.g + texel.b) / 3.0;
+  }
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+Status ClampNegatives(ProbeImage& image, double mean, const std::string& place) {
+  size_t count = 0;
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const float smallest = Smallest(image.pixels[i]);
+    if (smallest < -kMaxRinging * mean) {
+      return Status::Error(place, PixelName(image, i) + " is negative",
+                           "radiance cannot be; repair the image where it was made");
+    }
+    if (smallest < 0.0f) {
+      image.pixels[i] = glm::max(image.pixels[i], glm::vec3(0.0f));
+      ++count;
+    }
+  }
+  if (count > 0) {
+    image.warnings.push_back(std::to_string(count) + " slightly negative pixels were set to 0");
+  }
+  return Status();
+}
+
+void WarnOfLowRange(ProbeImage& image, double mean) {
+  double brightest = 0.0;
+  for (const glm::vec3& texel : image.pixels) {
+    brightest = std::max({brightest, static_cast<double>(texel.r), static_cast<double>(texel.g),
+                          static_cast<double>(texel.b)});
+  }
+  if (brightest < kLowDynamicRange * mean) {
+    image.warnings.push_back(
+        "the brightest pixel is less than four times the mean: perhaps not a high-dynamic-range "
+        "image; lamps and the sun would be too weak");
+  }
+}
+
+std::string LowerExtension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+Result<ProbeImage> ReadByExtension(const std::filesystem::path& file) {
+  const std::string extension = LowerExtension(file);
+  if (extension == ".exr") {
+    return ReadExr(file);
+  }
+  if (extension == ".hdr") {
+    return ReadRadiance(file);
+  }
+  return Status::Error(file.string(), "not a kind of HDR image that is known here",
+                       "use OpenEXR (.exr) or Radiance (.hdr)");
+}
+
+}  // namespace
+
+Result<ProbeImage> ReadProbeImage(const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ReadByExtension(file));
+  LARARIUM_ASSIGN_OR_RETURN(const double mean, MeanRadiance(image, file.string()));
+  if (!(mean > 0.0)) {
+    return Status::Error(file.string(), "the probe is black", "use an image that holds light");
+  }
+  LARARIUM_RETURN_IF_ERROR(ClampNegatives(image, mean, file.string()));
+  WarnOfLowRange(image, mean);
+  return image;
+}
+
+light::ShRgb ProjectProbe(const ProbeImage& image, const ProbePlacement& placement) {
+  light::ShRgb radiance =
+      light::RotateSh(light::ProjectEquirectangular(image.pixels, image.width, image.height),
+                      placement.stage_from_probe);
+  for (glm::vec3& coefficient : radiance) {
+    coefficient *= placement.radiance_scale;
+  }
+  return radiance;
+}
+
+Result<light::ShRgb> BakeProbe(const std::filesystem::path& file, const ProbePlacement& placement) {
+  if (!std::isfinite(placement.radiance_scale) || placement.radiance_scale <= 0.0f ||
+      !(std::abs(glm::length(placement.stage_from_probe) - 1.0f) < 1e-3f)) {
+    return Status::Error(file.string(), "the probe's orientation or scale is impossible",
+                         "give a unit quaternion and a scale above 0");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const ProbeImage image, ReadProbeImage(file));
+  return ProjectProbe(image, placement);
+}
+
+}  // namespace lararium::bake
