@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <numeric>
 
 namespace lararium {
 namespace {
 
-double Mean(const std::vector<double>& values) {
-  return values.empty() ? 0.0
-                        : std::accumulate(values.begin(), values.end(), 0.0) /
-                              static_cast<double>(values.size());
-}
+constexpr double kSmallestMs = 1e-3;
+constexpr double kBinRatio = 1.01;
 
 }  // namespace
 
@@ -32,21 +28,50 @@ double ThreadCpuMilliseconds() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-void StageTimes::Reserve(size_t frames) {
-  wall_ms_.reserve(frames);
-  cpu_ms_.reserve(frames);
+void DurationHistogram::Add(double milliseconds) {
+  const double bin =
+      std::log(std::max(milliseconds, kSmallestMs) / kSmallestMs) / std::log(kBinRatio);
+  ++bins_[std::min(static_cast<size_t>(bin), kBins - 1)];
+  ++count_;
+  sum_ += milliseconds;
+  max_ = std::max(max_, milliseconds);
+}
+
+double DurationHistogram::mean() const {
+  return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_);
+}
+
+double DurationHistogram::Quantile(double q) const {
+  if (count_ == 0) {
+    return 0.0;
+  }
+  const auto rank =
+      static_cast<uint64_t>(std::lround(std::clamp(q, 0.0, 1.0) * static_cast<double>(count_ - 1)));
+  uint64_t below = 0;
+  for (size_t bin = 0; bin < kBins; ++bin) {
+    below += bins_[bin];
+    if (below > rank) {
+      const double middle = kSmallestMs * std::pow(kBinRatio, static_cast<double>(bin) + 0.5);
+      return std::min(middle, max_);
+    }
+  }
+  return max_;
 }
 
 void StageTimes::Add(double wall_ms, double cpu_ms) {
-  wall_ms_.push_back(wall_ms);
-  cpu_ms_.push_back(cpu_ms);
+  wall_.Add(wall_ms);
+  cpu_.Add(cpu_ms);
 }
 
 Json StageTimes::ToJson() const {
-  return {{"count", wall_ms_.size()},           {"mean", Mean(wall_ms_)},
-          {"p50", Quantile(wall_ms_, 0.50)},    {"p95", Quantile(wall_ms_, 0.95)},
-          {"max", Quantile(wall_ms_, 1.0)},     {"cpu_mean", Mean(cpu_ms_)},
-          {"cpu_p50", Quantile(cpu_ms_, 0.50)}, {"cpu_p95", Quantile(cpu_ms_, 0.95)}};
+  return {{"count", wall_.count()},
+          {"mean", wall_.mean()},
+          {"p50", wall_.Quantile(0.50)},
+          {"p95", wall_.Quantile(0.95)},
+          {"max", wall_.max()},
+          {"cpu_mean", cpu_.mean()},
+          {"cpu_p50", cpu_.Quantile(0.50)},
+          {"cpu_p95", cpu_.Quantile(0.95)}};
 }
 
 }  // namespace lararium

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
+#include "shared/core/random.h"
+
 namespace lararium {
 namespace {
 
@@ -10,6 +15,29 @@ TEST(Quantile, TakesTheNearestRank) {
   EXPECT_EQ(Quantile({3, 1, 2}, 0.5), 2.0);
   EXPECT_EQ(Quantile({3, 1, 2}, 1.0), 3.0);
   EXPECT_EQ(Quantile({3, 1, 2}, 0.0), 1.0);
+}
+
+TEST(DurationHistogram, QuantilesAgreeWithSortingToABin) {
+  Random random(1);
+  DurationHistogram histogram;
+  std::vector<double> values;
+  for (int i = 0; i < 10'000; ++i) {
+    values.push_back(std::exp(2.0 * random.Normal() + 1.0));
+    histogram.Add(values.back());
+  }
+  for (const double q : {0.0, 0.05, 0.5, 0.95, 0.999}) {
+    EXPECT_NEAR(histogram.Quantile(q) / Quantile(values, q), 1.0, 0.02) << q;
+  }
+  EXPECT_NEAR(histogram.Quantile(1.0) / histogram.max(), 1.0, 0.01);
+}
+
+TEST(DurationHistogram, HoldsAnyDuration) {
+  DurationHistogram histogram;
+  EXPECT_EQ(histogram.Quantile(0.5), 0.0);
+  histogram.Add(0.0);
+  histogram.Add(1e12);
+  EXPECT_EQ(histogram.count(), 2u);
+  EXPECT_EQ(histogram.max(), 1e12);
 }
 
 TEST(StageTimes, ReportsWhatWasAdded) {

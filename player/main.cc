@@ -1,0 +1,43 @@
+#include <chrono>
+#include <cstdio>
+#include <variant>
+
+#include "player/info.h"
+#include "player/options.h"
+#include "player/play.h"
+#include "shared/core/log.h"
+#include "shared/core/processor.h"
+
+namespace {
+
+using namespace lararium;          // NOLINT: the program itself
+using namespace lararium::player;  // NOLINT
+
+int Report(const Status& status, Log& log) {
+  if (!status.ok()) {
+    log.error("{}", status.message());
+  }
+  return status.ok() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto start = std::chrono::steady_clock::now();
+  if (const Status status = CheckProcessor(); !status.ok()) {
+    std::fprintf(stderr, "%s\n", status.message().c_str());
+    return 1;
+  }
+  const Command command = ParseCommandLine(argc, argv);
+  if (const int* code = std::get_if<int>(&command)) {
+    return *code;
+  }
+  const auto* play = std::get_if<PlayOptions>(&command);
+  const Result<std::shared_ptr<Log>> log = MakeLog(play != nullptr ? play->log : "");
+  if (!log.ok()) {
+    std::fprintf(stderr, "%s\n", log.message().c_str());
+    return 1;
+  }
+  return play != nullptr ? Report(Play(*play, start, **log), **log)
+                         : Report(PrintInfo(std::get<InfoOptions>(command)), **log);
+}

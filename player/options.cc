@@ -1,0 +1,77 @@
+#include "player/options.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+namespace lararium::player {
+namespace {
+
+constexpr int kUsageError = 2;
+
+void AddPlayOptions(CLI::App& app, PlayOptions& play) {
+  app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
+  app.add_option("--place", play.place, "Place of the bundle; its first one otherwise");
+
+  CLI::Option_group* source = app.add_option_group("source", "Where images come from");
+  source->add_option("--camera", play.camera, "Number of a camera (0 unless told otherwise)");
+  source->add_option("--video", play.video, "Video file")->check(CLI::ExistingFile);
+  source->add_option("--images", play.images, "Folder of images")->check(CLI::ExistingDirectory);
+  source->require_option(0, 1);
+
+  app.add_option("--intrinsics", play.intrinsics, "fx,fy,cx,cy[,k1,k2,p1,p2] in pixels")
+      ->delimiter(',')
+      ->expected(4, 8)
+      ->check(CLI::Number);
+  app.add_option("--device", play.device, "Device file with the camera's calibration")
+      ->check(CLI::ExistingFile);
+
+  app.add_flag("--headless", play.headless, "Draw off screen");
+  app.add_option("--monitor", play.monitor, "Full screen on this monitor")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--pace", play.pace, "realtime: newest frame wins; fast: every frame once")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Pace>{{"realtime", Pace::kRealtime}, {"fast", Pace::kFast}}));
+  app.add_option("--frames", play.frames, "Stop after this many frames")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--threads", play.threads, "Worker threads")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", play.seed, "Of all randomness");
+
+  app.add_option("--poses-out", play.poses_out, "Write the poses here (poses.json)");
+  app.add_option("--stats-out", play.stats_out, "Write times and counts here (stats.json)");
+  app.add_option("--record", play.record, "Write the composite here (.mp4)");
+  app.add_option("--log", play.log, "Write the log here too");
+}
+
+}  // namespace
+
+Command ParseCommandLine(int argc, const char* const* argv) {
+  PlayOptions play;
+  InfoOptions info;
+  CLI::App app("Plays a Lararium show: people of the past on the place before the camera.");
+  app.set_version_flag("--version", LARARIUM_VERSION);
+  AddPlayOptions(app, play);
+  CLI::App* info_command = app.add_subcommand("info", "Say what a bundle holds");
+  info_command->add_option("SHOW", info.show)->required()->check(CLI::ExistingFile);
+
+  try {
+    app.parse(argc, argv);
+    const size_t numbers = play.intrinsics.size();
+    if (!*info_command && play.show.empty()) {
+      throw CLI::RequiredError("SHOW");
+    }
+    if (numbers != 0 && numbers != 4 && numbers != 8) {
+      throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
+    }
+    if (play.headless && play.monitor >= 0) {
+      throw CLI::ValidationError("--monitor", "cannot go with --headless");
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  }
+  if (*info_command) {
+    return info;
+  }
+  return play;
+}
+
+}  // namespace lararium::player

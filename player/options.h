@@ -1,0 +1,50 @@
+#pragma once
+
+// The player's command line.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace lararium::player {
+
+enum class Pace { kRealtime, kFast };
+
+struct PlayOptions {
+  std::filesystem::path show;
+  std::string place;  // empty: the bundle's first
+
+  // Where images come from; at most one is set. None: camera 0.
+  std::optional<int> camera;
+  std::filesystem::path video;
+  std::filesystem::path images;
+
+  std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
+  std::filesystem::path device;
+
+  bool headless = false;
+  int monitor = -1;  // full screen there; -1: a window
+  Pace pace = Pace::kRealtime;
+  int64_t frames = 0;  // 0: all
+  int threads = 0;     // 0: as many as cores
+  uint64_t seed = 1;
+
+  std::filesystem::path poses_out;
+  std::filesystem::path stats_out;
+  std::filesystem::path record;
+  std::filesystem::path log;
+};
+
+struct InfoOptions {
+  std::filesystem::path show;
+};
+
+// What to do, or the exit code where the command line asked for help or is wrong
+// (its message is printed).
+using Command = std::variant<PlayOptions, InfoOptions, int>;
+Command ParseCommandLine(int argc, const char* const* argv);
+
+}  // namespace lararium::player

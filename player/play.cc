@@ -1,0 +1,168 @@
+#include "player/play.h"
+
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "player/camera_choice.h"
+#include "player/recorder.h"
+#include "player/screen.h"
+#include "shared/bundle/bundle.h"
+#include "shared/core/json.h"
+#include "shared/core/parallel.h"
+#include "shared/show/frame_pipeline.h"
+#include "shared/show/show_renderer.h"
+#include "shared/vision/tracker.h"
+
+namespace lararium::player {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+// The drawing thread looks for input at least this often.
+constexpr std::chrono::milliseconds kInputInterval(10);
+
+volatile std::sig_atomic_t g_end_requested = 0;
+
+void RequestEnd(int /*signal*/) { g_end_requested = 1; }
+
+Result<std::unique_ptr<capture::FrameSource>> OpenSource(const PlayOptions& options) {
+  if (!options.video.empty()) {
+    return capture::OpenVideo(options.video);
+  }
+  if (!options.images.empty()) {
+    return capture::OpenImageFolder(options.images);
+  }
+  return capture::OpenCamera(options.camera.value_or(0));
+}
+
+Result<show::ShowContent> LoadContent(const PlayOptions& options) {
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
+  return show::LoadShowContent(bundle, options.place);
+}
+
+// One run of a show: all that lives from its first frame to its last.
+class Performance {
+ public:
+  Performance(const PlayOptions& options, SteadyClock::time_point started, Log& log)
+      : options_(options), started_(started), log_(log) {}
+
+  Status Prepare();
+  Status Run();
+
+ private:
+  show::FrameStages stages() { return {*source_, *poses_, *show_, statistics_}; }
+  bool KeepGoing() {
+    const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
+    return g_end_requested == 0 && !enough && screen_->KeepGoing();
+  }
+  Status RunLockStep();
+  Status RunRealtime();
+  Status DrawFrame(const show::StagedFrame& staged);
+
+  const PlayOptions& options_;
+  SteadyClock::time_point started_;
+  Log& log_;
+  std::unique_ptr<capture::FrameSource> source_;
+  std::unique_ptr<vision::PoseSource> poses_;
+  std::unique_ptr<show::Show> show_;
+  std::optional<Screen> screen_;  // before all that draws: destroyed after it
+  std::unique_ptr<show::ShowRenderer> renderer_;
+  std::optional<render::RenderTarget> target_;
+  std::optional<Recorder> recorder_;
+  show::ShowStatistics statistics_;
+  int64_t drawn_frames_ = 0;
+};
+
+Status Performance::Prepare() {
+  LARARIUM_ASSIGN_OR_RETURN(source_, OpenSource(options_));
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const CameraChoice choice,
+      ChooseCamera(options_, content.database->camera, source_->width(), source_->height()));
+  log_.info("camera intrinsics from {}", choice.origin);
+  vision::TrackerOptions tracking;
+  tracking.seed = options_.seed;
+  LARARIUM_ASSIGN_OR_RETURN(poses_,
+                            vision::CreateSiftTracker(content.database, choice.camera, tracking));
+  drama::DramaOptions drama;
+  drama.seed = options_.seed;
+  LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
+
+  LARARIUM_ASSIGN_OR_RETURN(screen_, Screen::Open(options_, show_->content().title));
+  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(show_->content()));
+  LARARIUM_ASSIGN_OR_RETURN(target_,
+                            render::RenderTarget::Create(source_->width(), source_->height()));
+  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_));
+  statistics_.gpu = render::GraphicsDeviceName();
+  return Status();
+}
+
+Status Performance::DrawFrame(const show::StagedFrame& staged) {
+  {
+    const ScopedStageTimer timer(statistics_.render);
+    LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_));
+    screen_->Present(*target_);
+  }
+  const SteadyClock::time_point now = SteadyClock::now();
+  if (drawn_frames_ == 0) {
+    statistics_.startup_seconds = std::chrono::duration<double>(now - started_).count();
+  }
+  const std::chrono::duration<double, std::milli> total = now - staged.arrival;
+  statistics_.total.Add(total.count(), 0.0);
+  ++drawn_frames_;
+  return recorder_->Add(staged.tracked, *target_);
+}
+
+Status Performance::RunLockStep() {
+  show::LockStep lock_step(stages());
+  show::StagedFrame staged;
+  while (KeepGoing()) {
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, lock_step.Next(staged));
+    if (!more) {
+      break;
+    }
+    LARARIUM_RETURN_IF_ERROR(DrawFrame(staged));
+  }
+  return Status();
+}
+
+Status Performance::RunRealtime() {
+  show::RealtimePipeline pipeline(stages());
+  while (!pipeline.Finished() && KeepGoing()) {
+    if (std::unique_ptr<show::StagedFrame> staged = pipeline.Take(kInputInterval)) {
+      LARARIUM_RETURN_IF_ERROR(DrawFrame(*staged));
+      pipeline.Recycle(std::move(staged));
+    }
+  }
+  pipeline.Stop();
+  return pipeline.status();
+}
+
+Status Performance::Run() {
+  LARARIUM_RETURN_IF_ERROR(options_.pace == Pace::kFast ? RunLockStep() : RunRealtime());
+  LARARIUM_RETURN_IF_ERROR(recorder_->Finish());
+  if (!options_.stats_out.empty()) {
+    LARARIUM_RETURN_IF_ERROR(SaveJson(options_.stats_out, statistics_.ToJson()));
+  }
+  log_.info("{} frames shown, {:.1f} % tracked", drawn_frames_,
+            100.0 * statistics_.tracking.tracked_fraction());
+  return Status();
+}
+
+}  // namespace
+
+Status Play(const PlayOptions& options, SteadyClock::time_point started, Log& log) {
+  std::signal(SIGINT, RequestEnd);
+  std::signal(SIGTERM, RequestEnd);
+  std::optional<ThreadLimit> limit;
+  if (options.threads > 0) {
+    limit.emplace(options.threads);
+  }
+  Performance performance(options, started, log);
+  LARARIUM_RETURN_IF_ERROR(performance.Prepare());
+  return performance.Run();
+}
+
+}  // namespace lararium::player

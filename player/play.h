@@ -1,0 +1,15 @@
+#pragma once
+
+#include <chrono>
+
+#include "player/options.h"
+#include "shared/core/log.h"
+#include "shared/core/status.h"
+
+namespace lararium::player {
+
+// Runs a show until its source ends, the window closes, or the process is asked
+// to end (SIGINT, SIGTERM). started: when the program did, for the statistics.
+Status Play(const PlayOptions& options, std::chrono::steady_clock::time_point started, Log& log);
+
+}  // namespace lararium::player

@@ -1,0 +1,38 @@
+#include "player/screen.h"
+
+#include <utility>
+
+namespace lararium::player {
+
+Result<Screen> Screen::Open(const PlayOptions& options, const std::string& title) {
+  Screen screen;
+  if (options.headless) {
+    LARARIUM_ASSIGN_OR_RETURN(screen.offscreen_, render::CreateOffscreenContext());
+    return screen;
+  }
+  render::WindowOptions window;
+  window.title = title;
+  if (options.monitor >= 0) {
+    window.monitor = options.monitor;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(screen.window_, render::Window::Create(window));
+  return screen;
+}
+
+void Screen::Present(const render::RenderTarget& target) {
+  if (window_) {
+    const render::Window::Size size = window_->framebuffer_size();
+    target.Present(size.width, size.height);
+    window_->SwapBuffers();
+  }
+}
+
+bool Screen::KeepGoing() {
+  if (!window_) {
+    return true;
+  }
+  window_->PollEvents();
+  return !window_->ShouldClose();
+}
+
+}  // namespace lararium::player

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "player/options.h"
+#include "shared/core/status.h"
+#include "shared/render/graphics_context.h"
+#include "shared/render/render_target.h"
+#include "shared/render/window.h"
+
+namespace lararium::player {
+
+// Where the pictures go: a window, or nowhere that is seen. Its OpenGL context
+// is current on the thread that opened it.
+class Screen {
+ public:
+  static Result<Screen> Open(const PlayOptions& options, const std::string& title);
+
+  void Present(const render::RenderTarget& target);
+
+  // Handles input; false once the visitor wants the end.
+  bool KeepGoing();
+
+ private:
+  std::optional<render::OffscreenContext> offscreen_;
+  std::optional<render::Window> window_;
+};
+
+}  // namespace lararium::player

@@ -1,0 +1,53 @@
+#include "shared/show/show_renderer.h"
+
+#include <span>
+#include <utility>
+
+#include "shared/geometry/glm_convert.h"
+
+namespace lararium::show {
+
+Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& content,
+                                                           const render::RendererOptions& options) {
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Renderer> renderer,
+                            render::Renderer::Create(options));
+  std::unique_ptr<ShowRenderer> show(new ShowRenderer(std::move(renderer)));
+  for (const CastMember& member : content.cast) {
+    show->cast_.push_back(show->renderer_->AddHuman(*member.human));
+  }
+  show->SetPlace(content.place);
+  return show;
+}
+
+void ShowRenderer::SetPlace(const stage::Place& place) {
+  for (const render::SceneOccluder& occluder : occluders_) {
+    renderer_->RemoveMesh(occluder.mesh);
+  }
+  occluders_.clear();
+  for (const stage::Occluder& occluder : place.occluders) {
+    occluders_.push_back(
+        {renderer_->AddMesh(occluder.mesh), geometry::ToGlm(occluder.stage_from_mesh)});
+  }
+  light_ = place.light;
+}
+
+Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget& target) {
+  humans_.clear();
+  for (const StagedActor& actor : staged.actors) {
+    humans_.push_back({cast_[actor.cast], actor.stage_from_actor,
+                       std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count)});
+  }
+  const vision::TrackedFrame& tracked = staged.tracked;
+  render::RenderScene scene;
+  scene.background = tracked.frame.bgr;
+  scene.camera = tracked.camera;
+  scene.display = tracked.camera.DisplayPinhole();
+  scene.camera_from_stage = staged.camera_from_stage;
+  scene.occluders = occluders_;
+  scene.humans = humans_;
+  scene.light = light_;
+  scene.gain = {tracked.gain[0], tracked.gain[1], tracked.gain[2]};
+  return renderer_->Draw(scene, target);
+}
+
+}  // namespace lararium::show

@@ -1,0 +1,80 @@
+#include "shared/show/frame_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/show/small_show.h"
+
+namespace lararium::show {
+namespace {
+
+class FramePipelineTest : public ::testing::Test {
+ protected:
+  FrameStages Stages(test::FakeSource& source) { return {source, poses_, *show_, statistics_}; }
+
+  std::shared_ptr<Log> log_ = MakeSilentLog();
+  std::unique_ptr<Show> show_ = Show::Create(test::SmallContent(), {}, *log_).value();
+  test::FakePoses poses_;
+  ShowStatistics statistics_;
+};
+
+TEST_F(FramePipelineTest, LockStepPassesEveryFrameOnceInOrder) {
+  test::FakeSource source(20);
+  LockStep lock_step(Stages(source));
+  StagedFrame staged;
+  int64_t count = 0;
+  while (lock_step.Next(staged).value()) {
+    EXPECT_EQ(staged.tracked.frame.index, count);
+    EXPECT_NEAR(staged.time, static_cast<double>(count) / 30.0, 1e-9);
+    ++count;
+  }
+  EXPECT_EQ(count, 20);
+  EXPECT_EQ(statistics_.ToJson()["track"]["count"], 20);
+}
+
+TEST_F(FramePipelineTest, LockStepReportsWhatTheSourceSays) {
+  test::FakeSource source(20, 3);
+  LockStep lock_step(Stages(source));
+  StagedFrame staged;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(lock_step.Next(staged).value());
+  }
+  EXPECT_EQ(lock_step.Next(staged).message(), "fake: broken");
+}
+
+TEST_F(FramePipelineTest, RealtimeDeliversTheLastFrameAndNeverGoesBack) {
+  test::FakeSource source(15);
+  RealtimePipeline pipeline(Stages(source));
+  int64_t last = -1;
+  int64_t shown = 0;
+  while (!pipeline.Finished()) {
+    std::unique_ptr<StagedFrame> staged = pipeline.Take(std::chrono::milliseconds(20));
+    if (staged != nullptr) {
+      EXPECT_GT(staged->tracked.frame.index, last);
+      last = staged->tracked.frame.index;
+      ++shown;
+      pipeline.Recycle(std::move(staged));
+    }
+  }
+  pipeline.Stop();
+  EXPECT_EQ(last, 14);
+  EXPECT_EQ(shown + static_cast<int64_t>(statistics_.dropped_frames), 15);
+  EXPECT_TRUE(pipeline.status().ok());
+}
+
+TEST_F(FramePipelineTest, RealtimeEndsWithTheFailureOfItsSource) {
+  test::FakeSource source(15, 2);
+  RealtimePipeline pipeline(Stages(source));
+  while (!pipeline.Finished()) {
+    (void)pipeline.Take(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(pipeline.status().message(), "fake: broken");
+}
+
+TEST_F(FramePipelineTest, RealtimeCanBeAbandonedAtAnyMoment) {
+  test::FakeSource source(1'000'000);
+  RealtimePipeline pipeline(Stages(source));
+  EXPECT_NE(pipeline.Take(std::chrono::milliseconds(5000)), nullptr);
+}
+
+}  // namespace
+}  // namespace lararium::show

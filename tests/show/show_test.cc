@@ -1,0 +1,95 @@
+#include "shared/show/show.h"
+
+#include <gtest/gtest.h>
+
+#include "shared/core/random.h"
+#include "tests/show/small_show.h"
+
+namespace lararium::show {
+namespace {
+
+class ShowTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<Show> Make() { return Show::Create(test::SmallContent(), {}, *log_).value(); }
+  StagedFrame At(Show& show, double time) {
+    StagedFrame staged;
+    show.StageFrame(test::FakePoses().Track({}), time, staged);
+    return staged;
+  }
+
+  std::shared_ptr<Log> log_ = MakeSilentLog();
+};
+
+float PositionX(const StagedFrame& staged) { return staged.actors.at(0).stage_from_actor[3].x; }
+
+TEST_F(ShowTest, DrawsBetweenTwoTicks) {
+  const std::unique_ptr<Show> show = Make();
+  for (const double time : {0.0, 0.1, 0.1 + 0.4 / 120.0, 0.1 + 0.9 / 120.0, 0.5}) {
+    EXPECT_NEAR(PositionX(At(*show, time)), time, 1e-4) << time;
+  }
+}
+
+TEST_F(ShowTest, PosesTheClipAtTheSameMoment) {
+  const std::unique_ptr<Show> show = Make();
+  const StagedFrame staged = At(*show, 0.25);
+  ASSERT_EQ(staged.actors.at(0).skin_count, 1u);
+  EXPECT_NEAR(staged.skin.at(0)[3].y, 0.25f, 1e-4f);
+}
+
+TEST_F(ShowTest, AnyOrderOfTimesGivesTheStateOfPlaying) {
+  const std::unique_ptr<Show> played = Make();
+  std::vector<float> expected;
+  for (int i = 0; i <= 60; ++i) {
+    expected.push_back(PositionX(At(*played, i / 60.0)));
+  }
+  const std::unique_ptr<Show> sought = Make();
+  Random random(1);
+  for (int k = 0; k < 200; ++k) {
+    const auto i = random.Below(61);
+    EXPECT_EQ(PositionX(At(*sought, i / 60.0)), expected[i]);
+  }
+}
+
+TEST_F(ShowTest, ThePoseOnTheStageIsMetric) {
+  const std::unique_ptr<Show> show = Make();
+  const StagedFrame staged = At(*show, 0.0);
+  // The map is twice as large as the stage, so 4 map units are 2 metres.
+  ASSERT_TRUE(staged.camera_from_stage.has_value());
+  EXPECT_NEAR(staged.camera_from_stage->translation.z(), 2.0, 1e-12);
+}
+
+TEST_F(ShowTest, WithoutAPoseNothingIsPlaced) {
+  const std::unique_ptr<Show> show = Make();
+  StagedFrame staged = At(*show, 0.0);
+  show->StageFrame({}, 0.1, staged);
+  EXPECT_FALSE(staged.camera_from_stage.has_value());
+}
+
+TEST_F(ShowTest, SteadyPlayReusesItsBuffers) {
+  const std::unique_ptr<Show> show = Make();
+  StagedFrame staged = At(*show, 0.0);
+  const glm::mat4* skin = staged.skin.data();
+  for (int i = 1; i < 100; ++i) {
+    show->StageFrame({}, i / 100.0, staged);
+    EXPECT_EQ(staged.skin.data(), skin);
+  }
+}
+
+TEST_F(ShowTest, AScriptThatDoesNotCompileIsNamed) {
+  ShowContent content = test::SmallContent();
+  content.drama = "local = 3";
+  const Result<std::unique_ptr<Show>> show = Show::Create(std::move(content), {}, *log_);
+  ASSERT_FALSE(show.ok());
+  EXPECT_NE(show.message().find("drama.lua:1"), std::string::npos) << show.message();
+}
+
+TEST_F(ShowTest, AnEndlessLoopDoesNotStopTheShow) {
+  ShowContent content = test::SmallContent();
+  content.drama += "\nfunction main() while true do end end";
+  const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
+  EXPECT_NEAR(PositionX(At(*show, 0.5)), 0.5, 1e-4);
+  EXPECT_FALSE(show->drama().errors().empty());
+}
+
+}  // namespace
+}  // namespace lararium::show
