@@ -1,0 +1,109 @@
+#pragma once
+
+// Robust estimation in constant time: Nister, "Preemptive RANSAC for live
+// structure and motion estimation", ICCV 2003.
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "shared/core/check.h"
+#include "shared/core/random.h"
+
+namespace lararium::geometry {
+
+struct PreemptiveRansacOptions {
+  int hypotheses = 512;  // M, generated up front
+  int block_size = 64;   // B, observations scored between two halvings
+  uint64_t seed = 1;
+};
+
+// Scores all hypotheses breadth first, block after block of the observations in
+// random order, and keeps f(i) = floor(M 2^-floor(i / B)) of them before
+// observation i, the best first. Keeps its memory from call to call.
+template <typename Hypothesis>
+class PreemptiveRansac {
+ public:
+  struct Winner {
+    Hypothesis hypothesis;
+    double mean_cost = 0.0;  // over the observations that it was scored on
+  };
+
+  // generate(random, hypotheses): appends what a random minimal sample gives,
+  //   perhaps nothing. Called at most options.hypotheses times.
+  // cost(hypothesis, observation): of one observation, truncated, lower is better.
+  // nullopt when no sample gave a hypothesis. The time is bounded by the options
+  // whatever the observations are; the same input gives the same winner.
+  template <typename Generate, typename Cost>
+  std::optional<Winner> Run(size_t observation_count,
+                            const PreemptiveRansacOptions& options,
+                            Generate&& generate,
+                            Cost&& cost) {
+    CHECK(options.hypotheses > 0 && options.block_size > 0);
+    Random random(options.seed);
+    const auto most = static_cast<size_t>(options.hypotheses);
+    hypotheses_.clear();
+    for (size_t sample = 0; sample < most && hypotheses_.size() < most; ++sample) {
+      generate(random, hypotheses_);
+    }
+    if (hypotheses_.empty() || observation_count == 0) {
+      return std::nullopt;
+    }
+    Shuffle(observation_count, random);
+    ranking_.clear();
+    for (size_t h = 0; h < hypotheses_.size(); ++h) {
+      ranking_.push_back({0.0, static_cast<uint32_t>(h)});
+    }
+    const size_t scored = ScoreBlocks(options, cost);
+    const Ranked& best = *std::min_element(ranking_.begin(), ranking_.end());
+    return Winner{hypotheses_[best.second], best.first / static_cast<double>(scored)};
+  }
+
+ private:
+  using Ranked = std::pair<double, uint32_t>;  // cost so far, hypothesis
+
+  void Shuffle(size_t count, Random& random) {
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0u);
+    for (size_t i = count; i > 1; --i) {
+      std::swap(order_[i - 1], order_[random.Below(static_cast<uint32_t>(i))]);
+    }
+  }
+
+  // Returns how many observations were looked at.
+  template <typename Cost>
+  size_t ScoreBlocks(const PreemptiveRansacOptions& options, Cost& cost) {
+    const auto block_size = static_cast<size_t>(options.block_size);
+    size_t begin = 0;
+    while (begin < order_.size()) {
+      const size_t end = std::min(begin + block_size, order_.size());
+      for (Ranked& ranked : ranking_) {
+        for (size_t i = begin; i < end; ++i) {
+          ranked.first += cost(hypotheses_[ranked.second], order_[i]);
+        }
+      }
+      begin = end;
+      const size_t halvings = begin / block_size;
+      const size_t kept = halvings < 32 ? static_cast<size_t>(options.hypotheses) >> halvings : 0;
+      if (kept < ranking_.size()) {
+        const auto last = ranking_.begin() + static_cast<std::ptrdiff_t>(std::max<size_t>(kept, 1));
+        std::nth_element(ranking_.begin(), last - 1, ranking_.end());
+        ranking_.erase(last, ranking_.end());
+      }
+      if (ranking_.size() == 1) {
+        break;
+      }
+    }
+    return begin;
+  }
+
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<uint32_t> order_;
+  std::vector<Ranked> ranking_;
+};
+
+}  // namespace lararium::geometry
