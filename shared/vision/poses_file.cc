@@ -1,0 +1,163 @@
+#include "shared/vision/poses_file.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "shared/core/json.h"
+
+namespace lararium::vision {
+namespace {
+
+using geometry::CameraModel;
+using geometry::Rigid3;
+
+constexpr int kMaxSide = 16384;          // pixels
+constexpr double kRotationError = 1e-2;  // of the entries of a rotation matrix
+
+// ------------------------------------------------------------ writing
+
+Json ToJson(const Rigid3& pose) {
+  const Eigen::Matrix<double, 3, 4> m = pose.Matrix3x4();
+  Json rotation = Json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      rotation.push_back(m(row, column));
+    }
+  }
+  return {{"R", rotation}, {"t", {m(0, 3), m(1, 3), m(2, 3)}}};
+}
+
+Json ToJson(const PoseRecord& record) {
+  const CameraModel& c = record.camera;
+  return {
+      {"file", record.file},
+      {"width", c.width},
+      {"height", c.height},
+      {"K", {c.fx, c.fy, c.cx, c.cy}},
+      {"distortion", {{"model", "opencv"}, {"k1_k2_p1_p2", {c.k1, c.k2, c.p1, c.p2}}}},
+      {"world_to_camera", record.camera_from_world ? ToJson(*record.camera_from_world) : Json()},
+      {"tracked", record.tracked}};
+}
+
+// ------------------------------------------------------------ reading
+
+Result<Rigid3> ReadPose(const JsonView& view) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> r, view.Numbers("R", 9));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> t, view.Numbers("t", 3));
+  const Eigen::Matrix3d rotation =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
+  const double error =
+      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < kRotationError) || rotation.determinant() < 0.0) {
+    return view.Problem("R is not a rotation matrix");
+  }
+  return Rigid3::FromMatrix(rotation, {t[0], t[1], t[2]});
+}
+
+Result<CameraModel> ReadCamera(const JsonView& view) {
+  CameraModel camera;
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t width, view.Integer("width", 1, kMaxSide));
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t height, view.Integer("height", 1, kMaxSide));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> k, view.Numbers("K", 4));
+  camera.width = static_cast<int>(width);
+  camera.height = static_cast<int>(height);
+  camera.fx = k[0];
+  camera.fy = k[1];
+  camera.cx = k[2];
+  camera.cy = k[3];
+  if (view.Has("distortion")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView distortion, view.Field("distortion"));
+    LARARIUM_ASSIGN_OR_RETURN(const std::string model, distortion.Text("model"));
+    if (model != "opencv") {
+      return distortion.Problem("the model must be \"opencv\"");
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> d, distortion.Numbers("k1_k2_p1_p2", 4));
+    camera.k1 = d[0];
+    camera.k2 = d[1];
+    camera.p1 = d[2];
+    camera.p2 = d[3];
+  }
+  if (const Status status = camera.Validate(); !status.ok()) {
+    return status.At(view.place());
+  }
+  return camera;
+}
+
+Result<PoseRecord> ReadRecord(const JsonView& view) {
+  PoseRecord record;
+  LARARIUM_ASSIGN_OR_RETURN(record.file, view.Text("file"));
+  LARARIUM_ASSIGN_OR_RETURN(record.camera, ReadCamera(view));
+  if (view.Has("world_to_camera")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView pose, view.Field("world_to_camera"));
+    if (!pose.json().is_null()) {
+      LARARIUM_ASSIGN_OR_RETURN(record.camera_from_world, ReadPose(pose));
+    }
+  }
+  record.tracked = record.camera_from_world.has_value();
+  if (view.Has("tracked")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("tracked"));
+    LARARIUM_ASSIGN_OR_RETURN(const bool tracked, field.Boolean());
+    record.tracked = record.tracked && tracked;
+  }
+  return record;
+}
+
+// ------------------------------------------------------------ replaying
+
+class RecordedPoses final : public PoseSource {
+ public:
+  explicit RecordedPoses(std::vector<PoseRecord> poses) : poses_(std::move(poses)) {}
+
+  TrackedFrame Track(const geometry::Frame& frame) override {
+    TrackedFrame tracked;
+    tracked.frame = frame;
+    const bool known = frame.index >= 0 && static_cast<size_t>(frame.index) < poses_.size();
+    if (known) {
+      const PoseRecord& record = poses_[frame.index];
+      tracked.camera = record.camera;
+      if (record.tracked && record.camera_from_world) {
+        tracked.camera_from_map = record.camera_from_world;
+        tracked.state = TrackState::kTracking;
+        tracked.confidence = 1.0f;
+        had_pose_ = true;
+        return tracked;
+      }
+    }
+    tracked.state = had_pose_ ? TrackState::kLost : TrackState::kSearching;
+    tracked.reason = TrackReason::kNoConsistentPose;
+    return tracked;
+  }
+
+ private:
+  std::vector<PoseRecord> poses_;
+  bool had_pose_ = false;
+};
+
+}  // namespace
+
+Status SavePoses(const std::filesystem::path& path, std::span<const PoseRecord> poses) {
+  Json images = Json::array();
+  for (const PoseRecord& record : poses) {
+    images.push_back(ToJson(record));
+  }
+  return SaveJson(path, {{"images", images}});
+}
+
+Result<std::vector<PoseRecord>> LoadPoses(const std::filesystem::path& path) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(path));
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView images, JsonView(json, path.string()).Field("images"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> views, images.Array());
+  std::vector<PoseRecord> poses;
+  poses.reserve(views.size());
+  for (const JsonView& view : views) {
+    LARARIUM_ASSIGN_OR_RETURN(PoseRecord record, ReadRecord(view));
+    poses.push_back(std::move(record));
+  }
+  return poses;
+}
+
+std::unique_ptr<PoseSource> CreateRecordedPoses(std::vector<PoseRecord> poses) {
+  return std::make_unique<RecordedPoses>(std::move(poses));
+}
+
+}  // namespace lararium::vision

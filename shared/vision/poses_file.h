@@ -1,0 +1,33 @@
+#pragma once
+
+// poses.json: the poses of images, as training and the player write them with
+// --poses-out. The world is the map.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "shared/core/status.h"
+#include "shared/geometry/camera_model.h"
+#include "shared/geometry/transform.h"
+#include "shared/vision/tracked_frame.h"
+
+namespace lararium::vision {
+
+struct PoseRecord {
+  std::string file;  // FrameSource::FrameName of the image
+  geometry::CameraModel camera;
+  std::optional<geometry::Rigid3> camera_from_world;
+  bool tracked = false;  // a pose that was not tracked is a guess, and not used
+};
+
+Status SavePoses(const std::filesystem::path& path, std::span<const PoseRecord> poses);
+Result<std::vector<PoseRecord>> LoadPoses(const std::filesystem::path& path);
+
+// Gives frame i the pose of poses[i]: replays a recording without the tracker.
+std::unique_ptr<PoseSource> CreateRecordedPoses(std::vector<PoseRecord> poses);
+
+}  // namespace lararium::vision
