@@ -1,0 +1,252 @@
+#include "editor/app/baking.h"
+
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+#include <span>
+#include <utility>
+
+#include "editor/bake/probe.h"
+#include "editor/import/model_import.h"
+#include "editor/import/plain_figure.h"
+#include "shared/bundle/sha256.h"
+#include "shared/core/file.h"
+#include "shared/core/json.h"
+#include "shared/geometry/glm_convert.h"
+#include "shared/stage/mesh_file.h"
+
+namespace lararium::app {
+
+namespace {
+
+// Part of every hash: raise it when the same sources give another product.
+constexpr std::string_view kBakerVersion = "1";
+
+std::filesystem::path LightFile(const ProjectPaths& paths, const PlaceDocument& place) {
+  return paths.Place(place.name) / "baked" / "light.json";
+}
+
+std::filesystem::path MeshFile(const ProjectPaths& paths,
+                               const PlaceDocument& place,
+                               const OccluderDocument& occluder) {
+  return paths.Place(place.name) / "baked" / (occluder.name + ".larmesh");
+}
+
+// Beside the product: the hash of what it was made from.
+std::filesystem::path HashFile(std::filesystem::path product) { return product += ".from"; }
+
+std::string HashOf(std::string_view settings, std::span<const std::byte> source) {
+  const std::string source_hash = bundle::FormatSha256(bundle::ComputeSha256(source));
+  const std::string all =
+      std::string(kBakerVersion) + "\n" + std::string(settings) + "\n" + source_hash;
+  return bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(all))));
+}
+
+bool UpToDate(const std::filesystem::path& product, const std::string& hash) {
+  std::error_code ignored;
+  const Result<std::string> known = ReadText(HashFile(product), 1024);
+  return std::filesystem::exists(product, ignored) && known.ok() && *known == hash;
+}
+
+// The product first: a crash in between only bakes once more.
+Status WriteProduct(const std::filesystem::path& product,
+                    std::span<const std::byte> bytes,
+                    const std::string& hash) {
+  std::error_code error;
+  std::filesystem::create_directories(product.parent_path(), error);
+  if (error) {
+    return Status::Error(product.parent_path().string(),
+                         "cannot make the folder: " + error.message());
+  }
+  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(product, bytes));
+  return WriteFileAtomically(HashFile(product), std::string_view(hash));
+}
+
+struct BakeStep {
+  std::string name;
+  std::filesystem::path product;
+  std::filesystem::path source;  // empty: made from nothing but settings
+  std::string settings;
+  // Bytes of the product; adds warnings.
+  std::function<Result<std::vector<std::byte>>(std::vector<std::string>&)> make;
+};
+
+std::vector<std::byte> BytesOf(std::string_view text) {
+  const std::span bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+Result<std::vector<std::byte>> MakeLight(const std::filesystem::path& file,
+                                         const ProbeDocument& probe,
+                                         std::vector<std::string>& warnings) {
+  LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage image, bake::ReadProbeImage(file));
+  for (const std::string& warning : image.warnings) {
+    warnings.push_back(file.string() + ": " + warning);
+  }
+  const light::ShRgb light = bake::ProjectProbe(
+      image, {geometry::ToGlm(probe.stage_from_probe), static_cast<float>(probe.scale)});
+  Json coefficients = Json::array();
+  for (const glm::vec3& c : light) {
+    coefficients.push_back(Json::array({c.x, c.y, c.z}));
+  }
+  return BytesOf(Json{{"radiance", coefficients}}.dump(1) + "\n");
+}
+
+BakeStep LightStep(const ProjectPaths& paths, const PlaceDocument& place) {
+  const ProbeDocument probe = *place.probe;
+  const std::filesystem::path file = paths.Resolve(probe.file);
+  const Eigen::Vector4d q = probe.stage_from_probe.coeffs();
+  return {"light of " + place.name, LightFile(paths, place), file,
+          Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale}).dump(),
+          [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); }};
+}
+
+BakeStep MeshStep(const ProjectPaths& paths,
+                  const PlaceDocument& place,
+                  const OccluderDocument& occluder) {
+  const std::filesystem::path file = paths.Resolve(occluder.file);
+  return {"occluder " + occluder.name, MeshFile(paths, place, occluder), file, "occluder",
+          [=](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+            LARARIUM_ASSIGN_OR_RETURN(const geometry::TriangleMesh mesh, import::ImportMesh(file));
+            return stage::SerializeMesh(mesh);
+          }};
+}
+
+BakeStep HumanStep(const ProjectPaths& paths, const CastDocument& member) {
+  const std::filesystem::path product = paths.Human(member.name);
+  if (member.model.empty()) {
+    return {"human " + member.name,
+            product,
+            {},
+            "plain figure " + member.name,
+            [name = member.name](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+              human::Human human = import::BuildPlainFigure();
+              human.name = name;
+              return human::SerializeHuman(human);
+            }};
+  }
+  const std::filesystem::path file = paths.Resolve(member.model);
+  return {"human " + member.name, product, file, "model " + member.name,
+          [=, name = member.name](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+            import::ImportOptions options;
+            options.name = name;
+            LARARIUM_ASSIGN_OR_RETURN(const human::Human human, import::ImportHuman(file, options));
+            return human::SerializeHuman(human);
+          }};
+}
+
+std::vector<BakeStep> Steps(const ProjectPaths& paths, const ProjectDocument& document) {
+  std::vector<BakeStep> steps;
+  for (const PlaceDocument& place : document.places) {
+    if (place.probe) {
+      steps.push_back(LightStep(paths, place));
+    }
+    for (const OccluderDocument& occluder : place.occluders) {
+      steps.push_back(MeshStep(paths, place, occluder));
+    }
+  }
+  for (const CastDocument& member : document.cast) {
+    steps.push_back(HumanStep(paths, member));
+  }
+  return steps;
+}
+
+// True when the product had to be made.
+Result<bool> RunStep(const BakeStep& step, std::vector<std::string>& warnings) {
+  std::vector<std::byte> source;
+  if (!step.source.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(source, ReadBytes(step.source));
+  }
+  const std::string hash = HashOf(step.settings, source);
+  if (UpToDate(step.product, hash)) {
+    return false;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, step.make(warnings));
+  LARARIUM_RETURN_IF_ERROR(WriteProduct(step.product, bytes, hash));
+  return true;
+}
+
+Status NotBaked(const std::filesystem::path& product) {
+  return Status::Error(product.string(), "was not baked yet", "bake the project");
+}
+
+bool Exists(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
+// What a place without a probe is lit by: the same white from everywhere.
+light::ShRgb EvenLight() {
+  constexpr float kRadiance = 0.5f;
+  light::ShRgb light = {};
+  const float y00 = light::EvaluateShBasis(glm::vec3(0.0f, 1.0f, 0.0f))[0];
+  light[0] = glm::vec3(kRadiance / y00);
+  return light;
+}
+
+}  // namespace
+
+Result<BakeReport> Bake(const ProjectPaths& paths,
+                        const ProjectDocument& document,
+                        Progress& progress) {
+  BakeReport report;
+  const std::vector<BakeStep> steps = Steps(paths, document);
+  for (size_t i = 0; i < steps.size(); ++i) {
+    progress.Report("baking", static_cast<double>(i) / static_cast<double>(steps.size()));
+    if (progress.Cancelled()) {
+      return Status::Error("bake", "cancelled before the " + steps[i].name);
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const bool made, RunStep(steps[i], report.warnings));
+    (made ? report.baked : report.unchanged).push_back(steps[i].name);
+  }
+  progress.Report("baking", 1.0);
+  return report;
+}
+
+Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member) {
+  std::vector<std::string> warnings;
+  LARARIUM_RETURN_IF_ERROR(RunStep(HumanStep(paths, member), warnings).status());
+  return LoadBakedHuman(paths, member);
+}
+
+Result<light::ShRgb> LoadBakedLight(const ProjectPaths& paths, const PlaceDocument& place) {
+  if (!place.probe) {
+    return EvenLight();
+  }
+  const std::filesystem::path file = LightFile(paths, place);
+  if (!Exists(file)) {
+    return NotBaked(file);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, JsonView(json, file.string()).Field("radiance"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(light::kShCount));
+  if (list.size() != light::kShCount) {
+    return field.Problem("must have 9 coefficients", "bake the project again");
+  }
+  light::ShRgb light = {};
+  for (size_t i = 0; i < light.size(); ++i) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> rgb, list[i].Numbers(3));
+    light[i] = glm::vec3(rgb[0], rgb[1], rgb[2]);
+  }
+  return light;
+}
+
+Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
+                                             const PlaceDocument& place,
+                                             const OccluderDocument& occluder) {
+  const std::filesystem::path file = MeshFile(paths, place, occluder);
+  if (!Exists(file)) {
+    return NotBaked(file);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+  return stage::ParseMesh(bytes, file.string());
+}
+
+Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member) {
+  const std::filesystem::path file = paths.Human(member.name);
+  if (!Exists(file)) {
+    return NotBaked(file);
+  }
+  return human::LoadHuman(file);
+}
+
+}  // namespace lararium::app

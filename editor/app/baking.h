@@ -1,0 +1,42 @@
+#pragma once
+
+// What is made from the project's sources ahead of a show: the light of each
+// place, the meshes of its occluders, the humans of the cast. Each product keeps
+// the hash of all that went into it and is made again only when that changes.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "editor/app/project.h"
+#include "shared/core/progress.h"
+#include "shared/core/status.h"
+#include "shared/geometry/triangle_mesh.h"
+#include "shared/human/human.h"
+#include "shared/light/spherical_harmonics.h"
+
+namespace lararium::app {
+
+struct BakeReport {
+  std::vector<std::string> baked;      // what was made
+  std::vector<std::string> unchanged;  // what was up to date
+  std::vector<std::string> warnings;
+};
+
+// Makes what is missing or stale. Stops at the first failure; what was made
+// until then is complete and stays.
+Result<BakeReport> Bake(const ProjectPaths& paths,
+                        const ProjectDocument& document,
+                        Progress& progress);
+
+// One human alone, made where it is missing or stale.
+Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member);
+
+// The products. An error where they were never baked says so.
+Result<light::ShRgb> LoadBakedLight(const ProjectPaths& paths, const PlaceDocument& place);
+Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
+                                             const PlaceDocument& place,
+                                             const OccluderDocument& occluder);
+Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member);
+
+}  // namespace lararium::app

@@ -1,0 +1,49 @@
+#include "editor/app/exporting.h"
+
+#include <utility>
+
+#include "editor/app/baking.h"
+#include "editor/app/staging.h"
+#include "editor/export/export.h"
+#include "shared/core/file.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::app {
+
+namespace {
+
+Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths, const PlaceDocument& place) {
+  exporter::PlaceContent content;
+  const std::filesystem::path file = paths.Scene(place.name);
+  LARARIUM_ASSIGN_OR_RETURN(content.scene, ReadBytes(file));
+  LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database,
+                            vision::ParseSceneDatabase(content.scene, file.string()));
+  const ResolvedPicks picks = ResolvePicks(place, database);
+  LARARIUM_RETURN_IF_ERROR(picks.problem);
+  LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, place, picks.map_from_picked));
+  return content;
+}
+
+}  // namespace
+
+Status ExportProject(const ProjectPaths& paths,
+                     const ProjectDocument& document,
+                     const std::filesystem::path& out,
+                     Progress& progress) {
+  LARARIUM_RETURN_IF_ERROR(Bake(paths, document, progress).status());
+  exporter::ExportContent content;
+  content.title = document.title;
+  content.credits = document.credits;
+  LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
+  for (const PlaceDocument& place : document.places) {
+    LARARIUM_ASSIGN_OR_RETURN(exporter::PlaceContent packed, PackPlace(paths, place));
+    content.places.push_back(std::move(packed));
+  }
+  for (const CastDocument& member : document.cast) {
+    LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> human, ReadBytes(paths.Human(member.name)));
+    content.cast.push_back({member.name, std::move(human)});
+  }
+  return exporter::ExportBundle(content, out, progress);
+}
+
+}  // namespace lararium::app

@@ -1,0 +1,128 @@
+#include "editor/app/options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lararium::app {
+
+namespace {
+
+constexpr int kUsageError = 2;
+
+// Parsed options of every subcommand; the one that was named counts.
+struct AllOptions {
+  WindowOptions window;
+  NewOptions create;
+  TrainOptions train;
+  CastOptions cast;
+  BakeOptions bake;
+  CheckOptions check;
+  RenderOptions render;
+  ExportOptions export_;
+};
+
+CLI::App* AddSubcommand(CLI::App& app,
+                        const std::string& name,
+                        const std::string& description,
+                        std::filesystem::path& project) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_option("PROJECT", project, "The project's folder")->required();
+  command->fallthrough();
+  return command;
+}
+
+void AddIntrinsics(CLI::App* command, std::vector<double>& intrinsics) {
+  command->add_option("--intrinsics", intrinsics, "fx,fy,cx,cy[,k1,k2,p1,p2] in pixels")
+      ->delimiter(',')
+      ->expected(4, 8)
+      ->check(CLI::Number);
+}
+
+void AddTrain(CLI::App& app, TrainOptions& train) {
+  CLI::App* command = AddSubcommand(app, "train", "Learn a place from a recording", train.project);
+  CLI::Option_group* source = command->add_option_group("source", "The recording");
+  source->add_option("--video", train.video, "Video file")->check(CLI::ExistingFile);
+  source->add_option("--images", train.images, "Folder of images")->check(CLI::ExistingDirectory);
+  source->add_option("--camera", train.camera, "Record this camera first")
+      ->check(CLI::NonNegativeNumber);
+  source->require_option(0, 1);
+  command->add_option("--seconds", train.seconds, "How long to record the camera")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->add_option("--place", train.place, "Name of the place");
+  AddIntrinsics(command, train.intrinsics);
+  command->add_option("--poses-out", train.poses_out, "Write the poses here (poses.json)");
+}
+
+void AddRender(CLI::App& app, RenderOptions& render) {
+  CLI::App* command =
+      AddSubcommand(app, "render", "Composite the show into a recording", render.project);
+  command->add_option("--video", render.video, "Video file")->required()->check(CLI::ExistingFile);
+  command->add_option("--out", render.out, "The composite (.mp4)")->required();
+  command->add_option("--place", render.place, "Name of the place");
+  AddIntrinsics(command, render.intrinsics);
+}
+
+void AddOthers(CLI::App& app, AllOptions& options) {
+  CLI::App* create = AddSubcommand(app, "new", "Make an empty project", options.create.project);
+  create->add_option("--title", options.create.title, "Title; the folder's name otherwise");
+
+  AddTrain(app, options.train);
+
+  CLI::App* cast = AddSubcommand(app, "cast", "Add a person", options.cast.project);
+  cast->add_option("--name", options.cast.name, "As the drama calls the person")->required();
+  cast->add_option("--model", options.cast.model, "Figure to import; the plain one otherwise")
+      ->check(CLI::ExistingFile);
+
+  AddSubcommand(app, "bake", "Prepare light, occluders and people", options.bake.project);
+
+  CLI::App* check = AddSubcommand(app, "check", "Find every problem", options.check.project);
+  check->add_option("--seconds", options.check.seconds, "How long to run the drama")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+
+  AddRender(app, options.render);
+
+  CLI::App* pack = AddSubcommand(app, "export", "Pack the show", options.export_.project);
+  pack->add_option("--out", options.export_.out, "The bundle (.larshow)")->required();
+}
+
+Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
+  if (app.got_subcommand("new")) return options.create;
+  if (app.got_subcommand("train")) return options.train;
+  if (app.got_subcommand("cast")) return options.cast;
+  if (app.got_subcommand("bake")) return options.bake;
+  if (app.got_subcommand("check")) return options.check;
+  if (app.got_subcommand("render")) return options.render;
+  if (app.got_subcommand("export")) return options.export_;
+  return options.window;
+}
+
+void CheckIntrinsics(const std::vector<double>& intrinsics) {
+  if (!intrinsics.empty() && intrinsics.size() != 4 && intrinsics.size() != 8) {
+    throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
+  }
+}
+
+}  // namespace
+
+std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* argv) {
+  AllOptions options;
+  CommandLine line;
+  CLI::App app("Stages dramas with virtual people on real places.");
+  app.set_version_flag("--version", LARARIUM_VERSION);
+  app.require_subcommand(0, 1);
+  app.add_flag("--json", line.json, "Print the result as one JSON object");
+  app.add_option("PROJECT", options.window.project, "Project to open; the last one otherwise");
+  AddOthers(app, options);
+  try {
+    app.parse(argc, argv);
+    CheckIntrinsics(options.train.intrinsics);
+    CheckIntrinsics(options.render.intrinsics);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  }
+  line.subcommand = Chosen(app, options);
+  return line;
+}
+
+}  // namespace lararium::app

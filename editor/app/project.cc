@@ -1,0 +1,457 @@
+#include "editor/app/project.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <set>
+#include <utility>
+
+#include "shared/core/file.h"
+
+namespace lararium::app {
+
+namespace {
+
+using geometry::CameraModel;
+using geometry::Similarity3;
+
+constexpr size_t kMaxEntries = 10'000;  // of any list in the file
+constexpr double kMaxLength = 1e6;      // metres
+constexpr double kMaxPixel = 1e6;
+
+Status CheckFields(const JsonView& view, std::initializer_list<std::string_view> known) {
+  if (!view.json().is_object()) {
+    return view.Problem("must be an object");
+  }
+  for (const auto& [key, value] : view.json().items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      return view.Problem("has the unknown field \"" + key + "\"",
+                          "correct its spelling, or open the project with a newer Lararium");
+    }
+  }
+  return Status();
+}
+
+Result<Eigen::Vector3d> ParseVector(const JsonView& view, std::string_view key) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> values, view.Numbers(key, 3));
+  for (const double value : values) {
+    if (std::abs(value) > kMaxLength) {
+      return view.Problem("\"" + std::string(key) + "\" lies beyond a million metres");
+    }
+  }
+  return Eigen::Vector3d(values[0], values[1], values[2]);
+}
+
+Result<Eigen::Quaterniond> ParseRotation(const JsonView& view) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> v, view.Numbers("rotation", 4));
+  const Eigen::Quaterniond rotation(v[0], v[1], v[2], v[3]);
+  constexpr double kTolerance = 1e-3;
+  if (std::abs(rotation.norm() - 1.0) > kTolerance) {
+    return view.Problem("\"rotation\" must be a unit quaternion (w, x, y, z)");
+  }
+  return rotation.normalized();
+}
+
+Result<Similarity3> ParseSimilarity(const JsonView& view) {
+  Similarity3 similarity;
+  LARARIUM_ASSIGN_OR_RETURN(similarity.translation, ParseVector(view, "translation"));
+  LARARIUM_ASSIGN_OR_RETURN(similarity.rotation, ParseRotation(view));
+  LARARIUM_ASSIGN_OR_RETURN(similarity.scale, view.Number("scale", 1e-6, 1e6));
+  return similarity;
+}
+
+Result<std::string> ParsePlainName(const JsonView& view, std::string_view key) {
+  LARARIUM_ASSIGN_OR_RETURN(std::string name, view.Text(key));
+  if (!IsPlainName(name)) {
+    return view.Problem("\"" + std::string(key) + "\" names files too",
+                        "use 1 to 64 letters, digits, '_' and '-'");
+  }
+  return name;
+}
+
+Result<SourceDocument> ParseSource(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"video", "images"}));
+  if (view.Has("video") == view.Has("images")) {
+    return view.Problem("must name either a video or a folder of images");
+  }
+  const bool video = view.Has("video");
+  LARARIUM_ASSIGN_OR_RETURN(std::string path, view.Text(video ? "video" : "images"));
+  return SourceDocument{video ? SourceDocument::Kind::kVideo : SourceDocument::Kind::kImages,
+                        std::move(path)};
+}
+
+Result<CameraModel> ParseIntrinsics(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(
+      CheckFields(view, {"width", "height", "fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2"}));
+  constexpr int kMaxSize = 65536;
+  CameraModel camera;
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t width, view.Integer("width", 1, kMaxSize));
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t height, view.Integer("height", 1, kMaxSize));
+  camera.width = static_cast<int>(width);
+  camera.height = static_cast<int>(height);
+  const std::array<std::pair<const char*, double*>, 8> fields = {{{"fx", &camera.fx},
+                                                                  {"fy", &camera.fy},
+                                                                  {"cx", &camera.cx},
+                                                                  {"cy", &camera.cy},
+                                                                  {"k1", &camera.k1},
+                                                                  {"k2", &camera.k2},
+                                                                  {"p1", &camera.p1},
+                                                                  {"p2", &camera.p2}}};
+  for (const auto& [key, value] : fields) {
+    LARARIUM_ASSIGN_OR_RETURN(*value, view.Number(key));
+  }
+  if (const Status status = camera.Validate(); !status.ok()) {
+    return status.At(view.place());
+  }
+  return camera;
+}
+
+Result<stage::Pick> ParsePick(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"frame_index", "frame", "pixel"}));
+  stage::Pick pick;
+  LARARIUM_ASSIGN_OR_RETURN(pick.frame_index, view.Integer("frame_index", 0, int64_t{1} << 40));
+  LARARIUM_ASSIGN_OR_RETURN(pick.frame, view.Text("frame"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> pixel, view.Numbers("pixel", 2));
+  if (std::abs(pixel[0]) > kMaxPixel || std::abs(pixel[1]) > kMaxPixel) {
+    return view.Problem("\"pixel\" lies outside of any image");
+  }
+  pick.pixel = {pixel[0], pixel[1]};
+  return pick;
+}
+
+// The anchors' names are fixed; each is a list of picks under its name.
+std::array<std::pair<const char*, stage::Anchor stage::StagePicks::*>, 5> Anchors() {
+  return {{{"origin", &stage::StagePicks::origin},
+           {"forward", &stage::StagePicks::forward},
+           {"floor", &stage::StagePicks::floor},
+           {"length_from", &stage::StagePicks::length_from},
+           {"length_to", &stage::StagePicks::length_to}}};
+}
+
+Result<stage::StagePicks> ParsePicks(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(
+      CheckFields(view, {"origin", "forward", "floor", "length_from", "length_to", "length_m"}));
+  stage::StagePicks picks = EmptyPicks();
+  for (const auto& [key, anchor] : Anchors()) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(kMaxEntries));
+    for (const JsonView& entry : list) {
+      LARARIUM_ASSIGN_OR_RETURN(stage::Pick pick, ParsePick(entry));
+      (picks.*anchor).picks.push_back(std::move(pick));
+    }
+  }
+  LARARIUM_ASSIGN_OR_RETURN(picks.length_m, view.Number("length_m", 1e-6, kMaxLength));
+  return picks;
+}
+
+Result<OccluderDocument> ParseOccluder(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "file", "translation", "rotation", "scale"}));
+  OccluderDocument occluder;
+  LARARIUM_ASSIGN_OR_RETURN(occluder.name, ParsePlainName(view, "name"));
+  LARARIUM_ASSIGN_OR_RETURN(occluder.file, view.Text("file"));
+  LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(view));
+  return occluder;
+}
+
+Result<ProbeDocument> ParseProbe(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"file", "rotation", "scale"}));
+  ProbeDocument probe;
+  LARARIUM_ASSIGN_OR_RETURN(probe.file, view.Text("file"));
+  LARARIUM_ASSIGN_OR_RETURN(probe.stage_from_probe, ParseRotation(view));
+  LARARIUM_ASSIGN_OR_RETURN(probe.scale, view.Number("scale", 0.0, 1e9));
+  return probe;
+}
+
+// Fills place from the fields that may be missing.
+Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
+  for (const auto& [key, source] :
+       {std::pair{"training", &place.training}, std::pair{"preview", &place.preview}}) {
+    if (view.Has(key)) {
+      LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+      LARARIUM_ASSIGN_OR_RETURN(*source, ParseSource(field));
+    }
+  }
+  if (view.Has("intrinsics")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("intrinsics"));
+    LARARIUM_ASSIGN_OR_RETURN(place.intrinsics, ParseIntrinsics(field));
+  }
+  if (view.Has("probe")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("probe"));
+    LARARIUM_ASSIGN_OR_RETURN(place.probe, ParseProbe(field));
+  }
+  return Status();
+}
+
+Result<PlaceDocument> ParsePlace(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "training", "preview", "intrinsics", "picks",
+                                              "adjust", "camera_nudge", "occluders", "probe"}));
+  PlaceDocument place;
+  LARARIUM_ASSIGN_OR_RETURN(place.name, ParsePlainName(view, "name"));
+  LARARIUM_RETURN_IF_ERROR(ParseOptionalFields(view, place));
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView picks, view.Field("picks"));
+  LARARIUM_ASSIGN_OR_RETURN(place.picks, ParsePicks(picks));
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView adjust, view.Field("adjust"));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(adjust, {"translation", "rotation", "scale"}));
+  LARARIUM_ASSIGN_OR_RETURN(place.picked_from_stage, ParseSimilarity(adjust));
+  LARARIUM_ASSIGN_OR_RETURN(place.camera_nudge, ParseVector(view, "camera_nudge"));
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView occluders, view.Field("occluders"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, occluders.Array(kMaxEntries));
+  for (const JsonView& entry : list) {
+    LARARIUM_ASSIGN_OR_RETURN(OccluderDocument occluder, ParseOccluder(entry));
+    place.occluders.push_back(std::move(occluder));
+  }
+  return place;
+}
+
+Result<CastDocument> ParseCastMember(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "model"}));
+  CastDocument member;
+  LARARIUM_ASSIGN_OR_RETURN(member.name, ParsePlainName(view, "name"));
+  if (view.Has("model")) {
+    LARARIUM_ASSIGN_OR_RETURN(member.model, view.Text("model"));
+  }
+  return member;
+}
+
+template <typename Entry>
+Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& place) {
+  std::set<std::string_view> names;
+  for (const Entry& entry : entries) {
+    if (!names.insert(entry.name).second) {
+      return Status::Error(place, "the name \"" + entry.name + "\" is there twice", "rename one");
+    }
+  }
+  return Status();
+}
+
+Json FormatVector(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json FormatRotation(const Eigen::Quaterniond& q) {
+  return Json::array({q.w(), q.x(), q.y(), q.z()});
+}
+
+void FormatSimilarity(const Similarity3& similarity, Json& json) {
+  json["translation"] = FormatVector(similarity.translation);
+  json["rotation"] = FormatRotation(similarity.rotation);
+  json["scale"] = similarity.scale;
+}
+
+Json FormatSource(const SourceDocument& source) {
+  return {{source.kind == SourceDocument::Kind::kVideo ? "video" : "images", source.path}};
+}
+
+Json FormatIntrinsics(const CameraModel& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx}, {"fy", camera.fy},
+          {"cx", camera.cx},       {"cy", camera.cy},         {"k1", camera.k1}, {"k2", camera.k2},
+          {"p1", camera.p1},       {"p2", camera.p2}};
+}
+
+Json FormatPicks(const stage::StagePicks& picks) {
+  Json json = {{"length_m", picks.length_m}};
+  for (const auto& [key, anchor] : Anchors()) {
+    Json list = Json::array();
+    for (const stage::Pick& pick : (picks.*anchor).picks) {
+      list.push_back({{"frame_index", pick.frame_index},
+                      {"frame", pick.frame},
+                      {"pixel", Json::array({pick.pixel.x(), pick.pixel.y()})}});
+    }
+    json[key] = std::move(list);
+  }
+  return json;
+}
+
+Json FormatPlace(const PlaceDocument& place) {
+  Json json = {{"name", place.name},
+               {"picks", FormatPicks(place.picks)},
+               {"camera_nudge", FormatVector(place.camera_nudge)},
+               {"occluders", Json::array()}};
+  FormatSimilarity(place.picked_from_stage, json["adjust"]);
+  if (!place.training.empty()) {
+    json["training"] = FormatSource(place.training);
+  }
+  if (!place.preview.empty()) {
+    json["preview"] = FormatSource(place.preview);
+  }
+  if (place.intrinsics) {
+    json["intrinsics"] = FormatIntrinsics(*place.intrinsics);
+  }
+  for (const OccluderDocument& occluder : place.occluders) {
+    Json entry = {{"name", occluder.name}, {"file", occluder.file}};
+    FormatSimilarity(occluder.stage_from_mesh, entry);
+    json["occluders"].push_back(std::move(entry));
+  }
+  if (place.probe) {
+    json["probe"] = {{"file", place.probe->file},
+                     {"rotation", FormatRotation(place.probe->stage_from_probe)},
+                     {"scale", place.probe->scale}};
+  }
+  return json;
+}
+
+constexpr std::string_view kNewDrama =
+    R"(-- The drama: what the people of this place do. docs/drama.md has the vocabulary.
+
+function main()
+end
+)";
+
+}  // namespace
+
+stage::StagePicks EmptyPicks() {
+  stage::StagePicks picks;
+  for (const auto& [key, anchor] : Anchors()) {
+    (picks.*anchor).name = key;
+  }
+  return picks;
+}
+
+const PlaceDocument* ProjectDocument::FindPlace(std::string_view name) const {
+  const auto found =
+      std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.name == name; });
+  return found == places.end() ? nullptr : &*found;
+}
+
+PlaceDocument* ProjectDocument::FindPlace(std::string_view name) {
+  return const_cast<PlaceDocument*>(std::as_const(*this).FindPlace(name));
+}
+
+bool IsPlainName(std::string_view name) {
+  constexpr size_t kMaxName = 64;
+  return !name.empty() && name.size() <= kMaxName && name.front() != '-' &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                  c == '_' || c == '-';
+         });
+}
+
+std::filesystem::path ProjectPaths::Resolve(const std::string& path) const {
+  return (folder / path).lexically_normal();
+}
+
+std::string ProjectPaths::Shorten(const std::filesystem::path& file) const {
+  std::error_code ignored;
+  const std::filesystem::path absolute =
+      std::filesystem::absolute(file, ignored).lexically_normal();
+  const std::filesystem::path base = std::filesystem::absolute(folder, ignored).lexically_normal();
+  const std::filesystem::path relative = absolute.lexically_relative(base);
+  const bool inside = !relative.empty() && *relative.begin() != "..";
+  return (inside ? relative : absolute).generic_string();
+}
+
+Result<ProjectDocument> ParseProject(const Json& json, const std::string& place) {
+  const JsonView view(json, place);
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
+  if (schema > kProjectSchema) {
+    return Status::Error(place,
+                         "was written by a newer Lararium (schema " + std::to_string(schema) +
+                             ", this one reads up to " + std::to_string(kProjectSchema) + ")",
+                         "open it with that version");
+  }
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"schema", "title", "credits", "places", "cast"}));
+  ProjectDocument document;
+  LARARIUM_ASSIGN_OR_RETURN(document.title, view.Text("title"));
+  LARARIUM_ASSIGN_OR_RETURN(document.credits, view.Text("credits"));
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView places, view.Field("places"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> place_list, places.Array(kMaxEntries));
+  for (const JsonView& entry : place_list) {
+    LARARIUM_ASSIGN_OR_RETURN(PlaceDocument parsed, ParsePlace(entry));
+    LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(parsed.occluders, entry.place() + ".occluders"));
+    document.places.push_back(std::move(parsed));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView cast, view.Field("cast"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> cast_list, cast.Array(kMaxEntries));
+  for (const JsonView& entry : cast_list) {
+    LARARIUM_ASSIGN_OR_RETURN(CastDocument parsed, ParseCastMember(entry));
+    document.cast.push_back(std::move(parsed));
+  }
+  LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.places, places.place()));
+  LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.cast, cast.place()));
+  return document;
+}
+
+Json FormatProject(const ProjectDocument& document) {
+  Json json = {{"schema", kProjectSchema},
+               {"title", document.title},
+               {"credits", document.credits},
+               {"places", Json::array()},
+               {"cast", Json::array()}};
+  for (const PlaceDocument& place : document.places) {
+    json["places"].push_back(FormatPlace(place));
+  }
+  for (const CastDocument& member : document.cast) {
+    Json entry = {{"name", member.name}};
+    if (!member.model.empty()) {
+      entry["model"] = member.model;
+    }
+    json["cast"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+Result<ProjectDocument> LoadProject(const ProjectPaths& paths) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(paths.Project(), ignored)) {
+    return Status::Error(paths.folder.string(), "is not a project: it has no project.json",
+                         "make one with: lararium-editor new " + paths.folder.string());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(paths.Project()));
+  return ParseProject(json, paths.Project().string());
+}
+
+Status SaveProject(const ProjectPaths& paths, const ProjectDocument& document) {
+  return SaveJson(paths.Project(), FormatProject(document));
+}
+
+Status CreateProject(const ProjectPaths& paths, const std::string& title) {
+  std::error_code error;
+  if (std::filesystem::exists(paths.folder, error) &&
+      !std::filesystem::is_empty(paths.folder, error)) {
+    return Status::Error(paths.folder.string(), "exists and is not an empty folder",
+                         "choose another name");
+  }
+  for (const std::filesystem::path& folder :
+       {paths.folder, paths.Cast(), paths.folder / "places"}) {
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+      return Status::Error(folder.string(), "cannot make the folder: " + error.message());
+    }
+  }
+  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(paths.Drama(), kNewDrama));
+  ProjectDocument document;
+  document.title = title;
+  return SaveProject(paths, document);
+}
+
+std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDocument& document) {
+  std::vector<Status> missing;
+  const auto expect = [&](const std::filesystem::path& file, const std::string& remedy) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+      missing.push_back(Status::Error(file.string(), "is not there", remedy));
+    }
+  };
+  expect(paths.Drama(), "write a drama, or take lua/template for a start");
+  for (const PlaceDocument& place : document.places) {
+    expect(paths.Scene(place.name), "train the place \"" + place.name + "\"");
+    for (const SourceDocument& source : {place.training, place.preview}) {
+      if (!source.empty()) {
+        expect(paths.Resolve(source.path), "put the recording of \"" + place.name + "\" back");
+      }
+    }
+    for (const OccluderDocument& occluder : place.occluders) {
+      expect(paths.Resolve(occluder.file), "put it back, or remove the occluder");
+    }
+    if (place.probe) {
+      expect(paths.Resolve(place.probe->file), "put it back, or choose another probe");
+    }
+  }
+  for (const CastDocument& member : document.cast) {
+    if (!member.model.empty()) {
+      expect(paths.Resolve(member.model), "put it back, or import \"" + member.name + "\" anew");
+    }
+  }
+  return missing;
+}
+
+}  // namespace lararium::app

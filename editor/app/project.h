@@ -1,0 +1,119 @@
+#pragma once
+
+// A project on disk: the folder NAME.lararium with project.json, drama.lua,
+// cast/ and places/NAME/ (docs/file-formats.md).
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shared/core/json.h"
+#include "shared/core/status.h"
+#include "shared/geometry/camera_model.h"
+#include "shared/geometry/transform.h"
+#include "shared/stage/picks.h"
+
+namespace lararium::app {
+
+inline constexpr int kProjectSchema = 1;
+
+// A recording. Its path is relative to the project's folder, or absolute.
+struct SourceDocument {
+  enum class Kind { kNone, kVideo, kImages };
+  Kind kind = Kind::kNone;
+  std::string path;
+
+  bool empty() const { return kind == Kind::kNone; }
+};
+
+struct OccluderDocument {
+  std::string name;
+  std::string file;  // a model, any format that the editor imports
+  geometry::Similarity3 stage_from_mesh;
+};
+
+// An equirectangular image of the light on the stage.
+struct ProbeDocument {
+  std::string file;
+  Eigen::Quaterniond stage_from_probe = Eigen::Quaterniond::Identity();
+  double scale = 1.0;  // radiance of the stage over radiance of the file
+};
+
+// Picks with the names of their anchors set and nothing picked.
+stage::StagePicks EmptyPicks();
+
+struct PlaceDocument {
+  std::string name;
+  SourceDocument training;
+  SourceDocument preview;  // what the editor's camera view plays; none: the training
+  std::optional<geometry::CameraModel> intrinsics;  // none: training estimates them
+  stage::StagePicks picks = EmptyPicks();
+  // By hand, on top of the picks: the stage that they give from the stage itself.
+  geometry::Similarity3 picked_from_stage;
+  Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres, camera axes
+  std::vector<OccluderDocument> occluders;
+  std::optional<ProbeDocument> probe;
+};
+
+struct CastDocument {
+  std::string name;   // as the drama calls the actor
+  std::string model;  // a figure that the editor imports; empty: the plain built-in one
+};
+
+// All that a curator edits, but the drama, which is a file of its own.
+struct ProjectDocument {
+  std::string title;
+  std::string credits;
+  std::vector<PlaceDocument> places;
+  std::vector<CastDocument> cast;
+
+  const PlaceDocument* FindPlace(std::string_view name) const;
+  PlaceDocument* FindPlace(std::string_view name);
+};
+
+// Names of places and actors name files too: letters, digits, '_' and '-', at
+// most 64 of them.
+bool IsPlainName(std::string_view name);
+
+// Where things lie in a project's folder.
+struct ProjectPaths {
+  std::filesystem::path folder;
+
+  std::filesystem::path Project() const { return folder / "project.json"; }
+  // The document as last edited; exists only between an edit and its saving.
+  std::filesystem::path Autosave() const { return folder / "autosave.json"; }
+  std::filesystem::path Drama() const { return folder / "drama.lua"; }
+  std::filesystem::path Cast() const { return folder / "cast"; }
+  std::filesystem::path Human(const std::string& cast_name) const {
+    return Cast() / (cast_name + ".larhuman");
+  }
+  std::filesystem::path Place(const std::string& name) const { return folder / "places" / name; }
+  std::filesystem::path Scene(const std::string& place) const {
+    return Place(place) / "scene.larscene";
+  }
+
+  // The file that a path of the document means, and the path to write for a file.
+  std::filesystem::path Resolve(const std::string& path) const;
+  std::string Shorten(const std::filesystem::path& file) const;
+};
+
+// Every field is checked; fields that this version does not know are an error,
+// so that saving never drops them. place: what errors call the text.
+Result<ProjectDocument> ParseProject(const Json& json, const std::string& place);
+Json FormatProject(const ProjectDocument& document);
+
+Result<ProjectDocument> LoadProject(const ProjectPaths& paths);
+Status SaveProject(const ProjectPaths& paths, const ProjectDocument& document);
+
+// Makes the folder with an empty drama, no place and no cast. Refuses a
+// folder that has something in it.
+Status CreateProject(const ProjectPaths& paths, const std::string& title);
+
+// One Status for each file that the document names and that is not there.
+std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDocument& document);
+
+}  // namespace lararium::app

@@ -1,0 +1,158 @@
+#include "editor/app/staging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "editor/app/baking.h"
+#include "shared/core/file.h"
+
+namespace lararium::app {
+
+namespace {
+
+using Eigen::Vector3d;
+using geometry::Similarity3;
+
+// The middle of each coordinate: outliers do not pull it.
+Vector3d MedianPoint(const std::vector<Eigen::Vector3f>& points) {
+  Vector3d median = Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<float> values;
+    values.reserve(points.size());
+    for (const Eigen::Vector3f& point : points) {
+      values.push_back(point[axis]);
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    median[axis] = *middle;
+  }
+  return median;
+}
+
+bool AnythingPicked(const stage::StagePicks& picks) {
+  return !picks.origin.picks.empty() || !picks.forward.picks.empty() ||
+         !picks.floor.picks.empty() || !picks.length_from.picks.empty() ||
+         !picks.length_to.picks.empty();
+}
+
+}  // namespace
+
+Similarity3 GuessStage(const vision::SceneDatabase& database) {
+  if (database.points.empty() || database.keyframes.empty()) {
+    return {};
+  }
+  constexpr double kTypicalDistance = 3.0;  // metres
+  constexpr double kEyeHeight = 1.6;
+  const Vector3d middle = MedianPoint(database.points);
+  Vector3d up = Vector3d::Zero();
+  Vector3d center = Vector3d::Zero();
+  std::vector<double> distances;
+  for (const vision::Keyframe& keyframe : database.keyframes) {
+    const Eigen::Quaterniond map_from_camera = keyframe.camera_from_map.rotation.conjugate();
+    up -= map_from_camera * Vector3d::UnitY();
+    center += keyframe.camera_from_map.Center();
+    distances.push_back((keyframe.camera_from_map.Center() - middle).norm());
+  }
+  center /= static_cast<double>(database.keyframes.size());
+  std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
+  const double scale = std::max(distances[distances.size() / 2], 1e-9) / kTypicalDistance;
+  const Vector3d y = up.norm() > 1e-9 ? up.normalized() : Vector3d(-Vector3d::UnitY());
+  const Vector3d away = center - middle;  // towards the viewers: +Z
+  Vector3d z = away - away.dot(y) * y;
+  z = z.norm() > 1e-9 ? z.normalized() : y.unitOrthogonal();
+  Eigen::Matrix3d rotation;
+  rotation << y.cross(z), y, z;
+  const double eye_level = away.dot(y);
+  return {scale, Eigen::Quaterniond(rotation).normalized(),
+          middle + (eye_level - kEyeHeight * scale) * y};
+}
+
+ResolvedPicks ResolvePicks(const PlaceDocument& place, const vision::SceneDatabase& database) {
+  ResolvedPicks resolved;
+  resolved.map_from_picked = GuessStage(database);
+  if (!AnythingPicked(place.picks)) {
+    return resolved;
+  }
+  Result<stage::StageSolution> solution = stage::SolveStage(place.picks, database);
+  if (!solution) {
+    resolved.problem = solution.status().At("picks of " + place.name);
+    return resolved;
+  }
+  resolved.map_from_picked = solution->map_from_stage;
+  resolved.solution = std::move(*solution);
+  return resolved;
+}
+
+Result<stage::Place> StagePlace(const ProjectPaths& paths,
+                                const PlaceDocument& place,
+                                const Similarity3& map_from_picked) {
+  stage::Place staged;
+  staged.name = place.name;
+  staged.map_from_stage = map_from_picked * place.picked_from_stage;
+  staged.camera_nudge = place.camera_nudge;
+  for (const OccluderDocument& occluder : place.occluders) {
+    LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh mesh, LoadBakedMesh(paths, place, occluder));
+    staged.occluders.push_back({occluder.name, std::move(mesh), occluder.stage_from_mesh});
+  }
+  LARARIUM_ASSIGN_OR_RETURN(staged.light, LoadBakedLight(paths, place));
+  return staged;
+}
+
+Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
+                                          const ProjectDocument& document,
+                                          const std::string& place_name) {
+  const PlaceDocument* place = document.FindPlace(place_name);
+  if (place == nullptr) {
+    return Status::Error(paths.Project().string(), "has no place \"" + place_name + "\"");
+  }
+  show::ShowContent content;
+  content.title = document.title;
+  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database,
+                            vision::LoadSceneDatabase(paths.Scene(place->name)));
+  content.database = std::make_shared<const vision::SceneDatabase>(std::move(database));
+  const ResolvedPicks picks = ResolvePicks(*place, *content.database);
+  LARARIUM_RETURN_IF_ERROR(picks.problem);
+  LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, *place, picks.map_from_picked));
+  for (const CastDocument& member : document.cast) {
+    LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
+    content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});
+  }
+  LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
+  content.drama_file = paths.Drama().filename().string();
+  return content;
+}
+
+Result<std::unique_ptr<capture::FrameSource>> OpenSource(const ProjectPaths& paths,
+                                                         const SourceDocument& source) {
+  switch (source.kind) {
+    case SourceDocument::Kind::kVideo:
+      return capture::OpenVideo(paths.Resolve(source.path));
+    case SourceDocument::Kind::kImages:
+      return capture::OpenImageFolder(paths.Resolve(source.path));
+    case SourceDocument::Kind::kNone:
+      break;
+  }
+  return Status::Error(paths.Project().string(), "names no recording of the place",
+                       "train it from a video or a folder of images");
+}
+
+Result<geometry::CameraModel> CameraForSize(const geometry::CameraModel& camera,
+                                            int width,
+                                            int height,
+                                            const std::string& place) {
+  constexpr double kTolerance = 0.01;
+  const double ratio =
+      (static_cast<double>(width) * camera.height) / (static_cast<double>(height) * camera.width);
+  if (std::abs(ratio - 1.0) > kTolerance) {
+    return Status::Error(place,
+                         "its images are " + std::to_string(width) + " x " +
+                             std::to_string(height) + ", those of the training " +
+                             std::to_string(camera.width) + " x " + std::to_string(camera.height),
+                         "use a recording of the same camera and format");
+  }
+  return camera.Resized(width, height);
+}
+
+}  // namespace lararium::app

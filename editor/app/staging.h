@@ -1,0 +1,59 @@
+#pragma once
+
+// From the document to what can be shown: resolves picks in the map at hand and
+// gathers what was baked.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "editor/app/project.h"
+#include "shared/capture/frame_source.h"
+#include "shared/core/status.h"
+#include "shared/geometry/camera_model.h"
+#include "shared/show/show_content.h"
+#include "shared/stage/picks.h"
+#include "shared/stage/place.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::app {
+
+// A stage for a map without picks, to begin with: the cameras' mean up is +Y, the
+// origin lies under the middle of the points, and the points' median distance
+// from the cameras is three metres.
+geometry::Similarity3 GuessStage(const vision::SceneDatabase& database);
+
+// Where the picks (before the adjustment by hand) put the stage.
+struct ResolvedPicks {
+  geometry::Similarity3 map_from_picked;
+  std::optional<stage::StageSolution> solution;  // none where nothing was picked, or not enough
+  Status problem;                                // why the picks give no stage
+};
+
+// Falls back to the guess where the picks give nothing.
+ResolvedPicks ResolvePicks(const PlaceDocument& place, const vision::SceneDatabase& database);
+
+// Picks, adjustment, nudge, occluders and light of a place. picks are resolved
+// already. Fails where something was not baked.
+Result<stage::Place> StagePlace(const ProjectPaths& paths,
+                                const PlaceDocument& place,
+                                const geometry::Similarity3& map_from_picked);
+
+// Everything that a show needs at one place. Picks that do not resolve are an
+// error here: nothing is exported or rendered on a guess unless there are none.
+Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
+                                          const ProjectDocument& document,
+                                          const std::string& place_name);
+
+Result<std::unique_ptr<capture::FrameSource>> OpenSource(const ProjectPaths& paths,
+                                                         const SourceDocument& source);
+
+// The camera of images of another size, if they are the same images scaled: an
+// error where the sides are in another ratio.
+Result<geometry::CameraModel> CameraForSize(const geometry::CameraModel& camera,
+                                            int width,
+                                            int height,
+                                            const std::string& place);
+
+}  // namespace lararium::app

@@ -1,0 +1,281 @@
+#include "editor/app/subcommands.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "editor/app/baking.h"
+#include "editor/app/exporting.h"
+#include "editor/app/project.h"
+#include "editor/app/rendering.h"
+#include "editor/app/staging.h"
+#include "editor/app/training.h"
+#include "shared/core/file.h"
+#include "shared/drama/drama.h"
+
+namespace lararium::app {
+
+namespace {
+
+// The place that an option names, or the only one.
+Result<std::string> ChoosePlace(const ProjectPaths& paths,
+                                const ProjectDocument& document,
+                                const std::string& name) {
+  if (!name.empty()) {
+    if (document.FindPlace(name) == nullptr) {
+      return Status::Error(paths.Project().string(), "has no place \"" + name + "\"");
+    }
+    return name;
+  }
+  if (document.places.size() != 1) {
+    return Status::Error(paths.Project().string(),
+                         "has " + std::to_string(document.places.size()) + " places",
+                         "name one with --place");
+  }
+  return document.places.front().name;
+}
+
+// The place to train, added where it is new.
+Result<PlaceDocument*> PlaceToTrain(ProjectDocument& document, const std::string& option) {
+  std::string name = option;
+  if (name.empty()) {
+    name = document.places.size() == 1 ? document.places.front().name : "place";
+  }
+  if (!IsPlainName(name)) {
+    return Status::Error("--place " + name, "cannot name a place",
+                         "use 1 to 64 letters, digits, '_' and '-'");
+  }
+  if (document.FindPlace(name) == nullptr) {
+    PlaceDocument place;
+    place.name = name;
+    document.places.push_back(std::move(place));
+  }
+  return document.FindPlace(name);
+}
+
+// Sets place.training from the options; records a camera for it.
+Status ChooseTrainingSource(const TrainOptions& options,
+                            const ProjectPaths& paths,
+                            PlaceDocument& place,
+                            Progress& progress) {
+  if (!options.video.empty()) {
+    place.training = {SourceDocument::Kind::kVideo, paths.Shorten(options.video)};
+  } else if (!options.images.empty()) {
+    place.training = {SourceDocument::Kind::kImages, paths.Shorten(options.images)};
+  } else if (options.camera) {
+    const std::filesystem::path file = paths.Place(place.name) / "training.mp4";
+    LARARIUM_ASSIGN_OR_RETURN(const int64_t frames,
+                              RecordCamera(*options.camera, file, options.seconds, progress));
+    if (frames == 0) {
+      return Status::Error("camera " + std::to_string(*options.camera), "gave no image");
+    }
+    place.training = {SourceDocument::Kind::kVideo, paths.Shorten(file)};
+  }
+  return Status();
+}
+
+Status GiveIntrinsics(const std::vector<double>& numbers,
+                      const ProjectPaths& paths,
+                      PlaceDocument& place) {
+  if (numbers.empty()) {
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, place.training));
+  LARARIUM_ASSIGN_OR_RETURN(place.intrinsics,
+                            MakeIntrinsics(numbers, source->width(), source->height()));
+  return Status();
+}
+
+std::string TrainSummary(const std::string& place, const train::TrainReport& report) {
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                "%s: %zu of %d images located, %d points, mean reprojection error %.3f px\n",
+                place.c_str(), report.located.size(), report.frames, report.points,
+                report.mean_reprojection_error_px);
+  return text;
+}
+
+// Runs the drama without drawing and tells what went wrong in it.
+std::vector<std::string> DryRun(const ProjectPaths& paths,
+                                const ProjectDocument& document,
+                                double seconds,
+                                Progress& progress) {
+  std::vector<std::string> problems;
+  stage::Stage stage;
+  for (const CastDocument& member : document.cast) {
+    Result<human::Human> human = LoadBakedHuman(paths, member);
+    if (!human) {
+      problems.push_back(human.message());
+      continue;
+    }
+    const auto added =
+        stage.Add(member.name, std::make_shared<const human::Human>(std::move(*human)));
+    if (!added.ok()) {
+      problems.push_back(added.message());
+    }
+  }
+  const Result<std::string> script = ReadText(paths.Drama());
+  if (!script) {
+    problems.push_back(script.message());
+    return problems;
+  }
+  const std::shared_ptr<Log> silent = MakeSilentLog();
+  const auto drama =
+      drama::Drama::Create(*script, paths.Drama().filename().string(), stage, {}, *silent);
+  if (!drama.ok()) {
+    problems.push_back(drama.message());
+    return problems;
+  }
+  const auto ticks = static_cast<int64_t>(seconds * drama::Drama::kTicksPerSecond);
+  for (int64_t tick = 0; tick < ticks && !progress.Cancelled(); ++tick) {
+    (*drama)->Tick();
+    progress.Report("running the drama", static_cast<double>(tick + 1) / ticks);
+  }
+  for (const drama::ScriptError& error : (*drama)->errors()) {
+    char time[32];
+    std::snprintf(time, sizeof(time), " (at %.2f s)", error.time);
+    problems.push_back(error.message + time);
+  }
+  return problems;
+}
+
+}  // namespace
+
+Result<CommandResult> RunNew(const NewOptions& options) {
+  const ProjectPaths paths{options.project};
+  const std::filesystem::path folder = options.project.lexically_normal();
+  const std::string stem = (folder.has_filename() ? folder : folder.parent_path()).stem().string();
+  LARARIUM_RETURN_IF_ERROR(CreateProject(paths, options.title.empty() ? stem : options.title));
+  return CommandResult{"made " + options.project.string() + "\n",
+                       {{"project", options.project.string()}}};
+}
+
+Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, Log& log) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, PlaceToTrain(document, options.place));
+  LARARIUM_RETURN_IF_ERROR(ChooseTrainingSource(options, paths, *place, progress));
+  LARARIUM_RETURN_IF_ERROR(GiveIntrinsics(options.intrinsics, paths, *place));
+  LARARIUM_ASSIGN_OR_RETURN(const train::TrainReport report,
+                            TrainPlace(paths, *place, progress, log));
+  LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
+  if (!options.poses_out.empty()) {
+    LARARIUM_RETURN_IF_ERROR(vision::SavePoses(options.poses_out, PosesOf(report)));
+  }
+  CommandResult result{TrainSummary(place->name, report), ReportJson(report)};
+  result.json["place"] = place->name;
+  return result;
+}
+
+Result<CommandResult> RunCast(const CastOptions& options) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  if (!IsPlainName(options.name)) {
+    return Status::Error("--name " + options.name, "cannot name a person",
+                         "use 1 to 64 letters, digits, '_' and '-'");
+  }
+  const CastDocument member{options.name,
+                            options.model.empty() ? "" : paths.Shorten(options.model)};
+  const auto known = std::find_if(document.cast.begin(), document.cast.end(),
+                                  [&](const auto& m) { return m.name == member.name; });
+  if (known == document.cast.end()) {
+    document.cast.push_back(member);
+  } else {
+    *known = member;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const human::Human human, BakeHuman(paths, member));
+  LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
+  Json clips = Json::array();
+  std::string text = member.name + ": clips";
+  for (const human::Clip& clip : human.clips) {
+    clips.push_back(clip.name);
+    text += " " + clip.name;
+  }
+  return CommandResult{text + "\n", {{"name", member.name}, {"clips", clips}}};
+}
+
+Result<CommandResult> RunBake(const BakeOptions& options, Progress& progress) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(const BakeReport report, Bake(paths, document, progress));
+  CommandResult result;
+  for (const std::string& warning : report.warnings) {
+    result.text += "warning: " + warning + "\n";
+  }
+  for (const std::string& name : report.baked) {
+    result.text += "baked " + name + "\n";
+  }
+  result.text += std::to_string(report.unchanged.size()) + " up to date\n";
+  result.json = {
+      {"baked", report.baked}, {"unchanged", report.unchanged}, {"warnings", report.warnings}};
+  return result;
+}
+
+Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  std::vector<std::string> problems;
+  for (const Status& missing : FindMissingFiles(paths, document)) {
+    problems.push_back(missing.message());
+  }
+  if (document.places.empty()) {
+    problems.push_back(paths.Project().string() + ": has no place; train one");
+  }
+  for (const PlaceDocument& place : document.places) {
+    const auto content = LoadShowContent(paths, document, place.name);
+    if (!content.ok()) {
+      problems.push_back(content.message());
+    }
+  }
+  for (std::string& problem : DryRun(paths, document, options.seconds, progress)) {
+    problems.push_back(std::move(problem));
+  }
+  if (progress.Cancelled()) {
+    return Status::Error("check", "cancelled");
+  }
+  // What several parts need is reported by each of them.
+  std::sort(problems.begin(), problems.end());
+  problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
+  CommandResult result;
+  for (const std::string& problem : problems) {
+    result.text += problem + "\n";
+  }
+  if (problems.empty()) {
+    result.text = "no problems\n";
+  }
+  result.json = {{"problems", problems}};
+  result.failed = !problems.empty();
+  return result;
+}
+
+Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress, Log& log) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string place, ChoosePlace(paths, document, options.place));
+  LARARIUM_ASSIGN_OR_RETURN(const BakeReport baked, Bake(paths, document, progress));
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadShowContent(paths, document, place));
+  RenderJob job;
+  job.content = std::move(content);
+  job.video = options.video;
+  job.intrinsics = options.intrinsics;
+  job.out = options.out;
+  LARARIUM_ASSIGN_OR_RETURN(const RenderReport report, RenderVideo(std::move(job), progress, log));
+  return CommandResult{
+      options.out.string() + ": " + std::to_string(report.frames) + " frames, " +
+          std::to_string(report.tracked) + " tracked\n",
+      {{"out", options.out.string()}, {"frames", report.frames}, {"tracked", report.tracked}}};
+}
+
+Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  LARARIUM_RETURN_IF_ERROR(ExportProject(paths, document, options.out, progress));
+  std::error_code ignored;
+  const auto bytes = std::filesystem::file_size(options.out, ignored);
+  return CommandResult{"wrote " + options.out.string() + " (" + std::to_string(bytes) + " bytes)\n",
+                       {{"out", options.out.string()}, {"bytes", bytes}}};
+}
+
+}  // namespace lararium::app

@@ -1,0 +1,64 @@
+#include "editor/panels/view_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lararium::panels {
+
+std::optional<Eigen::Vector2d> ViewCamera::Project(const Eigen::Vector3d& point_in_world) const {
+  const Eigen::Vector3d point = camera_from_world * point_in_world;
+  if (point.z() < kNear) {
+    return std::nullopt;
+  }
+  return Eigen::Vector2d(center.x() + focal_x * point.x() / point.z(),
+                         center.y() + focal_y * point.y() / point.z());
+}
+
+Ray ViewCamera::RayThrough(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector3d in_camera((pixel.x() - center.x()) / focal_x,
+                                  (pixel.y() - center.y()) / focal_y, 1.0);
+  return {camera_from_world.Center(),
+          camera_from_world.rotation.conjugate() * in_camera.normalized()};
+}
+
+double ViewCamera::UnitsPerPixel(const Eigen::Vector3d& point_in_world) const {
+  return std::max((camera_from_world * point_in_world).z(), kNear) / focal_y;
+}
+
+void OrbitCamera::Orbit(const Eigen::Vector2d& drag_px, double view_width_px) {
+  constexpr double kMaxElevation = 1.55;
+  const double radians_per_px = 2.0 * std::numbers::pi / std::max(view_width_px, 1.0);
+  azimuth = std::remainder(azimuth - drag_px.x() * radians_per_px, 2.0 * std::numbers::pi);
+  elevation = std::clamp(elevation + drag_px.y() * radians_per_px, -kMaxElevation, kMaxElevation);
+}
+
+void OrbitCamera::Pan(const Eigen::Vector2d& drag_px, double view_height_px) {
+  const double units_per_px =
+      2.0 * distance * std::tan(0.5 * kVerticalFieldOfView) / std::max(view_height_px, 1.0);
+  const Eigen::Quaterniond world_from_camera = CameraFromWorld().rotation.conjugate();
+  target -= world_from_camera * Eigen::Vector3d(drag_px.x(), drag_px.y(), 0.0) * units_per_px;
+}
+
+void OrbitCamera::Zoom(double steps) {
+  distance = std::clamp(distance * std::pow(0.85, steps), 0.02, 2000.0);
+}
+
+geometry::Rigid3 OrbitCamera::CameraFromWorld() const {
+  const Eigen::Quaterniond world_from_orbit =
+      Eigen::AngleAxisd(azimuth, Eigen::Vector3d::UnitY()) *
+      Eigen::AngleAxisd(-elevation, Eigen::Vector3d::UnitX());
+  // Orbit axes are x right, y up, z backward: half a turn about x to the camera's.
+  const Eigen::Quaterniond camera_from_orbit(0.0, 1.0, 0.0, 0.0);
+  const Eigen::Quaterniond camera_from_world =
+      (camera_from_orbit * world_from_orbit.conjugate()).normalized();
+  const Eigen::Vector3d center = target + world_from_orbit * Eigen::Vector3d(0, 0, distance);
+  return {camera_from_world, -(camera_from_world * center)};
+}
+
+ViewCamera OrbitCamera::View(const Eigen::Vector2d& origin, const Eigen::Vector2d& size_px) const {
+  const double focal = 0.5 * size_px.y() / std::tan(0.5 * kVerticalFieldOfView);
+  return {CameraFromWorld(), focal, focal, origin + 0.5 * size_px};
+}
+
+}  // namespace lararium::panels

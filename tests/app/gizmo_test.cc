@@ -1,0 +1,166 @@
+#include "editor/panels/gizmo.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace lararium::panels {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using geometry::Similarity3;
+
+ViewCamera SomeView() {
+  OrbitCamera orbit;
+  orbit.target = Vector3d(0.2, 0.1, 0.0);
+  orbit.distance = 3.0;
+  return orbit.View({50.0, 30.0}, {900.0, 700.0});
+}
+
+Similarity3 SomeThing() {
+  return {1.5, Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized())),
+          Vector3d(0.4, -0.2, 0.3)};
+}
+
+TEST(NearestOnAxis, FindsWhereARayCrossesTheAxis) {
+  const Vector3d origin(1.0, 2.0, 3.0);
+  const Vector3d axis = Vector3d(1.0, 1.0, 0.0).normalized();
+  const Vector3d eye(5.0, -3.0, 8.0);
+  const Vector3d on_axis = origin + 1.7 * axis;
+  const Ray ray{eye, (on_axis - eye).normalized()};
+  EXPECT_NEAR(*NearestOnAxis(ray, origin, axis), 1.7, 1e-12);
+}
+
+TEST(NearestOnAxis, TakesTheFootOfTheCommonPerpendicularOfSkewLines) {
+  const Ray ray{{2.0, 5.0, 1.0}, -Vector3d::UnitY()};
+  EXPECT_NEAR(*NearestOnAxis(ray, Vector3d::Zero(), Vector3d::UnitX()), 2.0, 1e-12);
+}
+
+TEST(NearestOnAxis, RefusesAnAxisSeenEndOnAndOneBehind) {
+  const Ray ray{{0.0, 1.0, 5.0}, -Vector3d::UnitZ()};
+  EXPECT_FALSE(NearestOnAxis(ray, Vector3d::Zero(), Vector3d::UnitZ()).has_value());
+  EXPECT_FALSE(NearestOnAxis(ray, {0.0, 0.0, 9.0}, Vector3d::UnitX()).has_value());
+}
+
+TEST(MeetPlane, MeetsOnlyWhatLiesAhead) {
+  const Ray ray{{0.0, 2.0, 0.0}, Vector3d(1.0, -1.0, 0.0).normalized()};
+  EXPECT_TRUE(
+      MeetPlane(ray, Vector3d::Zero(), Vector3d::UnitY())->isApprox(Vector3d(2.0, 0.0, 0.0)));
+  EXPECT_FALSE(MeetPlane(ray, {0.0, 3.0, 0.0}, Vector3d::UnitY()).has_value());
+  EXPECT_FALSE(MeetPlane(ray, Vector3d::Zero(), Vector3d::UnitZ()).has_value());
+}
+
+class GizmoHandles : public testing::TestWithParam<GizmoMode> {};
+
+TEST_P(GizmoHandles, AreFoundWhereTheyAreDrawn) {
+  const ViewCamera view = SomeView();
+  const GizmoLayout layout(SomeThing(), view);
+  for (const GizmoHandle handle : HandlesOf(GetParam())) {
+    const std::vector<Vector2d> outline = layout.Outline(handle, view);
+    ASSERT_FALSE(outline.empty());
+    Vector2d grip = outline.back();  // the tip of an arrow, a point of a ring
+    if (outline.size() == 4) {
+      grip = 0.25 * (outline[0] + outline[1] + outline[2] + outline[3]);
+    }
+    EXPECT_EQ(PickHandle(layout, GetParam(), view, grip), handle);
+  }
+  EXPECT_EQ(PickHandle(layout, GetParam(), view, {60.0, 40.0}), std::nullopt);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes,
+                         GizmoHandles,
+                         testing::Values(GizmoMode::kMove, GizmoMode::kTurn, GizmoMode::kScale));
+
+TEST(GizmoLayout, ArmsHaveTheSameSizeAtAnyDistance) {
+  for (const double distance : {0.5, 3.0, 40.0}) {
+    OrbitCamera orbit;
+    orbit.azimuth = 0.0;
+    orbit.elevation = 0.0;
+    orbit.distance = distance;
+    const ViewCamera view = orbit.View({0.0, 0.0}, {900.0, 700.0});
+    const GizmoLayout layout(Similarity3{}, view);
+    const std::vector<Vector2d> arrow = layout.Outline(GizmoHandle::kMoveX, view);
+    EXPECT_NEAR((arrow[1] - arrow[0]).norm(), GizmoLayout::kArmPx, 1e-6);
+  }
+}
+
+TEST(GizmoDrag, AnArrowMovesAlongItsAxisOnly) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector3d axis = start.rotation * Vector3d::UnitY();
+  const Vector2d from = *view.Project(start.translation + 0.1 * axis);
+  const Vector2d to = *view.Project(start.translation + 0.6 * axis);
+  std::optional<GizmoDrag> drag = GizmoDrag::Begin(GizmoHandle::kMoveY, start, view, from);
+  ASSERT_TRUE(drag.has_value());
+  const Similarity3 moved = drag->Update(view, to);
+  EXPECT_TRUE(moved.translation.isApprox(start.translation + 0.5 * axis, 1e-9));
+  EXPECT_TRUE(moved.rotation.isApprox(start.rotation));
+  EXPECT_EQ(moved.scale, start.scale);
+}
+
+TEST(GizmoDrag, APlaneKeepsThePointBelowThePointer) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector3d x = start.rotation * Vector3d::UnitX();
+  const Vector3d z = start.rotation * Vector3d::UnitZ();
+  const Vector3d grip = start.translation + 0.05 * x + 0.05 * z;
+  const Vector3d goal = grip + 0.3 * x - 0.2 * z;
+  std::optional<GizmoDrag> drag =
+      GizmoDrag::Begin(GizmoHandle::kMoveZx, start, view, *view.Project(grip));
+  ASSERT_TRUE(drag.has_value());
+  const Similarity3 moved = drag->Update(view, *view.Project(goal));
+  EXPECT_TRUE(moved.translation.isApprox(start.translation + 0.3 * x - 0.2 * z, 1e-9));
+}
+
+TEST(GizmoDrag, ARingTurnsByTheAngleDraggedAndKeepsThePlace) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector3d axis = start.rotation * Vector3d::UnitZ();
+  const auto on_ring = [&](double angle) {
+    const Vector3d in_thing(0.3 * std::cos(angle), 0.3 * std::sin(angle), 0.0);
+    return *view.Project(start.translation + start.rotation * in_thing);
+  };
+  std::optional<GizmoDrag> drag = GizmoDrag::Begin(GizmoHandle::kTurnZ, start, view, on_ring(0.4));
+  ASSERT_TRUE(drag.has_value());
+  const Similarity3 turned = drag->Update(view, on_ring(0.4 - 1.9));
+  const Eigen::AngleAxisd turn(turned.rotation * start.rotation.conjugate());
+  EXPECT_NEAR(turn.angle() * turn.axis().dot(axis), -1.9, 1e-9);
+  EXPECT_TRUE(turned.translation.isApprox(start.translation));
+}
+
+TEST(GizmoDrag, ScaleFollowsTheDistanceFromTheCentre) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector2d middle = *view.Project(start.translation);
+  std::optional<GizmoDrag> drag =
+      GizmoDrag::Begin(GizmoHandle::kScale, start, view, middle + Vector2d(30.0, -40.0));
+  ASSERT_TRUE(drag.has_value());
+  const Similarity3 scaled = drag->Update(view, middle + Vector2d(60.0, -80.0));
+  EXPECT_NEAR(scaled.scale, 2.0 * start.scale, 1e-9);
+  EXPECT_TRUE(scaled.translation.isApprox(start.translation));
+  EXPECT_NEAR(drag->Update(view, middle).scale, 2.0 * start.scale, 1e-9)
+      << "the centre gives no scale: the last one holds";
+}
+
+TEST(GizmoDrag, ComingBackToTheBeginningRestoresTheTransform) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  for (const GizmoMode mode : {GizmoMode::kMove, GizmoMode::kTurn, GizmoMode::kScale}) {
+    for (const GizmoHandle handle : HandlesOf(mode)) {
+      const GizmoLayout layout(start, view);
+      const Vector2d grip = layout.Outline(handle, view).back();
+      std::optional<GizmoDrag> drag = GizmoDrag::Begin(handle, start, view, grip);
+      ASSERT_TRUE(drag.has_value());
+      drag->Update(view, grip + Vector2d(40.0, 25.0));
+      const Similarity3 back = drag->Update(view, grip);
+      EXPECT_TRUE(back.translation.isApprox(start.translation, 1e-9));
+      EXPECT_TRUE(back.rotation.isApprox(start.rotation, 1e-9));
+      EXPECT_NEAR(back.scale, start.scale, 1e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lararium::panels

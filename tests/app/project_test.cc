@@ -1,0 +1,199 @@
+#include "editor/app/project.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "editor/app/autosave.h"
+#include "shared/core/file.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::app {
+namespace {
+
+using testing::HasSubstr;
+
+ProjectDocument FullDocument() {
+  PlaceDocument place;
+  place.name = "thermopolium";
+  place.training = {SourceDocument::Kind::kVideo, "training.mp4"};
+  place.preview = {SourceDocument::Kind::kImages, "/elsewhere/frames"};
+  place.intrinsics = geometry::CameraModel{640, 480, 600.5, 601.25, 319.5, 239.5, -0.1, 0.01};
+  place.picks.origin.picks = {{12, "000012.png", {320.25, 410.5}}, {40, "000040.png", {300, 400}}};
+  place.picks.forward.picks = {{12, "", {333.0, 320.0}}};
+  place.picks.length_m = 2.75;
+  place.picked_from_stage = {0.1, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, 0.2, 0.3}};
+  place.camera_nudge = {0.01, -0.02, 0.03};
+  place.occluders = {{"counter", "counter.glb", {1.0, Eigen::Quaterniond(0, 0, 1, 0), {1, 2, 3}}}};
+  place.probe = ProbeDocument{"probe.exr", Eigen::Quaterniond(0.6, 0, 0.8, 0), 2.0};
+  PlaceDocument untouched;
+  untouched.name = "maquette";
+  ProjectDocument document;
+  document.title = "Vetutius";
+  document.credits = "by hand";
+  document.places = {place, untouched};
+  document.cast = {{"Publia", "models/publia.glb"}, {"Vetutius", ""}};
+  return document;
+}
+
+Status ParseError(const Json& json) { return ParseProject(json, "project.json").status(); }
+
+TEST(Project, SurvivesWritingAndReading) {
+  const test::TemporaryFolder folder;
+  const ProjectPaths paths{folder.path()};
+  const ProjectDocument document = FullDocument();
+  ASSERT_TRUE(SaveProject(paths, document).ok());
+  const Result<ProjectDocument> loaded = LoadProject(paths);
+  ASSERT_TRUE(loaded.ok()) << loaded.message();
+  EXPECT_EQ(FormatProject(*loaded), FormatProject(document));
+  EXPECT_EQ(loaded->places[0].picks.origin.picks[1].frame_index, 40);
+  EXPECT_EQ(loaded->places[0].picks.origin.name, "origin");
+  EXPECT_EQ(loaded->places[0].intrinsics, document.places[0].intrinsics);
+  EXPECT_TRUE(loaded->places[1].training.empty());
+}
+
+TEST(Project, ANewOneLoadsAndLacksNothing) {
+  const test::TemporaryFolder folder;
+  const ProjectPaths paths{folder / "new.lararium"};
+  ASSERT_TRUE(CreateProject(paths, "New").ok());
+  const Result<ProjectDocument> loaded = LoadProject(paths);
+  ASSERT_TRUE(loaded.ok()) << loaded.message();
+  EXPECT_EQ(loaded->title, "New");
+  EXPECT_TRUE(FindMissingFiles(paths, *loaded).empty());
+}
+
+TEST(Project, IsNeverMadeOverSomethingElse) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "thesis.txt", "years of work").ok());
+  EXPECT_THAT(CreateProject({folder.path()}, "New").message(), HasSubstr("not an empty folder"));
+}
+
+TEST(Project, SaysHowToMakeOneWhereThereIsNone) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(LoadProject({folder.path()}).message(), HasSubstr("lararium-editor new"));
+}
+
+TEST(Project, RefusesWhatANewerVersionWrote) {
+  Json json = FormatProject(FullDocument());
+  json["schema"] = kProjectSchema + 1;
+  EXPECT_THAT(ParseError(json).message(), HasSubstr("newer Lararium"));
+}
+
+TEST(Project, RefusesUnknownFieldsRatherThanDropThem) {
+  Json json = FormatProject(FullDocument());
+  json["places"][0]["colour"] = "red";
+  EXPECT_THAT(ParseError(json).message(),
+              testing::AllOf(HasSubstr("places[0]"), HasSubstr("\"colour\"")));
+}
+
+TEST(Project, ErrorsNameTheField) {
+  Json json = FormatProject(FullDocument());
+  json["places"][0]["occluders"][0]["scale"] = -1.0;
+  EXPECT_THAT(ParseError(json).message(), HasSubstr("places[0].occluders[0].scale"));
+}
+
+// What a hand or a broken disk may put into the file.
+struct Damage {
+  const char* name;
+  const char* pointer;
+  Json value;
+};
+
+class DamagedProject : public testing::TestWithParam<Damage> {};
+
+TEST_P(DamagedProject, IsAnError) {
+  Json json = FormatProject(FullDocument());
+  ASSERT_TRUE(ParseError(json).ok());
+  json[Json::json_pointer(GetParam().pointer)] = GetParam().value;
+  EXPECT_FALSE(ParseError(json).ok());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Fields,
+    DamagedProject,
+    testing::Values(Damage{"schema", "/schema", "one"},
+                    Damage{"title", "/title", 3},
+                    Damage{"places", "/places", Json::object()},
+                    Damage{"path_as_name", "/places/0/name", "../etc"},
+                    Damage{"empty_name", "/places/0/name", ""},
+                    Damage{"same_name", "/places/0/name", "maquette"},
+                    Damage{"no_source", "/places/0/training", Json::object()},
+                    Damage{"rotation", "/places/0/adjust/rotation", {1, 1, 0, 0}},
+                    Damage{"short_vector", "/places/0/camera_nudge", {1, 2}},
+                    Damage{"huge_vector", "/places/0/camera_nudge", {1, 2, 1e300}},
+                    Damage{"focal", "/places/0/intrinsics/fx", 0.0},
+                    Damage{"frame", "/places/0/picks/origin/0/frame_index", -4},
+                    Damage{"pixel", "/places/0/picks/origin/0/pixel", {1e300, 0}},
+                    Damage{"length", "/places/0/picks/length_m", 0.0},
+                    Damage{"probe", "/places/0/probe/scale", -1.0},
+                    Damage{"cast", "/cast/0", "Publia"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Project, MissingFilesAreNamed) {
+  const test::TemporaryFolder folder;
+  const ProjectPaths paths{folder.path()};
+  ProjectDocument document = FullDocument();
+  document.places.resize(1);
+  std::string all;
+  for (const Status& missing : FindMissingFiles(paths, document)) {
+    all += missing.message() + "\n";
+  }
+  for (const char* name : {"drama.lua", "scene.larscene", "training.mp4", "/elsewhere/frames",
+                           "counter.glb", "probe.exr", "publia.glb"}) {
+    EXPECT_THAT(all, HasSubstr(name));
+  }
+}
+
+TEST(ProjectPaths, KeepRelativeWhatLiesInside) {
+  const ProjectPaths paths{"/show.lararium"};
+  EXPECT_EQ(paths.Shorten("/show.lararium/cast/a.larhuman"), "cast/a.larhuman");
+  EXPECT_EQ(paths.Shorten("/videos/a.mp4"), "/videos/a.mp4");
+  EXPECT_EQ(paths.Resolve("cast/a.larhuman"), "/show.lararium/cast/a.larhuman");
+  EXPECT_EQ(paths.Resolve("/videos/a.mp4"), "/videos/a.mp4");
+}
+
+TEST(Autosave, KeepsTheLastEditUntilItIsSaved) {
+  const test::TemporaryFolder folder;
+  const ProjectPaths paths{folder.path()};
+  {
+    Autosave autosave(paths);
+    ProjectDocument document = FullDocument();
+    for (const char* title : {"one", "two", "three"}) {
+      document.title = title;
+      autosave.Write(std::make_shared<const ProjectDocument>(document));
+    }
+  }
+  const auto recovered = LoadAutosave(paths);
+  ASSERT_TRUE(recovered.ok()) << recovered.message();
+  ASSERT_TRUE(recovered->has_value());
+  EXPECT_EQ((*recovered)->title, "three");
+  {
+    Autosave autosave(paths);
+    autosave.Discard();
+  }
+  const auto nothing = LoadAutosave(paths);
+  ASSERT_TRUE(nothing.ok());
+  EXPECT_FALSE(nothing->has_value());
+}
+
+TEST(Autosave, ADamagedOneIsAnErrorAndStays) {
+  const test::TemporaryFolder folder;
+  const ProjectPaths paths{folder.path()};
+  ASSERT_TRUE(WriteFileAtomically(paths.Autosave(), "{\"schema\": 1, \"tit").ok());
+  EXPECT_FALSE(LoadAutosave(paths).ok());
+  EXPECT_TRUE(std::filesystem::exists(paths.Autosave()));
+}
+
+TEST(Autosave, SaysWhereItCannotWrite) {
+  const test::TemporaryFolder folder;
+  Autosave autosave({folder / "gone"});
+  autosave.Write(std::make_shared<const ProjectDocument>());
+  Status status;
+  for (int i = 0; i < 1000 && status.ok(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    status = autosave.TakeStatus();
+  }
+  EXPECT_THAT(status.message(), HasSubstr("autosave.json"));
+}
+
+}  // namespace
+}  // namespace lararium::app
