@@ -1,0 +1,63 @@
+#include "player/options.h"
+
+#include <gtest/gtest.h>
+
+#include "shared/core/file.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::player {
+namespace {
+
+class OptionsTest : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(WriteFileAtomically(show_, "x").ok()); }
+
+  Command Parse(std::vector<std::string> words) {
+    std::vector<const char*> argv = {"lararium-player"};
+    for (const std::string& word : words) {
+      argv.push_back(word.c_str());
+    }
+    return ParseCommandLine(static_cast<int>(argv.size()), argv.data());
+  }
+  int ExitCode(const std::vector<std::string>& words) {
+    const Command command = Parse(words);
+    const int* code = std::get_if<int>(&command);
+    return code == nullptr ? -1 : *code;
+  }
+
+  test::TemporaryFolder folder_;
+  std::string show_ = (folder_ / "a.larshow").string();
+};
+
+TEST_F(OptionsTest, ReadsWhatTheDesignNames) {
+  const Command command = Parse({show_, "--headless", "--pace", "fast", "--frames", "9",
+                                 "--intrinsics", "500,500,320,240", "--record", "out.mp4"});
+  const auto* play = std::get_if<PlayOptions>(&command);
+  ASSERT_NE(play, nullptr);
+  EXPECT_TRUE(play->headless);
+  EXPECT_EQ(play->pace, Pace::kFast);
+  EXPECT_EQ(play->frames, 9);
+  EXPECT_EQ(play->intrinsics, (std::vector<double>{500, 500, 320, 240}));
+}
+
+TEST_F(OptionsTest, InfoTakesABundle) {
+  const Command command = Parse({"info", show_});
+  ASSERT_NE(std::get_if<InfoOptions>(&command), nullptr);
+}
+
+TEST_F(OptionsTest, WrongUsageIsExitCodeTwo) {
+  EXPECT_EQ(ExitCode({}), 2);
+  EXPECT_EQ(ExitCode({(folder_ / "none.larshow").string()}), 2);
+  EXPECT_EQ(ExitCode({show_, "--camera", "0", "--video", show_}), 2);
+  EXPECT_EQ(ExitCode({show_, "--intrinsics", "1,2,3"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--intrinsics", "1,2,3,4,5"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--pace", "slow"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--frames", "-1"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--headless", "--monitor", "0"}), 2);
+  EXPECT_EQ(ExitCode({"info"}), 2);
+}
+
+TEST_F(OptionsTest, HelpIsSuccess) { EXPECT_EQ(ExitCode({"--help"}), 0); }
+
+}  // namespace
+}  // namespace lararium::player
