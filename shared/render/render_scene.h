@@ -22,30 +22,30 @@ using HumanHandle = Id<GpuHuman>;
 
 // Real things: hide what is behind them, are not seen themselves.
 struct SceneOccluder {
-  MeshHandle mesh;
+  MeshHandle mesh = {};
   glm::mat4 stage_from_mesh = glm::mat4(1.0f);
 };
 
 struct SceneHuman {
-  HumanHandle human;
+  HumanHandle human = {};
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
-  std::span<const glm::mat4> skin;  // one for each joint (human::ComputeSkinMatrices)
+  std::span<const glm::mat4> skin = {};  // one for each joint (human::ComputeSkinMatrices)
 };
 
 struct RenderScene {
   // The camera's image, CV_8UC3, sRGB-encoded, raw; empty draws black instead.
-  cv::Mat background;
-  geometry::CameraModel camera;  // of background, with distortion
+  cv::Mat background = {};
+  geometry::CameraModel camera = {};  // of background, with distortion
 
   // The pinhole that everything is drawn with, scaled to the target's size.
-  geometry::CameraModel display;
+  geometry::CameraModel display = {};
   // Without a pose only the background is drawn: never people in a stale place.
-  std::optional<geometry::Rigid3> camera_from_stage;
+  std::optional<geometry::Rigid3> camera_from_stage = std::nullopt;
   float near = 0.05f;  // metres
   float far = 100.0f;
 
-  std::span<const SceneOccluder> occluders;
-  std::span<const SceneHuman> humans;
+  std::span<const SceneOccluder> occluders = {};
+  std::span<const SceneHuman> humans = {};
 
   // What falls on people: radiance, stage axes. What is seen of them is
   // multiplied by exposure and by gain (the image over the map's reference).

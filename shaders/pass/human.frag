@@ -1,0 +1,19 @@
+// A diffuse surface under distant light.
+
+#include "spherical_harmonics.glsl"
+
+uniform vec3 irradiance[9];
+uniform vec3 gain;  // exposure and the camera's gain
+
+in vec3 normal_in_stage;
+in vec3 surface_albedo;
+
+layout(location = 0) out vec4 colour;
+
+const float kPi = 3.14159265358979;
+
+void main() {
+  vec3 normal = normalize(gl_FrontFacing ? normal_in_stage : -normal_in_stage);
+  vec3 radiance = surface_albedo / kPi * Irradiance(irradiance, normal);
+  colour = vec4(radiance * gain, 1.0);
+}

@@ -1,0 +1,20 @@
+#pragma once
+
+// A triangle mesh on the GPU: positions only, attribute 0. Private to render.
+
+#include "shared/geometry/triangle_mesh.h"
+#include "shared/render/gl_object.h"
+
+namespace lararium::render {
+
+struct GpuMesh {
+  GlVertexArray vertex_array;
+  GlBuffer vertices;
+  GlBuffer indices;
+  int index_count = 0;
+
+  static GpuMesh Create(const geometry::TriangleMesh& mesh);
+  void Draw() const;
+};
+
+}  // namespace lararium::render

@@ -1,0 +1,106 @@
+#include "shared/render/graphics_context.h"
+
+// EGL's own header brings its platform's; no window system is wanted.
+#define EGL_NO_X11
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <utility>
+
+namespace lararium::render {
+namespace {
+
+constexpr std::string_view kPlace = "off-screen graphics";
+constexpr std::string_view kRemedy = "install libegl1 and libgl1-mesa-dri";
+
+bool InitializeDisplay(EGLDisplay display) {
+  return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
+}
+
+Result<EGLDisplay> OpenDisplay() {
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") &&
+      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
+    const EGLDisplay display =
+        eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (InitializeDisplay(display)) {
+      return display;
+    }
+  }
+  const EGLDisplay display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
+  if (InitializeDisplay(display)) {
+    return display;
+  }
+  return Status::Error(kPlace, "EGL does not start", kRemedy);
+}
+
+Result<EGLContext> CreateContext(EGLDisplay display, GraphicsApi api) {
+  const bool desktop = api == GraphicsApi::kOpenGl33;
+  const EGLint config_attributes[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE,
+                                      desktop ? EGL_OPENGL_BIT : EGL_OPENGL_ES3_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  if (eglBindAPI(desktop ? EGL_OPENGL_API : EGL_OPENGL_ES_API) != EGL_TRUE ||
+      eglChooseConfig(display, config_attributes, &config, 1, &count) != EGL_TRUE || count == 0) {
+    return Status::Error(kPlace, "the driver offers no fitting configuration", kRemedy);
+  }
+  const EGLint desktop_attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                       3,
+                                       EGL_CONTEXT_MINOR_VERSION,
+                                       3,
+                                       EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                       EGL_NONE};
+  const EGLint es_attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
+  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT,
+                                              desktop ? desktop_attributes : es_attributes);
+  if (context == EGL_NO_CONTEXT) {
+    return Status::Error(kPlace,
+                         desktop ? "the driver has no OpenGL 3.3" : "the driver has no OpenGL ES 3",
+                         kRemedy);
+  }
+  return context;
+}
+
+}  // namespace
+
+Result<OffscreenContext> CreateOffscreenContext(GraphicsApi api) {
+  LARARIUM_ASSIGN_OR_RETURN(const EGLDisplay display, OpenDisplay());
+  LARARIUM_ASSIGN_OR_RETURN(const EGLContext egl_context, CreateContext(display, api));
+  OffscreenContext context(display, egl_context);
+  LARARIUM_RETURN_IF_ERROR(context.MakeCurrent());
+  return context;
+}
+
+OffscreenContext::OffscreenContext(OffscreenContext&& other) noexcept
+    : display_(other.display_), context_(std::exchange(other.context_, nullptr)) {}
+
+OffscreenContext& OffscreenContext::operator=(OffscreenContext&& other) noexcept {
+  std::swap(display_, other.display_);
+  std::swap(context_, other.context_);
+  return *this;
+}
+
+// The display stays: it is shared by the whole process.
+OffscreenContext::~OffscreenContext() {
+  if (context_ == nullptr) {
+    return;
+  }
+  if (eglGetCurrentContext() == context_) {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+  eglDestroyContext(display_, context_);
+}
+
+Status OffscreenContext::MakeCurrent() {
+  if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+    return Status::Error(kPlace, "the context cannot be used without a surface", kRemedy);
+  }
+  return Status();
+}
+
+std::string GraphicsDeviceName() {
+  const GLubyte* name = glGetString(GL_RENDERER);
+  return name == nullptr ? "unknown" : reinterpret_cast<const char*>(name);
+}
+
+}  // namespace lararium::render

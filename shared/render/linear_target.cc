@@ -1,0 +1,82 @@
+#include "shared/render/linear_target.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+namespace lararium::render {
+namespace {
+
+Status CheckFramebuffer() {
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    return Status::Error("graphics", "the driver cannot draw into 16-bit float images of this size",
+                         "try a smaller size, or update the driver");
+  }
+  return Status();
+}
+
+}  // namespace
+
+Status LinearTarget::Prepare(int width, int height, int samples) {
+  GLint most = 1;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  samples = std::clamp(samples, 1, std::max(most, 1));
+  if (width == width_ && height == height_ && samples == samples_) {
+    return Status();
+  }
+  width_ = width;
+  height_ = height;
+  samples_ = samples;
+  LARARIUM_RETURN_IF_ERROR(AllocateResolved());
+  return AllocateSampled();
+}
+
+Status LinearTarget::AllocateResolved() {
+  resolved_ = GlTexture::Generate();
+  glBindTexture(GL_TEXTURE_2D, resolved_.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width_, height_, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  resolved_framebuffer_ = GlFramebuffer::Generate();
+  glBindFramebuffer(GL_FRAMEBUFFER, resolved_framebuffer_.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, resolved_.id(), 0);
+  return CheckFramebuffer();
+}
+
+Status LinearTarget::AllocateSampled() {
+  framebuffer_ = GlFramebuffer::Generate();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+  if (samples_ > 1) {
+    colour_ = GlRenderbuffer::Generate();
+    glBindRenderbuffer(GL_RENDERBUFFER, colour_.id());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA16F, width_, height_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.id());
+  } else {
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, resolved_.id(), 0);
+  }
+  depth_ = GlRenderbuffer::Generate();
+  glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_ > 1 ? samples_ : 0,
+                                   GL_DEPTH_COMPONENT24, width_, height_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+  return CheckFramebuffer();
+}
+
+void LinearTarget::BindAndClear() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+  glViewport(0, 0, width_, height_);
+  glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+  glClearDepthf(1.0f);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void LinearTarget::Resolve() const {
+  if (samples_ == 1) {
+    return;
+  }
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_framebuffer_.id());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+}  // namespace lararium::render

@@ -1,0 +1,41 @@
+#pragma once
+
+// The renderer's passes and what they draw. Private to render.
+
+#include <span>
+
+#include "shared/core/id.h"
+#include "shared/geometry/camera_model.h"
+#include "shared/render/gl_object.h"
+#include "shared/render/gpu_human.h"
+#include "shared/render/gpu_mesh.h"
+#include "shared/render/linear_target.h"
+#include "shared/render/renderer.h"
+#include "shared/render/shader_program.h"
+#include "shared/render/texture.h"
+
+namespace lararium::render {
+
+struct Renderer::State {
+  int samples = 1;
+  ShaderProgram occluder_pass;
+  ShaderProgram background_pass;
+  ShaderProgram human_pass;
+  ShaderProgram encode_pass;
+  GlVertexArray no_vertices;  // of full-screen passes
+  GlBuffer skin;              // matrices of all people in the picture
+  Texture background_image{Texture::Encoding::kLinear};
+  LinearTarget linear;
+  SlotMap<GpuMesh> meshes;
+  SlotMap<GpuHuman> humans;
+
+  Status Validate(const RenderScene& scene) const;
+  void DrawOccluders(std::span<const SceneOccluder> occluders,
+                     const glm::mat4& clip_from_stage) const;
+  void DrawBackground(const RenderScene& scene, const geometry::CameraModel& display);
+  void UploadSkins(std::span<const SceneHuman> people);
+  void DrawHumans(const RenderScene& scene, const glm::mat4& clip_from_stage);
+  void Encode(const RenderTarget& target) const;
+};
+
+}  // namespace lararium::render

@@ -1,0 +1,42 @@
+#pragma once
+
+// A linked pair of shaders. Private to render.
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string_view>
+
+#include "shared/core/status.h"
+#include "shared/render/gl_object.h"
+
+namespace lararium::render {
+
+class ShaderProgram {
+ public:
+  ShaderProgram() = default;
+
+  // Compiles embedded shaders for the context's API. Errors name file and line.
+  static Result<ShaderProgram> Create(std::string_view vertex, std::string_view fragment);
+
+  void Use() const;
+  // Of the program in use. Names that the compiler optimised away are ignored.
+  void Set(const char* name, int value) const;
+  void Set(const char* name, float value) const;
+  void Set(const char* name, const glm::vec2& value) const;
+  void Set(const char* name, const glm::vec3& value) const;
+  void Set(const char* name, const glm::vec4& value) const;
+  void Set(const char* name, const glm::mat4& value) const;
+  void Set(const char* name, std::span<const glm::vec3> values) const;
+  void BindUniformBlock(const char* name, uint32_t binding) const;
+
+ private:
+  explicit ShaderProgram(GlProgram program) : program_(std::move(program)) {}
+  int Location(const char* name) const;
+
+  GlProgram program_;
+};
+
+}  // namespace lararium::render

@@ -1,0 +1,160 @@
+#include "shared/render/window.h"
+
+#include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <utility>
+
+namespace lararium::render {
+namespace {
+
+constexpr std::string_view kPlace = "window";
+
+// Keeps GLFW started while there are windows. Main thread only, as GLFW itself.
+class GlfwLibrary {
+ public:
+  static std::shared_ptr<GlfwLibrary> Start() {
+    static std::weak_ptr<GlfwLibrary> running;
+    std::shared_ptr<GlfwLibrary> library = running.lock();
+    if (library == nullptr && glfwInit() == GLFW_TRUE) {
+      library = std::make_shared<GlfwLibrary>();
+      running = library;
+    }
+    return library;
+  }
+  GlfwLibrary() = default;
+  ~GlfwLibrary() { glfwTerminate(); }
+  GlfwLibrary(const GlfwLibrary&) = delete;
+  GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+};
+
+struct WindowDeleter {
+  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+};
+
+Status LastError(std::string_view remedy) {
+  const char* description = nullptr;
+  glfwGetError(&description);
+  return Status::Error(kPlace, description == nullptr ? "cannot be opened" : description, remedy);
+}
+
+Result<GLFWmonitor*> FindMonitor(int number) {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  if (number < 0 || number >= count) {
+    return Status::Error(
+        "monitor " + std::to_string(number), "is not connected",
+        count == 0 ? "connect one" : "give a number from 0 to " + std::to_string(count - 1));
+  }
+  return monitors[number];
+}
+
+}  // namespace
+
+struct Window::State {
+  std::shared_ptr<GlfwLibrary> library;
+  std::unique_ptr<GLFWwindow, WindowDeleter> window;
+  WindowCallbacks callbacks;
+
+  static const WindowCallbacks& Of(GLFWwindow* window) {
+    return static_cast<State*>(glfwGetWindowUserPointer(window))->callbacks;
+  }
+
+  void Connect() {
+    GLFWwindow* w = window.get();
+    glfwSetWindowUserPointer(w, this);
+    glfwSetKeyCallback(w, [](GLFWwindow* self, int key, int, int action, int modifiers) {
+      if (Of(self).key) {
+        Of(self).key(key, action, modifiers);
+      }
+    });
+    glfwSetMouseButtonCallback(w, [](GLFWwindow* self, int button, int action, int modifiers) {
+      if (Of(self).mouse_button) {
+        Of(self).mouse_button(button, action, modifiers);
+      }
+    });
+    glfwSetCursorPosCallback(w, [](GLFWwindow* self, double x, double y) {
+      if (Of(self).cursor) {
+        Of(self).cursor(x, y);
+      }
+    });
+    glfwSetScrollCallback(w, [](GLFWwindow* self, double x, double y) {
+      if (Of(self).scroll) {
+        Of(self).scroll(x, y);
+      }
+    });
+    glfwSetFramebufferSizeCallback(w, [](GLFWwindow* self, int width, int height) {
+      if (Of(self).resize) {
+        Of(self).resize(width, height);
+      }
+    });
+  }
+};
+
+Window::Window(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Window::Window(Window&&) noexcept = default;
+Window& Window::operator=(Window&&) noexcept = default;
+Window::~Window() = default;
+
+Result<Window> Window::Create(const WindowOptions& options) {
+  auto state = std::make_unique<State>();
+  state->library = GlfwLibrary::Start();
+  if (state->library == nullptr) {
+    return LastError("start it on a desktop, or run without a window");
+  }
+  GLFWmonitor* monitor = nullptr;
+  int width = options.width;
+  int height = options.height;
+  if (options.monitor) {
+    LARARIUM_ASSIGN_OR_RETURN(monitor, FindMonitor(*options.monitor));
+    if (const GLFWvidmode* mode = glfwGetVideoMode(monitor); mode != nullptr) {
+      width = mode->width;
+      height = mode->height;
+    }
+  }
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);  // everything is drawn into render targets
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+  state->window.reset(glfwCreateWindow(width, height, options.title.c_str(), monitor, nullptr));
+  if (state->window == nullptr) {
+    return LastError("it needs a graphics driver with OpenGL 3.3");
+  }
+  glfwMakeContextCurrent(state->window.get());
+  glfwSwapInterval(options.vsync ? 1 : 0);
+  state->Connect();
+  return Window(std::move(state));
+}
+
+void Window::SetCallbacks(WindowCallbacks callbacks) { state_->callbacks = std::move(callbacks); }
+void Window::SetTitle(const std::string& title) {
+  glfwSetWindowTitle(state_->window.get(), title.c_str());
+}
+void Window::SwapBuffers() { glfwSwapBuffers(state_->window.get()); }
+void Window::PollEvents() { glfwPollEvents(); }
+void Window::WaitEvents(double timeout_seconds) { glfwWaitEventsTimeout(timeout_seconds); }
+bool Window::ShouldClose() const {
+  return glfwWindowShouldClose(state_->window.get()) == GLFW_TRUE;
+}
+void Window::RequestClose() { glfwSetWindowShouldClose(state_->window.get(), GLFW_TRUE); }
+
+Window::Size Window::framebuffer_size() const {
+  Size size;
+  glfwGetFramebufferSize(state_->window.get(), &size.width, &size.height);
+  return size;
+}
+
+float Window::content_scale() const {
+  float x = 1.0f;
+  float y = 1.0f;
+  glfwGetWindowContentScale(state_->window.get(), &x, &y);
+  return x;
+}
+
+GLFWwindow* Window::handle() const { return state_->window.get(); }
+
+}  // namespace lararium::render
