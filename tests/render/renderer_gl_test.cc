@@ -1,0 +1,449 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "shared/core/random.h"
+#include "shared/geometry/glm_convert.h"
+#include "shared/render/clip_space.h"
+#include "shared/render/renderer.h"
+#include "tests/golden/compare_images.h"
+#include "tests/render/gl_fixture.h"
+
+namespace lararium::render {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+geometry::CameraModel Pinhole(int width, int height, double focal) {
+  return {.width = width,
+          .height = height,
+          .fx = focal,
+          .fy = focal,
+          .cx = 0.5 * (width - 1),
+          .cy = 0.5 * (height - 1)};
+}
+
+cv::Mat NoiseImage(int width, int height, uint64_t seed) {
+  cv::Mat image(height, width, CV_8UC3);
+  Random random(seed);
+  for (int i = 0; i < 3 * width * height; ++i) {
+    image.data[i] = static_cast<uint8_t>(random.Below(256));
+  }
+  return image;
+}
+
+cv::Mat SmoothImage(int width, int height, uint64_t seed) {
+  cv::Mat image;
+  cv::GaussianBlur(NoiseImage(width, height, seed), image, cv::Size(), 4.0);
+  cv::normalize(image, image, 0, 255, cv::NORM_MINMAX);
+  return image;
+}
+
+double SrgbFromLinear(double c) {
+  c = std::clamp(c, 0.0, 1.0);
+  return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+}
+
+double LinearFromSrgb(double c) {
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+// A latitude-longitude sphere of radius 1 about the origin.
+human::SkinnedMesh Sphere(const glm::vec3& albedo) {
+  constexpr int kRings = 64;
+  constexpr int kSectors = 128;
+  human::SkinnedMesh mesh;
+  for (int ring = 0; ring <= kRings; ++ring) {
+    for (int sector = 0; sector <= kSectors; ++sector) {
+      const float theta = kPi * static_cast<float>(ring) / kRings;
+      const float phi = 2.0f * kPi * static_cast<float>(sector) / kSectors;
+      const glm::vec3 normal(std::sin(theta) * std::cos(phi), std::cos(theta),
+                             -std::sin(theta) * std::sin(phi));
+      mesh.positions.push_back(normal);
+      mesh.normals.push_back(normal);
+      mesh.albedo.push_back(albedo);
+      mesh.joints.push_back({0, 0, 0, 0});
+      mesh.weights.emplace_back(1.0f, 0.0f, 0.0f, 0.0f);
+    }
+  }
+  for (uint32_t ring = 0; ring < kRings; ++ring) {
+    for (uint32_t sector = 0; sector < kSectors; ++sector) {
+      const uint32_t a = ring * (kSectors + 1) + sector;
+      const uint32_t b = a + kSectors + 1;
+      mesh.indices.insert(mesh.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
+    }
+  }
+  return mesh;
+}
+
+// A box, its eight corners weighted between two joints by their height.
+human::SkinnedMesh BendingBox(const glm::vec3& albedo) {
+  human::SkinnedMesh mesh;
+  for (int i = 0; i <= 8; ++i) {
+    const float y = 0.25f * static_cast<float>(i);
+    const float upper = std::clamp(y - 0.5f, 0.0f, 1.0f);
+    for (const auto& [x, z] :
+         {std::pair{-0.2f, -0.2f}, {0.2f, -0.2f}, {0.2f, 0.2f}, {-0.2f, 0.2f}}) {
+      mesh.positions.emplace_back(x, y, z);
+      mesh.normals.push_back(glm::normalize(glm::vec3(x, 0.0f, z)));
+      mesh.albedo.push_back(albedo);
+      mesh.joints.push_back({0, 1, 2, 0});
+      mesh.weights.emplace_back(1.0f - upper, 0.75f * upper, 0.25f * upper, 0.0f);
+    }
+  }
+  for (uint32_t i = 0; i < 8; ++i) {
+    for (uint32_t k = 0; k < 4; ++k) {
+      const uint32_t a = 4 * i + k;
+      const uint32_t b = 4 * i + (k + 1) % 4;
+      mesh.indices.insert(mesh.indices.end(), {a, a + 4, b, b, a + 4, b + 4});
+    }
+  }
+  return mesh;
+}
+
+// joint_count joints at the origin, so that skin matrices alone move the mesh.
+human::Human MakeHuman(human::SkinnedMesh mesh, size_t joint_count) {
+  human::Human human;
+  human.name = "test";
+  for (size_t i = 0; i < joint_count; ++i) {
+    human.skeleton.names.push_back("joint" + std::to_string(i));
+    human.skeleton.parents.push_back(i == 0 ? human::Skeleton::kNoParent : int16_t{0});
+    human.skeleton.rest.emplace_back();
+    human.skeleton.joint_from_actor.emplace_back(1.0f);
+  }
+  mesh.name = "mesh";
+  human.meshes.push_back(std::move(mesh));
+  return human;
+}
+
+// A wall at depth z in front of the camera, from x = left to right.
+geometry::TriangleMesh Wall(float left, float right, float z) {
+  return {.positions = {{left, -9.0f, z}, {right, -9.0f, z}, {right, 9.0f, z}, {left, 9.0f, z}},
+          .normals = {},
+          .indices = {0, 1, 2, 0, 2, 3}};
+}
+
+light::ShRgb UniformLight(float irradiance) {
+  light::ShRgb light = {};
+  light[0] = glm::vec3(irradiance / kPi / 0.28209479f);
+  return light;
+}
+
+class RendererTest : public GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    Recreate({});
+  }
+  void Recreate(const RendererOptions& options) {
+    auto renderer = Renderer::Create(options);
+    ASSERT_TRUE(renderer.ok()) << renderer.message();
+    renderer_ = std::move(renderer).value();
+  }
+  cv::Mat Draw(const RenderScene& scene, int width, int height) {
+    const RenderTarget target = MakeTarget(width, height);
+    const Status drawn = renderer_->Draw(scene, target);
+    EXPECT_TRUE(drawn.ok()) << drawn.message();
+    return Read(target);
+  }
+
+  std::unique_ptr<Renderer> renderer_;
+};
+
+// The stage's axes turned to the camera's: looks along -Z from the origin.
+geometry::Rigid3 LookAlongMinusZ() {
+  return LookAt(Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());
+}
+
+TEST_F(RendererTest, BackgroundPassesThroughUnchanged) {
+  for (const int samples : {1, 4}) {
+    Recreate({.samples = samples});
+    RenderScene scene;
+    scene.background = NoiseImage(320, 200, 1);
+    scene.camera = scene.display = Pinhole(320, 200, 300.0);
+    EXPECT_TRUE(
+        test::ImagesAgree(Draw(scene, 320, 200), scene.background, {.max = 1.0, .mean = 0.01}))
+        << samples << " samples";
+  }
+}
+
+TEST_F(RendererTest, EverySrgbValueSurvivesTheRoundTrip) {
+  RenderScene scene;
+  scene.background.create(16, 256, CV_8UC3);
+  for (int x = 0; x < 256; ++x) {
+    scene.background.col(x).setTo(cv::Scalar(x, 255 - x, (x * 7) % 256));
+  }
+  scene.camera = scene.display = Pinhole(256, 16, 300.0);
+  EXPECT_TRUE(test::ImagesAgree(Draw(scene, 256, 16), scene.background, {.max = 0, .mean = 0}));
+}
+
+TEST_F(RendererTest, DistortedBackgroundEqualsUndistortedReference) {
+  geometry::CameraModel camera = Pinhole(320, 240, 260.0);
+  camera.fy = 262.0;
+  camera.cx = 163.7;
+  camera.cy = 117.2;
+  camera.k1 = -0.21;
+  camera.k2 = 0.05;
+  camera.p1 = 0.002;
+  camera.p2 = -0.003;
+  ASSERT_TRUE(camera.Validate().ok());
+  RenderScene scene;
+  scene.background = SmoothImage(320, 240, 2);
+  scene.camera = camera;
+  scene.display = camera.DisplayPinhole();
+
+  // cv::undistort works on the encoded values; here light is interpolated.
+  cv::Mat linear(240, 320, CV_32FC3);
+  for (int i = 0; i < 3 * 320 * 240; ++i) {
+    linear.ptr<float>()[i] = static_cast<float>(LinearFromSrgb(scene.background.data[i] / 255.0));
+  }
+  const auto matrix = [](const geometry::CameraModel& c) {
+    return cv::Matx33d(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
+  };
+  cv::Mat undistorted;
+  cv::undistort(linear, undistorted, matrix(camera),
+                cv::Vec4d(camera.k1, camera.k2, camera.p1, camera.p2), matrix(scene.display));
+  cv::Mat expected(240, 320, CV_8UC3);
+  for (int i = 0; i < 3 * 320 * 240; ++i) {
+    expected.data[i] =
+        cv::saturate_cast<uint8_t>(255.0 * SrgbFromLinear(undistorted.ptr<float>()[i]));
+  }
+  // cv::undistort rounds coordinates to 1/32 pixel and leaves the border black.
+  const cv::Rect inner(2, 2, 316, 236);
+  EXPECT_TRUE(test::ImagesAgree(Draw(scene, 320, 240)(inner).clone(), expected(inner).clone(),
+                                {.max = 4.0, .mean = 0.3}));
+}
+
+TEST_F(RendererTest, BackgroundScalesToATargetOfAnotherSize) {
+  RenderScene scene;
+  scene.background = SmoothImage(320, 240, 3);
+  scene.camera = scene.display = Pinhole(320, 240, 300.0);
+  cv::Mat expected;
+  cv::resize(scene.background, expected, cv::Size(640, 480), 0, 0, cv::INTER_LINEAR);
+  EXPECT_TRUE(test::ImagesAgree(Draw(scene, 640, 480), expected, {.max = 4.0, .mean = 0.5}));
+}
+
+TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
+  Recreate({.samples = 1});
+  const geometry::CameraModel display = {
+      .width = 200, .height = 150, .fx = 180.0, .fy = 175.0, .cx = 93.4, .cy = 81.7};
+  const geometry::Rigid3 camera_from_stage = LookAt(
+      Eigen::Vector3d(0.4, 1.7, 2.5), Eigen::Vector3d(0.1, 1.0, -1.0), Eigen::Vector3d::UnitY());
+  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1));
+  const glm::mat4 skin(1.0f);
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d point(random.Uniform(-0.8, 0.8), random.Uniform(0.5, 1.8),
+                                random.Uniform(-2.0, 0.5));
+    const Eigen::Vector3d in_camera = camera_from_stage * point;
+    const Eigen::Vector2d pixel = *display.Project(in_camera);
+    if (!display.Contains(pixel + Eigen::Vector2d::Constant(4)) ||
+        !display.Contains(pixel - Eigen::Vector2d::Constant(4))) {
+      continue;
+    }
+    // A ball of three pixels' radius: its centroid is the point's pixel.
+    const double radius = 3.0 * in_camera.z() / display.Focal();
+    SceneHuman human;
+    human.human = ball;
+    human.skin = {&skin, 1};
+    human.stage_from_actor =
+        geometry::ToGlm(geometry::Similarity3{radius, Eigen::Quaterniond::Identity(), point});
+    RenderScene scene;
+    scene.display = display;
+    scene.camera_from_stage = camera_from_stage;
+    scene.humans = {&human, 1};
+    scene.light = UniformLight(kPi);
+    cv::Mat grey;
+    cv::cvtColor(Draw(scene, display.width, display.height), grey, cv::COLOR_BGR2GRAY);
+    const cv::Moments moments = cv::moments(grey, true);
+    ASSERT_GT(moments.m00, 10.0) << "seed 5, point " << i;
+    EXPECT_NEAR(moments.m10 / moments.m00, pixel.x(), 0.3) << "seed 5, point " << i;
+    EXPECT_NEAR(moments.m01 / moments.m00, pixel.y(), 0.3) << "seed 5, point " << i;
+  }
+}
+
+TEST_F(RendererTest, OccludersHideWhatIsBehindAndShowTheBackground) {
+  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1));
+  const MeshHandle wall = renderer_->AddMesh(Wall(0.0f, 9.0f, -3.0f));
+  const glm::mat4 skin(1.0f);
+  RenderScene scene;
+  scene.background = cv::Mat(200, 200, CV_8UC3, cv::Scalar(40, 90, 20));
+  scene.camera = scene.display = Pinhole(200, 200, 200.0);
+  scene.camera_from_stage = LookAlongMinusZ();
+  scene.light = UniformLight(kPi);
+  const SceneOccluder occluder = {.mesh = wall};
+  scene.occluders = {&occluder, 1};
+  SceneHuman human = {.human = ball, .skin = {&skin, 1}};
+  scene.humans = {&human, 1};
+
+  human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -5.0f, 1.0f);  // behind the wall
+  cv::Mat picture = Draw(scene, 200, 200);
+  EXPECT_EQ(picture.at<cv::Vec3b>(100, 80), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(picture.at<cv::Vec3b>(100, 120), cv::Vec3b(40, 90, 20));
+  human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -1.9f, 1.0f);  // in front of it
+  picture = Draw(scene, 200, 200);
+  EXPECT_EQ(picture.at<cv::Vec3b>(100, 80), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(picture.at<cv::Vec3b>(100, 120), cv::Vec3b(255, 255, 255));
+}
+
+TEST_F(RendererTest, WithoutAPoseOnlyTheBackgroundIsDrawn) {
+  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1));
+  const glm::mat4 skin(1.0f);
+  RenderScene scene;
+  scene.background = NoiseImage(120, 90, 6);
+  scene.camera = scene.display = Pinhole(120, 90, 100.0);
+  scene.light = UniformLight(kPi);
+  SceneHuman human = {.human = ball, .skin = {&skin, 1}};
+  human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -3.0f, 1.0f);
+  scene.humans = {&human, 1};
+  scene.camera_from_stage = LookAlongMinusZ();
+  EXPECT_FALSE(test::ImagesAgree(Draw(scene, 120, 90), scene.background, {.max = 1, .mean = 0.01}));
+  scene.camera_from_stage.reset();
+  EXPECT_TRUE(test::ImagesAgree(Draw(scene, 120, 90), scene.background, {.max = 1, .mean = 0.01}));
+}
+
+TEST_F(RendererTest, SkinningEqualsTheCpu) {
+  human::Human bent = MakeHuman(BendingBox(glm::vec3(0.7f, 0.5f, 0.3f)), 3);
+  const float angle = 0.9f;
+  const geometry::Similarity3 turned = {1.0, geometry::RotationFromVector({0.0, 0.2, angle}),
+                                        Eigen::Vector3d(0.3, -0.1, 0.1)};
+  const geometry::Similarity3 moved = {1.2, geometry::RotationFromVector({0.1, 0.0, 0.3}),
+                                       Eigen::Vector3d(-0.1, 0.2, 0.0)};
+  const std::array<glm::mat4, 3> skin = {glm::mat4(1.0f), geometry::ToGlm(turned),
+                                         geometry::ToGlm(moved)};
+  human::Human still = bent;
+  human::SkinMesh(bent.meshes[0], skin, still.meshes[0].positions, still.meshes[0].normals);
+  const std::array<glm::mat4, 3> rest = {glm::mat4(1.0f), glm::mat4(1.0f), glm::mat4(1.0f)};
+
+  RenderScene scene;
+  scene.display = Pinhole(200, 200, 180.0);
+  scene.camera_from_stage = LookAt(Eigen::Vector3d(1.0, 1.4, 3.0), Eigen::Vector3d(0.0, 1.0, 0.0),
+                                   Eigen::Vector3d::UnitY());
+  scene.light = UniformLight(2.0f);
+  scene.light[1] = glm::vec3(0.4f, 0.2f, 0.1f);
+  scene.light[3] = glm::vec3(0.1f, 0.3f, 0.4f);
+  SceneHuman human = {.human = renderer_->AddHuman(bent), .skin = skin};
+  scene.humans = {&human, 1};
+  const cv::Mat on_gpu = Draw(scene, 200, 200);
+  human = {.human = renderer_->AddHuman(still), .skin = rest};
+  const cv::Mat on_cpu = Draw(scene, 200, 200);
+  EXPECT_GT(cv::countNonZero(on_cpu.reshape(1)), 3000);
+  EXPECT_TRUE(test::ImagesAgree(on_gpu, on_cpu, {.max = 2.0, .mean = 0.01}));
+}
+
+TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
+  const glm::vec3 albedo(0.8f, 0.5f, 0.3f);
+  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(albedo), 1));
+  const glm::mat4 skin(1.0f);
+  RenderScene scene;
+  scene.display = Pinhole(240, 240, 400.0);
+  scene.camera_from_stage = LookAlongMinusZ();
+  Random random(9);
+  scene.light = UniformLight(1.5f);
+  for (int i = 1; i < light::kShCount; ++i) {
+    scene.light[i] =
+        glm::vec3(random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3));
+  }
+  scene.exposure = 0.9f;
+  scene.gain = glm::vec3(1.1f, 0.9f, 1.0f);
+  // The actor is turned: light must stay in the stage's axes.
+  SceneHuman human = {.human = ball, .skin = {&skin, 1}};
+  const Eigen::Vector3d centre(0.0, 0.0, -4.0);
+  human.stage_from_actor =
+      geometry::ToGlm(geometry::Rigid3{geometry::RotationFromVector({0.3, 1.0, -0.4}), centre});
+  scene.humans = {&human, 1};
+  const cv::Mat picture = Draw(scene, 240, 240);
+
+  int compared = 0;
+  for (int y = 30; y < 210; y += 7) {
+    for (int x = 30; x < 210; x += 7) {
+      // The sphere's near point on the pixel's ray, camera axes turned to the stage's.
+      const Eigen::Vector2d plane = scene.display.PlaneFromPixel({x, y});
+      const Eigen::Vector3d ray = Eigen::Vector3d(plane.x(), -plane.y(), -1.0).normalized();
+      const double along = ray.dot(centre);
+      const double square = along * along - centre.squaredNorm() + 1.0;
+      if (square < 0.1) {
+        continue;
+      }
+      const Eigen::Vector3d normal = ray * (along - std::sqrt(square)) - centre;
+      const glm::vec3 irradiance =
+          light::EvaluateIrradiance(scene.light, geometry::ToGlm(normal.normalized()));
+      for (int c = 0; c < 3; ++c) {
+        const double radiance = albedo[c] / kPi * irradiance[c] * scene.exposure * scene.gain[c];
+        EXPECT_NEAR(picture.at<cv::Vec3b>(y, x)[2 - c], 255.0 * SrgbFromLinear(radiance), 1.2)
+            << "seed 9, pixel " << x << ", " << y;
+      }
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 300);
+}
+
+TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
+  const glm::mat4 skin(1.0f);
+  const auto count_between = [&](int samples) {
+    Recreate({.samples = samples});
+    SceneHuman human = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)),
+                        .skin = {&skin, 1}};
+    human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
+    RenderScene scene;
+    scene.display = Pinhole(120, 120, 150.0);
+    scene.camera_from_stage = LookAlongMinusZ();
+    scene.light = UniformLight(kPi);
+    scene.humans = {&human, 1};
+    cv::Mat between;
+    cv::inRange(Draw(scene, 120, 120), cv::Scalar::all(10), cv::Scalar::all(245), between);
+    return cv::countNonZero(between);
+  };
+  EXPECT_EQ(count_between(1), 0);
+  EXPECT_GT(count_between(4), 100);
+}
+
+TEST_F(RendererTest, DrawsSeveralPeopleWithTheirOwnPoses) {
+  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1));
+  std::array<glm::mat4, 2> skins = {glm::mat4(1.0f), glm::mat4(1.0f)};
+  skins[0][3] = glm::vec4(-2.0f, 0.0f, 0.0f, 1.0f);
+  skins[1][3] = glm::vec4(2.0f, 0.0f, 0.0f, 1.0f);
+  std::array<SceneHuman, 2> people;
+  for (size_t i = 0; i < 2; ++i) {
+    people[i] = {.human = ball, .skin = {&skins[i], 1}};
+    people[i].stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -8.0f, 1.0f);
+  }
+  RenderScene scene;
+  scene.display = Pinhole(200, 100, 150.0);
+  scene.camera_from_stage = LookAlongMinusZ();
+  scene.light = UniformLight(kPi);
+  scene.humans = people;
+  const cv::Mat picture = Draw(scene, 200, 100);
+  EXPECT_EQ(picture.at<cv::Vec3b>(50, 62), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(picture.at<cv::Vec3b>(50, 100), cv::Vec3b(0, 0, 0));
+  EXPECT_EQ(picture.at<cv::Vec3b>(50, 137), cv::Vec3b(255, 255, 255));
+}
+
+TEST_F(RendererTest, SaysWhatIsWrongWithAScene) {
+  const RenderTarget target = MakeTarget(64, 48);
+  RenderScene scene;
+  EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("display"));
+  scene.display = Pinhole(64, 48, 60.0);
+  EXPECT_TRUE(renderer_->Draw(scene, target).ok());
+  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 2));
+  SceneHuman human = {.human = ball};
+  scene.humans = {&human, 1};
+  EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("0 skin matrices for 2 joints"));
+  renderer_->RemoveHuman(ball);
+  EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("removed"));
+  scene.humans = {};
+  const SceneOccluder occluder;
+  scene.occluders = {&occluder, 1};
+  EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("occluder"));
+}
+
+}  // namespace
+}  // namespace lararium::render

@@ -1,0 +1,51 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "shared/render/graphics_context.h"
+#include "shared/render/shader_program.h"
+#include "shared/render/shader_source.h"
+
+namespace lararium::render {
+namespace {
+
+// Every fragment shader with the vertex shader of its pass.
+std::map<std::string, std::string> Passes() {
+  std::map<std::string, std::string> vertex_of;
+  for (const ShaderSource& source : ShaderSources()) {
+    const std::string name(source.name);
+    if (name.ends_with(".frag")) {
+      vertex_of[name] = "full_screen.vert";
+    }
+  }
+  for (const ShaderSource& source : ShaderSources()) {
+    const std::string name(source.name);
+    if (name.ends_with(".vert") && name != "full_screen.vert") {
+      vertex_of[name.substr(0, name.size() - 5) + ".frag"] = name;
+    }
+  }
+  return vertex_of;
+}
+
+class EveryShader : public ::testing::TestWithParam<GraphicsApi> {};
+
+TEST_P(EveryShader, CompilesAndLinks) {
+  const auto context = CreateOffscreenContext(GetParam());
+  ASSERT_TRUE(context.ok()) << context.message();
+  ASSERT_GE(Passes().size(), 4u);
+  for (const auto& [fragment, vertex] : Passes()) {
+    const auto program = ShaderProgram::Create(vertex, fragment);
+    EXPECT_TRUE(program.ok()) << program.message();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Apis,
+                         EveryShader,
+                         ::testing::Values(GraphicsApi::kOpenGl33, GraphicsApi::kOpenGlEs30),
+                         [](const auto& info) {
+                           return info.param == GraphicsApi::kOpenGl33 ? "OpenGl33" : "OpenGlEs30";
+                         });
+
+}  // namespace
+}  // namespace lararium::render
