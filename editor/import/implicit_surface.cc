@@ -1,0 +1,283 @@
+#include "editor/import/implicit_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "shared/core/check.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr uint32_t kNoVertex = 0xffffffff;
+constexpr float kGradientStep = 1e-3f;  // metres
+constexpr int kSmoothingRounds = 4;
+
+glm::vec3 Gradient(const DistanceField& field, const glm::vec3& p) {
+  glm::vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::vec3 step(0.0f);
+    step[axis] = kGradientStep;
+    gradient[axis] = (field(p + step) - field(p - step)) / (2.0f * kGradientStep);
+  }
+  return gradient;
+}
+
+// A few Newton steps along the gradient onto the zero set, none farther than a
+// cell, so that a vertex cannot leave for another part of the surface.
+glm::vec3 ProjectOnSurface(const DistanceField& field, glm::vec3 p, float cell) {
+  for (int i = 0; i < 3; ++i) {
+    const glm::vec3 gradient = Gradient(field, p);
+    const float squared = glm::dot(gradient, gradient);
+    if (squared < 1e-6f) {
+      break;
+    }
+    const glm::vec3 step = -field(p) / squared * gradient;
+    p += step * std::min(1.0f, 0.5f * cell / std::max(glm::length(step), 1e-9f));
+  }
+  return p;
+}
+
+// Values of the field at the corners of a grid of cubes.
+class Grid {
+ public:
+  Grid(const DistanceField& field, const Box& box, float cell) : low_(box.low - cell), cell_(cell) {
+    size_ = glm::ivec3(glm::ceil((box.high - box.low) / cell)) + 3;
+    values_.reserve(static_cast<size_t>(size_.x) * size_.y * size_.z);
+    for (int z = 0; z < size_.z; ++z) {
+      for (int y = 0; y < size_.y; ++y) {
+        for (int x = 0; x < size_.x; ++x) {
+          values_.push_back(field(Corner({x, y, z})));
+        }
+      }
+    }
+  }
+
+  const glm::ivec3& size() const { return size_; }
+  glm::vec3 Corner(const glm::ivec3& c) const { return low_ + cell_ * glm::vec3(c); }
+  size_t Index(const glm::ivec3& c) const {
+    return (static_cast<size_t>(c.z) * size_.y + c.y) * size_.x + c.x;
+  }
+  float Value(const glm::ivec3& c) const { return values_[Index(c)]; }
+
+ private:
+  glm::vec3 low_;
+  float cell_;
+  glm::ivec3 size_;
+  std::vector<float> values_;
+};
+
+glm::ivec3 CornerOffset(int corner) { return {corner & 1, (corner >> 1) & 1, corner >> 2}; }
+
+// The mean of the crossings of a cube's edges; false where the cube has none.
+bool CellVertex(const Grid& grid, const glm::ivec3& cell, glm::vec3& vertex) {
+  glm::vec3 sum(0.0f);
+  int count = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int other = corner | (1 << axis);
+      if (other == corner) {
+        continue;
+      }
+      const glm::ivec3 a = cell + CornerOffset(corner), b = cell + CornerOffset(other);
+      const float value_a = grid.Value(a), value_b = grid.Value(b);
+      if ((value_a < 0.0f) != (value_b < 0.0f)) {
+        sum += glm::mix(grid.Corner(a), grid.Corner(b), value_a / (value_a - value_b));
+        ++count;
+      }
+    }
+  }
+  if (count > 0) {
+    vertex = sum / static_cast<float>(count);
+  }
+  return count > 0;
+}
+
+void AddQuad(std::vector<uint32_t>& indices,
+             const std::vector<glm::vec3>& positions,
+             const std::array<uint32_t, 4>& q) {
+  const bool first_diagonal = glm::distance(positions[q[0]], positions[q[2]]) <
+                              glm::distance(positions[q[1]], positions[q[3]]);
+  if (first_diagonal) {
+    indices.insert(indices.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+  } else {
+    indices.insert(indices.end(), {q[0], q[1], q[3], q[1], q[2], q[3]});
+  }
+}
+
+// A quad across every grid edge that the surface crosses, through the vertices
+// of the four cubes around it.
+void AddQuadsOfCorner(const Grid& grid,
+                      const std::vector<uint32_t>& cell_vertices,
+                      const glm::ivec3& corner,
+                      geometry::TriangleMesh& mesh) {
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::ivec3 along(0), side_u(0), side_v(0);
+    along[axis] = 1;
+    side_u[(axis + 1) % 3] = 1;
+    side_v[(axis + 2) % 3] = 1;
+    const bool inside = grid.Value(corner) < 0.0f;
+    if (inside == (grid.Value(corner + along) < 0.0f)) {
+      continue;
+    }
+    const auto vertex = [&](const glm::ivec3& cell) { return cell_vertices[grid.Index(cell)]; };
+    std::array<uint32_t, 4> quad = {vertex(corner - side_u - side_v), vertex(corner - side_v),
+                                    vertex(corner), vertex(corner - side_u)};
+    if (!inside) {
+      std::swap(quad[1], quad[3]);
+    }
+    AddQuad(mesh.indices, mesh.positions, quad);
+  }
+}
+
+geometry::TriangleMesh SurfaceNet(const Grid& grid) {
+  geometry::TriangleMesh mesh;
+  const glm::ivec3 size = grid.size();
+  std::vector<uint32_t> cell_vertices(static_cast<size_t>(size.x) * size.y * size.z, kNoVertex);
+  const auto for_each = [&](const glm::ivec3& first, const auto& visit) {
+    for (int z = first.z; z < size.z - 1; ++z) {
+      for (int y = first.y; y < size.y - 1; ++y) {
+        for (int x = first.x; x < size.x - 1; ++x) {
+          visit(glm::ivec3(x, y, z));
+        }
+      }
+    }
+  };
+  for_each({0, 0, 0}, [&](const glm::ivec3& cell) {
+    glm::vec3 vertex;
+    if (CellVertex(grid, cell, vertex)) {
+      cell_vertices[grid.Index(cell)] = static_cast<uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(vertex);
+    }
+  });
+  for_each({1, 1, 1},
+           [&](const glm::ivec3& corner) { AddQuadsOfCorner(grid, cell_vertices, corner, mesh); });
+  return mesh;
+}
+
+// Moves every vertex half-way to the mean of its neighbours.
+void Smooth(geometry::TriangleMesh& mesh) {
+  std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0.0f));
+  std::vector<float> counts(mesh.positions.size(), 0.0f);
+  for (size_t i = 0; i < mesh.indices.size(); ++i) {
+    const uint32_t from = mesh.indices[i];
+    const uint32_t to = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+    sums[from] += mesh.positions[to];
+    counts[from] += 1.0f;
+  }
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    mesh.positions[v] = 0.5f * (mesh.positions[v] + sums[v] / std::max(counts[v], 1.0f));
+  }
+}
+
+Loft::Station Hermite(const Loft::Station& a,
+                      const Loft::Station& b,
+                      const Loft::Station& slope_a,
+                      const Loft::Station& slope_b,
+                      float t) {
+  const float span = b.t - a.t;
+  const float s = (t - a.t) / span;
+  const float h1 = s * s * (3.0f - 2.0f * s);
+  const float h0 = 1.0f - h1;
+  const float g0 = span * s * (1.0f - s) * (1.0f - s);
+  const float g1 = -span * s * s * (1.0f - s);
+  return {t, h0 * a.center + h1 * b.center + g0 * slope_a.center + g1 * slope_b.center,
+          h0 * a.radii + h1 * b.radii + g0 * slope_a.radii + g1 * slope_b.radii,
+          glm::mix(a.exponent, b.exponent, s)};
+}
+
+// Slopes of a spline through the stations, by differences of the neighbours.
+Loft::Station Slope(const std::vector<Loft::Station>& stations, size_t i) {
+  const Loft::Station& before = stations[i == 0 ? 0 : i - 1];
+  const Loft::Station& after = stations[std::min(i + 1, stations.size() - 1)];
+  const float span = after.t - before.t;
+  return {stations[i].t, (after.center - before.center) / span,
+          (after.radii - before.radii) / span};
+}
+
+}  // namespace
+
+float SmoothUnion(float a, float b, float radius) {
+  const float overlap = std::max(radius - std::abs(a - b), 0.0f) / radius;
+  return std::min(a, b) - 0.25f * radius * overlap * overlap;
+}
+
+float SmoothIntersection(float a, float b, float radius) { return -SmoothUnion(-a, -b, radius); }
+
+float RoundCone(const glm::vec3& point,
+                const glm::vec3& a,
+                float radius_a,
+                const glm::vec3& b,
+                float radius_b) {
+  const glm::vec3 axis = b - a;
+  const float t = glm::clamp(glm::dot(point - a, axis) / glm::dot(axis, axis), 0.0f, 1.0f);
+  return glm::distance(point, a + t * axis) - glm::mix(radius_a, radius_b, t);
+}
+
+float Ellipsoid(const glm::vec3& point, const glm::vec3& center, const glm::vec3& radii) {
+  const glm::vec3 scaled = (point - center) / radii;
+  const float length = glm::length(scaled);
+  const float slope = glm::length(scaled / radii);
+  return slope < 1e-6f ? -std::min({radii.x, radii.y, radii.z}) : length * (length - 1.0f) / slope;
+}
+
+Loft::Loft(const glm::vec3& origin, const glm::mat3& actor_from_loft, std::vector<Station> stations)
+    : origin_(origin),
+      loft_from_actor_(glm::transpose(actor_from_loft)),
+      stations_(std::move(stations)) {
+  CHECK(stations_.size() >= 2);
+}
+
+Loft::Station Loft::At(float t) const {
+  t = std::clamp(t, stations_.front().t, stations_.back().t);
+  size_t i = 0;
+  while (i + 2 < stations_.size() && t > stations_[i + 1].t) {
+    ++i;
+  }
+  return Hermite(stations_[i], stations_[i + 1], Slope(stations_, i), Slope(stations_, i + 1), t);
+}
+
+float Loft::SideDistance(const glm::vec3& point) const {
+  const glm::vec3 local = loft_from_actor_ * (point - origin_);
+  const Station section = At(local.y);
+  const glm::vec2 offset = glm::vec2(local.x, local.z) - section.center;
+  const glm::vec2 scaled = glm::abs(offset / section.radii);
+  const float n = section.exponent;
+  const float norm = std::pow(std::pow(scaled.x, n) + std::pow(scaled.y, n), 1.0f / n);
+  if (norm < 1e-3f) {
+    return -std::min(section.radii.x, section.radii.y);
+  }
+  return glm::length(offset) * (1.0f - 1.0f / norm);
+}
+
+float Loft::Distance(const glm::vec3& point, float end_fillet) const {
+  const float t = (loft_from_actor_ * (point - origin_)).y;
+  const float beyond_ends = std::max(stations_.front().t - t, t - stations_.back().t);
+  return SmoothIntersection(SideDistance(point), beyond_ends, end_fillet);
+}
+
+glm::vec3 FieldNormal(const DistanceField& field, const glm::vec3& point) {
+  const glm::vec3 gradient = Gradient(field, point);
+  const float length = glm::length(gradient);
+  return length > 1e-6f ? gradient / length : glm::vec3(0.0f, 1.0f, 0.0f);
+}
+
+geometry::TriangleMesh Polygonise(const DistanceField& field, const Box& box, float cell) {
+  geometry::TriangleMesh mesh = SurfaceNet(Grid(field, box, cell));
+  for (int round = 0; round < kSmoothingRounds; ++round) {
+    Smooth(mesh);
+    for (glm::vec3& position : mesh.positions) {
+      position = ProjectOnSurface(field, position, cell);
+    }
+  }
+  for (const glm::vec3& position : mesh.positions) {
+    mesh.normals.push_back(FieldNormal(field, position));
+  }
+  return mesh;
+}
+
+}  // namespace lararium::import

@@ -1,0 +1,19 @@
+#pragma once
+
+// The shape of the plain figure: implicit surfaces around its skeleton, with
+// albedo and skin weights for every vertex.
+
+#include <vector>
+
+#include "editor/import/plain_figure.h"
+#include "shared/human/human.h"
+#include "shared/human/skeleton.h"
+
+namespace lararium::import {
+
+// Parts skin, hair, tunic, belt, sandals, all of closed surfaces, for the
+// skeleton of PlainSkeleton(). options.height is left to the caller.
+std::vector<human::SkinnedMesh> PlainMeshes(const human::Skeleton& skeleton,
+                                            const PlainFigureOptions& options);
+
+}  // namespace lararium::import
