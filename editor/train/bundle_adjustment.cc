@@ -1,0 +1,427 @@
+#include "editor/train/bundle_adjustment.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "shared/core/check.h"
+
+namespace lararium::train {
+namespace {
+
+using geometry::CameraModel;
+using geometry::Rigid3;
+using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold,
+                                            ceres::EuclideanManifold<3>>;
+
+using Matrix2x3 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
+using Matrix2x7 = Eigen::Matrix<double, 2, 7, Eigen::RowMajor>;
+
+PoseBlock ToBlock(const Rigid3& pose) {
+  PoseBlock block;
+  Eigen::Map<Eigen::Vector4d>(block.data()) = pose.rotation.coeffs();
+  Eigen::Map<Eigen::Vector3d>(block.data() + 4) = pose.translation;
+  return block;
+}
+
+Rigid3 ToPose(const PoseBlock& block) {
+  Rigid3 pose;
+  pose.rotation.coeffs() = Eigen::Map<const Eigen::Vector4d>(block.data());
+  pose.rotation.normalize();
+  pose.translation = Eigen::Map<const Eigen::Vector3d>(block.data() + 4);
+  return pose;
+}
+
+IntrinsicsBlock ToBlock(const CameraModel& camera) { return {camera.fx, camera.k1, camera.k2}; }
+
+CameraModel WithIntrinsics(CameraModel camera, const IntrinsicsBlock& block) {
+  camera.fy *= block[0] / camera.fx;
+  camera.fx = block[0];
+  camera.k1 = block[1];
+  camera.k2 = block[2];
+  return camera;
+}
+
+class ReprojectionCost : public ceres::SizedCostFunction<2, 3, 7, 3> {
+ public:
+  ReprojectionCost(const CameraModel& fixed, const Eigen::Vector2d& pixel)
+      : fixed_(fixed), pixel_(pixel) {}
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    return ReprojectionResidual(fixed_, pixel_, parameters[0], parameters[1], parameters[2],
+                                residuals, jacobians != nullptr ? jacobians[0] : nullptr,
+                                jacobians != nullptr ? jacobians[1] : nullptr,
+                                jacobians != nullptr ? jacobians[2] : nullptr);
+  }
+
+ private:
+  const CameraModel& fixed_;
+  Eigen::Vector2d pixel_;
+};
+
+// A ceres::Problem with the memory of its parameters.
+class Bundle {
+ public:
+  Bundle(const CameraModel& camera, const BundleOptions& options)
+      : options_(options),
+        camera_(camera),
+        loss_(options.loss_scale_px),
+        problem_(BorrowingOptions()),
+        intrinsics_(ToBlock(camera)) {
+    problem_.AddParameterBlock(intrinsics_.data(), 3);
+    if (!options.refine_intrinsics) {
+      problem_.SetParameterBlockConstant(intrinsics_.data());
+    }
+  }
+  Bundle(const Bundle&) = delete;
+  Bundle& operator=(const Bundle&) = delete;
+
+  // Pointers to blocks stay valid: reserve before adding.
+  void Reserve(size_t poses, size_t points) {
+    poses_.reserve(poses);
+    points_.reserve(points);
+  }
+
+  double* AddPose(const Rigid3& pose, bool variable) {
+    CHECK(poses_.size() < poses_.capacity());
+    double* block = poses_.emplace_back(ToBlock(pose)).data();
+    problem_.AddParameterBlock(block, 7, &pose_manifold_);
+    if (!variable) {
+      problem_.SetParameterBlockConstant(block);
+    }
+    return block;
+  }
+
+  double* AddPoint(const Eigen::Vector3d& point, bool variable) {
+    CHECK(points_.size() < points_.capacity());
+    double* block = points_.emplace_back(point).data();
+    problem_.AddParameterBlock(block, 3);
+    if (!variable) {
+      problem_.SetParameterBlockConstant(block);
+    }
+    return block;
+  }
+
+  void AddObservation(const Eigen::Vector2d& pixel, double* pose, double* point) {
+    // The problem owns its costs.
+    problem_.AddResidualBlock(new ReprojectionCost(camera_, pixel), &loss_, intrinsics_.data(),
+                              pose, point);
+  }
+
+  bool Solve() {
+    ceres::Solver::Options options;
+    options.max_num_iterations = options_.max_iterations;
+    options.function_tolerance = options_.function_tolerance;
+    options.num_threads = 1;  // several do not give the same bits twice
+    options.logging_type = ceres::SILENT;
+    constexpr size_t kMaxDensePoses = 250;
+    options.linear_solver_type = poses_.size() == 1                ? ceres::DENSE_QR
+                                 : poses_.size() <= kMaxDensePoses ? ceres::DENSE_SCHUR
+                                                                   : ceres::SPARSE_SCHUR;
+    if (poses_.size() > 1) {
+      options.linear_solver_ordering = PointsFirst();
+    }
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return summary.IsSolutionUsable();
+  }
+
+  CameraModel camera() const { return WithIntrinsics(camera_, intrinsics_); }
+  Rigid3 pose(size_t i) const { return ToPose(poses_[i]); }
+  const Eigen::Vector3d& point(size_t i) const { return points_[i]; }
+  ceres::Problem& problem() { return problem_; }
+  // Intrinsics, poses, points.
+  std::vector<double*> VariableBlocks() {
+    std::vector<double*> blocks = {intrinsics_.data()};
+    for (PoseBlock& pose : poses_) {
+      blocks.push_back(pose.data());
+    }
+    for (Eigen::Vector3d& point : points_) {
+      blocks.push_back(point.data());
+    }
+    std::erase_if(blocks,
+                  [&](double* block) { return problem_.IsParameterBlockConstant(block); });
+    return blocks;
+  }
+
+ private:
+  static ceres::Problem::Options BorrowingOptions() {
+    ceres::Problem::Options options;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.disable_all_safety_checks = true;
+    return options;
+  }
+
+  // Within a group the order is that of addresses, which follow the index in a
+  // vector; the intrinsics lie elsewhere and get a group to themselves.
+  std::shared_ptr<ceres::ParameterBlockOrdering> PointsFirst() {
+    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (Eigen::Vector3d& point : points_) {
+      ordering->AddElementToGroup(point.data(), 0);
+    }
+    for (PoseBlock& pose : poses_) {
+      ordering->AddElementToGroup(pose.data(), 1);
+    }
+    ordering->AddElementToGroup(intrinsics_.data(), 2);
+    return ordering;
+  }
+
+  BundleOptions options_;
+  CameraModel camera_;
+  ceres::CauchyLoss loss_;
+  PoseManifold pose_manifold_;
+  ceres::Problem problem_;
+  IntrinsicsBlock intrinsics_;
+  std::vector<PoseBlock> poses_;
+  std::vector<Eigen::Vector3d> points_;
+};
+
+std::vector<uint32_t> TracksWithPoints(const Reconstruction& reconstruction) {
+  std::vector<uint32_t> tracks;
+  for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
+    if (reconstruction.HasPoint(track)) {
+      tracks.push_back(track);
+    }
+  }
+  return tracks;
+}
+
+// A bundle of tracks' points and of all images that observe them, in which only
+// the poses of some images may change.
+struct ReconstructionBundle {
+  ReconstructionBundle(const Reconstruction& reconstruction,
+                       std::vector<uint32_t> bundled_tracks,
+                       const std::vector<bool>& variable,  // [image]
+                       const BundleOptions& options)
+      : bundle(reconstruction.camera(), options), tracks(std::move(bundled_tracks)) {
+    bundle.Reserve(reconstruction.image_count(), tracks.size());
+    std::vector<double*> poses(reconstruction.image_count(), nullptr);
+    for (const uint32_t track : tracks) {
+      double* point = bundle.AddPoint(reconstruction.Point(track), true);
+      const uint32_t end = reconstruction.tracks().begin[track + 1];
+      for (uint32_t element = reconstruction.tracks().begin[track]; element < end; ++element) {
+        if (!reconstruction.Observed(element)) {
+          continue;
+        }
+        const uint32_t image = reconstruction.ImageOf(element);
+        if (poses[image] == nullptr) {
+          poses[image] = bundle.AddPose(reconstruction.camera_from_map(image), variable[image]);
+          images.push_back(image);
+        }
+        bundle.AddObservation(reconstruction.Pixel(element), poses[image], point);
+      }
+    }
+  }
+
+  void WriteTo(Reconstruction& reconstruction) const {
+    for (size_t i = 0; i < images.size(); ++i) {
+      reconstruction.Locate(images[i], bundle.pose(i));
+    }
+    for (size_t i = 0; i < tracks.size(); ++i) {
+      reconstruction.MovePoint(tracks[i], bundle.point(i));
+    }
+  }
+
+  Bundle bundle;
+  std::vector<uint32_t> tracks;
+  std::vector<uint32_t> images;  // in the order of the bundle's poses
+};
+
+// Scales the map about one camera so that another is at a distance again.
+void RestoreUnit(Reconstruction& reconstruction,
+                 const std::array<uint32_t, 2>& anchors,
+                 double distance) {
+  const Eigen::Vector3d center = reconstruction.camera_from_map(anchors[0]).Center();
+  const double now = (reconstruction.camera_from_map(anchors[1]).Center() - center).norm();
+  if (!(now > 0.0)) {
+    return;
+  }
+  geometry::Similarity3 restored_from_map;
+  restored_from_map.scale = distance / now;
+  restored_from_map.translation = (1.0 - restored_from_map.scale) * center;
+  reconstruction.Transform(restored_from_map);
+}
+
+}  // namespace
+
+bool ReprojectionResidual(const CameraModel& fixed,
+                          const Eigen::Vector2d& pixel,
+                          const double* intrinsics,
+                          const double* pose,
+                          const double* point,
+                          double* residual,
+                          double* by_intrinsics,
+                          double* by_pose,
+                          double* by_point) {
+  const Eigen::Map<const Eigen::Vector3d> v(pose);  // of the quaternion (v, w)
+  const double w = pose[3];
+  const Eigen::Map<const Eigen::Vector3d> translation(pose + 4);
+  const Eigen::Map<const Eigen::Vector3d> in_map(point);
+  const Eigen::Vector3d cross = v.cross(in_map);
+  const Eigen::Vector3d in_camera = in_map + 2.0 * (w * cross + v.cross(cross)) + translation;
+  if (!(in_camera.z() > 1e-9)) {
+    return false;
+  }
+  const double inverse_z = 1.0 / in_camera.z();
+  const double x = in_camera.x() * inverse_z;
+  const double y = in_camera.y() * inverse_z;
+  const double fx = intrinsics[0];
+  const double fy = fx * (fixed.fy / fixed.fx);
+  const double k1 = intrinsics[1];
+  const double k2 = intrinsics[2];
+  const double r2 = x * x + y * y;
+  const double radial = 1.0 + r2 * (k1 + r2 * k2);
+  const Eigen::Vector2d distorted(
+      x * radial + 2.0 * fixed.p1 * x * y + fixed.p2 * (r2 + 2.0 * x * x),
+      y * radial + fixed.p1 * (r2 + 2.0 * y * y) + 2.0 * fixed.p2 * x * y);
+  residual[0] = fx * distorted.x() + fixed.cx - pixel.x();
+  residual[1] = fy * distorted.y() + fixed.cy - pixel.y();
+
+  if (by_intrinsics != nullptr) {
+    Eigen::Map<Matrix2x3> jacobian(by_intrinsics);
+    jacobian << distorted.x(), fx * x * r2, fx * x * r2 * r2,  //
+        fy / fx * distorted.y(), fy * y * r2, fy * y * r2 * r2;
+  }
+  if (by_pose == nullptr && by_point == nullptr) {
+    return true;
+  }
+  // By the point on the plane z = 1, then by the point in camera axes.
+  const double slope = 2.0 * (k1 + 2.0 * k2 * r2);
+  const double mixed = x * y * slope + 2.0 * fixed.p1 * x + 2.0 * fixed.p2 * y;
+  Eigen::Matrix2d by_plane;
+  by_plane << fx * (radial + x * x * slope + 2.0 * fixed.p1 * y + 6.0 * fixed.p2 * x), fx * mixed,
+      fy * mixed, fy * (radial + y * y * slope + 6.0 * fixed.p1 * y + 2.0 * fixed.p2 * x);
+  Matrix2x3 by_camera;
+  by_camera.leftCols<2>() = by_plane * inverse_z;
+  by_camera.col(2) = by_plane * Eigen::Vector2d(-x, -y) * inverse_z;
+  if (by_pose != nullptr) {
+    // R X = X + 2 w (v x X) + 2 v x (v x X), and v x (v x X) = v (v.X) - X (v.v).
+    Eigen::Map<Matrix2x7> jacobian(by_pose);
+    const Eigen::Matrix3d by_v =
+        2.0 * (v.dot(in_map) * Eigen::Matrix3d::Identity() + v * in_map.transpose() -
+               2.0 * in_map * v.transpose() - w * geometry::Skew(in_map));
+    jacobian.leftCols<3>() = by_camera * by_v;
+    jacobian.col(3) = by_camera * (2.0 * cross);
+    jacobian.rightCols<3>() = by_camera;
+  }
+  if (by_point != nullptr) {
+    const Eigen::Matrix3d rotation =
+        Eigen::Map<const Eigen::Quaterniond>(pose).toRotationMatrix();
+    Eigen::Map<Matrix2x3> jacobian(by_point);
+    jacobian = by_camera * rotation;
+  }
+  return true;
+}
+
+bool AdjustAll(Reconstruction& reconstruction,
+               const std::array<uint32_t, 2>& anchors,
+               const BundleOptions& options) {
+  std::vector<bool> variable(reconstruction.image_count(), true);
+  variable[anchors[0]] = false;
+  const double distance = (reconstruction.camera_from_map(anchors[0]).Center() -
+                           reconstruction.camera_from_map(anchors[1]).Center())
+                              .norm();
+  ReconstructionBundle adjusted(reconstruction, TracksWithPoints(reconstruction), variable,
+                                options);
+  if (adjusted.tracks.empty() || !adjusted.bundle.Solve()) {
+    return false;
+  }
+  if (options.refine_intrinsics) {
+    const CameraModel camera = adjusted.bundle.camera();
+    if (!camera.Validate().ok()) {
+      return false;
+    }
+    reconstruction.SetCamera(camera);
+  }
+  adjusted.WriteTo(reconstruction);
+  RestoreUnit(reconstruction, anchors, distance);
+  return true;
+}
+
+bool AdjustLocally(Reconstruction& reconstruction,
+                   std::span<const uint32_t> images,
+                   const BundleOptions& options) {
+  CHECK(!images.empty() && !options.refine_intrinsics);
+  std::vector<bool> variable(reconstruction.image_count(), false);
+  for (const uint32_t image : images) {
+    variable[image] = true;
+  }
+  std::vector<uint32_t> tracks;
+  for (const uint32_t element : reconstruction.ElementsOf(images.front())) {
+    if (reconstruction.Observed(element)) {
+      tracks.push_back(reconstruction.TrackOf(element));
+    }
+  }
+  ReconstructionBundle adjusted(reconstruction, std::move(tracks), variable, options);
+  if (adjusted.tracks.empty() || !adjusted.bundle.Solve()) {
+    return false;
+  }
+  adjusted.WriteTo(reconstruction);
+  return true;
+}
+
+std::optional<Rigid3> AdjustPose(const CameraModel& camera,
+                                 std::span<const Eigen::Vector2d> pixels,
+                                 std::span<const Eigen::Vector3d> points,
+                                 const Rigid3& start,
+                                 const BundleOptions& options) {
+  CHECK(pixels.size() == points.size());
+  Bundle bundle(camera, options);
+  bundle.Reserve(1, points.size());
+  double* pose = bundle.AddPose(start, true);
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    if ((start * points[i]).z() > 1e-6) {
+      bundle.AddObservation(pixels[i], pose, bundle.AddPoint(points[i], false));
+    }
+  }
+  if (!bundle.Solve()) {
+    return std::nullopt;
+  }
+  return bundle.pose(0);
+}
+
+double FocalDeviation(const Reconstruction& reconstruction, uint32_t anchor) {
+  std::vector<bool> variable(reconstruction.image_count(), true);
+  variable[anchor] = false;
+  BundleOptions options;
+  options.refine_intrinsics = true;
+  ReconstructionBundle evaluated(reconstruction, TracksWithPoints(reconstruction), variable,
+                                 options);
+  ceres::Problem& problem = evaluated.bundle.problem();
+  ceres::Problem::EvaluateOptions evaluate;
+  evaluate.parameter_blocks = evaluated.bundle.VariableBlocks();
+  double cost = 0.0;
+  ceres::CRSMatrix crs;
+  if (!problem.Evaluate(evaluate, &cost, nullptr, nullptr, &crs) || crs.num_rows <= crs.num_cols) {
+    return 0.0;
+  }
+  const Eigen::SparseMatrix<double> jacobian =
+      Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+          crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()),
+          crs.rows.data(), crs.cols.data(), crs.values.data());
+  Eigen::SparseMatrix<double> normal = jacobian.transpose() * jacobian;
+  // The unit is free. It does not touch the focal length, so that a trace of
+  // damping makes the equations solvable without a change of the answer.
+  for (int i = 0; i < normal.cols(); ++i) {
+    normal.coeffRef(i, i) *= 1.0 + 1e-9;
+  }
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(normal);
+  if (factors.info() != Eigen::Success) {
+    return 0.0;
+  }
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(normal.cols());
+  unit[0] = 1.0;  // the focal length, first of the first block
+  const double variance_of_residuals = 2.0 * cost / (crs.num_rows - crs.num_cols);
+  const double variance = factors.solve(unit)[0] * variance_of_residuals;
+  return variance > 0.0 ? std::sqrt(variance) : 0.0;
+}
+
+}  // namespace lararium::train

@@ -1,0 +1,67 @@
+#pragma once
+
+// Least squares over poses, points and intrinsics: Triggs et al., "Bundle
+// Adjustment - A Modern Synthesis", 2000.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "editor/train/reconstruction.h"
+
+namespace lararium::train {
+
+// What the estimated intrinsics change: f = fx, with fy / fx kept.
+using IntrinsicsBlock = std::array<double, 3>;  // f, k1, k2
+// camera_from_map: quaternion x, y, z, w, then translation.
+using PoseBlock = std::array<double, 7>;
+
+// Projection of a point by a camera less the pixel where it was seen. Each
+// Jacobian that is not null is filled, row by row.
+// fixed: the parameters of camera that IntrinsicsBlock does not hold.
+// False behind the camera.
+bool ReprojectionResidual(const geometry::CameraModel& fixed,
+                          const Eigen::Vector2d& pixel,
+                          const double* intrinsics,
+                          const double* pose,
+                          const double* point,
+                          double* residual,
+                          double* by_intrinsics,  // [2][3]
+                          double* by_pose,        // [2][7]
+                          double* by_point);      // [2][3]
+
+struct BundleOptions {
+  int max_iterations = 30;
+  double loss_scale_px = 1.0;  // of Cauchy's loss
+  double function_tolerance = 1e-6;
+  bool refine_intrinsics = false;
+};
+
+// Adjusts all located images and all points. The first of anchors keeps its pose;
+// the distance between both keeps its length: they fix axes and unit.
+// False when no solution was found; nothing has changed then.
+bool AdjustAll(Reconstruction& reconstruction,
+               const std::array<uint32_t, 2>& anchors,
+               const BundleOptions& options);
+
+// Adjusts the poses of images and the points that the first of them observes;
+// other images that see these points hold still.
+bool AdjustLocally(Reconstruction& reconstruction,
+                   std::span<const uint32_t> images,
+                   const BundleOptions& options);
+
+// Robust least squares of one pose on fixed points.
+std::optional<geometry::Rigid3> AdjustPose(const geometry::CameraModel& camera,
+                                           std::span<const Eigen::Vector2d> pixels,
+                                           std::span<const Eigen::Vector3d> points,
+                                           const geometry::Rigid3& start,
+                                           const BundleOptions& options);
+
+// Standard deviation in pixels of the estimated focal length, from the residuals
+// and the normal equations of AdjustAll with refined intrinsics. 0 when singular.
+double FocalDeviation(const Reconstruction& reconstruction, uint32_t anchor);
+
+}  // namespace lararium::train

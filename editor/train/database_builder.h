@@ -1,0 +1,37 @@
+#pragma once
+
+// From a finished reconstruction to the scene database.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "editor/train/reconstruction.h"
+#include "shared/geometry/frame.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::train {
+
+// An image of the reconstruction.
+struct TrainingImage {
+  int64_t frame_index = -1;
+  std::string name;
+  cv::Mat grey;
+  vision::Features features;
+};
+
+struct DatabaseOptions {
+  int max_points = 60'000;
+  int max_descriptors_per_point = 6;
+  uint32_t session = 0;
+  uint64_t seed = 1;
+};
+
+// images[i] is image i of the reconstruction. Where there are more points than
+// max_points, the images choose in turn, each its most observed point.
+vision::SceneDatabase BuildDatabase(const Reconstruction& reconstruction,
+                                    std::span<const TrainingImage> images,
+                                    const DatabaseOptions& options);
+
+}  // namespace lararium::train

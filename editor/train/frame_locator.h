@@ -1,0 +1,36 @@
+#pragma once
+
+// Locates further frames of the source in the finished map.
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "editor/train/database_builder.h"
+#include "editor/train/reconstruction.h"
+
+namespace lararium::train {
+
+class FrameLocator {
+ public:
+  // Borrows reconstruction; images[i] is its image i.
+  FrameLocator(const Reconstruction& reconstruction, std::span<const TrainingImage> images);
+
+  // By matches with the keyframes nearest in the source. May run on several threads.
+  std::optional<geometry::Rigid3> Locate(const cv::Mat& grey, int64_t frame_index) const;
+
+ private:
+  // What a keyframe sees of the map.
+  struct View {
+    int64_t frame_index = -1;
+    std::vector<vision::Descriptor> descriptors;
+    std::vector<uint32_t> tracks;  // [descriptors]
+  };
+
+  const Reconstruction& reconstruction_;
+  std::vector<View> views_;  // in order of frame_index
+};
+
+}  // namespace lararium::train

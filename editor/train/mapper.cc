@@ -1,0 +1,329 @@
+#include "editor/train/mapper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "editor/train/bundle_adjustment.h"
+#include "editor/train/two_view.h"
+#include "shared/core/parallel.h"
+
+namespace lararium::train {
+namespace {
+
+using geometry::Rigid3;
+
+class Mapper {
+ public:
+  Mapper(Reconstruction& reconstruction,
+         std::span<const VerifiedPair> pairs,
+         const MapperOptions& options,
+         Progress& progress,
+         Log& log)
+      : reconstruction_(reconstruction),
+        pairs_(pairs),
+        options_(options),
+        progress_(progress),
+        log_(log) {}
+
+  std::optional<InitialPair> Run() {
+    constexpr size_t kMaxStarts = 20;
+    const std::vector<size_t> starts = RankInitialPairs();
+    for (size_t i = 0; i < std::min(kMaxStarts, starts.size()); ++i) {
+      if (progress_.Cancelled()) {
+        return std::nullopt;
+      }
+      if (!Start(pairs_[starts[i]])) {
+        continue;
+      }
+      Grow();
+      if (reconstruction_.LocatedImages().size() >= 3 || reconstruction_.image_count() == 2) {
+        Finish();
+        return progress_.Cancelled() ? std::nullopt : std::optional(anchors_);
+      }
+    }
+    Forget();
+    return std::nullopt;
+  }
+
+ private:
+  // Indices of pairs that could start a map, best first: many matches at a good
+  // angle. Beyond 10 degrees more parallax is no longer worth fewer matches.
+  std::vector<size_t> RankInitialPairs() const {
+    constexpr double kGoodAngle = 0.175;
+    std::vector<std::pair<double, size_t>> ranked;
+    for (size_t i = 0; i < pairs_.size(); ++i) {
+      if (pairs_[i].matches.size() >= options_.min_initial_points &&
+          pairs_[i].median_angle >= options_.min_initial_angle) {
+        ranked.emplace_back(-static_cast<double>(pairs_[i].matches.size()) *
+                                std::min(pairs_[i].median_angle, kGoodAngle),
+                            i);
+      }
+    }
+    std::sort(ranked.begin(), ranked.end());
+    std::vector<size_t> order;
+    for (const auto& [score, index] : ranked) {
+      order.push_back(index);
+    }
+    return order;
+  }
+
+  void Forget() {
+    for (const uint32_t image : reconstruction_.LocatedImages()) {
+      reconstruction_.Unlocate(image);
+    }
+  }
+
+  bool Start(const VerifiedPair& pair) {
+    Forget();
+    anchors_ = {pair.images.a, pair.images.b};
+    reconstruction_.Locate(anchors_[0], Rigid3{});
+    reconstruction_.Locate(anchors_[1], pair.b_from_a);
+    Retriangulate();
+    AdjustAll(reconstruction_, anchors_, Growing());
+    FilterAll(options_.triangulation);
+    last_global_ = 2;
+    const size_t points = reconstruction_.PointCount();
+    log_.debug("mapping from images {} and {}: {} points", anchors_[0], anchors_[1], points);
+    return points >= options_.min_initial_points;
+  }
+
+  void Grow() {
+    bool refreshed = true;  // since the last image was located
+    while (!progress_.Cancelled()) {
+      const size_t located = reconstruction_.LocatedImages().size();
+      progress_.Report("mapping", static_cast<double>(located) /
+                                      static_cast<double>(reconstruction_.image_count()));
+      if (LocateNext()) {
+        refreshed = false;
+        if (static_cast<double>(located + 1) >= kGrowth * static_cast<double>(last_global_)) {
+          Refresh();
+          refreshed = true;
+        }
+      } else if (!refreshed) {
+        Refresh();
+        refreshed = true;
+      } else {
+        return;
+      }
+    }
+  }
+
+  // Global adjustment with all that follows from it.
+  void Refresh() {
+    last_global_ = reconstruction_.LocatedImages().size();
+    AdjustAll(reconstruction_, anchors_, Growing());
+    FilterAll(options_.triangulation);
+    CompleteAll(options_.triangulation.max_error_px);
+    Retriangulate();
+  }
+
+  void Finish() {
+    constexpr int kRounds = 3;
+    TriangulationOptions limits = options_.triangulation;
+    for (int round = 0; round < kRounds && !progress_.Cancelled(); ++round) {
+      progress_.Report("refining", static_cast<double>(round) / kRounds);
+      CompleteAll(limits.max_error_px);
+      Retriangulate();
+      BundleOptions bundle = Growing();
+      bundle.max_iterations = 50;
+      AdjustAll(reconstruction_, anchors_, bundle);
+      limits.max_error_px = options_.final_max_error_px;
+      FilterAll(limits);
+      DropWeakImages();
+    }
+    BundleOptions bundle = Growing();
+    bundle.max_iterations = 100;
+    bundle.function_tolerance = 1e-9;
+    AdjustAll(reconstruction_, anchors_, bundle);
+    FilterAll(limits);
+  }
+
+  BundleOptions Growing() const {
+    constexpr size_t kImagesForIntrinsics = 4;
+    BundleOptions bundle;
+    bundle.max_iterations = 20;
+    bundle.refine_intrinsics =
+        options_.refine_intrinsics &&
+        reconstruction_.LocatedImages().size() >= kImagesForIntrinsics;
+    return bundle;
+  }
+
+  // Points that an image sees, weighed by how evenly they fill it: occupied
+  // cells of grids from 2x2 to 16x16 (Schoenberger & Frahm, section 4.2).
+  size_t VisibilityScore(uint32_t image) const {
+    constexpr int kLevels = 4;
+    const geometry::CameraModel& camera = reconstruction_.camera();
+    size_t score = 0;
+    std::vector<uint8_t> occupied;
+    for (int level = 1; level <= kLevels; ++level) {
+      const int cells = 1 << level;
+      occupied.assign(static_cast<size_t>(cells * cells), 0);
+      for (const uint32_t element : reconstruction_.ElementsOf(image)) {
+        if (!reconstruction_.HasPoint(reconstruction_.TrackOf(element))) {
+          continue;
+        }
+        const Eigen::Vector2d& pixel = reconstruction_.Pixel(element);
+        const int x = std::clamp(static_cast<int>(pixel.x() * cells / camera.width), 0, cells - 1);
+        const int y = std::clamp(static_cast<int>(pixel.y() * cells / camera.height), 0, cells - 1);
+        uint8_t& cell = occupied[static_cast<size_t>(y * cells + x)];
+        score += cell == 0 ? static_cast<size_t>(cells) * cells : 0;
+        cell = 1;
+      }
+    }
+    return score;
+  }
+
+  // Locates the best of the images not yet located. False when none can be.
+  bool LocateNext() {
+    std::vector<std::pair<size_t, uint32_t>> candidates;
+    for (uint32_t image = 0; image < reconstruction_.image_count(); ++image) {
+      if (!reconstruction_.Located(image)) {
+        candidates.emplace_back(VisibilityScore(image), image);
+      }
+    }
+    std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    for (const auto& [score, image] : candidates) {
+      if (score == 0 || progress_.Cancelled()) {
+        return false;
+      }
+      if (LocateOne(image)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool LocateOne(uint32_t image) {
+    std::vector<Eigen::Vector2d> pixels;
+    std::vector<Eigen::Vector3d> points;
+    for (const uint32_t element : reconstruction_.ElementsOf(image)) {
+      if (reconstruction_.HasPoint(reconstruction_.TrackOf(element))) {
+        pixels.push_back(reconstruction_.Pixel(element));
+        points.push_back(reconstruction_.Point(reconstruction_.TrackOf(element)));
+      }
+    }
+    const std::optional<Resection> resection =
+        LocateImage(reconstruction_.camera(), pixels, points, options_.resection);
+    if (!resection) {
+      return false;
+    }
+    reconstruction_.Locate(image, resection->camera_from_map);
+    ExtendBy(image);
+    AdjustAround(image);
+    FilterAround(image);
+    log_.debug("located image {}: {} of {} points, {} in the map", image,
+               resection->inliers.size(), points.size(), reconstruction_.PointCount());
+    return true;
+  }
+
+  // Adds what a new image sees: observations of known points, then new points.
+  void ExtendBy(uint32_t image) {
+    for (const uint32_t element : reconstruction_.ElementsOf(image)) {
+      const uint32_t track = reconstruction_.TrackOf(element);
+      if (reconstruction_.HasPoint(track)) {
+        reconstruction_.Complete(track, options_.triangulation.max_error_px);
+      } else {
+        reconstruction_.Triangulate(track, options_.triangulation);
+      }
+    }
+  }
+
+  // The new image and those that share most points with it.
+  void AdjustAround(uint32_t image) {
+    constexpr size_t kNeighbours = 5;
+    std::vector<size_t> shared(reconstruction_.image_count(), 0);
+    for (const uint32_t element : reconstruction_.ElementsOf(image)) {
+      if (!reconstruction_.Observed(element)) {
+        continue;
+      }
+      const uint32_t track = reconstruction_.TrackOf(element);
+      for (uint32_t e = reconstruction_.tracks().begin[track];
+           e < reconstruction_.tracks().begin[track + 1]; ++e) {
+        shared[reconstruction_.ImageOf(e)] += reconstruction_.Observed(e) ? 1 : 0;
+      }
+    }
+    shared[image] = 0;
+    shared[anchors_[0]] = 0;  // holds the axes
+    std::vector<uint32_t> order(shared.size());
+    for (uint32_t i = 0; i < order.size(); ++i) {
+      order[i] = i;
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return shared[a] > shared[b]; });
+    std::vector<uint32_t> images = {image};
+    for (size_t i = 0; i < std::min(kNeighbours, order.size()) && shared[order[i]] > 0; ++i) {
+      images.push_back(order[i]);
+    }
+    BundleOptions bundle;
+    bundle.max_iterations = 10;
+    AdjustLocally(reconstruction_, images, bundle);
+  }
+
+  void FilterAround(uint32_t image) {
+    for (const uint32_t element : reconstruction_.ElementsOf(image)) {
+      if (reconstruction_.HasPoint(reconstruction_.TrackOf(element))) {
+        reconstruction_.Filter(reconstruction_.TrackOf(element), options_.triangulation);
+      }
+    }
+  }
+
+  template <typename Visit>
+  void ForAllTracks(bool with_point, Visit visit) {
+    for (uint32_t track = 0; track < reconstruction_.tracks().size(); ++track) {
+      if (reconstruction_.HasPoint(track) == with_point) {
+        visit(track);
+      }
+    }
+  }
+  void FilterAll(const TriangulationOptions& limits) {
+    ForAllTracks(true, [&](uint32_t track) { reconstruction_.Filter(track, limits); });
+  }
+  void CompleteAll(double max_error_px) {
+    ForAllTracks(true, [&](uint32_t track) { reconstruction_.Complete(track, max_error_px); });
+  }
+  void Retriangulate() {
+    ForAllTracks(false, [&](uint32_t track) {
+      reconstruction_.Triangulate(track, options_.triangulation);
+    });
+  }
+
+  // Images that filtering left with hardly any observation are not trusted.
+  void DropWeakImages() {
+    for (const uint32_t image : reconstruction_.LocatedImages()) {
+      const auto elements = reconstruction_.ElementsOf(image);
+      const auto observations =
+          std::count_if(elements.begin(), elements.end(),
+                        [&](uint32_t element) { return reconstruction_.Observed(element); });
+      if (static_cast<size_t>(observations) < options_.resection.min_inliers / 2 &&
+          image != anchors_[0] && image != anchors_[1]) {
+        reconstruction_.Unlocate(image);
+      }
+    }
+  }
+
+  // Images by which a map grows from one global adjustment to the next.
+  static constexpr double kGrowth = 1.25;
+
+  Reconstruction& reconstruction_;
+  std::span<const VerifiedPair> pairs_;
+  MapperOptions options_;
+  Progress& progress_;
+  Log& log_;
+  InitialPair anchors_ = {0, 0};
+  size_t last_global_ = 0;
+};
+
+}  // namespace
+
+std::optional<InitialPair> MapIncrementally(Reconstruction& reconstruction,
+                                            std::span<const VerifiedPair> pairs,
+                                            const MapperOptions& options,
+                                            Progress& progress,
+                                            Log& log) {
+  return Mapper(reconstruction, pairs, options, progress, log).Run();
+}
+
+}  // namespace lararium::train

@@ -1,0 +1,152 @@
+#include "editor/train/matching.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace lararium::train {
+namespace {
+
+using vision::Descriptor;
+using vision::kDescriptorSize;
+
+constexpr size_t kRows = 2;     // of a, held in registers against
+constexpr size_t kColumns = 4;  // descriptors of b
+constexpr size_t kTile = 64;    // descriptors of b that stay in the first-level cache
+constexpr uint32_t kFar = std::numeric_limits<uint32_t>::max();
+
+// Descriptors widened to 16 bits, so that the compiler multiplies and adds pairs
+// of them in one instruction; padded with zeros to a multiple of a block.
+struct WideDescriptors {
+  std::vector<int16_t> values;
+  std::vector<uint32_t> squared_norms;
+};
+
+WideDescriptors Widen(std::span<const Descriptor> descriptors, size_t multiple) {
+  const size_t padded = (descriptors.size() + multiple - 1) / multiple * multiple;
+  WideDescriptors wide{std::vector<int16_t>(padded * kDescriptorSize),
+                       std::vector<uint32_t>(padded)};
+  for (size_t i = 0; i < descriptors.size(); ++i) {
+    std::copy(descriptors[i].begin(), descriptors[i].end(),
+              wide.values.begin() + static_cast<ptrdiff_t>(i * kDescriptorSize));
+    for (const uint32_t value : descriptors[i]) {
+      wide.squared_norms[i] += value * value;
+    }
+  }
+  return wide;
+}
+
+using Dots = int32_t[kRows][kColumns];
+
+void ComputeDots(const int16_t* a, const int16_t* b, Dots& dots) {
+  constexpr int n = kDescriptorSize;
+  int32_t d00 = 0, d01 = 0, d02 = 0, d03 = 0, d10 = 0, d11 = 0, d12 = 0, d13 = 0;
+  for (int k = 0; k < n; ++k) {
+    d00 += a[k] * b[k];
+    d01 += a[k] * b[n + k];
+    d02 += a[k] * b[2 * n + k];
+    d03 += a[k] * b[3 * n + k];
+    d10 += a[n + k] * b[k];
+    d11 += a[n + k] * b[n + k];
+    d12 += a[n + k] * b[2 * n + k];
+    d13 += a[n + k] * b[3 * n + k];
+  }
+  dots[0][0] = d00, dots[0][1] = d01, dots[0][2] = d02, dots[0][3] = d03;
+  dots[1][0] = d10, dots[1][1] = d11, dots[1][2] = d12, dots[1][3] = d13;
+}
+
+// Calls visit(i, j, squared distance) for all pairs, in a fixed order.
+template <typename Visit>
+void ForAllPairs(std::span<const Descriptor> a, std::span<const Descriptor> b, Visit visit) {
+  const WideDescriptors wide_a = Widen(a, kRows);
+  const WideDescriptors wide_b = Widen(b, kColumns);
+  for (size_t tile = 0; tile < b.size(); tile += kTile) {
+    const size_t tile_end = std::min(tile + kTile, b.size());
+    for (size_t i = 0; i < a.size(); i += kRows) {
+      for (size_t j = tile; j < tile_end; j += kColumns) {
+        Dots dots;
+        ComputeDots(&wide_a.values[i * kDescriptorSize], &wide_b.values[j * kDescriptorSize], dots);
+        for (size_t r = 0; r < std::min(kRows, a.size() - i); ++r) {
+          for (size_t c = 0; c < std::min(kColumns, b.size() - j); ++c) {
+            visit(i + r, j + c,
+                  wide_a.squared_norms[i + r] + wide_b.squared_norms[j + c] -
+                      2 * static_cast<uint32_t>(dots[r][c]));
+          }
+        }
+      }
+    }
+  }
+}
+
+struct Nearest {
+  uint32_t best = kFar;
+  uint32_t second = kFar;
+  uint32_t index = 0;
+
+  void Add(uint32_t squared_distance, size_t candidate) {
+    if (squared_distance < best) {
+      second = best;
+      best = squared_distance;
+      index = static_cast<uint32_t>(candidate);
+    } else if (squared_distance < second) {
+      second = squared_distance;
+    }
+  }
+  bool Distinct(float squared_ratio) const {
+    return static_cast<float>(best) < squared_ratio * static_cast<float>(second);
+  }
+};
+
+}  // namespace
+
+std::vector<FeatureMatch> MatchDescriptors(std::span<const Descriptor> a,
+                                           std::span<const Descriptor> b,
+                                           float ratio) {
+  std::vector<Nearest> of_a(a.size());
+  std::vector<Nearest> of_b(b.size());
+  ForAllPairs(a, b, [&](size_t i, size_t j, uint32_t squared_distance) {
+    of_a[i].Add(squared_distance, j);
+    of_b[j].Add(squared_distance, i);
+  });
+  std::vector<FeatureMatch> matches;
+  for (uint32_t i = 0; i < of_a.size(); ++i) {
+    const Nearest& forward = of_a[i];
+    if (forward.best != kFar && forward.Distinct(ratio * ratio) &&
+        of_b[forward.index].index == i && of_b[forward.index].Distinct(ratio * ratio)) {
+      matches.push_back({i, forward.index});
+    }
+  }
+  return matches;
+}
+
+std::vector<uint32_t> StrongestFeatures(const vision::Features& features, size_t count) {
+  std::vector<uint32_t> order(features.size());
+  std::iota(order.begin(), order.end(), 0u);
+  if (order.size() > count) {
+    std::nth_element(order.begin(), order.begin() + static_cast<ptrdiff_t>(count), order.end(),
+                     [&](uint32_t i, uint32_t j) {
+                       const float a = features.keypoints[i].response;
+                       const float b = features.keypoints[j].response;
+                       return a != b ? a > b : i < j;
+                     });
+    order.resize(count);
+    std::sort(order.begin(), order.end());
+  }
+  return order;
+}
+
+std::vector<uint32_t> NearestCenters(std::span<const Descriptor> queries,
+                                     std::span<const Descriptor> centers) {
+  std::vector<Nearest> nearest(queries.size());
+  ForAllPairs(queries, centers, [&](size_t i, size_t j, uint32_t squared_distance) {
+    nearest[i].Add(squared_distance, j);
+  });
+  std::vector<uint32_t> indices;
+  indices.reserve(queries.size());
+  for (const Nearest& n : nearest) {
+    indices.push_back(n.index);
+  }
+  return indices;
+}
+
+}  // namespace lararium::train

@@ -1,0 +1,150 @@
+#include "editor/train/pair_selection.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "editor/train/matching.h"
+#include "shared/core/parallel.h"
+#include "shared/core/random.h"
+
+namespace lararium::train {
+namespace {
+
+using vision::Descriptor;
+using vision::Features;
+using vision::kDescriptorSize;
+
+constexpr size_t kCenters = 64;
+constexpr size_t kSampleSize = 30'000;  // descriptors that the centers are learnt from
+constexpr int kIterations = 8;
+constexpr size_t kPerImage = 1000;  // strongest features that describe an image
+
+std::vector<Descriptor> Gather(const Features& features, size_t count) {
+  std::vector<Descriptor> chosen;
+  for (const uint32_t i : StrongestFeatures(features, count)) {
+    chosen.push_back(features.descriptors[i]);
+  }
+  return chosen;
+}
+
+// k-means by Lloyd's algorithm from random members.
+std::vector<Descriptor> LearnCenters(std::span<const Descriptor> sample, uint64_t seed) {
+  Random random(seed);
+  std::vector<Descriptor> centers;
+  for (size_t k = 0; k < kCenters; ++k) {
+    centers.push_back(sample[random.Below(static_cast<uint32_t>(sample.size()))]);
+  }
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const std::vector<uint32_t> nearest = NearestCenters(sample, centers);
+    std::vector<std::array<uint32_t, kDescriptorSize>> sums(kCenters);
+    std::vector<uint32_t> counts(kCenters);
+    for (size_t i = 0; i < sample.size(); ++i) {
+      ++counts[nearest[i]];
+      for (int d = 0; d < kDescriptorSize; ++d) {
+        sums[nearest[i]][d] += sample[i][d];
+      }
+    }
+    for (size_t k = 0; k < kCenters; ++k) {
+      for (int d = 0; d < kDescriptorSize && counts[k] > 0; ++d) {
+        centers[k][d] = static_cast<uint8_t>((sums[k][d] + counts[k] / 2) / counts[k]);
+      }
+    }
+  }
+  return centers;
+}
+
+// Residuals to the centers, each center's sum and then the whole normalised.
+Eigen::VectorXf Aggregate(std::span<const Descriptor> descriptors,
+                          std::span<const Descriptor> centers) {
+  const std::vector<uint32_t> nearest = NearestCenters(descriptors, centers);
+  Eigen::VectorXf vector = Eigen::VectorXf::Zero(kCenters * kDescriptorSize);
+  for (size_t i = 0; i < descriptors.size(); ++i) {
+    const Descriptor& center = centers[nearest[i]];
+    float* sum = vector.data() + nearest[i] * kDescriptorSize;
+    for (int d = 0; d < kDescriptorSize; ++d) {
+      sum[d] += static_cast<float>(descriptors[i][d]) - static_cast<float>(center[d]);
+    }
+  }
+  for (size_t k = 0; k < kCenters; ++k) {
+    vector.segment<kDescriptorSize>(static_cast<Eigen::Index>(k) * kDescriptorSize)
+        .stableNormalize();
+  }
+  vector.stableNormalize();
+  return vector;
+}
+
+std::vector<Eigen::VectorXf> DescribeImages(std::span<const Features> images, uint64_t seed) {
+  std::vector<std::vector<Descriptor>> chosen(images.size());
+  ParallelFor(images.size(), [&](size_t i) { chosen[i] = Gather(images[i], kPerImage); });
+  size_t total = 0;
+  for (const auto& descriptors : chosen) {
+    total += descriptors.size();
+  }
+  const size_t stride = total / kSampleSize + 1;
+  std::vector<Descriptor> sample;
+  size_t counter = 0;
+  for (const auto& descriptors : chosen) {
+    for (const Descriptor& descriptor : descriptors) {
+      if (counter++ % stride == 0) {
+        sample.push_back(descriptor);
+      }
+    }
+  }
+  std::vector<Eigen::VectorXf> vectors(images.size());
+  if (!sample.empty()) {
+    const std::vector<Descriptor> centers = LearnCenters(sample, seed);
+    ParallelFor(images.size(), [&](size_t i) { vectors[i] = Aggregate(chosen[i], centers); });
+  }
+  return vectors;
+}
+
+void AddSimilarPairs(std::span<const Features> images,
+                     const PairOptions& options,
+                     std::vector<ImagePair>& pairs) {
+  const std::vector<Eigen::VectorXf> vectors = DescribeImages(images, options.seed);
+  const auto count = static_cast<uint32_t>(images.size());
+  std::vector<std::vector<uint32_t>> similar(count);
+  ParallelFor(count, [&](size_t i) {
+    std::vector<std::pair<float, uint32_t>> others;
+    for (uint32_t j = 0; j < count; ++j) {
+      const uint32_t gap = j > i ? j - static_cast<uint32_t>(i) : static_cast<uint32_t>(i) - j;
+      if (gap > options.neighbours && vectors[i].size() == vectors[j].size()) {
+        others.emplace_back(-vectors[i].dot(vectors[j]), j);
+      }
+    }
+    const size_t keep = std::min<size_t>(options.similar, others.size());
+    std::partial_sort(others.begin(), others.begin() + static_cast<ptrdiff_t>(keep), others.end());
+    for (size_t k = 0; k < keep; ++k) {
+      similar[i].push_back(others[k].second);
+    }
+  });
+  for (uint32_t i = 0; i < count; ++i) {
+    for (const uint32_t j : similar[i]) {
+      pairs.push_back({std::min(i, j), std::max(i, j)});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ImagePair> SelectPairs(std::span<const Features> images, const PairOptions& options) {
+  const auto count = static_cast<uint32_t>(images.size());
+  const bool exhaustive = count <= options.exhaustive_up_to;
+  std::vector<ImagePair> pairs;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t end = exhaustive ? count : std::min(count, i + options.neighbours + 1);
+    for (uint32_t j = i + 1; j < end; ++j) {
+      pairs.push_back({i, j});
+    }
+  }
+  if (!exhaustive) {
+    AddSimilarPairs(images, options, pairs);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace lararium::train

@@ -1,0 +1,238 @@
+#include "editor/train/reconstruction.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "shared/core/check.h"
+#include "shared/geometry/triangulation.h"
+
+namespace lararium::train {
+
+using geometry::Rigid3;
+
+Reconstruction::Reconstruction(const geometry::CameraModel& camera,
+                               std::vector<std::vector<Eigen::Vector2d>> pixels,
+                               Tracks tracks)
+    : camera_(camera),
+      pixels_(std::move(pixels)),
+      tracks_(std::move(tracks)),
+      element_track_(tracks_.elements.size()),
+      image_elements_(pixels_.size()),
+      camera_from_map_(pixels_.size()),
+      points_(tracks_.size()),
+      observed_(tracks_.elements.size()) {
+  for (uint32_t track = 0; track < tracks_.size(); ++track) {
+    for (uint32_t element = tracks_.begin[track]; element < tracks_.begin[track + 1]; ++element) {
+      CHECK(ImageOf(element) < pixels_.size());
+      element_track_[element] = track;
+      image_elements_[ImageOf(element)].push_back(element);
+    }
+  }
+  SetCamera(camera);
+}
+
+void Reconstruction::SetCamera(const geometry::CameraModel& camera) {
+  camera_ = camera;
+  plane_points_.resize(tracks_.elements.size());
+  for (uint32_t element = 0; element < plane_points_.size(); ++element) {
+    plane_points_[element] = camera_.PlaneFromPixel(Pixel(element));
+  }
+}
+
+std::vector<uint32_t> Reconstruction::LocatedImages() const {
+  std::vector<uint32_t> images;
+  for (uint32_t image = 0; image < image_count(); ++image) {
+    if (Located(image)) {
+      images.push_back(image);
+    }
+  }
+  return images;
+}
+
+size_t Reconstruction::ObservationCount(uint32_t track) const {
+  const auto first = observed_.begin() + tracks_.begin[track];
+  return static_cast<size_t>(std::count(first, observed_.begin() + tracks_.begin[track + 1], 1));
+}
+
+size_t Reconstruction::PointCount() const {
+  return static_cast<size_t>(
+      std::count_if(points_.begin(), points_.end(), [](const auto& p) { return p.has_value(); }));
+}
+
+double Reconstruction::SquaredErrorPx(uint32_t element, const Eigen::Vector3d& point) const {
+  const std::optional<Eigen::Vector2d> pixel =
+      camera_.Project(camera_from_map(ImageOf(element)) * point);
+  return pixel ? (*pixel - Pixel(element)).squaredNorm() : std::numeric_limits<double>::infinity();
+}
+
+std::vector<uint32_t> Reconstruction::LocatedElements(uint32_t track) const {
+  std::vector<uint32_t> elements;
+  for (uint32_t element = tracks_.begin[track]; element < tracks_.begin[track + 1]; ++element) {
+    if (Located(ImageOf(element))) {
+      elements.push_back(element);
+    }
+  }
+  return elements;
+}
+
+std::vector<uint32_t> Reconstruction::Observations(uint32_t track) const {
+  std::vector<uint32_t> elements;
+  for (uint32_t element = tracks_.begin[track]; element < tracks_.begin[track + 1]; ++element) {
+    if (Observed(element)) {
+      elements.push_back(element);
+    }
+  }
+  return elements;
+}
+
+bool Reconstruction::WideEnough(std::span<const uint32_t> elements,
+                                const Eigen::Vector3d& point,
+                                double min_angle) const {
+  for (size_t i = 0; i < elements.size(); ++i) {
+    const Eigen::Vector3d center = camera_from_map(ImageOf(elements[i])).Center();
+    // From the far end: neighbours in the source make the narrowest angles.
+    for (size_t j = elements.size() - 1; j > i; --j) {
+      if (geometry::TriangulationAngle(center, camera_from_map(ImageOf(elements[j])).Center(),
+                                       point) >= min_angle) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::optional<Eigen::Vector3d> Reconstruction::Intersect(
+    std::span<const uint32_t> elements) const {
+  std::vector<Rigid3> cameras;
+  std::vector<Eigen::Vector2d> plane_points;
+  for (const uint32_t element : elements) {
+    cameras.push_back(camera_from_map(ImageOf(element)));
+    plane_points.push_back(PlanePoint(element));
+  }
+  return geometry::TriangulatePoint(cameras, plane_points);
+}
+
+std::vector<uint32_t> Reconstruction::Fitting(std::span<const uint32_t> elements,
+                                              const Eigen::Vector3d& point,
+                                              double max_error_px) const {
+  std::vector<uint32_t> fitting;
+  for (const uint32_t element : elements) {
+    if (SquaredErrorPx(element, point) <= max_error_px * max_error_px) {
+      fitting.push_back(element);
+    }
+  }
+  return fitting;
+}
+
+std::vector<uint32_t> Reconstruction::BestConsensus(std::span<const uint32_t> elements,
+                                                    const TriangulationOptions& options) const {
+  constexpr size_t kMaxHypotheses = 30;
+  std::vector<uint32_t> best;
+  size_t hypotheses = 0;
+  // Pairs far apart in the source first: their rays meet at wider angles.
+  for (size_t gap = elements.size() - 1; gap > 0 && hypotheses < kMaxHypotheses; --gap) {
+    for (size_t i = 0; i + gap < elements.size() && hypotheses < kMaxHypotheses; ++i) {
+      ++hypotheses;
+      const std::array<uint32_t, 2> pair = {elements[i], elements[i + gap]};
+      const std::optional<Eigen::Vector3d> point = Intersect(pair);
+      if (!point || !WideEnough(pair, *point, options.min_angle)) {
+        continue;
+      }
+      std::vector<uint32_t> fitting = Fitting(elements, *point, options.max_error_px);
+      if (fitting.size() > best.size()) {
+        best = std::move(fitting);
+      }
+    }
+  }
+  return best;
+}
+
+bool Reconstruction::Triangulate(uint32_t track, const TriangulationOptions& options) {
+  CHECK(!HasPoint(track));
+  std::vector<uint32_t> elements = LocatedElements(track);
+  if (elements.size() < 2) {
+    return false;
+  }
+  std::optional<Eigen::Vector3d> point = Intersect(elements);
+  if (!point || Fitting(elements, *point, options.max_error_px).size() < elements.size()) {
+    elements = elements.size() > 2 ? BestConsensus(elements, options) : std::vector<uint32_t>();
+    if (elements.size() < 2) {
+      return false;
+    }
+    point = Intersect(elements);
+    if (!point) {
+      return false;
+    }
+    elements = Fitting(elements, *point, options.max_error_px);
+  }
+  if (elements.size() < 2 || !WideEnough(elements, *point, options.min_angle)) {
+    return false;
+  }
+  points_[track] = *point;
+  for (const uint32_t element : elements) {
+    observed_[element] = 1;
+  }
+  return true;
+}
+
+void Reconstruction::Complete(uint32_t track, double max_error_px) {
+  for (const uint32_t element : LocatedElements(track)) {
+    if (!Observed(element) &&
+        SquaredErrorPx(element, Point(track)) <= max_error_px * max_error_px) {
+      observed_[element] = 1;
+    }
+  }
+}
+
+size_t Reconstruction::Filter(uint32_t track, const TriangulationOptions& options) {
+  const std::vector<uint32_t> before = Observations(track);
+  const std::vector<uint32_t> kept = Fitting(before, Point(track), options.max_error_px);
+  if (kept.size() < 2 || !WideEnough(kept, Point(track), options.min_angle)) {
+    DropPoint(track);
+    return before.size();
+  }
+  for (const uint32_t element : before) {
+    observed_[element] = 0;
+  }
+  for (const uint32_t element : kept) {
+    observed_[element] = 1;
+  }
+  return before.size() - kept.size();
+}
+
+void Reconstruction::DropPoint(uint32_t track) {
+  points_[track].reset();
+  std::fill(observed_.begin() + tracks_.begin[track], observed_.begin() + tracks_.begin[track + 1],
+            0);
+}
+
+void Reconstruction::Unlocate(uint32_t image) {
+  for (const uint32_t element : ElementsOf(image)) {
+    if (Observed(element)) {
+      observed_[element] = 0;
+      if (ObservationCount(TrackOf(element)) < 2) {
+        DropPoint(TrackOf(element));
+      }
+    }
+  }
+  camera_from_map_[image].reset();
+}
+
+void Reconstruction::Transform(const geometry::Similarity3& new_from_map) {
+  const geometry::Similarity3 map_from_new = new_from_map.Inverse();
+  for (auto& pose : camera_from_map_) {
+    if (pose) {
+      // Rigid in the new unit.
+      pose = geometry::CameraFromB(*pose, map_from_new);
+    }
+  }
+  for (auto& point : points_) {
+    if (point) {
+      point = new_from_map * *point;
+    }
+  }
+}
+
+}  // namespace lararium::train

@@ -1,0 +1,200 @@
+#include "editor/train/two_view.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+
+namespace lararium::train {
+namespace {
+
+using geometry::Rigid3;
+
+constexpr size_t kMinPairs = 8;
+constexpr double kConfidence = 0.9999;
+
+std::vector<cv::Point2d> ToOpenCv(std::span<const Eigen::Vector2d> points) {
+  std::vector<cv::Point2d> converted;
+  converted.reserve(points.size());
+  for (const Eigen::Vector2d& point : points) {
+    converted.emplace_back(point.x(), point.y());
+  }
+  return converted;
+}
+
+std::vector<uint32_t> IndicesOf(const cv::Mat& mask) {
+  std::vector<uint32_t> indices;
+  for (int i = 0; i < static_cast<int>(mask.total()); ++i) {
+    if (mask.at<uint8_t>(i) != 0) {
+      indices.push_back(static_cast<uint32_t>(i));
+    }
+  }
+  return indices;
+}
+
+// The four poses that an essential matrix leaves open (Hartley & Zisserman,
+// result 9.19).
+std::array<Rigid3, 4> DecomposeEssential(const Eigen::Matrix3d& essential) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(essential, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d u = svd.matrixU();
+  Eigen::Matrix3d v = svd.matrixV();
+  u *= u.determinant() < 0 ? -1.0 : 1.0;
+  v *= v.determinant() < 0 ? -1.0 : 1.0;
+  Eigen::Matrix3d w;
+  w << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const Eigen::Matrix3d rotation_1 = u * w * v.transpose();
+  const Eigen::Matrix3d rotation_2 = u * w.transpose() * v.transpose();
+  const Eigen::Vector3d baseline = u.col(2);
+  return {Rigid3::FromMatrix(rotation_1, baseline), Rigid3::FromMatrix(rotation_1, -baseline),
+          Rigid3::FromMatrix(rotation_2, baseline), Rigid3::FromMatrix(rotation_2, -baseline)};
+}
+
+// Whether the rays meet in front of both cameras: the signs of the two
+// parameters of the points where they come closest.
+bool InFront(const Eigen::Vector3d& ray_a, const Eigen::Vector3d& ray_b, const Eigen::Vector3d& t) {
+  // Both rays in b's axes; a's camera sits at t. Minimises |t + x a - y b|.
+  const double aa = ray_a.squaredNorm();
+  const double bb = ray_b.squaredNorm();
+  const double ab = ray_a.dot(ray_b);
+  const double at = ray_a.dot(t);
+  const double bt = ray_b.dot(t);
+  return ab * bt - bb * at > 0.0 && aa * bt - ab * at > 0.0;
+}
+
+// Keeps of candidates those in front of both cameras.
+std::vector<uint32_t> Cheiral(const PointPairs& points,
+                              std::span<const uint32_t> candidates,
+                              const Rigid3& b_from_a) {
+  const Eigen::Matrix3d rotation = b_from_a.rotation.toRotationMatrix();
+  std::vector<uint32_t> kept;
+  for (const uint32_t i : candidates) {
+    if (InFront(rotation * points.a[i].homogeneous(), points.b[i].homogeneous(),
+                b_from_a.translation)) {
+      kept.push_back(i);
+    }
+  }
+  return kept;
+}
+
+double MedianAngle(const PointPairs& points, const RelativePose& pose) {
+  const Eigen::Matrix3d rotation = pose.b_from_a.rotation.toRotationMatrix();
+  std::vector<double> angles;
+  for (const uint32_t i : pose.inliers) {
+    const Eigen::Vector3d a = rotation * points.a[i].homogeneous();
+    const Eigen::Vector3d b = points.b[i].homogeneous();
+    angles.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  const auto middle = angles.begin() + static_cast<ptrdiff_t>(angles.size() / 2);
+  std::nth_element(angles.begin(), middle, angles.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::optional<RelativePose> EstimateRelativePose(const PointPairs& plane_points, double threshold) {
+  if (plane_points.size() < kMinPairs) {
+    return std::nullopt;
+  }
+  cv::Mat mask;
+  cv::Mat found;
+  try {
+    found = cv::findEssentialMat(ToOpenCv(plane_points.a), ToOpenCv(plane_points.b),
+                                 cv::Mat::eye(3, 3, CV_64F), cv::RANSAC, kConfidence, threshold,
+                                 500, mask);
+  } catch (const cv::Exception&) {
+    return std::nullopt;  // no five of the points have a solution
+  }
+  if (found.rows < 3 || found.cols != 3) {
+    return std::nullopt;
+  }
+  Eigen::Matrix3d essential;
+  cv::cv2eigen(cv::Mat(found.rowRange(0, 3)), essential);
+  if (!essential.allFinite()) {
+    return std::nullopt;
+  }
+  const std::vector<uint32_t> candidates = IndicesOf(mask);
+  RelativePose best;
+  for (const Rigid3& pose : DecomposeEssential(essential)) {
+    std::vector<uint32_t> inliers = Cheiral(plane_points, candidates, pose);
+    if (inliers.size() > best.inliers.size()) {
+      best.b_from_a = pose;
+      best.inliers = std::move(inliers);
+    }
+  }
+  if (best.inliers.size() < kMinPairs) {
+    return std::nullopt;
+  }
+  best.median_angle = MedianAngle(plane_points, best);
+  return best;
+}
+
+std::optional<Fundamental> EstimateFundamental(const PointPairs& pixels, double threshold_px) {
+  if (pixels.size() < kMinPairs) {
+    return std::nullopt;
+  }
+  cv::Mat mask;
+  cv::Mat found;
+  try {
+    found = cv::findFundamentalMat(ToOpenCv(pixels.a), ToOpenCv(pixels.b), cv::FM_RANSAC,
+                                   threshold_px, kConfidence, 2000, mask);
+  } catch (const cv::Exception&) {
+    return std::nullopt;  // no seven of the points have a solution
+  }
+  if (found.rows < 3 || found.cols != 3) {
+    return std::nullopt;
+  }
+  Fundamental fundamental;
+  cv::cv2eigen(cv::Mat(found.rowRange(0, 3)), fundamental.matrix);
+  fundamental.inliers = IndicesOf(mask);
+  if (!fundamental.matrix.allFinite() || fundamental.inliers.size() < kMinPairs) {
+    return std::nullopt;
+  }
+  return fundamental;
+}
+
+double HomographyShare(const PointPairs& plane_points, double threshold) {
+  if (plane_points.size() < kMinPairs) {
+    return 1.0;
+  }
+  cv::Mat mask;
+  try {
+    cv::findHomography(ToOpenCv(plane_points.a), ToOpenCv(plane_points.b), cv::RANSAC, threshold,
+                       mask);
+  } catch (const cv::Exception&) {
+    return 0.0;
+  }
+  return static_cast<double>(IndicesOf(mask).size()) / static_cast<double>(plane_points.size());
+}
+
+std::optional<double> EstimateFocal(std::span<const Fundamental> pairs, int width, int height) {
+  constexpr int kSteps = 120;
+  const double side = std::max(width, height);
+  std::vector<double> costs(kSteps + 1, 0.0);
+  const auto focal_at = [&](int step) {
+    return 0.4 * side * std::pow(2.5 / 0.4, static_cast<double>(step) / kSteps);
+  };
+  for (int step = 0; step <= kSteps; ++step) {
+    Eigen::Matrix3d k;
+    k << focal_at(step), 0, 0.5 * (width - 1), 0, focal_at(step), 0.5 * (height - 1), 0, 0, 1;
+    for (const Fundamental& pair : pairs) {
+      const Eigen::Vector3d singular =
+          Eigen::JacobiSVD<Eigen::Matrix3d>(k.transpose() * pair.matrix * k).singularValues();
+      const double difference = (singular[0] - singular[1]) / singular[1];
+      constexpr double kTolerance = 0.05;
+      const double ratio = difference / kTolerance;
+      costs[step] += static_cast<double>(pair.inliers.size()) * ratio * ratio / (1 + ratio * ratio);
+    }
+  }
+  const auto best = std::min_element(costs.begin(), costs.end());
+  const auto worst = std::max_element(costs.begin(), costs.end());
+  // A minimum at the border, or one that hardly differs from the rest, is none.
+  if (pairs.empty() || best == costs.begin() || best == costs.end() - 1 || *best > 0.8 * *worst) {
+    return std::nullopt;
+  }
+  return focal_at(static_cast<int>(best - costs.begin()));
+}
+
+}  // namespace lararium::train
