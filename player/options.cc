@@ -1,12 +1,12 @@
 #include "player/options.h"
 
 #include <CLI/CLI.hpp>
-#include <map>
 
 namespace lararium::player {
 namespace {
 
 constexpr int kUsageError = 2;
+constexpr int kLargestCount = 1'000'000'000;
 
 void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
@@ -27,13 +27,17 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
 
   app.add_flag("--headless", play.headless, "Draw off screen");
   app.add_option("--monitor", play.monitor, "Full screen on this monitor")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--pace", play.pace, "realtime: newest frame wins; fast: every frame once")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Pace>{{"realtime", Pace::kRealtime}, {"fast", Pace::kFast}}));
+      ->check(CLI::Range(0, kLargestCount));
+  app.add_option_function<std::string>(
+         "--pace",
+         [&play](const std::string& pace) {
+           play.pace = pace == "fast" ? Pace::kFast : Pace::kRealtime;
+         },
+         "realtime: the newest frame wins; fast: every frame once")
+      ->check(CLI::IsMember({"realtime", "fast"}));
   app.add_option("--frames", play.frames, "Stop after this many frames")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--threads", play.threads, "Worker threads")->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, kLargestCount));
+  app.add_option("--threads", play.threads, "Worker threads")->check(CLI::Range(0, kLargestCount));
   app.add_option("--seed", play.seed, "Of all randomness");
 
   app.add_option("--poses-out", play.poses_out, "Write the poses here (poses.json)");

@@ -12,7 +12,10 @@ human::Human OneJoint() {
   human.skeleton.parents = {human::Skeleton::kNoParent};
   human.skeleton.rest.resize(1);
   human.skeleton.joint_from_actor = {glm::mat4(1.0f)};
-  human::Clip turn{.name = "turn", .duration = 1.0f, .keys_per_second = 2.0f};
+  human::Clip turn;
+  turn.name = "turn";
+  turn.duration = 1.0f;
+  turn.keys_per_second = 2.0f;
   turn.keys.resize(3);
   for (size_t key = 0; key < turn.keys.size(); ++key) {
     turn.keys[key].translation.y = 0.5f * static_cast<float>(key);
