@@ -1,0 +1,122 @@
+#include "shared/vision/poses_file.h"
+
+#include <gtest/gtest.h>
+
+#include "shared/core/file.h"
+#include "shared/core/json.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::vision {
+namespace {
+
+using geometry::CameraModel;
+using geometry::Rigid3;
+
+const CameraModel kCamera = {.width = 640,
+                             .height = 480,
+                             .fx = 560.0,
+                             .fy = 561.0,
+                             .cx = 319.5,
+                             .cy = 239.5,
+                             .k1 = -0.1,
+                             .k2 = 0.01,
+                             .p1 = 0.001,
+                             .p2 = -0.002};
+
+std::vector<PoseRecord> Records() {
+  const Rigid3 pose{Eigen::Quaterniond(0.5, -0.1, 0.7, 0.2).normalized(), {0.1, -2.0, 3.5}};
+  return {{"000000.png", kCamera, pose, true},
+          {"000001.png", kCamera, std::nullopt, false},
+          {"000002.png", kCamera, pose, false}};
+}
+
+TEST(PosesFile, KeepsPosesAndCameras) {
+  const test::TemporaryFolder folder;
+  const auto records = Records();
+  ASSERT_TRUE(SavePoses(folder / "poses.json", records).ok());
+  const auto loaded = LoadPoses(folder / "poses.json");
+  ASSERT_TRUE(loaded.ok());
+  ASSERT_EQ(loaded->size(), records.size());
+  for (size_t i = 0; i < records.size(); ++i) {
+    const PoseRecord& a = records[i];
+    const PoseRecord& b = (*loaded)[i];
+    EXPECT_EQ(b.file, a.file);
+    EXPECT_EQ(b.camera, a.camera);
+    EXPECT_EQ(b.tracked, a.tracked);
+    ASSERT_EQ(b.camera_from_world.has_value(), a.camera_from_world.has_value());
+    if (a.camera_from_world) {
+      EXPECT_LT((a.camera_from_world->Matrix3x4() - b.camera_from_world->Matrix3x4()).norm(),
+                1e-12);
+    }
+  }
+}
+
+TEST(PosesFile, HasTheFieldsThatOtherToolsRead) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(SavePoses(folder / "poses.json", Records()).ok());
+  const auto json = LoadJson(folder / "poses.json");
+  ASSERT_TRUE(json.ok());
+  const Json& first = (*json)["images"][0];
+  EXPECT_EQ(first["file"], "000000.png");
+  EXPECT_EQ(first["width"], 640);
+  EXPECT_EQ(first["height"], 480);
+  EXPECT_EQ(first["K"].size(), 4u);
+  EXPECT_EQ(first["distortion"]["model"], "opencv");
+  EXPECT_EQ(first["distortion"]["k1_k2_p1_p2"].size(), 4u);
+  EXPECT_EQ(first["world_to_camera"]["R"].size(), 9u);
+  EXPECT_EQ(first["world_to_camera"]["t"].size(), 3u);
+  EXPECT_EQ(first["tracked"], true);
+  EXPECT_TRUE((*json)["images"][1]["world_to_camera"].is_null());
+}
+
+TEST(PosesFile, RefusesWhatItCannotUse) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(SavePoses(folder / "good.json", Records()).ok());
+  const Json good = *LoadJson(folder / "good.json");
+  const auto refuses = [&](const char* what, const auto& edit) {
+    Json bad = good;
+    edit(bad["images"][0]);
+    EXPECT_TRUE(SaveJson(folder / "bad.json", bad).ok());
+    const auto loaded = LoadPoses(folder / "bad.json");
+    EXPECT_FALSE(loaded.ok()) << what;
+    if (!loaded.ok()) {
+      EXPECT_NE(loaded.message().find("bad.json"), std::string::npos) << what;
+    }
+  };
+  refuses("no file", [](Json& image) { image.erase("file"); });
+  refuses("no K", [](Json& image) { image.erase("K"); });
+  refuses("three numbers of K", [](Json& image) { image["K"].erase(3); });
+  refuses("no width", [](Json& image) { image["width"] = 0; });
+  refuses("huge height", [](Json& image) { image["height"] = 1 << 30; });
+  refuses("other distortion", [](Json& image) { image["distortion"]["model"] = "fisheye"; });
+  refuses("no rotation", [](Json& image) { image["world_to_camera"]["R"][4] = 3.0; });
+  refuses("reflection",
+          [](Json& image) { image["world_to_camera"]["R"] = {1, 0, 0, 0, 1, 0, 0, 0, -1}; });
+  refuses("text for t", [](Json& image) { image["world_to_camera"]["t"] = "here"; });
+  refuses("image is a number", [](Json& image) { image = 7; });
+  EXPECT_FALSE(LoadPoses(folder / "none.json").ok());
+  ASSERT_TRUE(WriteFileAtomically(folder / "list.json", std::string_view("[]")).ok());
+  EXPECT_FALSE(LoadPoses(folder / "list.json").ok());
+}
+
+TEST(RecordedPoses, ReplayByFrameIndex) {
+  const auto source = CreateRecordedPoses(Records());
+  geometry::Frame frame;
+  frame.index = 1;
+  EXPECT_EQ(source->Track(frame).state, TrackState::kSearching);
+  frame.index = 0;
+  const TrackedFrame tracked = source->Track(frame);
+  EXPECT_EQ(tracked.state, TrackState::kTracking);
+  EXPECT_EQ(tracked.camera, kCamera);
+  EXPECT_TRUE(tracked.camera_from_map.has_value());
+  for (const int64_t index : {1, 2, 3, -1}) {
+    frame.index = index;
+    const TrackedFrame lost = source->Track(frame);
+    EXPECT_EQ(lost.state, TrackState::kLost);
+    EXPECT_FALSE(lost.camera_from_map.has_value());
+    EXPECT_NE(lost.reason, TrackReason::kNone);
+  }
+}
+
+}  // namespace
+}  // namespace lararium::vision
