@@ -15,5 +15,5 @@ const float kPi = 3.14159265358979;
 void main() {
   vec3 normal = normalize(gl_FrontFacing ? normal_in_stage : -normal_in_stage);
   vec3 radiance = surface_albedo / kPi * Irradiance(irradiance, normal);
-  colour = vec4(radiance * gain, 1.0);
+  colour = vec4(radiance * gain, 1.0);  // opaque; edges get their coverage from samples
 }

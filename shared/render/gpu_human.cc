@@ -56,13 +56,24 @@ GpuHuman::Part CreatePart(const human::SkinnedMesh& mesh) {
   return part;
 }
 
+void ExtendJointBoxes(const human::SkinnedMesh& mesh, std::vector<Box>& boxes) {
+  for (size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+    for (int i = 0; i < 4; ++i) {
+      if (mesh.weights[vertex][i] > 0.0f) {
+        boxes[mesh.joints[vertex][i]].Extend(mesh.positions[vertex]);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 GpuHuman GpuHuman::Create(const human::Human& human) {
   GpuHuman gpu;
-  gpu.joint_count = human.skeleton.size();
+  gpu.joint_boxes.resize(human.skeleton.size());
   for (const human::SkinnedMesh& mesh : human.meshes) {
     gpu.parts.push_back(CreatePart(mesh));
+    ExtendJointBoxes(mesh, gpu.joint_boxes);
   }
   return gpu;
 }

@@ -6,6 +6,7 @@
 
 #include "shared/human/human.h"
 #include "shared/render/gl_object.h"
+#include "shared/render/screen_bounds.h"
 
 namespace lararium::render {
 
@@ -17,7 +18,11 @@ struct GpuHuman {
     int index_count = 0;
   };
   std::vector<Part> parts;
-  size_t joint_count = 0;
+  // Of each joint: the box, in the bind pose, of all vertices that follow it. A
+  // posed vertex lies in the convex hull of its joints' posed boxes.
+  std::vector<Box> joint_boxes;
+
+  size_t joint_count() const { return joint_boxes.size(); }
 
   static GpuHuman Create(const human::Human& human);
   // Attributes as in shaders/pass/human.vert.

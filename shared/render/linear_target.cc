@@ -62,21 +62,25 @@ Status LinearTarget::AllocateSampled() {
   return CheckFramebuffer();
 }
 
-void LinearTarget::BindAndClear() const {
+void LinearTarget::BindAndClear(const PixelBounds& bounds) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glViewport(0, 0, width_, height_);
-  glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(bounds.left, bounds.bottom, bounds.width(), bounds.height());
+  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   glClearDepthf(1.0f);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void LinearTarget::Resolve() const {
+void LinearTarget::Resolve(const PixelBounds& b) const {
+  glDisable(GL_SCISSOR_TEST);
   if (samples_ == 1) {
     return;
   }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_framebuffer_.id());
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(b.left, b.bottom, b.right, b.top, b.left, b.bottom, b.right, b.top,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace lararium::render

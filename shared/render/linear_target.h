@@ -1,12 +1,13 @@
 #pragma once
 
-// Where a picture is composed in linear light: 16-bit floats and depth, with
+// Where people are drawn in linear light: 16-bit floats, coverage and depth, with
 // several samples for each pixel. Private to render.
 
 #include <cstdint>
 
 #include "shared/core/status.h"
 #include "shared/render/gl_object.h"
+#include "shared/render/screen_bounds.h"
 
 namespace lararium::render {
 
@@ -15,10 +16,11 @@ class LinearTarget {
   // Allocates only when the size or the number of samples changes.
   Status Prepare(int width, int height, int samples);
 
-  // Draws go here from now on; clears colour to black and depth to far.
-  void BindAndClear() const;
-  // Averages the samples of each pixel into texture().
-  void Resolve() const;
+  // Draws go here from now on, within bounds only, where colour and coverage are
+  // cleared to nothing and depth to far.
+  void BindAndClear(const PixelBounds& bounds) const;
+  // Averages the samples of each pixel within bounds into texture().
+  void Resolve(const PixelBounds& bounds) const;
   // OpenGL's order: the bottom row first.
   uint32_t texture() const { return resolved_.id(); }
 

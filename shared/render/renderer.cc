@@ -56,8 +56,9 @@ void ResetState() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  glActiveTexture(GL_TEXTURE0);
-  glBindSampler(0, 0);
+  for (GLuint unit = 0; unit < 2; ++unit) {
+    glBindSampler(unit, 0);
+  }
 }
 
 }  // namespace
@@ -70,11 +71,9 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const RendererOptions& option
   state->samples = options.samples;
   LARARIUM_ASSIGN_OR_RETURN(state->occluder_pass,
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
-  LARARIUM_ASSIGN_OR_RETURN(state->background_pass,
-                            ShaderProgram::Create("full_screen.vert", "background.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->human_pass, ShaderProgram::Create("human.vert", "human.frag"));
-  LARARIUM_ASSIGN_OR_RETURN(state->encode_pass,
-                            ShaderProgram::Create("full_screen.vert", "encode.frag"));
+  LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
+                            ShaderProgram::Create("full_screen.vert", "composite.frag"));
   state->human_pass.BindUniformBlock("Skin", kSkinBinding);
   state->no_vertices = GlVertexArray::Generate();
   state->skin = GlBuffer::Generate();
@@ -115,9 +114,10 @@ Status Renderer::State::Validate(const RenderScene& scene) const {
     if (gpu == nullptr) {
       return Status::Error(kPlace, "a person's mesh was removed");
     }
-    if (human.skin.size() != gpu->joint_count || gpu->joint_count > human::Skeleton::kMaxJoints) {
+    if (human.skin.size() != gpu->joint_count() ||
+        gpu->joint_count() > human::Skeleton::kMaxJoints) {
       return Status::Error(kPlace, "a person has " + std::to_string(human.skin.size()) +
-                                       " skin matrices for " + std::to_string(gpu->joint_count) +
+                                       " skin matrices for " + std::to_string(gpu->joint_count()) +
                                        " joints");
     }
   }
@@ -136,32 +136,14 @@ void Renderer::State::DrawOccluders(std::span<const SceneOccluder> occluders,
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-void Renderer::State::DrawBackground(const RenderScene& scene,
-                                     const geometry::CameraModel& display) {
-  if (scene.background.empty()) {
-    return;
-  }
-  glDisable(GL_DEPTH_TEST);
-  background_image.Upload(scene.background);
-  const geometry::CameraModel camera =
-      scene.camera.Resized(scene.background.cols, scene.background.rows);
-  background_pass.Use();
-  background_pass.Set("image", 0);
-  background_pass.Set("display_intrinsics", Intrinsics(display));
-  background_pass.Set("display_size", glm::vec2(display.width, display.height));
-  background_pass.Set("camera_intrinsics", Intrinsics(camera));
-  background_pass.Set("camera_distortion", Distortion(camera));
-  glBindVertexArray(no_vertices.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-void Renderer::State::UploadSkins(std::span<const SceneHuman> people) {
+void Renderer::State::UploadSkins(std::span<const SceneHuman> scene_humans) {
   glBindBuffer(GL_UNIFORM_BUFFER, skin.id());
-  glBufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(people.size() * kSkinStride), nullptr,
-               GL_STREAM_DRAW);
-  for (size_t i = 0; i < people.size(); ++i) {
+  glBufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(scene_humans.size() * kSkinStride),
+               nullptr, GL_STREAM_DRAW);
+  for (size_t i = 0; i < scene_humans.size(); ++i) {
     glBufferSubData(GL_UNIFORM_BUFFER, static_cast<GLintptr>(i * kSkinStride),
-                    static_cast<GLsizeiptr>(people[i].skin.size_bytes()), people[i].skin.data());
+                    static_cast<GLsizeiptr>(scene_humans[i].skin.size_bytes()),
+                    scene_humans[i].skin.data());
   }
 }
 
@@ -181,37 +163,79 @@ void Renderer::State::DrawHumans(const RenderScene& scene, const glm::mat4& clip
   }
 }
 
-void Renderer::State::Encode(const RenderTarget& target) const {
+PixelBounds Renderer::State::PeopleBounds(std::span<const SceneHuman> scene_humans,
+                                          const glm::mat4& clip_from_stage,
+                                          const RenderTarget& target) const {
+  ScreenBounds bounds;
+  for (const SceneHuman& human : scene_humans) {
+    const GpuHuman& gpu = *humans.Find(human.human);
+    const glm::mat4 clip_from_actor = clip_from_stage * human.stage_from_actor;
+    for (size_t joint = 0; joint < gpu.joint_count(); ++joint) {
+      bounds.Extend(gpu.joint_boxes[joint], clip_from_actor * human.skin[joint]);
+    }
+  }
+  return bounds.Pixels(target.width(), target.height());
+}
+
+Status Renderer::State::DrawPeople(const RenderScene& scene,
+                                   const glm::mat4& clip_from_stage,
+                                   const PixelBounds& bounds,
+                                   const RenderTarget& target) {
+  LARARIUM_RETURN_IF_ERROR(people.Prepare(target.width(), target.height(), samples));
+  if (bounds.empty()) {
+    return Status();
+  }
+  people.BindAndClear(bounds);
+  DrawOccluders(scene.occluders, clip_from_stage);
+  DrawHumans(scene, clip_from_stage);
+  people.Resolve(bounds);
+  return Status();
+}
+
+void Renderer::State::Composite(const RenderScene& scene,
+                                const geometry::CameraModel& display,
+                                const PixelBounds& people_bounds,
+                                const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   glDisable(GL_DEPTH_TEST);
-  encode_pass.Use();
-  encode_pass.Set("linear_image", 0);
-  glBindTexture(GL_TEXTURE_2D, linear.texture());
+  composite_pass.Use();
+  composite_pass.Set("has_image", scene.background.empty() ? 0 : 1);
+  composite_pass.Set("display_intrinsics", Intrinsics(display));
+  glActiveTexture(GL_TEXTURE0);
+  if (!scene.background.empty()) {
+    const cv::Mat& image = scene.background;
+    const geometry::CameraModel camera = scene.camera.Resized(image.cols, image.rows);
+    background_image.Upload(image);
+    composite_pass.Set("camera_intrinsics", Intrinsics(camera));
+    composite_pass.Set("camera_distortion", Distortion(camera));
+  }
+  glBindTexture(GL_TEXTURE_2D, background_image.id());
+  composite_pass.Set("image", 0);
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, people.texture());
+  composite_pass.Set("people", 1);
+  composite_pass.Set("people_bounds", glm::vec4(people_bounds.left, people_bounds.bottom,
+                                                people_bounds.right, people_bounds.top));
   glBindVertexArray(no_vertices.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
+  glActiveTexture(GL_TEXTURE0);
 }
 
 Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   State& state = *state_;
   LARARIUM_RETURN_IF_ERROR(state.Validate(scene));
-  LARARIUM_RETURN_IF_ERROR(state.linear.Prepare(target.width(), target.height(), state.samples));
   ResetState();
-  state.linear.BindAndClear();
   const geometry::CameraModel display = scene.display.Resized(target.width(), target.height());
-  glm::mat4 clip_from_stage(1.0f);
+  PixelBounds people_bounds;
   if (scene.camera_from_stage) {
-    clip_from_stage =
+    const glm::mat4 clip_from_stage =
         ClipFromCamera(display, scene.near, scene.far) * geometry::ToGlm(*scene.camera_from_stage);
-    state.DrawOccluders(scene.occluders, clip_from_stage);
+    people_bounds = state.PeopleBounds(scene.humans, clip_from_stage, target);
+    LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, clip_from_stage, people_bounds, target));
   }
-  state.DrawBackground(scene, display);
-  if (scene.camera_from_stage && !scene.humans.empty()) {
-    state.DrawHumans(scene, clip_from_stage);
-  }
-  state.linear.Resolve();
-  state.Encode(target);
+  state.Composite(scene, display, people_bounds, target);
   if (glGetError() != GL_NO_ERROR) {
     return Status::Error("graphics", "the driver reports an error, probably out of memory",
                          "try a smaller picture");

@@ -2,9 +2,10 @@
 
 // Draws people into the camera's image. OpenGL 3.3 core, or ES 3.0.
 //
-// Passes: occluders into depth only; the camera image, undistorted, behind
-// everything; people, skinned on the GPU and lit by spherical harmonics. All in
-// linear light with 16-bit floats; the last pass clips and encodes as sRGB.
+// Passes: occluders into depth only; people, skinned on the GPU and lit by
+// spherical harmonics, in linear light with 16-bit floats and several samples;
+// then one pass over the picture that undistorts the camera image, puts the
+// people over it, clips and encodes as sRGB.
 
 #include <memory>
 

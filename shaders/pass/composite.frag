@@ -1,0 +1,35 @@
+// The finished picture: the camera's image as an undistorted pinhole sees it
+// (each pixel looks up where the camera saw its ray), people over it, encoded as
+// sRGB. Light brighter than white is clipped. The target's top row comes first.
+
+#include "camera.glsl"
+#include "colour.glsl"
+
+uniform bool has_image;
+uniform sampler2D image;  // raw, decoded to linear light
+uniform vec4 display_intrinsics;
+uniform vec4 camera_intrinsics;
+uniform vec4 camera_distortion;
+
+uniform sampler2D people;    // linear light times coverage, coverage; bottom row first
+uniform vec4 people_bounds;  // left, bottom, right, top: nothing is drawn outside
+
+layout(location = 0) out vec4 colour;
+
+vec3 Background() {
+  vec2 plane = PlaneFromPixel(gl_FragCoord.xy - 0.5, display_intrinsics);
+  vec2 raw = PixelFromPlane(plane, camera_intrinsics, camera_distortion);
+  vec2 position = (raw + 0.5) / vec2(textureSize(image, 0));
+  bool inside = all(greaterThan(position, vec2(-1e-4))) && all(lessThan(position, vec2(1.0001)));
+  return has_image && inside ? textureLod(image, position, 0.0).rgb : vec3(0.0);
+}
+
+void main() {
+  vec3 light = Background();
+  vec2 cell = vec2(gl_FragCoord.x, float(textureSize(people, 0).y) - gl_FragCoord.y);
+  if (all(greaterThan(cell, people_bounds.xy)) && all(lessThan(cell, people_bounds.zw))) {
+    vec4 person = texelFetch(people, ivec2(cell), 0);
+    light = light * (1.0 - person.a) + person.rgb;
+  }
+  colour = vec4(SrgbFromLinear(clamp(light, 0.0, 1.0)), 1.0);
+}

@@ -1,0 +1,44 @@
+#include "shared/render/screen_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace lararium::render {
+
+void ScreenBounds::Extend(const Box& box, const glm::mat4& clip_from_box) {
+  if (box.empty()) {
+    return;
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec4 clip =
+        clip_from_box * glm::vec4((corner & 1) != 0 ? box.high.x : box.low.x,
+                                  (corner & 2) != 0 ? box.high.y : box.low.y,
+                                  (corner & 4) != 0 ? box.high.z : box.low.z, 1.0f);
+    if (!(clip.w > 1e-4f)) {
+      reaches_behind_viewer_ = true;
+      return;
+    }
+    const glm::vec2 point = glm::vec2(clip) / clip.w;
+    low_ = glm::min(low_, point);
+    high_ = glm::max(high_, point);
+  }
+}
+
+PixelBounds ScreenBounds::Pixels(int width, int height) const {
+  if (reaches_behind_viewer_) {
+    return {0, 0, width, height};
+  }
+  if (!(low_.x <= high_.x && low_.y <= high_.y)) {
+    return {};
+  }
+  constexpr float kMargin = 1.0f;  // pixels
+  const auto pixel = [](float position, int size, float margin) {
+    const float at = (0.5f * position + 0.5f) * static_cast<float>(size) + margin;
+    return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(size)));
+  };
+  return {pixel(low_.x, width, -kMargin), pixel(low_.y, height, -kMargin),
+          pixel(high_.x, width, 1.0f + kMargin), pixel(high_.y, height, 1.0f + kMargin)};
+}
+
+}  // namespace lararium::render
