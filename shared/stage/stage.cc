@@ -55,11 +55,13 @@ void SamplePose(const human::Human& human,
 
 }  // namespace
 
-void StartClip(Animation& animation, int clip, float fade_seconds) {
+void StartClip(Animation& animation, int clip, double rate, float fade_seconds) {
   animation.previous_clip = animation.clip;
   animation.previous_time = animation.clip_time;
+  animation.previous_rate = animation.rate;
   animation.clip = clip;
   animation.clip_time = 0.0;
+  animation.rate = rate;
   const bool fades = fade_seconds > 0.0f;
   animation.weight = fades ? 0.0f : 1.0f;
   animation.weight_per_second = fades ? 1.0f / fade_seconds : 0.0f;
@@ -93,9 +95,9 @@ void Stage::Advance(double seconds) {
     if (animation.clip == Animation::kNoClip) {
       continue;
     }
-    animation.clip_time += seconds;
+    animation.clip_time += seconds * animation.rate;
     if (animation.weight < 1.0f) {
-      animation.previous_time += seconds;
+      animation.previous_time += seconds * animation.previous_rate;
       const float step = static_cast<float>(seconds) * animation.weight_per_second;
       animation.weight = std::min(1.0f, animation.weight + step);
     }

@@ -24,10 +24,12 @@ namespace lararium::stage {
 struct Animation {
   static constexpr int kNoClip = -1;
 
-  int clip = kNoClip;              // index into Human::clips; none: the rest pose
-  double clip_time = 0.0;          // seconds
-  int previous_clip = kNoClip;     // fades out while weight < 1
-  double previous_time = 0.0;      // seconds
+  int clip = kNoClip;           // index into Human::clips; none: the rest pose
+  double clip_time = 0.0;       // seconds into the clip
+  double rate = 1.0;            // how fast it plays
+  int previous_clip = kNoClip;  // fades out while weight < 1
+  double previous_time = 0.0;
+  double previous_rate = 1.0;
   float weight = 1.0f;             // of clip against previous_clip, 0..1
   float weight_per_second = 0.0f;  // how fast weight grows
 
@@ -65,7 +67,7 @@ struct StageSnapshot {
 
 // Fades from what the actor plays to clip, from its beginning, over fade_seconds.
 // A fade that was still going on is cut short.
-void StartClip(Animation& animation, int clip, float fade_seconds);
+void StartClip(Animation& animation, int clip, double rate, float fade_seconds);
 
 class Stage {
  public:

@@ -1,0 +1,97 @@
+#include "shared/drama/sandbox.h"
+
+#include "shared/drama/lua_binding.h"
+#include "shared/drama/safe_libraries.h"
+
+namespace lararium::drama {
+namespace {
+
+void CountInstructions(lua_State* lua, lua_Debug* /*activation*/) {
+  LimitsOf(lua).Charge(lua_gethookcount(lua));
+  if (LimitsOf(lua).tripped()) {
+    // What this coroutine still has to close is then counted one by one.
+    lua_sethook(lua, CountInstructions, LUA_MASKCOUNT, 1);
+    RaiseIfTripped(lua);
+  }
+}
+
+// "drama.lua:12: " of the innermost function that is not one of lua/std, or "".
+std::string Where(lua_State* coroutine) {
+  lua_Debug activation;
+  for (int level = 0; lua_getstack(coroutine, level, &activation) != 0; ++level) {
+    lua_getinfo(coroutine, "Sl", &activation);
+    const bool is_std = std::string_view(activation.source).starts_with("@std/");
+    if (activation.currentline > 0 && !is_std) {
+      return std::string(activation.short_src) + ":" + std::to_string(activation.currentline) +
+             ": ";
+    }
+  }
+  return "";
+}
+
+// A string or number on top of a coroutine's stack, or what else is there.
+std::string TopAsText(lua_State* coroutine) {
+  if (lua_type(coroutine, -1) == LUA_TSTRING) {
+    return lua_tostring(coroutine, -1);
+  }
+  return Where(coroutine) + "error object is a " + luaL_typename(coroutine, -1);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Sandbox>> Sandbox::Create(size_t memory_limit,
+                                                 int64_t instruction_limit,
+                                                 uint64_t seed) {
+  std::unique_ptr<Sandbox> sandbox(new Sandbox(memory_limit, instruction_limit, seed));
+  lua_State* lua = lua_newstate(Limits::Allocate, &sandbox->limits_);
+  sandbox->lua_ = lua;
+  bool opened = false;
+  if (lua != nullptr) {
+    *static_cast<Limits**>(lua_getextraspace(lua)) = &sandbox->limits_;
+    lua_sethook(lua, CountInstructions, LUA_MASKCOUNT, Limits::kHookInterval);
+    opened = Protected(lua, [&](lua_State* inner) {
+      OpenSafeBase(inner);
+      OpenSafeString(inner);
+      OpenSafeTable(inner);
+      OpenSafeMath(inner, sandbox->random_);
+    });
+  }
+  if (!opened) {
+    return Status::Error("drama", "the limits are too low to begin with", "raise them");
+  }
+  sandbox->limits_.Refill();
+  return sandbox;
+}
+
+Sandbox::~Sandbox() {
+  if (lua_ != nullptr) {
+    lua_close(lua_);
+  }
+}
+
+Status Sandbox::Compile(std::string_view text, const std::string& place) {
+  const std::string chunk_name = "@" + place;
+  const int status = luaL_loadbufferx(lua_, text.data(), text.size(), chunk_name.c_str(), "t");
+  if (status == LUA_OK) {
+    return Status();
+  }
+  limits_.TripIfRefused();
+  const std::string problem = limits_.tripped() ? limits_.Reason() : lua_tostring(lua_, -1);
+  lua_pop(lua_, 1);
+  // Lua's messages begin with a shortened name of the file and go on ":line: ".
+  return limits_.tripped() ? Status::Error(place, problem)
+                           : Status::Error("drama", problem, "mend the script");
+}
+
+LuaError Sandbox::Describe(lua_State* coroutine) {
+  limits_.TripIfRefused();
+  LuaError error;
+  error.message = limits_.tripped() ? Where(coroutine) + limits_.Reason() : TopAsText(coroutine);
+  Protected(lua_, [&](lua_State* lua) {
+    luaL_traceback(lua, coroutine, nullptr, 0);
+    error.traceback = lua_tostring(lua, -1);
+  });
+  return error;
+}
+
+}  // namespace lararium::drama

@@ -1,0 +1,35 @@
+#pragma once
+
+// A declarative track: what an actor does over the drama's time, as a pure
+// function of that time.
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/stage/stage.h"
+
+namespace lararium::drama {
+
+// From begin on until the next segment begins. Over length the actor moves from
+// one point to the other in a straight line, and then stays.
+struct TrackSegment {
+  double begin = 0.0;   // seconds of the drama
+  double length = 0.0;  // seconds
+  int clip = stage::Animation::kNoClip;
+  double rate = 1.0;  // of the clip
+  double fade = 0.0;  // seconds, from the segment before
+  glm::vec3 from = glm::vec3(0.0f);
+  glm::vec3 to = glm::vec3(0.0f);
+  float heading = 0.0f;  // radians
+};
+
+struct Track {
+  stage::ActorId actor;
+  std::vector<TrackSegment> segments;  // begin increases
+};
+
+// Before the first segment the actor is hidden.
+stage::ActorState EvaluateTrack(std::span<const TrackSegment> segments, double time);
+
+}  // namespace lararium::drama
