@@ -173,8 +173,7 @@ void FindExtremaInRow(const Octave& octave,
 }
 
 // All extrema in order of octave, level, row, column, each once.
-std::vector<Extremum> FindExtrema(const std::vector<Octave>& octaves,
-                                  const FeatureOptions& options) {
+std::vector<Extremum> FindExtrema(std::span<const Octave> octaves, const FeatureOptions& options) {
   struct Job {
     int octave;
     int level;
@@ -470,7 +469,7 @@ Descriptor Quantised(const PaddedHistogram& histogram) {
 
 // ------------------------------------------------------------ all together
 
-std::vector<OrientedExtremum> Orient(const std::vector<Octave>& octaves,
+std::vector<OrientedExtremum> Orient(std::span<const Octave> octaves,
                                      const std::vector<Extremum>& extrema) {
   std::vector<std::vector<OrientedExtremum>> parts((extrema.size() + kKeypointsPerJob - 1) /
                                                    kKeypointsPerJob);
@@ -495,8 +494,7 @@ Keypoint ToKeypoint(const Octave& octave, const OrientedExtremum& oriented) {
           octave.pixel_size * e.sigma, oriented.angle, e.response};
 }
 
-Features Describe(const std::vector<Octave>& octaves,
-                  const std::vector<OrientedExtremum>& oriented) {
+Features Describe(std::span<const Octave> octaves, const std::vector<OrientedExtremum>& oriented) {
   Features features;
   features.keypoints.resize(oriented.size());
   features.descriptors.resize(oriented.size());
@@ -535,7 +533,10 @@ Status FeatureOptions::Validate() const {
   return Status();
 }
 
-Result<Features> ExtractFeatures(const cv::Mat& grey, const FeatureOptions& options) {
+FeatureExtractor::FeatureExtractor() : scale_space_(std::make_unique<ScaleSpace>()) {}
+FeatureExtractor::~FeatureExtractor() = default;
+
+Result<Features> FeatureExtractor::Extract(const cv::Mat& grey, const FeatureOptions& options) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
   if (grey.empty() || grey.type() != CV_8UC1) {
     return Status::Error("image for features", "must be grey with 8 bits for each pixel");
@@ -543,8 +544,8 @@ Result<Features> ExtractFeatures(const cv::Mat& grey, const FeatureOptions& opti
   if (grey.cols > kMaxImageSide || grey.rows > kMaxImageSide) {
     return Status::Error("image for features", "is larger than 16384 pixels", "reduce it first");
   }
-  const std::vector<Octave> octaves =
-      BuildScaleSpace(grey, options.first_octave, options.scales_per_octave);
+  scale_space_->Build(grey, options.first_octave, options.scales_per_octave);
+  const std::span<const Octave> octaves = scale_space_->octaves();
   std::vector<Extremum> extrema = FindExtrema(octaves, options);
   // Every extremum has at least one orientation, so these are enough.
   KeepStrongest(extrema, options.max_features, [](const Extremum& e) { return e.response; });
@@ -552,6 +553,10 @@ Result<Features> ExtractFeatures(const cv::Mat& grey, const FeatureOptions& opti
   KeepStrongest(oriented, options.max_features,
                 [](const OrientedExtremum& o) { return o.extremum.response; });
   return Describe(octaves, oriented);
+}
+
+Result<Features> ExtractFeatures(const cv::Mat& grey, const FeatureOptions& options) {
+  return FeatureExtractor().Extract(grey, options);
 }
 
 }  // namespace lararium::vision

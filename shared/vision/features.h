@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -46,8 +47,23 @@ struct FeatureOptions {
   Status Validate() const;
 };
 
-// Deterministic: the same image and options give the same features in the same
-// order, whatever the number of threads. grey: CV_8UC1.
+class ScaleSpace;
+
+// Keeps the memory of its pyramids from image to image.
+class FeatureExtractor {
+ public:
+  FeatureExtractor();
+  ~FeatureExtractor();
+
+  // Deterministic: the same image and options give the same features in the same
+  // order, whatever the number of threads. grey: CV_8UC1.
+  Result<Features> Extract(const cv::Mat& grey, const FeatureOptions& options);
+
+ private:
+  std::unique_ptr<ScaleSpace> scale_space_;
+};
+
+// The same for a single image.
 Result<Features> ExtractFeatures(const cv::Mat& grey, const FeatureOptions& options);
 
 }  // namespace lararium::vision

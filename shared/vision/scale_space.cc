@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "shared/vision/gaussian_blur.h"
+
 namespace lararium::vision {
 namespace {
 
@@ -12,40 +14,13 @@ constexpr int kSmallestOctave = 16;   // pixels along the shorter side
 
 float AddedSigma(float from, float to) { return std::sqrt(std::max(to * to - from * from, 1e-4f)); }
 
-// The octave's first level, not yet blurred: its blur is sigma octave pixels.
-struct Start {
-  cv::Mat image;
-  float sigma;
-  float pixel_size;
-  float origin;
-};
-
-// Resizing by areas or lines keeps c' = s (c + 0.5) - 0.5, hence the origins.
-Start StartOf(const cv::Mat& grey, int first_octave) {
-  Start start{cv::Mat(), kCameraSigma, 1.0f, 0.0f};
-  grey.convertTo(start.image, CV_32F, 1.0 / 255.0);
-  if (first_octave < 0) {
-    cv::resize(start.image, start.image, cv::Size(), 2.0, 2.0, cv::INTER_LINEAR);
-    start.sigma *= 2.0f;
-    start.pixel_size = 0.5f;
-    start.origin = -0.25f;
-  }
-  for (int i = 0; i < first_octave; ++i) {
-    const cv::Rect even(0, 0, start.image.cols & ~1, start.image.rows & ~1);
-    cv::Mat half;
-    cv::resize(start.image(even), half, cv::Size(even.width / 2, even.height / 2), 0.0, 0.0,
-               cv::INTER_AREA);
-    start.image = half;
-    // The mean of two neighbours has variance 1/4 of a pixel squared.
-    start.sigma = 0.5f * std::sqrt(start.sigma * start.sigma + 0.25f);
-    start.origin += 0.5f * start.pixel_size;
-    start.pixel_size *= 2.0f;
-  }
-  return start;
+// Blur of level l in octave pixels.
+float SigmaOf(int level, int scales_per_octave) {
+  return kBaseSigma * std::exp2(static_cast<float>(level) / static_cast<float>(scales_per_octave));
 }
 
-cv::Mat EverySecondPixel(const cv::Mat& image) {
-  cv::Mat half(image.rows / 2, image.cols / 2, CV_32F);
+void EverySecondPixel(const cv::Mat& image, cv::Mat& half) {
+  half.create(image.rows / 2, image.cols / 2, CV_32F);
   for (int y = 0; y < half.rows; ++y) {
     const float* from = image.ptr<float>(2 * y);
     float* to = half.ptr<float>(y);
@@ -53,46 +28,67 @@ cv::Mat EverySecondPixel(const cv::Mat& image) {
       to[x] = from[2 * x];
     }
   }
-  return half;
-}
-
-void FillLevels(Octave& octave, const std::vector<float>& added_sigmas) {
-  for (size_t level = 1; level < octave.gaussians.size(); ++level) {
-    const cv::Mat& finer = octave.gaussians[level - 1];
-    cv::GaussianBlur(finer, octave.gaussians[level], cv::Size(), added_sigmas[level]);
-    cv::subtract(octave.gaussians[level], finer, octave.differences[level - 1]);
-  }
 }
 
 }  // namespace
 
-std::vector<Octave> BuildScaleSpace(const cv::Mat& grey, int first_octave, int scales_per_octave) {
-  const int levels = scales_per_octave + 3;
-  std::vector<float> added_sigmas(levels, 0.0f);
-  for (int level = 1; level < levels; ++level) {
-    const float finer = kBaseSigma * std::exp2(static_cast<float>(level - 1) / scales_per_octave);
-    const float coarser = kBaseSigma * std::exp2(static_cast<float>(level) / scales_per_octave);
-    added_sigmas[level] = AddedSigma(finer, coarser);
+// Resizing by areas or lines keeps c' = s (c + 0.5) - 0.5, hence the origins.
+float ScaleSpace::Start(const cv::Mat& grey, int first_octave, Octave& octave) {
+  octave.pixel_size = 1.0f;
+  octave.origin = 0.0f;
+  float sigma = kCameraSigma;
+  grey.convertTo(grey_, CV_32F, 1.0 / 255.0);
+  if (first_octave < 0) {
+    cv::resize(grey_, start_, cv::Size(2 * grey.cols, 2 * grey.rows), 0.0, 0.0, cv::INTER_LINEAR);
+    octave.pixel_size = 0.5f;
+    octave.origin = -0.25f;
+    return 2.0f * sigma;
   }
-
-  Start start = StartOf(grey, first_octave);
-  cv::GaussianBlur(start.image, start.image, cv::Size(), AddedSigma(start.sigma, kBaseSigma));
-
-  std::vector<Octave> octaves;
-  cv::Mat base = start.image;
-  float pixel_size = start.pixel_size;
-  while (std::min(base.rows, base.cols) >= kSmallestOctave) {
-    Octave& octave = octaves.emplace_back();
-    octave.pixel_size = pixel_size;
-    octave.origin = start.origin;
-    octave.gaussians.resize(levels);
-    octave.differences.resize(levels - 1);
-    octave.gaussians[0] = base;
-    FillLevels(octave, added_sigmas);
-    base = EverySecondPixel(octave.gaussians[scales_per_octave]);
-    pixel_size *= 2.0f;
+  start_ = grey_;
+  for (int i = 0; i < first_octave && std::min(start_.cols, start_.rows) > 1; ++i) {
+    const cv::Rect even(0, 0, start_.cols & ~1, start_.rows & ~1);
+    cv::Mat half;
+    cv::resize(start_(even), half, cv::Size(even.width / 2, even.height / 2), 0.0, 0.0,
+               cv::INTER_AREA);
+    start_ = half;
+    // The mean of two neighbours has variance 1/4 of a pixel squared.
+    sigma = 0.5f * std::sqrt(sigma * sigma + 0.25f);
+    octave.origin += 0.5f * octave.pixel_size;
+    octave.pixel_size *= 2.0f;
   }
-  return octaves;
+  return sigma;
+}
+
+void ScaleSpace::Build(const cv::Mat& grey, int first_octave, int scales_per_octave) {
+  Octave first;
+  const float sigma = Start(grey, first_octave, first);
+  int rows = start_.rows;
+  int columns = start_.cols;
+  for (count_ = 0; std::min(rows, columns) >= kSmallestOctave; ++count_) {
+    if (count_ == octaves_.size()) {
+      octaves_.emplace_back();
+    }
+    Octave& octave = octaves_[count_];
+    octave.gaussians.resize(scales_per_octave + 3);
+    octave.differences.resize(scales_per_octave + 2);
+    if (count_ == 0) {
+      octave.pixel_size = first.pixel_size;
+      GaussianBlur(start_, AddedSigma(sigma, kBaseSigma), octave.gaussians[0], nullptr);
+    } else {
+      const Octave& finer = octaves_[count_ - 1];
+      octave.pixel_size = 2.0f * finer.pixel_size;
+      EverySecondPixel(finer.gaussians[scales_per_octave], octave.gaussians[0]);
+    }
+    octave.origin = first.origin;
+    for (int level = 1; level < scales_per_octave + 3; ++level) {
+      const float added =
+          AddedSigma(SigmaOf(level - 1, scales_per_octave), SigmaOf(level, scales_per_octave));
+      GaussianBlur(octave.gaussians[level - 1], added, octave.gaussians[level],
+                   &octave.differences[level - 1]);
+    }
+    rows /= 2;
+    columns /= 2;
+  }
 }
 
 }  // namespace lararium::vision

@@ -1,9 +1,10 @@
 #pragma once
 
 // The Gaussian and difference-of-Gaussian pyramid of Lowe, IJCV 2004, section 3.
-// Used by ExtractFeatures only.
+// Used by feature extraction only.
 
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <vector>
 
 namespace lararium::vision {
@@ -21,9 +22,24 @@ struct Octave {
   std::vector<cv::Mat> differences;  // CV_32FC1 [scales + 2], level l + 1 minus l
 };
 
-// grey: CV_8UC1, assumed blurred by 0.5 pixels. first_octave: -1 doubles the
-// image, 0 starts with it, each 1 more starts at half the size. Stops when an
-// octave would be too small to hold an extremum.
-std::vector<Octave> BuildScaleSpace(const cv::Mat& grey, int first_octave, int scales_per_octave);
+// Keeps its memory from image to image.
+class ScaleSpace {
+ public:
+  // grey: CV_8UC1, assumed blurred by 0.5 pixels. first_octave: -1 doubles the
+  // image, 0 starts with it, each 1 more starts at half the size. Stops when an
+  // octave would be too small to hold an extremum.
+  void Build(const cv::Mat& grey, int first_octave, int scales_per_octave);
+
+  std::span<const Octave> octaves() const { return {octaves_.data(), count_}; }
+
+ private:
+  // The first octave before its blur; returns the blur that it has.
+  float Start(const cv::Mat& grey, int first_octave, Octave& octave);
+
+  std::vector<Octave> octaves_;
+  size_t count_ = 0;
+  cv::Mat grey_;   // CV_32FC1, 0..1
+  cv::Mat start_;  // grey_ resized to the first octave
+};
 
 }  // namespace lararium::vision

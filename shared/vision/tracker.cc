@@ -66,7 +66,7 @@ class SiftTracker final : public PoseSource {
   }
 
   void Locate(const FeatureOptions& options, TrackedFrame& tracked) {
-    const Result<Features> features = ExtractFeatures(tracked.frame.grey, options);
+    const Result<Features> features = extractor_.Extract(tracked.frame.grey, options);
     CHECK(features.ok());
     const Location location = localizer_.Locate(*features, tracked.camera);
     tracked.camera_from_map = location.camera_from_map;
@@ -79,6 +79,7 @@ class SiftTracker final : public PoseSource {
 
   std::shared_ptr<const SceneDatabase> database_;
   CameraModel camera_;
+  FeatureExtractor extractor_;
   Localizer localizer_;
   LevelOfDetail detail_;
   bool had_pose_ = false;
