@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
+#include <glm/vec4.hpp>
 
 #include "shared/core/check.h"
 
@@ -73,28 +73,107 @@ class Grid {
 
 glm::ivec3 CornerOffset(int corner) { return {corner & 1, (corner >> 1) & 1, corner >> 2}; }
 
-// The mean of the crossings of a cube's edges; false where the cube has none.
-bool CellVertex(const Grid& grid, const glm::ivec3& cell, glm::vec3& vertex) {
-  glm::vec3 sum(0.0f);
-  int count = 0;
-  for (int corner = 0; corner < 8; ++corner) {
+// Edge of a cube along an axis, at the given offsets in the next two axes.
+int CubeEdge(int axis, int next, int after_next) { return 4 * axis + next + 2 * after_next; }
+
+// Which edges of a cube the surface crosses, and which of them belong to one
+// sheet of it: the crossings are joined face by face. Where all four edges of a
+// face are crossed, those around an inside corner are joined, so that both cubes
+// of the face decide alike and the surface stays manifold (dual marching cubes:
+// Nielson, IEEE Visualization 2004).
+class CubeSheets {
+ public:
+  CubeSheets(const Grid& grid, const glm::ivec3& cell) {
+    for (int corner = 0; corner < 8; ++corner) {
+      inside_[corner] = grid.Value(cell + CornerOffset(corner)) < 0.0f;
+    }
+    for (int edge = 0; edge < 12; ++edge) {
+      sheet_[edge] = edge;
+    }
     for (int axis = 0; axis < 3; ++axis) {
-      const int other = corner | (1 << axis);
-      if (other == corner) {
-        continue;
+      JoinOnFace(axis, 0);
+      JoinOnFace(axis, 1);
+    }
+  }
+
+  bool Crosses(int corner, int other) const { return inside_[corner] != inside_[other]; }
+  int Sheet(int edge) const { return sheet_[edge]; }
+
+ private:
+  void JoinOnFace(int axis, int side) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto corner = [&](int a, int b) { return side << axis | a << u | b << v; };
+    const int along_u[2] = {CubeEdge(u, 0, side), CubeEdge(u, 1, side)};
+    const int along_v[2] = {CubeEdge(v, side, 0), CubeEdge(v, side, 1)};
+    std::array<int, 4> crossed;
+    int count = 0;
+    for (int i = 0; i < 2; ++i) {
+      if (Crosses(corner(0, i), corner(1, i))) {
+        crossed[count++] = along_u[i];
       }
-      const glm::ivec3 a = cell + CornerOffset(corner), b = cell + CornerOffset(other);
-      const float value_a = grid.Value(a), value_b = grid.Value(b);
-      if ((value_a < 0.0f) != (value_b < 0.0f)) {
-        sum += glm::mix(grid.Corner(a), grid.Corner(b), value_a / (value_a - value_b));
-        ++count;
+      if (Crosses(corner(i, 0), corner(i, 1))) {
+        crossed[count++] = along_v[i];
+      }
+    }
+    if (count == 2) {
+      Join(crossed[0], crossed[1]);
+    }
+    for (int a = 0; count == 4 && a < 2; ++a) {
+      for (int b = 0; b < 2; ++b) {
+        if (inside_[corner(a, b)]) {
+          Join(along_u[b], along_v[a]);
+        }
       }
     }
   }
-  if (count > 0) {
-    vertex = sum / static_cast<float>(count);
+
+  void Join(int a, int b) {
+    const int from = sheet_[a], to = sheet_[b];
+    std::replace(sheet_.begin(), sheet_.end(), from, to);
   }
-  return count > 0;
+
+  std::array<bool, 8> inside_;
+  std::array<int, 12> sheet_;
+};
+
+// For each edge of a cube the vertex of the sheet that crosses it.
+using CubeVertices = std::array<uint32_t, 12>;
+
+// Adds a vertex for every sheet in a cube: the mean of its crossings. False
+// where the surface does not pass through the cube.
+bool AddCubeVertices(const Grid& grid,
+                     const glm::ivec3& cell,
+                     std::vector<glm::vec3>& positions,
+                     CubeVertices& vertices) {
+  const CubeSheets sheets(grid, cell);
+  std::array<glm::vec4, 12> sums{};  // of each sheet; w: how many
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int other = corner | (1 << axis);
+      if (other == corner || !sheets.Crosses(corner, other)) {
+        continue;
+      }
+      const glm::ivec3 offset = CornerOffset(corner);
+      const glm::ivec3 a = cell + offset, b = cell + CornerOffset(other);
+      const float share = grid.Value(a) / (grid.Value(a) - grid.Value(b));
+      const int edge = CubeEdge(axis, offset[(axis + 1) % 3], offset[(axis + 2) % 3]);
+      sums[sheets.Sheet(edge)] += glm::vec4(glm::mix(grid.Corner(a), grid.Corner(b), share), 1.0f);
+    }
+  }
+  CubeVertices of_sheet;
+  of_sheet.fill(kNoVertex);
+  bool any = false;
+  for (int sheet = 0; sheet < 12; ++sheet) {
+    if (sums[sheet].w > 0.0f) {
+      of_sheet[sheet] = static_cast<uint32_t>(positions.size());
+      positions.emplace_back(glm::vec3(sums[sheet]) / sums[sheet].w);
+      any = true;
+    }
+  }
+  for (int edge = 0; edge < 12; ++edge) {
+    vertices[edge] = of_sheet[sheets.Sheet(edge)];
+  }
+  return any;
 }
 
 void AddQuad(std::vector<uint32_t>& indices,
@@ -109,10 +188,16 @@ void AddQuad(std::vector<uint32_t>& indices,
   }
 }
 
+// The vertices of the cubes that the surface passes through.
+struct NetVertices {
+  std::vector<uint32_t> cube_of_cell;  // kNoVertex: none
+  std::vector<CubeVertices> cubes;
+};
+
 // A quad across every grid edge that the surface crosses, through the vertices
 // of the four cubes around it.
 void AddQuadsOfCorner(const Grid& grid,
-                      const std::vector<uint32_t>& cell_vertices,
+                      const NetVertices& net,
                       const glm::ivec3& corner,
                       geometry::TriangleMesh& mesh) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -124,9 +209,11 @@ void AddQuadsOfCorner(const Grid& grid,
     if (inside == (grid.Value(corner + along) < 0.0f)) {
       continue;
     }
-    const auto vertex = [&](const glm::ivec3& cell) { return cell_vertices[grid.Index(cell)]; };
-    std::array<uint32_t, 4> quad = {vertex(corner - side_u - side_v), vertex(corner - side_v),
-                                    vertex(corner), vertex(corner - side_u)};
+    const auto vertex = [&](int u, int v) {
+      const uint32_t cube = net.cube_of_cell[grid.Index(corner - u * side_u - v * side_v)];
+      return net.cubes[cube][CubeEdge(axis, u, v)];
+    };
+    std::array<uint32_t, 4> quad = {vertex(1, 1), vertex(0, 1), vertex(0, 0), vertex(1, 0)};
     if (!inside) {
       std::swap(quad[1], quad[3]);
     }
@@ -137,25 +224,25 @@ void AddQuadsOfCorner(const Grid& grid,
 geometry::TriangleMesh SurfaceNet(const Grid& grid) {
   geometry::TriangleMesh mesh;
   const glm::ivec3 size = grid.size();
-  std::vector<uint32_t> cell_vertices(static_cast<size_t>(size.x) * size.y * size.z, kNoVertex);
-  const auto for_each = [&](const glm::ivec3& first, const auto& visit) {
-    for (int z = first.z; z < size.z - 1; ++z) {
-      for (int y = first.y; y < size.y - 1; ++y) {
-        for (int x = first.x; x < size.x - 1; ++x) {
+  NetVertices net;
+  net.cube_of_cell.assign(static_cast<size_t>(size.x) * size.y * size.z, kNoVertex);
+  const auto for_each = [&](int first, const auto& visit) {
+    for (int z = first; z < size.z - 1; ++z) {
+      for (int y = first; y < size.y - 1; ++y) {
+        for (int x = first; x < size.x - 1; ++x) {
           visit(glm::ivec3(x, y, z));
         }
       }
     }
   };
-  for_each({0, 0, 0}, [&](const glm::ivec3& cell) {
-    glm::vec3 vertex;
-    if (CellVertex(grid, cell, vertex)) {
-      cell_vertices[grid.Index(cell)] = static_cast<uint32_t>(mesh.positions.size());
-      mesh.positions.push_back(vertex);
+  for_each(0, [&](const glm::ivec3& cell) {
+    CubeVertices vertices;
+    if (AddCubeVertices(grid, cell, mesh.positions, vertices)) {
+      net.cube_of_cell[grid.Index(cell)] = static_cast<uint32_t>(net.cubes.size());
+      net.cubes.push_back(vertices);
     }
   });
-  for_each({1, 1, 1},
-           [&](const glm::ivec3& corner) { AddQuadsOfCorner(grid, cell_vertices, corner, mesh); });
+  for_each(1, [&](const glm::ivec3& corner) { AddQuadsOfCorner(grid, net, corner, mesh); });
   return mesh;
 }
 

@@ -66,7 +66,7 @@ struct Box {
 // The zero set inside the box as a closed surface, with normals: surface nets
 // (Gibson, "Constrained Elastic Surface Nets", MICCAI 1998), whose vertices are
 // then spread evenly and projected onto the surface. The solid must lie within
-// the box and be thicker than the cells.
+// the box and should be thicker than the cells.
 geometry::TriangleMesh Polygonise(const DistanceField& field, const Box& box, float cell);
 
 }  // namespace lararium::import

@@ -18,13 +18,15 @@ struct ImportOptions {
   std::string credits;  // authors and licence of the file
   // Most glTF figures face +Z and are turned to face -Z, as our actors do.
   bool faces_positive_z = true;
+  float metres_per_unit = 1.0f;   // 0.01 for files in centimetres
   float keys_per_second = 30.0f;  // at which clips are resampled
 };
 
 // A skinned figure: skeleton, skinned parts, parts fixed to a joint (as skinned
 // with weight 1), base colours as albedo, clips. Joint names become H-Anim's
 // where they are known synonyms. Reads files that are Y-up and in metres, as glTF
-// demands.
+// demands. Textures are not read: a part takes its material's base colour, times
+// the vertex colours where there are some.
 Result<human::Human> ImportHuman(const std::filesystem::path& file,
                                  const ImportOptions& options = {});
 

@@ -256,8 +256,8 @@ class LegShape {
     const float near_skin = Distance(p) - 0.0045f;
     float d = sole;
     // Straps: around the ankle, over the instep, over the toes.
-    const float planes[] = {p.y - 0.105f - 0.25f * (p.z - 0.02f), p.z + 0.035f - 0.35f * p.y,
-                            p.z + 0.108f - 0.10f * p.x};
+    const float planes[] = {p.y - 0.105f - 0.25f * (p.z - 0.02f),
+                            (p.z + 0.095f - 1.2f * p.y) / 1.56f, p.z + 0.108f - 0.10f * p.x};
     for (const float plane : planes) {
       d = SmoothUnion(d, SmoothIntersection(near_skin, std::abs(plane) - 0.0095f, 0.004f), 0.004f);
     }
@@ -380,12 +380,12 @@ class TunicShape {
     const float around = std::atan2(local.z, glm::dot(local, outward));
     const float folds =
         0.004f * std::sin(6.0f * around + 15.0f * local.x) * Smoothstep(0.02f, 0.14f, Along(q));
-    return RoundCone(q, SleeveAxis(0.0f), 0.060f, SleeveAxis(0.26f), 0.076f) - folds;
+    return RoundCone(q, SleeveAxis(0.0f), 0.0565f, SleeveAxis(0.26f), 0.076f) - folds;
   }
   float Sleeve(const glm::vec3& p) const {
     const glm::vec3 q = FoldX(p);
     const float yoke =
-        RoundCone(q, {0.055f, 1.415f, 0.030f}, 0.038f, {0.160f, 1.398f, 0.018f}, 0.056f);
+        RoundCone(q, {0.055f, 1.412f, 0.030f}, 0.038f, {0.155f, 1.392f, 0.018f}, 0.051f);
     return SmoothIntersection(SmoothUnion(yoke, SleeveTube(q), 0.03f), Along(q) - kSleeveLength,
                               0.010f);
   }
@@ -682,7 +682,7 @@ void AddLegs(const Body& body, std::vector<Piece>& pieces) {
                         weights});
   AddBothSides(pieces, {kSandalsPart,
                         sandal,
-                        {{0.02f, -0.01f, -0.22f}, {0.18f, 0.16f, 0.11f}},
+                        {{0.02f, -0.01f, -0.22f}, {0.18f, 0.18f, 0.11f}},
                         0.0075f,
                         sandal,
                         [&body](const glm::vec3&) { return body.options.sandals; },

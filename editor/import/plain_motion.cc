@@ -222,7 +222,8 @@ constexpr GaitCurve kKneeFlexion = {4,  11, 16, 18, 16, 13, 10, 8,  7,  8,
 constexpr GaitCurve kAnkleFlexion = {0, -5, -3,  1,   4,   6,  7.5f, 9, 10, 9,
                                      4, -5, -15, -18, -13, -6, -2,   0, 0,  0};
 constexpr float kStrideSeconds = 1.1f;
-constexpr float kToeOff = 0.61f;  // share of the stride at which the foot leaves
+constexpr float kClearance = 0.042f;  // by which the swinging foot is raised, metres
+constexpr float kToeOff = 0.61f;      // share of the stride at which the foot leaves
 
 // The curve at a phase (0..1, any real), by Catmull-Rom splines; radians.
 float GaitAngle(const GaitCurve& curve, float phase) {
@@ -272,7 +273,7 @@ class Walk {
     Posture posture;
     posture.pelvis_position = maker_.Rest("humanoid_root");
     posture.pelvis_position.x += 0.018f * std::cos(turn - 2.0f * kPi * 0.3f);
-    posture.pelvis_position.y = height_ + 0.017f * std::cos(2.0f * (turn - 2.0f * kPi * 0.31f));
+    posture.pelvis_position.y = height_ + 0.010f * std::cos(2.0f * (turn - 2.0f * kPi * 0.25f));
     posture.pelvis =
         TurnY(0.075f * std::cos(turn)) * TurnZ(0.055f * std::cos(turn - 0.9f)) * TurnX(-0.03f);
     return posture;
@@ -323,7 +324,7 @@ class Walk {
 
   // The pelvis as high as legs that are all but straight allow.
   void FitHeight() {
-    const float length = 0.996f * maker_.LegLength();
+    const float length = 0.9985f * maker_.LegLength();
     height_ = 0.0f;
     float highest = 10.0f;
     for (float phase = 0.0f; phase < kToeOff; phase += 0.01f) {
@@ -358,7 +359,7 @@ class Walk {
     const glm::vec3 at_land = Standing(0.0f, side) - free(0.0f, Hip(Pelvis(land), side));
     const float t = (phase - kToeOff) / (1.0f - kToeOff);
     return free(phase, hip) + glm::mix(at_leave, at_land, glm::smoothstep(0.0f, 1.0f, t)) +
-           glm::vec3(0.0f, 0.012f * std::pow(std::sin(kPi * t), 2.0f), 0.0f);
+           glm::vec3(0.0f, kClearance * std::pow(std::sin(kPi * t), 2.0f), 0.0f);
   }
 
   Posture::Foot FootAt(float own_phase, int side, const glm::vec3& hip) const {

@@ -185,7 +185,8 @@ Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& pl
     return ParseHuman(aligned, place);
   }
   flatbuffers::Verifier verifier(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
-  if (!fb::VerifyHumanBuffer(verifier)) {
+  // FlatBuffers pads to whole words; the verifier would not miss the padding.
+  if (bytes.size() % sizeof(flatbuffers::uoffset_t) != 0 || !fb::VerifyHumanBuffer(verifier)) {
     return Status::Error(place, "the file is damaged or cut short", kRemedy);
   }
   const fb::Human& human = *fb::GetHuman(bytes.data());
