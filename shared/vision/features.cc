@@ -141,32 +141,52 @@ std::optional<Extremum> Refine(
   return std::nullopt;
 }
 
+// Marks the samples of a row that are beyond least and largest or smallest of
+// their 3 x 3 level. Of the few that are left the other levels decide.
+void MarkPeaks(const cv::Mat& difference,
+               int row,
+               int begin,
+               int end,
+               float least,
+               std::vector<int32_t>& marks) {
+  const float* above = difference.ptr<float>(row - 1);
+  const float* here = difference.ptr<float>(row);
+  const float* below = difference.ptr<float>(row + 1);
+  marks.resize(difference.cols);
+  int32_t* mark = marks.data();
+  for (int x = begin; x < end; ++x) {
+    float high = std::max(above[x], below[x]);
+    float low = std::min(above[x], below[x]);
+    for (const float* line : {above, here, below}) {
+      high = std::max(std::max(high, line[x - 1]), line[x + 1]);
+      low = std::min(std::min(low, line[x - 1]), line[x + 1]);
+    }
+    const float value = here[x];
+    const int32_t is_high =
+        static_cast<int32_t>(value > least) & static_cast<int32_t>(value >= high);
+    const int32_t is_low =
+        static_cast<int32_t>(value < -least) & static_cast<int32_t>(value <= low);
+    mark[x] = is_high | is_low;
+  }
+}
+
 void FindExtremaInRow(const Octave& octave,
                       int level,
                       int row,
                       const FeatureOptions& options,
+                      std::vector<int32_t>& marks,
                       std::vector<Extremum>& found) {
   // Refinement may raise |D|; what is below half cannot reach the threshold.
   const float least =
       0.5f * options.contrast_threshold / static_cast<float>(options.scales_per_octave);
   const cv::Mat& difference = octave.differences[level];
   const float* values = difference.ptr<float>(row);
-  constexpr int kBlock = 16;
-  for (int begin = kBorder; begin < difference.cols - kBorder; begin += kBlock) {
-    const int end = std::min(begin + kBlock, difference.cols - kBorder);
-    float largest = 0.0f;
-    for (int x = begin; x < end; ++x) {
-      largest = std::max(largest, std::abs(values[x]));
-    }
-    if (largest <= least) {
-      continue;
-    }
-    for (int x = begin; x < end; ++x) {
-      if (std::abs(values[x]) > least &&
-          IsLargest(octave, level, row, x, values[x] > 0.0f ? 1.0f : -1.0f)) {
-        if (const auto extremum = Refine(octave, level, row, x, options)) {
-          found.push_back(*extremum);
-        }
+  const int end = difference.cols - kBorder;
+  MarkPeaks(difference, row, kBorder, end, least, marks);
+  for (int x = kBorder; x < end; ++x) {
+    if (marks[x] != 0 && IsLargest(octave, level, row, x, values[x] > 0.0f ? 1.0f : -1.0f)) {
+      if (const auto extremum = Refine(octave, level, row, x, options)) {
+        found.push_back(*extremum);
       }
     }
   }
@@ -194,8 +214,9 @@ std::vector<Extremum> FindExtrema(std::span<const Octave> octaves, const Feature
     Job& job = jobs[i];
     const Octave& octave = octaves[job.octave];
     const int end = std::min(job.row + kRowsPerJob, octave.differences[0].rows - kBorder);
+    std::vector<int32_t> marks;
     for (int row = job.row; row < end; ++row) {
-      FindExtremaInRow(octave, job.level, row, options, job.found);
+      FindExtremaInRow(octave, job.level, row, options, marks, job.found);
     }
     for (Extremum& e : job.found) {
       e.octave = job.octave;
@@ -282,9 +303,26 @@ void FillGaussian(float centre, float sigma, int begin, int end, std::vector<flo
   }
 }
 
+// Samples of part of a row in a descriptor's own axes.
+struct SampleRow {
+  std::vector<float> u;
+  std::vector<float> v;
+  std::vector<float> angle_bin;
+  std::vector<float> weight;
+
+  void Reserve(size_t count) {
+    if (u.size() < count) {
+      for (std::vector<float>* values : {&u, &v, &angle_bin, &weight}) {
+        values->resize(count);
+      }
+    }
+  }
+};
+
 // Working memory of one job.
 struct Workspace {
   GradientRow gradients;
+  SampleRow samples;
   std::vector<float> weights_x;
   std::vector<float> weights_y;
 };
@@ -397,8 +435,9 @@ PaddedHistogram Accumulate(const cv::Mat& image,
                            const OrientedExtremum& oriented,
                            Workspace& work) {
   const Extremum& e = oriented.extremum;
-  const float cell_size = 3.0f * e.sigma;  // pixels
-  constexpr float kReach = 0.5f * (kCells + 1);
+  const float cell_size = 3.0f * e.sigma;             // pixels
+  constexpr float kReach = 0.5f * (kCells + 1);       // in cells, from the centre
+  constexpr float kLastCell = kPaddedCells - 1.001f;  // largest u and v, exclusive
   const float cosine = std::cos(oriented.angle) / cell_size;
   const float sine = std::sin(oriented.angle) / cell_size;
   const Window window(image, e.x, e.y, std::numbers::sqrt2_v<float> * kReach * cell_size);
@@ -418,19 +457,28 @@ PaddedHistogram Accumulate(const cv::Mat& image,
     if (begin >= end) {
       continue;
     }
+    const int count = end - begin;
     work.gradients.Fill(image, y, begin, end);
+    work.samples.Reserve(count);
+    const float* magnitude = work.gradients.magnitude.data();
+    const float* angle = work.gradients.angle.data();
+    const float* weight_x = &work.weights_x[begin - window.x_begin];
     const float weight_y = work.weights_y[y - window.y_begin];
-    const float* weights_x = &work.weights_x[begin - window.x_begin];
-    for (int i = 0; i < end - begin; ++i) {
+    float* u = work.samples.u.data();
+    float* v = work.samples.v.data();
+    float* angle_bin = work.samples.angle_bin.data();
+    float* weight = work.samples.weight.data();
+    for (int i = 0; i < count; ++i) {
       const float dx = static_cast<float>(begin + i) - e.x;
-      const float u = cosine * dx + sine * dy + (0.5f * kCells + 0.5f);
-      const float v = -sine * dx + cosine * dy + (0.5f * kCells + 0.5f);
-      const float turned = work.gradients.angle[i] - oriented.angle;
-      const float angle_bin = (turned < 0.0f ? turned + kTwoPi : turned) * (kAngles / kTwoPi);
-      if (u >= 0.0f && v >= 0.0f && u < kPaddedCells - 1.0f && v < kPaddedCells - 1.0f) {
-        AddSample(u, v, angle_bin, weight_y * weights_x[i] * work.gradients.magnitude[i],
-                  histogram);
-      }
+      // Within the range but for rounding.
+      u[i] = std::clamp(cosine * dx + sine * dy + kReach, 0.0f, kLastCell);
+      v[i] = std::clamp(-sine * dx + cosine * dy + kReach, 0.0f, kLastCell);
+      const float turned = angle[i] - oriented.angle;
+      angle_bin[i] = (turned < 0.0f ? turned + kTwoPi : turned) * (kAngles / kTwoPi);
+      weight[i] = weight_y * weight_x[i] * magnitude[i];
+    }
+    for (int i = 0; i < count; ++i) {
+      AddSample(u[i], v[i], angle_bin[i], weight[i], histogram);
     }
   }
   return histogram;
