@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "shared/render/closed_surface.h"
+
 namespace lararium::render {
 namespace {
 
@@ -36,6 +38,7 @@ GpuHuman::Part CreatePart(const human::SkinnedMesh& mesh) {
   part.vertices = GlBuffer::Generate();
   part.indices = GlBuffer::Generate();
   part.index_count = static_cast<int>(mesh.indices.size());
+  part.closed = IsClosedSurface(mesh.positions, mesh.indices);
   glBindVertexArray(part.vertex_array.id());
   const std::vector<Vertex> vertices = Interleave(mesh);
   glBindBuffer(GL_ARRAY_BUFFER, part.vertices.id());
@@ -80,9 +83,15 @@ GpuHuman GpuHuman::Create(const human::Human& human) {
 
 void GpuHuman::Draw() const {
   for (const Part& part : parts) {
+    if (part.closed) {
+      glEnable(GL_CULL_FACE);
+    } else {
+      glDisable(GL_CULL_FACE);
+    }
     glBindVertexArray(part.vertex_array.id());
     glDrawElements(GL_TRIANGLES, part.index_count, GL_UNSIGNED_INT, nullptr);
   }
+  glDisable(GL_CULL_FACE);
 }
 
 }  // namespace lararium::render

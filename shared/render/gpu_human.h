@@ -16,6 +16,7 @@ struct GpuHuman {
     GlBuffer vertices;
     GlBuffer indices;
     int index_count = 0;
+    bool closed = false;  // back faces are never seen
   };
   std::vector<Part> parts;
   // Of each joint: the box, in the bind pose, of all vertices that follow it. A

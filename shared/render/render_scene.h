@@ -52,6 +52,9 @@ struct RenderScene {
   light::ShRgb light = {};
   float exposure = 1.0f;
   glm::vec3 gain = glm::vec3(1.0f);
+  // How the camera renders highlights (the background has it already): linear up
+  // to here, above in an exponential shoulder towards white; 1 clips.
+  float knee = 0.6f;
 };
 
 }  // namespace lararium::render

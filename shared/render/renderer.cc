@@ -53,6 +53,8 @@ void ResetState() {
   glDisable(GL_STENCIL_TEST);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
+  glFrontFace(GL_CCW);
+  glCullFace(GL_BACK);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
@@ -153,6 +155,7 @@ void Renderer::State::DrawHumans(const RenderScene& scene, const glm::mat4& clip
   human_pass.Use();
   human_pass.Set("irradiance", IrradianceCoefficients(scene.light));
   human_pass.Set("gain", scene.exposure * scene.gain);
+  human_pass.Set("knee", std::clamp(scene.knee, 0.0f, 1.0f));
   for (size_t i = 0; i < scene.humans.size(); ++i) {
     const SceneHuman& human = scene.humans[i];
     human_pass.Set("stage_from_actor", human.stage_from_actor);

@@ -63,6 +63,7 @@ geometry::TriangleMesh Wall(float left, float right, float z) {
           .indices = {0, 1, 2, 0, 2, 3}};
 }
 
+// Irradiance kPi on white gives white when highlights are clipped.
 light::ShRgb UniformLight(float irradiance) {
   light::ShRgb light = {};
   light[0] = glm::vec3(irradiance / kPi / 0.28209479f);
@@ -193,6 +194,7 @@ TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
     scene.camera_from_stage = camera_from_stage;
     scene.humans = {&human, 1};
     scene.light = UniformLight(kPi);
+    scene.knee = 1.0f;
     cv::Mat grey;
     cv::cvtColor(Draw(scene, display.width, display.height), grey, cv::COLOR_BGR2GRAY);
     const cv::Moments moments = cv::moments(grey, true);
@@ -211,6 +213,7 @@ TEST_F(RendererTest, OccludersHideWhatIsBehindAndShowTheBackground) {
   scene.camera = scene.display = Pinhole(200, 200, 200.0);
   scene.camera_from_stage = LookAlongMinusZ();
   scene.light = UniformLight(kPi);
+  scene.knee = 1.0f;
   const SceneOccluder occluder = {.mesh = wall};
   scene.occluders = {&occluder, 1};
   SceneHuman human = {.human = ball, .skin = {&skin, 1}};
@@ -233,6 +236,7 @@ TEST_F(RendererTest, WithoutAPoseOnlyTheBackgroundIsDrawn) {
   scene.background = NoiseImage(120, 90, 6);
   scene.camera = scene.display = Pinhole(120, 90, 100.0);
   scene.light = UniformLight(kPi);
+  scene.knee = 1.0f;
   SceneHuman human = {.human = ball, .skin = {&skin, 1}};
   human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -3.0f, 1.0f);
   scene.humans = {&human, 1};
@@ -284,8 +288,8 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
     scene.light[i] =
         glm::vec3(random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3));
   }
-  scene.exposure = 0.9f;
-  scene.gain = glm::vec3(1.1f, 0.9f, 1.0f);
+  scene.exposure = 2.0f;
+  scene.gain = glm::vec3(1.5f, 0.9f, 1.0f);
   // The actor is turned: light must stay in the stage's axes.
   SceneHuman human = {.human = ball, .skin = {&skin, 1}};
   const Eigen::Vector3d centre(0.0, 0.0, -4.0);
@@ -295,6 +299,7 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
   const cv::Mat picture = Draw(scene, 240, 240);
 
   int compared = 0;
+  int beyond_knee = 0;
   for (int y = 30; y < 210; y += 7) {
     for (int x = 30; x < 210; x += 7) {
       // The sphere's near point on the pixel's ray, camera axes turned to the stage's.
@@ -309,7 +314,12 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
       const glm::vec3 irradiance =
           light::EvaluateIrradiance(scene.light, geometry::ToGlm(normal.normalized()));
       for (int c = 0; c < 3; ++c) {
-        const double radiance = albedo[c] / kPi * irradiance[c] * scene.exposure * scene.gain[c];
+        double radiance = albedo[c] / kPi * irradiance[c] * scene.exposure * scene.gain[c];
+        if (radiance > scene.knee) {
+          const double range = 1.0 - scene.knee;
+          radiance = scene.knee + range * (1.0 - std::exp(-(radiance - scene.knee) / range));
+          ++beyond_knee;
+        }
         EXPECT_NEAR(picture.at<cv::Vec3b>(y, x)[2 - c], 255.0 * SrgbFromLinear(radiance), 1.2)
             << "seed 9, pixel " << x << ", " << y;
       }
@@ -317,6 +327,7 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
     }
   }
   EXPECT_GT(compared, 300);
+  EXPECT_GT(beyond_knee, 20);
 }
 
 TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
@@ -330,6 +341,7 @@ TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
     scene.display = Pinhole(120, 120, 150.0);
     scene.camera_from_stage = LookAlongMinusZ();
     scene.light = UniformLight(kPi);
+    scene.knee = 1.0f;
     scene.humans = {&human, 1};
     cv::Mat between;
     cv::inRange(Draw(scene, 120, 120), cv::Scalar::all(10), cv::Scalar::all(245), between);
@@ -353,6 +365,7 @@ TEST_F(RendererTest, DrawsSeveralPeopleWithTheirOwnPoses) {
   scene.display = Pinhole(200, 100, 150.0);
   scene.camera_from_stage = LookAlongMinusZ();
   scene.light = UniformLight(kPi);
+  scene.knee = 1.0f;
   scene.humans = people;
   const cv::Mat picture = Draw(scene, 200, 100);
   EXPECT_EQ(picture.at<cv::Vec3b>(50, 62), cv::Vec3b(255, 255, 255));
