@@ -29,8 +29,8 @@ glm::vec3 Gradient(const DistanceField& field, const glm::vec3& p) {
 
 // A few Newton steps along the gradient onto the zero set, none farther than a
 // cell, so that a vertex cannot leave for another part of the surface.
-glm::vec3 ProjectOnSurface(const DistanceField& field, glm::vec3 p, float cell) {
-  for (int i = 0; i < 3; ++i) {
+glm::vec3 ProjectOnSurface(const DistanceField& field, glm::vec3 p, float cell, int steps) {
+  for (int i = 0; i < steps; ++i) {
     const glm::vec3 gradient = Gradient(field, p);
     const float squared = glm::dot(gradient, gradient);
     if (squared < 1e-6f) {
@@ -355,10 +355,10 @@ glm::vec3 FieldNormal(const DistanceField& field, const glm::vec3& point) {
 
 geometry::TriangleMesh Polygonise(const DistanceField& field, const Box& box, float cell) {
   geometry::TriangleMesh mesh = SurfaceNet(Grid(field, box, cell));
-  for (int round = 0; round < kSmoothingRounds; ++round) {
+  for (int round = 1; round <= kSmoothingRounds; ++round) {
     Smooth(mesh);
     for (glm::vec3& position : mesh.positions) {
-      position = ProjectOnSurface(field, position, cell);
+      position = ProjectOnSurface(field, position, cell, round < kSmoothingRounds ? 1 : 3);
     }
   }
   for (const glm::vec3& position : mesh.positions) {

@@ -28,7 +28,7 @@ struct Piece {
   DistanceField shading;
   std::function<glm::vec3(const glm::vec3&)> albedo;
   std::function<Weights(const glm::vec3&)> weights;
-  bool mirrored = false;  // the left side of a piece that is modelled on the right
+  bool both_sides = false;  // modelled on the right, mirrored to the left
 };
 
 enum Part : size_t { kSkinPart, kHairPart, kTunicPart, kBeltPart, kSandalsPart, kPartCount };
@@ -36,7 +36,6 @@ constexpr const char* kPartNames[kPartCount] = {"skin", "hair", "tunic", "belt",
 
 float Smoothstep(float low, float high, float x) { return glm::smoothstep(low, high, x); }
 
-glm::vec3 MirrorX(const glm::vec3& p) { return {-p.x, p.y, p.z}; }
 glm::vec3 FoldX(const glm::vec3& p) { return {std::abs(p.x), p.y, p.z}; }
 
 // Axes of a limb segment: across (outwards), along it, across (backwards).
@@ -256,10 +255,13 @@ class LegShape {
     const float near_skin = Distance(p) - 0.0045f;
     float d = sole;
     // Straps: around the ankle, over the instep, over the toes.
-    const float planes[] = {p.y - 0.105f - 0.25f * (p.z - 0.02f),
-                            (p.z + 0.095f - 1.2f * p.y) / 1.56f, p.z + 0.108f - 0.10f * p.x};
+    const float planes[] = {p.y - 0.105f, (p.z + 0.085f - 0.6f * p.y) / 1.17f,
+                            p.z + 0.108f - 0.10f * p.x};
     for (const float plane : planes) {
-      d = SmoothUnion(d, SmoothIntersection(near_skin, std::abs(plane) - 0.0095f, 0.004f), 0.004f);
+      d = SmoothUnion(
+          d,
+          SmoothIntersection(near_skin, std::max(std::abs(plane) - 0.0105f, p.y - 0.118f), 0.005f),
+          0.004f);
     }
     return d;
   }
@@ -332,14 +334,14 @@ class TunicShape {
   float Distance(const glm::vec3& p) const {
     float d = SmoothUnion(Trunk(p), Sleeve(p), 0.06f);
     // Hollow from below, open around the neck and at the sleeves.
-    d = SmoothIntersection(d, -HollowBelow(p), 0.010f);
-    d = SmoothIntersection(d, -Neckline(p), 0.012f);
-    return SmoothIntersection(d, -HollowSleeve(p), 0.010f);
+    d = SmoothIntersection(d, -HollowBelow(p), 0.014f);
+    d = SmoothIntersection(d, -Neckline(p), 0.014f);
+    return SmoothIntersection(d, -HollowSleeve(p), 0.014f);
   }
 
   float Belt(const glm::vec3& p) const {
     const float band = SmoothIntersection(trunk_.SideDistance(p) - 0.008f,
-                                          std::abs(p.y - kBeltHeight) - 0.019f, 0.006f);
+                                          std::abs(p.y - kBeltHeight) - 0.019f, 0.009f);
     const glm::vec3 knot(0.025f, kBeltHeight, -0.107f);
     const float tie = SmoothUnion(
         Ellipsoid(p, knot, {0.017f, 0.017f, 0.012f}),
@@ -366,7 +368,7 @@ class TunicShape {
 
   float Trunk(const glm::vec3& p) const {
     const float ends = std::max(p.y - kShoulderHeight, kHemHeight - p.y);
-    return SmoothIntersection(Cloth(p), ends, 0.012f);
+    return SmoothIntersection(Cloth(p), ends, 0.016f);
   }
 
   glm::vec3 SleeveAxis(float t) const {
@@ -405,6 +407,12 @@ class TunicShape {
 };
 
 // ---- Skin weights ---------------------------------------------------------------
+
+// The joint of the left side that answers to one of the right.
+size_t MirroredJoint(const human::Skeleton& skeleton, size_t joint) {
+  const std::string& name = skeleton.names[joint];
+  return name.starts_with("r_") ? JointIndex(skeleton, "l_" + name.substr(2)) : joint;
+}
 
 struct Link {
   size_t joint;
@@ -479,16 +487,10 @@ class Rig {
 
   Weights MirrorJoints(Weights weights) const {
     for (auto& [joint, weight] : weights) {
-      std::string name = skeleton_.names[joint];
-      if (name.starts_with("r_")) {
-        name[0] = 'l';
-        joint = JointIndex(skeleton_, name);
-      }
+      joint = MirroredJoint(skeleton_, joint);
     }
     return weights;
   }
-
-  size_t thumb() const { return thumb_; }
 
  private:
   Link Joint(const char* name, const glm::vec3& direction, float half_width) const {
@@ -552,8 +554,8 @@ glm::vec3 FaceAlbedo(const glm::vec3& p, const PlainFigureOptions& options) {
   paint(options.skin * glm::vec3(0.82f, 0.58f, 0.58f), 3.0f * (1.0f - glm::length(mouth)));
   const float lip_line = std::abs(p.y - 1.5480f + 2.0f * q.x * q.x);
   paint(options.skin * 0.30f, (1.0f - lip_line / 0.0028f) * Smoothstep(0.026f, 0.020f, q.x));
-  const glm::vec2 brow((q.x - 0.030f) / 0.020f,
-                       (p.y - 1.631f + 4.0f * (q.x - 0.034f) * (q.x - 0.034f)) / 0.0055f);
+  const glm::vec2 brow((q.x - 0.031f) / 0.022f,
+                       (p.y - 1.631f + 4.0f * (q.x - 0.034f) * (q.x - 0.034f)) / 0.0065f);
   paint(options.hair, 2.0f * (1.0f - glm::length(brow)));
   const glm::vec2 lid((q.x - kEye.x) / 0.0155f, (p.y - kEye.y) / 0.0070f);
   paint(options.skin * 0.35f, 2.5f * (1.0f - glm::length(lid)));
@@ -587,12 +589,6 @@ struct Body {
   Rig rig;
 };
 
-void AddBothSides(std::vector<Piece>& pieces, Piece piece) {
-  pieces.push_back(piece);
-  piece.mirrored = true;
-  pieces.push_back(std::move(piece));
-}
-
 // The face has finer cells than the rest of the head.
 void AddHead(const Body& body, std::vector<Piece>& pieces) {
   const auto albedo = [&body](const glm::vec3& p) { return FaceAlbedo(p, body.options); };
@@ -609,7 +605,7 @@ void AddHead(const Body& body, std::vector<Piece>& pieces) {
   pieces.push_back({kSkinPart,
                     face,
                     {{-0.08f, 1.48f, -0.13f}, {0.08f, 1.70f, -0.02f}},
-                    0.0045f,
+                    0.0036f,
                     HeadAndNeck,
                     albedo,
                     weights});
@@ -623,7 +619,7 @@ void AddHead(const Body& body, std::vector<Piece>& pieces) {
   pieces.push_back({kHairPart,
                     Hair,
                     {{-0.11f, 1.50f, -0.12f}, {0.11f, 1.74f, 0.14f}},
-                    0.0075f,
+                    0.0085f,
                     Hair,
                     [&body](const glm::vec3&) { return body.options.hair; },
                     weights});
@@ -639,20 +635,22 @@ void AddArms(const Body& body, std::vector<Piece>& pieces) {
   const DistanceField hand = [&body, whole](const glm::vec3& p) {
     return SmoothIntersection(whole(p), -body.arm.BeyondWrist(p) - 0.004f, 0.003f);
   };
-  AddBothSides(pieces, {kSkinPart,
-                        limb,
-                        {{0.10f, 0.90f, -0.08f}, {0.52f, 1.47f, 0.11f}},
-                        0.0120f,
-                        whole,
-                        albedo,
-                        weights});
-  AddBothSides(pieces, {kSkinPart,
-                        hand,
-                        {{0.38f, 0.73f, -0.13f}, {0.58f, 0.96f, 0.07f}},
-                        0.0055f,
-                        whole,
-                        albedo,
-                        weights});
+  pieces.push_back({kSkinPart,
+                    limb,
+                    {{0.10f, 0.90f, -0.08f}, {0.52f, 1.47f, 0.11f}},
+                    0.0120f,
+                    whole,
+                    albedo,
+                    weights,
+                    true});
+  pieces.push_back({kSkinPart,
+                    hand,
+                    {{0.38f, 0.73f, -0.13f}, {0.58f, 0.96f, 0.07f}},
+                    0.0065f,
+                    whole,
+                    albedo,
+                    weights,
+                    true});
 }
 
 void AddLegs(const Body& body, std::vector<Piece>& pieces) {
@@ -660,33 +658,36 @@ void AddLegs(const Body& body, std::vector<Piece>& pieces) {
   const DistanceField sandal = [&body](const glm::vec3& p) { return body.leg.Sandal(p); };
   const auto weights = [&body](const glm::vec3& p) { return body.rig.Leg(p); };
   const DistanceField limb = [whole](const glm::vec3& p) {
-    return SmoothIntersection(whole(p), 0.135f - p.y, 0.004f);
+    return SmoothIntersection(whole(p), 0.101f - p.y, 0.004f);
   };
   const DistanceField foot = [whole](const glm::vec3& p) {
-    return SmoothIntersection(whole(p), p.y - 0.143f, 0.004f);
+    return SmoothIntersection(whole(p), p.y - 0.109f, 0.004f);
   };
   const auto skin = [&body](const glm::vec3&) { return body.options.skin; };
-  AddBothSides(pieces, {kSkinPart,
-                        limb,
-                        {{0.0f, 0.12f, -0.10f}, {0.19f, 0.88f, 0.11f}},
-                        0.0140f,
-                        whole,
-                        skin,
-                        weights});
-  AddBothSides(pieces, {kSkinPart,
-                        foot,
-                        {{0.03f, 0.0f, -0.21f}, {0.17f, 0.16f, 0.10f}},
-                        0.0085f,
-                        whole,
-                        skin,
-                        weights});
-  AddBothSides(pieces, {kSandalsPart,
-                        sandal,
-                        {{0.02f, -0.01f, -0.22f}, {0.18f, 0.18f, 0.11f}},
-                        0.0075f,
-                        sandal,
-                        [&body](const glm::vec3&) { return body.options.sandals; },
-                        weights});
+  pieces.push_back({kSkinPart,
+                    limb,
+                    {{0.0f, 0.08f, -0.10f}, {0.19f, 0.88f, 0.11f}},
+                    0.0170f,
+                    whole,
+                    skin,
+                    weights,
+                    true});
+  pieces.push_back({kSkinPart,
+                    foot,
+                    {{0.03f, 0.0f, -0.21f}, {0.17f, 0.16f, 0.10f}},
+                    0.0085f,
+                    whole,
+                    skin,
+                    weights,
+                    true});
+  pieces.push_back({kSandalsPart,
+                    sandal,
+                    {{0.02f, -0.01f, -0.22f}, {0.18f, 0.18f, 0.11f}},
+                    0.0070f,
+                    sandal,
+                    [&body](const glm::vec3&) { return body.options.sandals; },
+                    weights,
+                    true});
 }
 
 void AddClothes(const Body& body, std::vector<Piece>& pieces) {
@@ -734,22 +735,31 @@ void StoreWeights(Weights shares, human::SkinnedMesh& mesh) {
   mesh.weights.push_back(weights);
 }
 
-human::SkinnedMesh BuildPiece(const Piece& piece, const Rig& rig) {
-  const geometry::TriangleMesh surface = Polygonise(piece.solid, piece.box, piece.cell);
+human::SkinnedMesh BuildPiece(const Piece& piece) {
+  geometry::TriangleMesh surface = Polygonise(piece.solid, piece.box, piece.cell);
   human::SkinnedMesh mesh;
-  mesh.indices = surface.indices;
   for (size_t v = 0; v < surface.positions.size(); ++v) {
     const glm::vec3& p = surface.positions[v];
     // Not on the caps that close a piece inside the shared solid.
     const bool on_shared = std::abs(piece.shading(p)) < 0.008f;
-    const glm::vec3 normal = on_shared ? FieldNormal(piece.shading, p) : surface.normals[v];
-    const Weights weights = piece.weights(p);
-    mesh.positions.push_back(piece.mirrored ? MirrorX(p) : p);
-    mesh.normals.push_back(piece.mirrored ? MirrorX(normal) : normal);
+    mesh.normals.push_back(on_shared ? FieldNormal(piece.shading, p) : surface.normals[v]);
     mesh.albedo.push_back(piece.albedo(p));
-    StoreWeights(piece.mirrored ? rig.MirrorJoints(weights) : weights, mesh);
+    StoreWeights(piece.weights(p), mesh);
   }
-  for (size_t i = 0; piece.mirrored && i < mesh.indices.size(); i += 3) {
+  mesh.positions = std::move(surface.positions);
+  mesh.indices = std::move(surface.indices);
+  return mesh;
+}
+
+human::SkinnedMesh Mirrored(human::SkinnedMesh mesh, const human::Skeleton& skeleton) {
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    mesh.positions[v].x = -mesh.positions[v].x;
+    mesh.normals[v].x = -mesh.normals[v].x;
+    for (uint8_t& joint : mesh.joints[v]) {
+      joint = static_cast<uint8_t>(MirroredJoint(skeleton, joint));
+    }
+  }
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
   }
   return mesh;
@@ -779,13 +789,17 @@ std::vector<human::SkinnedMesh> PlainMeshes(const human::Skeleton& skeleton,
   AddLegs(body, pieces);
   AddClothes(body, pieces);
   std::vector<human::SkinnedMesh> surfaces(pieces.size());
-  ParallelFor(pieces.size(), [&](size_t i) { surfaces[i] = BuildPiece(pieces[i], body.rig); });
+  ParallelFor(pieces.size(), [&](size_t i) { surfaces[i] = BuildPiece(pieces[i]); });
   std::vector<human::SkinnedMesh> parts(kPartCount);
   for (size_t i = 0; i < kPartCount; ++i) {
     parts[i].name = kPartNames[i];
   }
   for (size_t i = 0; i < pieces.size(); ++i) {
-    AppendMesh(surfaces[i], parts[pieces[i].part]);
+    human::SkinnedMesh& part = parts[pieces[i].part];
+    AppendMesh(surfaces[i], part);
+    if (pieces[i].both_sides) {
+      AppendMesh(Mirrored(std::move(surfaces[i]), skeleton), part);
+    }
   }
   return parts;
 }
