@@ -12,6 +12,7 @@ end
 
 local TURN_SPEED = 180 -- degrees per second
 local FADE = 0.3 -- seconds from one clip to the next
+local ROUNDING = 1e-6 -- seconds: a motion that is over but for this is over
 
 local known = {}
 
@@ -105,7 +106,7 @@ function Actor:turn_to(degrees, options)
   local _, _, _, from = host.pose(self.id)
   local turn = (target - from + math.pi) % (2 * math.pi) - math.pi
   local begin, duration = host.time(), math.abs(turn) / speed
-  while host.time() - begin < duration do
+  while host.time() - begin < duration - ROUNDING do
     local x, y, z = host.pose(self.id)
     host.place(self.id, x, y, z, from + turn * (host.time() - begin) / duration)
     host.wait(0)
@@ -153,7 +154,7 @@ function Actor:move_to(target)
     host.play(self.id, "walk", FADE, natural and speed / natural or 1)
   end
   local begin, walk_time = host.time(), distance / speed
-  while host.time() - begin < walk_time do
+  while host.time() - begin < walk_time - ROUNDING do
     local done = (host.time() - begin) / walk_time
     host.place(self.id, x0 + done * dx, y0, z0 + done * dz, heading)
     host.wait(0)

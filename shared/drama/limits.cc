@@ -44,8 +44,8 @@ std::string Limits::Reason() const {
 }
 
 bool Limits::MayGrow(size_t freed, size_t new_size, bool is_text) {
-  if (is_text && new_size > kMaxText && !tripped()) {
-    tripped_ = kTextTooLong;
+  if (is_text && new_size > kMaxText) {
+    tripped_ = tripped() ? tripped_ : kTextTooLong;
     return false;
   }
   if (!tripped() && !Charge(static_cast<int64_t>(new_size / kBytesPerInstruction))) {

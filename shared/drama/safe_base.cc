@@ -13,10 +13,14 @@ namespace {
 
 // ---- protected calls: an error is caught, a passed limit is not -------------
 
+// To unwind an error out of deeply nested calls takes as long as so many
+// instructions, about.
+constexpr int64_t kErrorCost = 10'000;
+
 // After a call that failed: raises again when the failure was a limit's.
 void LetLimitsThrough(lua_State* lua) {
   LimitsOf(lua).TripIfRefused();
-  RaiseIfTripped(lua);
+  Charge(lua, kErrorCost);
 }
 
 // The results of pcall are on the stack above its status.
@@ -107,7 +111,7 @@ int CoroutineWrap(lua_State* lua) {
 // The upvalue is Lua's coroutine.close, which runs what is to be closed.
 int CoroutineClose(lua_State* lua) {
   const int results = lua_tocfunction(lua, lua_upvalueindex(1))(lua);
-  LetLimitsThrough(lua);
+  RaiseIfTripped(lua);
   return results;
 }
 

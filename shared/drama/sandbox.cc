@@ -29,10 +29,14 @@ std::string Where(lua_State* coroutine) {
   return "";
 }
 
-// A string or number on top of a coroutine's stack, or what else is there.
+// The message on top of a coroutine's stack. What lua/std found wrong is told
+// with the place in the script that called it.
 std::string TopAsText(lua_State* coroutine) {
   if (lua_type(coroutine, -1) == LUA_TSTRING) {
-    return lua_tostring(coroutine, -1);
+    const std::string text = lua_tostring(coroutine, -1);
+    const size_t position_end = text.starts_with("std/") ? text.find(": ") : std::string::npos;
+    return position_end == std::string::npos ? text
+                                             : Where(coroutine) + text.substr(position_end + 2);
   }
   return Where(coroutine) + "error object is a " + luaL_typename(coroutine, -1);
 }

@@ -1,0 +1,99 @@
+#include "editor/export/export.h"
+
+#include <algorithm>
+
+#include "shared/bundle/bundle.h"
+#include "shared/bundle/bundle_writer.h"
+#include "shared/human/human.h"
+#include "shared/stage/mesh_file.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::exporter {
+namespace {
+
+constexpr char kDramaName[] = "drama.lua";
+
+// What goes into the file: the manifest, and members that borrow from the
+// content and from `meshes`.
+struct Packing {
+  bundle::ShowManifest manifest;
+  std::vector<bundle::MemberContent> members;
+  std::vector<std::vector<std::byte>> meshes;
+};
+
+// The credits of a show: the project's own and then each person's, once.
+void AddCredits(std::string& credits, const std::string& more) {
+  if (!more.empty() && credits.find(more) == std::string::npos) {
+    credits += (credits.empty() || credits.ends_with('\n') ? "" : "\n") + more;
+  }
+}
+
+Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
+  const stage::Place& place = content.place;
+  const std::string folder = "places/" + std::to_string(index) + "/";
+  bundle::PlaceEntry entry{
+      place.name, folder + "scene.larscene", place.map_from_stage, place.camera_nudge, {},
+      place.light};
+  const auto scene = vision::ParseSceneDatabase(content.scene, "place '" + place.name + "'");
+  LARARIUM_RETURN_IF_ERROR(scene.status());
+  packing.members.push_back({entry.scene, content.scene});
+  for (const stage::Occluder& occluder : place.occluders) {
+    LARARIUM_RETURN_IF_ERROR(occluder.mesh.Validate("occluder '" + occluder.name + "'"));
+    packing.meshes.push_back(stage::SerializeMesh(occluder.mesh));
+    const std::string member =
+        folder + "occluder" + std::to_string(entry.occluders.size()) + ".larmesh";
+    packing.members.push_back({member, packing.meshes.back()});
+    entry.occluders.push_back({occluder.name, member, occluder.stage_from_mesh});
+  }
+  packing.manifest.places.push_back(std::move(entry));
+  return Status();
+}
+
+Status PackCast(const CastContent& content, size_t index, Packing& packing) {
+  const auto human = human::ParseHuman(content.human, "cast '" + content.name + "'");
+  LARARIUM_RETURN_IF_ERROR(human.status());
+  const std::string member = "cast/" + std::to_string(index) + ".larhuman";
+  packing.members.push_back({member, content.human});
+  packing.manifest.cast.push_back({content.name, member});
+  AddCredits(packing.manifest.credits, human->credits);
+  return Status();
+}
+
+}  // namespace
+
+Status ExportBundle(const ExportContent& content,
+                    const std::filesystem::path& path,
+                    Progress& progress) {
+  Packing packing;
+  packing.manifest.title = content.title;
+  packing.manifest.credits = content.credits;
+  packing.manifest.drama = kDramaName;
+  packing.members.push_back({kDramaName, std::as_bytes(std::span(content.drama))});
+  const auto parts = static_cast<double>(content.places.size() + content.cast.size());
+  size_t done = 0;
+  const auto report = [&] {
+    progress.Report("checking", static_cast<double>(done++) / std::max(parts, 1.0));
+    return !progress.Cancelled();
+  };
+  const Status cancelled = Status::Error("export", "cancelled");
+  for (size_t i = 0; i < content.places.size(); ++i) {
+    if (!report()) {
+      return cancelled;
+    }
+    LARARIUM_RETURN_IF_ERROR(PackPlace(content.places[i], i, packing));
+  }
+  for (size_t i = 0; i < content.cast.size(); ++i) {
+    if (!report()) {
+      return cancelled;
+    }
+    LARARIUM_RETURN_IF_ERROR(PackCast(content.cast[i], i, packing));
+  }
+  progress.Report("writing", 0.0);
+  LARARIUM_RETURN_IF_ERROR(bundle::WriteBundle(path, packing.manifest, packing.members));
+  progress.Report("verifying", 0.0);
+  LARARIUM_RETURN_IF_ERROR(bundle::Bundle::Open(path).status());
+  progress.Report("verifying", 1.0);
+  return Status();
+}
+
+}  // namespace lararium::exporter

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "shared/bundle/show_manifest.h"
+
+namespace lararium::test {
+
+// A small show with everything in it; its members are named, not listed.
+inline bundle::ShowManifest ExampleManifest() {
+  bundle::ShowManifest manifest;
+  manifest.title = "The thermopolium";
+  manifest.credits = "made for tests";
+  manifest.drama = "drama.lua";
+  bundle::PlaceEntry place;
+  place.name = "maquette";
+  place.scene = "places/0/scene.larscene";
+  place.map_from_stage = {
+      0.37, Eigen::Quaterniond(0.1, 0.7, -0.3, 0.2).normalized(), {1.0, -2.0, 0.1}};
+  place.camera_nudge = {0.001, 0.0, -0.02};
+  place.occluders = {{"counter", "places/0/occluder0.larmesh", {}}};
+  for (size_t i = 0; i < place.light.size(); ++i) {
+    place.light[i] = glm::vec3(0.1f, 0.2f, 0.3f) * static_cast<float>(i + 1);
+  }
+  manifest.places = {place};
+  manifest.cast = {{"keeper", "cast/0.larhuman"}};
+  return manifest;
+}
+
+}  // namespace lararium::test

@@ -1,0 +1,105 @@
+#include "shared/bundle/show_manifest.h"
+
+#include <gmock/gmock.h>
+
+#include "shared/core/json.h"
+#include "tests/bundle/example_show.h"
+
+namespace lararium::bundle {
+namespace {
+
+using ::testing::HasSubstr;
+
+ShowManifest Listed() {
+  ShowManifest manifest = test::ExampleManifest();
+  uint64_t size = 1;
+  for (const char* name :
+       {"drama.lua", "places/0/scene.larscene", "places/0/occluder0.larmesh", "cast/0.larhuman"}) {
+    manifest.members.push_back({name, size++, ComputeSha256({})});
+  }
+  return manifest;
+}
+
+Result<ShowManifest> Parse(const Json& json) {
+  return ParseShowManifest(json.dump(), "show.larshow: manifest.json");
+}
+
+TEST(ShowManifest, RoundTrips) {
+  const ShowManifest manifest = Listed();
+  const std::string text = FormatShowManifest(manifest);
+  const auto parsed = ParseShowManifest(text, "manifest.json");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(FormatShowManifest(*parsed), text);
+  EXPECT_EQ(parsed->title, manifest.title);
+  EXPECT_EQ(parsed->places[0].light, manifest.places[0].light);
+  EXPECT_EQ(parsed->places[0].map_from_stage.scale, 0.37);
+  EXPECT_EQ(parsed->places[0].map_from_stage.rotation.coeffs(),
+            manifest.places[0].map_from_stage.rotation.coeffs());
+  EXPECT_EQ(parsed->places[0].camera_nudge, manifest.places[0].camera_nudge);
+  EXPECT_EQ(parsed->places[0].occluders[0].mesh, "places/0/occluder0.larmesh");
+  EXPECT_EQ(parsed->cast[0].human, "cast/0.larhuman");
+  EXPECT_EQ(parsed->members[3].size, 4u);
+}
+
+TEST(ShowManifest, ANewerSchemaAsksForANewerPlayer) {
+  Json json = Json::parse(FormatShowManifest(Listed()));
+  json["schema"] = ShowManifest::kSchema + 1;
+  EXPECT_THAT(Parse(json).message(), HasSubstr("it needs a newer player"));
+}
+
+TEST(ShowManifest, RefusesEveryMissingField) {
+  const Json json = Json::parse(FormatShowManifest(Listed()));
+  for (const auto& [key, value] : json.items()) {
+    Json without = json;
+    without.erase(key);
+    EXPECT_THAT(Parse(without).message(), HasSubstr(key));
+  }
+}
+
+TEST(ShowManifest, RefusesEveryFieldOfAnotherType) {
+  const Json flat = Json::parse(FormatShowManifest(Listed())).flatten();
+  for (const auto& [path, value] : flat.items()) {
+    for (const Json& wrong : {Json(true), Json(nullptr), Json::object()}) {
+      Json changed = flat.unflatten();
+      changed[Json::json_pointer(path)] = wrong;
+      EXPECT_FALSE(Parse(changed).ok()) << path << " " << wrong;
+    }
+  }
+}
+
+TEST(ShowManifest, RefusesWhatCannotBe) {
+  const struct {
+    const char* path;
+    Json value;
+    const char* problem;
+  } kWrong[] = {
+      {"/places/0/map_from_stage/scale", 0, "between"},
+      {"/places/0/map_from_stage/rotation", {1, 1, 0, 0}, "unit quaternion"},
+      {"/places/0/light/4", 1e300, "too large"},
+      {"/places/0/light", Json::array({1}), "27 numbers"},
+      {"/places/0/scene", "../x", "member name"},
+      {"/places/0/scene", "other", "not listed"},
+      {"/places", Json::array(), "no place"},
+      {"/cast/0/name", "", "empty or used twice"},
+      {"/members/0/sha256", "12", "hexadecimal"},
+      {"/members/0/size", -1, "whole number"},
+      {"/members/1/name", "drama.lua", "used twice"},
+      {"/members/1/name", "manifest.json", "member name"},
+      {"/title", std::string(2000, 'x'), "longer"},
+  };
+  for (const auto& wrong : kWrong) {
+    Json json = Json::parse(FormatShowManifest(Listed()));
+    json[Json::json_pointer(wrong.path)] = wrong.value;
+    const auto parsed = Parse(json);
+    ASSERT_FALSE(parsed.ok()) << wrong.path;
+    EXPECT_THAT(parsed.message(), HasSubstr(wrong.problem)) << wrong.path;
+    EXPECT_THAT(parsed.message(), HasSubstr("show.larshow: manifest.json"));
+  }
+}
+
+TEST(ShowManifest, SurvivesDeepNesting) {
+  EXPECT_FALSE(ParseShowManifest(std::string(100'000, '['), "manifest.json").ok());
+}
+
+}  // namespace
+}  // namespace lararium::bundle

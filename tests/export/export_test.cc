@@ -1,0 +1,122 @@
+#include "editor/export/export.h"
+
+#include <gmock/gmock.h>
+
+#include "shared/bundle/bundle.h"
+#include "shared/stage/mesh_file.h"
+#include "shared/vision/scene_database.h"
+#include "tests/stage/test_human.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::exporter {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<std::byte> SmallScene() {
+  vision::SceneDatabase database;
+  database.camera = {64, 48, 50.0, 50.0, 32.0, 24.0};
+  database.points = {{0.0f, 0.0f, 2.0f}};
+  database.normals = {{0.0f, 0.0f, -1.0f}};
+  database.observation_counts = {2};
+  database.session_masks = {1};
+  database.descriptor_begin = {0, 1};
+  database.descriptors.resize(1);
+  database.descriptor_point = {0};
+  database.forest = vision::BuildForest(database.descriptors, {});
+  return vision::SerializeSceneDatabase(database);
+}
+
+ExportContent SmallShow() {
+  human::Human human = *test::MakeTestHuman();
+  human.credits = "The figure: somebody";
+  ExportContent content;
+  content.title = "Small";
+  content.credits = "The show: nobody";
+  content.drama = "function main() end\n";
+  PlaceContent place;
+  place.place.name = "maquette";
+  place.place.map_from_stage.scale = 2.0;
+  place.place.light[0] = {1.0f, 2.0f, 3.0f};
+  geometry::TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.indices = {0, 1, 2};
+  place.place.occluders = {{"counter", mesh, {}}, {"wall", mesh, {}}};
+  place.scene = SmallScene();
+  content.places = {place};
+  content.cast = {{"keeper", human::SerializeHuman(human)},
+                  {"guest", human::SerializeHuman(human)}};
+  return content;
+}
+
+TEST(Export, PacksAllThatThePlayerNeeds) {
+  const test::TemporaryFolder folder;
+  const ExportContent content = SmallShow();
+  NoProgress progress;
+  const Status status = ExportBundle(content, folder / "a.larshow", progress);
+  ASSERT_TRUE(status.ok()) << status.message();
+  const auto opened = bundle::Bundle::Open(folder / "a.larshow");
+  ASSERT_TRUE(opened.ok()) << opened.message();
+  const bundle::ShowManifest& manifest = opened->manifest();
+  EXPECT_EQ(manifest.title, "Small");
+  EXPECT_EQ(manifest.credits, "The show: nobody\nThe figure: somebody");
+  ASSERT_EQ(manifest.places.size(), 1u);
+  EXPECT_EQ(manifest.places[0].map_from_stage.scale, 2.0);
+  EXPECT_EQ(manifest.places[0].light[0], glm::vec3(1.0f, 2.0f, 3.0f));
+  ASSERT_EQ(manifest.places[0].occluders.size(), 2u);
+  for (const bundle::OccluderEntry& occluder : manifest.places[0].occluders) {
+    EXPECT_TRUE(stage::ParseMesh(*opened->member(occluder.mesh), occluder.mesh).ok());
+  }
+  EXPECT_TRUE(vision::ParseSceneDatabase(*opened->member(manifest.places[0].scene), "scene").ok());
+  ASSERT_EQ(manifest.cast.size(), 2u);
+  EXPECT_TRUE(human::ParseHuman(*opened->member(manifest.cast[1].human), "human").ok());
+  const auto drama = *opened->member(manifest.drama);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(drama.data()), drama.size()), content.drama);
+}
+
+TEST(Export, RefusesBrokenPartsAndKeepsTheOldFile) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.larshow";
+  NoProgress progress;
+  ASSERT_TRUE(ExportBundle(SmallShow(), path, progress).ok());
+
+  ExportContent content = SmallShow();
+  content.places[0].scene.resize(100);
+  EXPECT_THAT(ExportBundle(content, path, progress).message(), HasSubstr("place 'maquette'"));
+
+  content = SmallShow();
+  content.cast[1].human[50] ^= std::byte{0xff};
+  content.cast[1].human.resize(content.cast[1].human.size() / 2);
+  EXPECT_THAT(ExportBundle(content, path, progress).message(), HasSubstr("cast 'guest'"));
+
+  content = SmallShow();
+  content.places[0].place.occluders[0].mesh.indices[0] = 9;
+  EXPECT_THAT(ExportBundle(content, path, progress).message(), HasSubstr("occluder 'counter'"));
+
+  content = SmallShow();
+  content.places.clear();
+  EXPECT_THAT(ExportBundle(content, path, progress).message(), HasSubstr("no place"));
+
+  content = SmallShow();
+  content.cast[1].name = "keeper";
+  EXPECT_THAT(ExportBundle(content, path, progress).message(), HasSubstr("used twice"));
+
+  EXPECT_TRUE(bundle::Bundle::Open(path).ok());
+}
+
+class CancelAtOnce : public Progress {
+ public:
+  void Report(std::string_view, double) override {}
+  bool Cancelled() const override { return true; }
+};
+
+TEST(Export, CancellingWritesNothing) {
+  const test::TemporaryFolder folder;
+  CancelAtOnce progress;
+  EXPECT_THAT(ExportBundle(SmallShow(), folder / "a.larshow", progress).message(),
+              HasSubstr("cancelled"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace lararium::exporter

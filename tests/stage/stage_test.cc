@@ -1,0 +1,132 @@
+#include "shared/stage/stage.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "shared/stage/place.h"
+#include "tests/stage/test_human.h"
+
+namespace lararium::stage {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+TEST(Stage, NamesAreUnique) {
+  Stage stage;
+  EXPECT_TRUE(stage.Add("keeper", test::MakeTestHuman()).ok());
+  EXPECT_FALSE(stage.Add("keeper", test::MakeTestHuman()).ok());
+}
+
+TEST(Stage, StaleIdsReachNobody) {
+  Stage stage;
+  const ActorId old = *stage.Add("keeper", test::MakeTestHuman());
+  EXPECT_TRUE(stage.Remove(old));
+  EXPECT_FALSE(stage.Remove(old));
+  const ActorId fresh = *stage.Add("guest", test::MakeTestHuman());
+  EXPECT_EQ(stage.Find(old), nullptr);
+  EXPECT_EQ(stage.Find(fresh)->name, "guest");
+  EXPECT_EQ(stage.Find("keeper"), std::nullopt);
+  EXPECT_EQ(stage.Find("guest"), fresh);
+}
+
+TEST(Stage, AdvanceRunsClipsAndFades) {
+  Stage stage;
+  const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
+  Animation& animation = stage.Find(id)->state.animation;
+  StartClip(animation, 0, 1.0, 0.0f);
+  stage.Advance(1.0);
+  StartClip(animation, 1, 2.0, 0.5f);
+  stage.Advance(0.25);
+  EXPECT_DOUBLE_EQ(animation.clip_time, 0.5);
+  EXPECT_DOUBLE_EQ(animation.previous_time, 1.25);
+  EXPECT_FLOAT_EQ(animation.weight, 0.5f);
+  stage.Advance(1.0);
+  EXPECT_EQ(animation.weight, 1.0f);
+}
+
+TEST(Stage, InterpolatesBetweenSnapshots) {
+  StageSnapshot a;
+  a.actors = {{{0, 1}, {}}, {{1, 1}, {}}};
+  a.actors[0].state.visible = a.actors[1].state.visible = true;
+  StageSnapshot b = a;
+  b.actors[0].state.position = {0.1f, 0.0f, 0.0f};
+  a.actors[0].state.heading = kPi - 0.1f;
+  b.actors[0].state.heading = -kPi + 0.1f;
+  b.actors[0].state.animation.clip_time = 1.0;
+  b.actors[1].state.position = {3.0f, 0.0f, 0.0f};  // too far for one tick
+  StageSnapshot between;
+  Interpolate(a, b, 0.25f, between);
+  EXPECT_FLOAT_EQ(between.actors[0].state.position.x, 0.025f);
+  EXPECT_NEAR(between.actors[0].state.heading, kPi - 0.05f, 1e-5);
+  EXPECT_NEAR(between.actors[0].state.animation.clip_time, 0.25, 1e-9);
+  EXPECT_EQ(between.actors[1].state.position.x, 3.0f);
+}
+
+TEST(Stage, InterpolationEndsAtTheCurrentSnapshot) {
+  StageSnapshot a;
+  a.actors = {{{0, 1}, {}}, {{2, 1}, {}}};
+  StageSnapshot b;
+  b.actors = {{{0, 2}, {}}, {{1, 1}, {}}, {{2, 1}, {}}};
+  b.actors[2].state.position = {0.1f, 0.2f, 0.0f};
+  StageSnapshot end;
+  Interpolate(a, b, 1.0f, end);
+  EXPECT_TRUE(end == b);
+}
+
+TEST(Stage, AQuarterTurnFacesMinusX) {
+  ActorState state;
+  state.position = {1.0f, 2.0f, 3.0f};
+  state.heading = kPi / 2.0f;
+  const glm::vec4 ahead = StageFromActor(state) * glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
+  EXPECT_NEAR(ahead.x, 0.0f, 1e-6);
+  EXPECT_NEAR(ahead.y, 2.0f, 1e-6);
+  EXPECT_NEAR(ahead.z, 3.0f, 1e-6);
+}
+
+TEST(Poser, WithoutAClipSkinsTheRestPose) {
+  Poser poser(test::MakeTestHuman());
+  poser.Pose(Animation());
+  for (const glm::mat4& matrix : poser.skin()) {
+    EXPECT_EQ(matrix, glm::mat4(1.0f));
+  }
+}
+
+TEST(Poser, CrossFadesTwoClips) {
+  const auto human = test::MakeTestHuman();
+  Poser poser(human);
+  Animation animation;
+  animation.clip = 2;
+  animation.clip_time = 0.25;  // half of "bow": x = 0.2
+  poser.Pose(animation);
+  EXPECT_NEAR(poser.skin()[1][3].x, 0.2f, 1e-6);
+  animation.previous_clip = 0;
+  animation.previous_time = 0.0;  // x = 0
+  animation.weight = 0.25f;
+  poser.Pose(animation);
+  EXPECT_NEAR(poser.skin()[1][3].x, 0.05f, 1e-6);
+}
+
+TEST(Place, TheNudgeMovesTheCameraAlongItsAxes) {
+  Place place;
+  place.map_from_stage.scale = 0.5;
+  geometry::Rigid3 camera_from_map;
+  camera_from_map.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()));
+  const Eigen::Vector3d before = CameraFromStage(place, camera_from_map).Center();
+  place.camera_nudge = {0.0, 0.0, 0.1};
+  const geometry::Rigid3 nudged = CameraFromStage(place, camera_from_map);
+  const Eigen::Vector3d forward = nudged.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  EXPECT_TRUE((nudged.Center() - before).isApprox(0.1 * forward, 1e-9));
+}
+
+TEST(Place, ThePoseIsMetric) {
+  Place place;
+  place.map_from_stage.scale = 0.5;  // map units in a metre
+  geometry::Rigid3 camera_from_map;
+  camera_from_map.translation = {0.0, 0.0, 2.0};
+  EXPECT_TRUE(
+      CameraFromStage(place, camera_from_map).translation.isApprox(Eigen::Vector3d(0.0, 0.0, 4.0)));
+}
+
+}  // namespace
+}  // namespace lararium::stage
