@@ -17,14 +17,14 @@ constexpr uint32_t kNoVertex = 0xffffffff;
 constexpr float kGradientStep = 1e-3f;  // metres
 constexpr int kSmoothingRounds = 4;
 
+// By differences towards the corners of a tetrahedron.
 glm::vec3 Gradient(const DistanceField& field, const glm::vec3& p) {
-  glm::vec3 gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::vec3 step(0.0f);
-    step[axis] = kGradientStep;
-    gradient[axis] = (field(p + step) - field(p - step)) / (2.0f * kGradientStep);
+  constexpr glm::vec3 kCorners[4] = {{1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {1, 1, 1}};
+  glm::vec3 gradient(0.0f);
+  for (const glm::vec3& corner : kCorners) {
+    gradient += field(p + kGradientStep * corner) * corner;
   }
-  return gradient;
+  return gradient / (4.0f * kGradientStep);
 }
 
 // A few Newton steps along the gradient onto the zero set, none farther than a
@@ -278,12 +278,16 @@ Loft::Station Hermite(const Loft::Station& a,
 }
 
 // Slopes of a spline through the stations, by differences of the neighbours.
-Loft::Station Slope(const std::vector<Loft::Station>& stations, size_t i) {
-  const Loft::Station& before = stations[i == 0 ? 0 : i - 1];
-  const Loft::Station& after = stations[std::min(i + 1, stations.size() - 1)];
-  const float span = after.t - before.t;
-  return {stations[i].t, (after.center - before.center) / span,
-          (after.radii - before.radii) / span};
+std::vector<Loft::Station> Slopes(const std::vector<Loft::Station>& stations) {
+  std::vector<Loft::Station> slopes;
+  for (size_t i = 0; i < stations.size(); ++i) {
+    const Loft::Station& before = stations[i == 0 ? 0 : i - 1];
+    const Loft::Station& after = stations[std::min(i + 1, stations.size() - 1)];
+    const float span = after.t - before.t;
+    slopes.push_back({stations[i].t, (after.center - before.center) / span,
+                      (after.radii - before.radii) / span});
+  }
+  return slopes;
 }
 
 }  // namespace
@@ -315,7 +319,8 @@ float Ellipsoid(const glm::vec3& point, const glm::vec3& center, const glm::vec3
 Loft::Loft(const glm::vec3& origin, const glm::mat3& actor_from_loft, std::vector<Station> stations)
     : origin_(origin),
       loft_from_actor_(glm::transpose(actor_from_loft)),
-      stations_(std::move(stations)) {
+      stations_(std::move(stations)),
+      slopes_(Slopes(stations_)) {
   CHECK(stations_.size() >= 2);
 }
 
@@ -325,7 +330,7 @@ Loft::Station Loft::At(float t) const {
   while (i + 2 < stations_.size() && t > stations_[i + 1].t) {
     ++i;
   }
-  return Hermite(stations_[i], stations_[i + 1], Slope(stations_, i), Slope(stations_, i + 1), t);
+  return Hermite(stations_[i], stations_[i + 1], slopes_[i], slopes_[i + 1], t);
 }
 
 float Loft::SideDistance(const glm::vec3& point) const {
@@ -334,7 +339,8 @@ float Loft::SideDistance(const glm::vec3& point) const {
   const glm::vec2 offset = glm::vec2(local.x, local.z) - section.center;
   const glm::vec2 scaled = glm::abs(offset / section.radii);
   const float n = section.exponent;
-  const float norm = std::pow(std::pow(scaled.x, n) + std::pow(scaled.y, n), 1.0f / n);
+  const float norm = n == 2.0f ? glm::length(scaled)
+                               : std::pow(std::pow(scaled.x, n) + std::pow(scaled.y, n), 1.0f / n);
   if (norm < 1e-3f) {
     return -std::min(section.radii.x, section.radii.y);
   }

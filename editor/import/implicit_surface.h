@@ -53,9 +53,10 @@ class Loft {
   glm::vec3 origin_;
   glm::mat3 loft_from_actor_;
   std::vector<Station> stations_;
+  std::vector<Station> slopes_;  // of center and radii over t
 };
 
-// The unit gradient, by central differences.
+// The unit gradient, by differences.
 glm::vec3 FieldNormal(const DistanceField& field, const glm::vec3& point);
 
 struct Box {

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <set>
 
+#include "editor/import/plain_motion.h"
+#include "editor/import/plain_skeleton.h"
 #include "tests/import/closed_surface.h"
 
 namespace lararium::import {
@@ -19,10 +20,21 @@ const human::Human& Figure() {
   return figure;
 }
 
+// Skeleton and clips alone come at once.
+const human::Skeleton& FigureSkeleton() {
+  static const human::Skeleton skeleton = PlainSkeleton();
+  return skeleton;
+}
+
+const std::vector<human::Clip>& FigureClips() {
+  static const std::vector<human::Clip> clips = PlainClips(FigureSkeleton());
+  return clips;
+}
+
 const human::Clip& ClipNamed(const std::string& name) {
-  const auto found = std::find_if(Figure().clips.begin(), Figure().clips.end(),
+  const auto found = std::find_if(FigureClips().begin(), FigureClips().end(),
                                   [&](const human::Clip& clip) { return clip.name == name; });
-  CHECK(found != Figure().clips.end());
+  CHECK(found != FigureClips().end());
   return *found;
 }
 
@@ -34,22 +46,23 @@ const human::SkinnedMesh& PartNamed(const std::string& name) {
 }
 
 std::vector<glm::mat4> ActorFromJoint(const human::Clip& clip, double time) {
-  std::vector<human::JointTransform> pose(Figure().skeleton.size());
+  std::vector<human::JointTransform> pose(FigureSkeleton().size());
   std::vector<glm::mat4> actor_from_joint(pose.size());
   human::SampleClip(clip, time, pose);
-  human::ComputeActorFromJoint(Figure().skeleton, pose, actor_from_joint);
+  human::ComputeActorFromJoint(FigureSkeleton(), pose, actor_from_joint);
   return actor_from_joint;
 }
 
 std::vector<glm::vec3> Skin(const human::SkinnedMesh& mesh, const human::Clip& clip, double time) {
-  std::vector<glm::mat4> skin(Figure().skeleton.size());
-  human::ComputeSkinMatrices(Figure().skeleton, ActorFromJoint(clip, time), skin);
+  std::vector<glm::mat4> skin(FigureSkeleton().size());
+  human::ComputeSkinMatrices(FigureSkeleton(), ActorFromJoint(clip, time), skin);
   std::vector<glm::vec3> positions(mesh.positions.size()), normals(mesh.positions.size());
   human::SkinMesh(mesh, skin, positions, normals);
   return positions;
 }
 
 TEST(PlainFigure, IsValid) {
+  EXPECT_EQ(Figure().clips.size(), FigureClips().size());
   const Status status = Figure().Validate("figure");
   EXPECT_TRUE(status.ok()) << status.message();
 }
@@ -71,7 +84,7 @@ TEST(PlainFigure, HasHumanProportions) {
   // Movement", figure 4.1.
   const auto at = [&](const char* joint) {
     return glm::vec3(
-        glm::inverse(Figure().skeleton.joint_from_actor[Figure().skeleton.Find(joint).value()])[3]);
+        glm::inverse(FigureSkeleton().joint_from_actor[FigureSkeleton().Find(joint).value()])[3]);
   };
   EXPECT_NEAR(at("r_hip").y / 1.72f, 0.530f, 0.015f);
   EXPECT_NEAR(at("r_knee").y / 1.72f, 0.285f, 0.015f);
@@ -104,7 +117,7 @@ TEST(PlainFigure, NormalsAgreeWithTriangles) {
 
 TEST(PlainFigure, NoVertexFollowsJointsThatAreFarApart) {
   // Joints of one vertex lie on one path of at most five links of the skeleton.
-  const human::Skeleton& skeleton = Figure().skeleton;
+  const human::Skeleton& skeleton = FigureSkeleton();
   const auto distance = [&](size_t a, size_t b) {
     int steps = 0;
     for (; a != b; ++steps) {
@@ -134,15 +147,15 @@ TEST(PlainFigure, IsTheSameEachTimeAndScalesWithTheHeight) {
     EXPECT_LT(glm::distance(tall.meshes[m].positions[7], 1.25f * Figure().meshes[m].positions[7]),
               1e-6f);
   }
-  EXPECT_NEAR(tall.clips[0].stride, 1.25f * Figure().clips[0].stride, 1e-5f);
+  EXPECT_NEAR(tall.clips[0].stride, 1.25f * FigureClips()[0].stride, 1e-5f);
 }
 
 TEST(PlainWalk, EndsWhereItBegins) {
-  for (const human::Clip& clip : Figure().clips) {
+  for (const human::Clip& clip : FigureClips()) {
     if (!clip.loops) {
       continue;
     }
-    const size_t joints = Figure().skeleton.size();
+    const size_t joints = FigureSkeleton().size();
     const size_t last = clip.keys.size() - joints;
     for (size_t j = 0; j < joints; ++j) {
       EXPECT_EQ(clip.keys[j].rotation, clip.keys[last + j].rotation) << clip.name;
@@ -171,7 +184,7 @@ TEST(PlainWalk, KeepsTheLowestFootOnTheFloor) {
 
 TEST(PlainWalk, FeetDoNotSlide) {
   const human::Clip& walk = ClipNamed("walk");
-  const human::Skeleton& skeleton = Figure().skeleton;
+  const human::Skeleton& skeleton = FigureSkeleton();
   // The ball of the right foot while it is on the floor, in stage coordinates: the
   // actor moves forwards (-z) by the stride in each pass.
   const size_t ball = skeleton.Find("r_midtarsal").value();
@@ -191,9 +204,9 @@ TEST(PlainWalk, TheKneeFollowsThePublishedCurve) {
   // Perry & Burnfield 2010: 5 at contact, 15-20 loaded, 5-10 before the heel
   // rises, 60 at the height of the swing; within what planting the feet costs.
   const human::Clip& walk = ClipNamed("walk");
-  const size_t hip = Figure().skeleton.Find("r_hip").value();
-  const size_t knee = Figure().skeleton.Find("r_knee").value();
-  const size_t ankle = Figure().skeleton.Find("r_ankle").value();
+  const size_t hip = FigureSkeleton().Find("r_hip").value();
+  const size_t knee = FigureSkeleton().Find("r_knee").value();
+  const size_t ankle = FigureSkeleton().Find("r_ankle").value();
   const auto flexion = [&](double share) {
     const auto m = ActorFromJoint(walk, share * walk.duration);
     const glm::vec3 thigh = glm::normalize(glm::vec3(m[knee][3] - m[hip][3]));
@@ -209,7 +222,7 @@ TEST(PlainWalk, TheKneeFollowsThePublishedCurve) {
 TEST(PlainIdle, KeepsBothFeetStill) {
   const human::Clip& idle = ClipNamed("idle");
   for (const char* joint : {"r_ankle", "l_ankle"}) {
-    const size_t index = Figure().skeleton.Find(joint).value();
+    const size_t index = FigureSkeleton().Find(joint).value();
     const glm::vec3 start(ActorFromJoint(idle, 0.0)[index][3]);
     for (double time = 0.0; time < idle.duration; time += 0.1) {
       EXPECT_LT(glm::distance(start, glm::vec3(ActorFromJoint(idle, time)[index][3])), 0.002f);
