@@ -247,20 +247,6 @@ Json FormatIntrinsics(const CameraModel& camera) {
           {"p1", camera.p1},       {"p2", camera.p2}};
 }
 
-Json FormatPicks(const stage::StagePicks& picks) {
-  Json json = {{"length_m", picks.length_m}};
-  for (const auto& [key, anchor] : Anchors()) {
-    Json list = Json::array();
-    for (const stage::Pick& pick : (picks.*anchor).picks) {
-      list.push_back({{"frame_index", pick.frame_index},
-                      {"frame", pick.frame},
-                      {"pixel", Json::array({pick.pixel.x(), pick.pixel.y()})}});
-    }
-    json[key] = std::move(list);
-  }
-  return json;
-}
-
 Json FormatPlace(const PlaceDocument& place) {
   Json json = {{"name", place.name},
                {"picks", FormatPicks(place.picks)},
@@ -297,6 +283,20 @@ end
 )";
 
 }  // namespace
+
+Json FormatPicks(const stage::StagePicks& picks) {
+  Json json = {{"length_m", picks.length_m}};
+  for (const auto& [key, anchor] : Anchors()) {
+    Json list = Json::array();
+    for (const stage::Pick& pick : (picks.*anchor).picks) {
+      list.push_back({{"frame_index", pick.frame_index},
+                      {"frame", pick.frame},
+                      {"pixel", Json::array({pick.pixel.x(), pick.pixel.y()})}});
+    }
+    json[key] = std::move(list);
+  }
+  return json;
+}
 
 stage::StagePicks EmptyPicks() {
   stage::StagePicks picks;

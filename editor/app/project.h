@@ -105,6 +105,7 @@ struct ProjectPaths {
 // so that saving never drops them. place: what errors call the text.
 Result<ProjectDocument> ParseProject(const Json& json, const std::string& place);
 Json FormatProject(const ProjectDocument& document);
+Json FormatPicks(const stage::StagePicks& picks);
 
 Result<ProjectDocument> LoadProject(const ProjectPaths& paths);
 Status SaveProject(const ProjectPaths& paths, const ProjectDocument& document);

@@ -100,21 +100,15 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
   return staged;
 }
 
-Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
-                                          const ProjectDocument& document,
-                                          const std::string& place_name) {
-  const PlaceDocument* place = document.FindPlace(place_name);
-  if (place == nullptr) {
-    return Status::Error(paths.Project().string(), "has no place \"" + place_name + "\"");
-  }
+Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
+                                       const ProjectDocument& document,
+                                       const PlaceDocument& place,
+                                       std::shared_ptr<const vision::SceneDatabase> database,
+                                       const Similarity3& map_from_picked) {
   show::ShowContent content;
   content.title = document.title;
-  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database,
-                            vision::LoadSceneDatabase(paths.Scene(place->name)));
-  content.database = std::make_shared<const vision::SceneDatabase>(std::move(database));
-  const ResolvedPicks picks = ResolvePicks(*place, *content.database);
-  LARARIUM_RETURN_IF_ERROR(picks.problem);
-  LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, *place, picks.map_from_picked));
+  content.database = std::move(database);
+  LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, place, map_from_picked));
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
     content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});
@@ -122,6 +116,22 @@ Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
   content.drama_file = paths.Drama().filename().string();
   return content;
+}
+
+Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
+                                          const ProjectDocument& document,
+                                          const std::string& place_name) {
+  const PlaceDocument* place = document.FindPlace(place_name);
+  if (place == nullptr) {
+    return Status::Error(paths.Project().string(), "has no place \"" + place_name + "\"");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database,
+                            vision::LoadSceneDatabase(paths.Scene(place->name)));
+  const ResolvedPicks picks = ResolvePicks(*place, database);
+  LARARIUM_RETURN_IF_ERROR(picks.problem);
+  return AssembleShow(paths, document, *place,
+                      std::make_shared<const vision::SceneDatabase>(std::move(database)),
+                      picks.map_from_picked);
 }
 
 Result<std::unique_ptr<capture::FrameSource>> OpenSource(const ProjectPaths& paths,

@@ -40,8 +40,16 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
                                 const PlaceDocument& place,
                                 const geometry::Similarity3& map_from_picked);
 
-// Everything that a show needs at one place. Picks that do not resolve are an
-// error here: nothing is exported or rendered on a guess unless there are none.
+// Everything that a show needs at one place, whose map is at hand and whose picks
+// are resolved. Fails where something was not baked.
+Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
+                                       const ProjectDocument& document,
+                                       const PlaceDocument& place,
+                                       std::shared_ptr<const vision::SceneDatabase> database,
+                                       const geometry::Similarity3& map_from_picked);
+
+// The same with the map read from the project. Picks that do not resolve are an
+// error here; a place without any is staged by the guess.
 Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
                                           const ProjectDocument& document,
                                           const std::string& place_name);

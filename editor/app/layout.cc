@@ -1,0 +1,125 @@
+#include "editor/app/layout.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/panels/dialogs.h"
+#include "editor/panels/inspector.h"
+#include "editor/panels/messages.h"
+#include "editor/panels/outliner.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/toolbar.h"
+
+namespace lararium::app {
+
+namespace {
+
+using panels::Px;
+
+constexpr float kSplitter = 6.0f;  // logical pixels, the gap between panels
+constexpr float kMinPanel = 160.0f;
+constexpr float kMinViewport = 320.0f;
+
+// A bar between two panels; dragging changes size by the movement times sign.
+void Splitter(const char* id, bool vertical, float length, float sign, float& size) {
+  const ImVec2 extent = vertical ? ImVec2(Px(kSplitter), length) : ImVec2(length, Px(kSplitter));
+  ImGui::InvisibleButton(id, extent);
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+    ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+  }
+  if (ImGui::IsItemActive()) {
+    const ImVec2 delta = ImGui::GetIO().MouseDelta;
+    size += sign * (vertical ? delta.x : delta.y) / Px(1.0f);
+  }
+}
+
+bool BeginPanel(const char* id, const ImVec2& size) {
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, panels::colour::kPanel);
+  const bool open = ImGui::BeginChild(id, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::PopStyleColor();
+  return open;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Layout>> Layout::Create() {
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<panels::AroundView> around,
+                            panels::AroundView::Create());
+  return std::unique_ptr<Layout>(new Layout(std::move(around)));
+}
+
+void Layout::ShowViewport(Workspace& workspace) {
+  switch (state_.view) {
+    case panels::ViewKind::kCamera:
+      camera_.Show(workspace, state_);
+      break;
+    case panels::ViewKind::kAround:
+      around_->Show(workspace, state_);
+      break;
+    case panels::ViewKind::kPicks:
+      picks_.Show(workspace, state_);
+      break;
+  }
+}
+
+void Layout::ShowPanels(Workspace& workspace) {
+  const float status = ImGui::GetFrameHeight() + Px(4);
+  const ImVec2 available = ImGui::GetContentRegionAvail();
+  const float widest = (available.x / Px(1.0f) - kMinViewport) * 0.5f;
+  outliner_width_ = std::clamp(outliner_width_, kMinPanel, std::max(kMinPanel, widest));
+  inspector_width_ = std::clamp(inspector_width_, kMinPanel, std::max(kMinPanel, widest));
+  const float tallest = available.y / Px(1.0f) - kMinViewport;
+  messages_height_ = std::clamp(messages_height_, 48.0f, std::max(48.0f, tallest));
+
+  const float upper = available.y - Px(messages_height_) - status - 2 * Px(kSplitter);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
+  const ImVec2 spacing(Px(8), Px(7));  // within the panels
+  const auto panel = [&](const char* id, const ImVec2& size, auto&& show) {
+    BeginPanel(id, size);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, spacing);
+    show();
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+  };
+  panel("outliner", ImVec2(Px(outliner_width_), upper),
+        [&] { panels::ShowOutliner(workspace, state_); });
+  ImGui::SameLine();
+  Splitter("split outliner", true, upper, 1.0f, outliner_width_);
+  ImGui::SameLine();
+  const float viewport =
+      available.x - Px(outliner_width_) - Px(inspector_width_) - 2 * Px(kSplitter);
+  panel("viewport", ImVec2(viewport, upper), [&] { ShowViewport(workspace); });
+  ImGui::SameLine();
+  Splitter("split inspector", true, upper, -1.0f, inspector_width_);
+  ImGui::SameLine();
+  panel("inspector", ImVec2(Px(inspector_width_), upper),
+        [&] { panels::ShowInspector(workspace, state_); });
+  Splitter("split messages", false, available.x, -1.0f, messages_height_);
+  panel("messages", ImVec2(available.x, Px(messages_height_)),
+        [&] { panels::ShowMessages(workspace); });
+  ImGui::Dummy(ImVec2(0, Px(kSplitter)));
+  ImGui::PopStyleVar();
+  panels::ShowStatusBar(workspace);
+}
+
+void Layout::Show(Workspace& workspace) {
+  panels::HandleShortcuts(workspace, state_);
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->WorkPos);
+  ImGui::SetNextWindowSize(viewport->WorkSize);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(Px(8), Px(6)));
+  ImGui::Begin("Lararium", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                   ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
+  panels::ShowMenuBar(workspace, state_);
+  panels::ShowToolbar(workspace, state_);
+  ShowPanels(workspace);
+  panels::ShowDialogs(workspace, state_);
+  ImGui::End();
+}
+
+}  // namespace lararium::app

@@ -1,0 +1,89 @@
+#include <cstdio>
+#include <variant>
+
+#include "editor/app/options.h"
+#include "editor/app/subcommands.h"
+#include "editor/app/terminal.h"
+#include "editor/app/window.h"
+#include "shared/core/log.h"
+#include "shared/core/processor.h"
+
+namespace {
+
+using namespace lararium;       // NOLINT: the program itself
+using namespace lararium::app;  // NOLINT
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+
+int ReportFailure(const Status& status, bool json) {
+  if (json) {
+    std::printf("%s\n", Json{{"error", status.message()}}.dump(1).c_str());
+  }
+  std::fprintf(stderr, "%s\n", status.message().c_str());
+  return kFailed;
+}
+
+// Runs whichever subcommand it is called with.
+struct Runner {
+  Progress& progress;
+  Log& log;
+
+  Result<CommandResult> operator()(const NewOptions& options) { return RunNew(options); }
+  Result<CommandResult> operator()(const TrainOptions& options) {
+    return RunTrain(options, progress, log);
+  }
+  Result<CommandResult> operator()(const CastOptions& options) { return RunCast(options); }
+  Result<CommandResult> operator()(const BakeOptions& options) {
+    return RunBake(options, progress);
+  }
+  Result<CommandResult> operator()(const CheckOptions& options) {
+    return RunCheck(options, progress);
+  }
+  Result<CommandResult> operator()(const RenderOptions& options) {
+    return RunRender(options, progress, log);
+  }
+  Result<CommandResult> operator()(const ExportOptions& options) {
+    return RunExport(options, progress);
+  }
+  Result<CommandResult> operator()(const WindowOptions& options) {
+    LARARIUM_RETURN_IF_ERROR(RunWindow(options, log));
+    return CommandResult{};
+  }
+};
+
+Result<CommandResult> Run(const CommandLine& line, Log& log) {
+  if (std::holds_alternative<WindowOptions>(line.subcommand)) {
+    NoProgress silent;
+    return std::visit(Runner{silent, log}, line.subcommand);
+  }
+  TerminalProgress progress;
+  return std::visit(Runner{progress, log}, line.subcommand);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (const Status status = CheckProcessor(); !status.ok()) {
+    return ReportFailure(status, false);
+  }
+  const auto parsed = ParseCommandLine(argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) {
+    return *code;
+  }
+  const CommandLine& line = std::get<CommandLine>(parsed);
+  const Result<std::shared_ptr<Log>> log = MakeLog();
+  if (!log.ok()) {
+    return ReportFailure(log.status(), line.json);
+  }
+  const Result<CommandResult> result = Run(line, **log);
+  if (!result.ok()) {
+    return ReportFailure(result.status(), line.json);
+  }
+  if (line.json) {
+    std::printf("%s\n", result->json.dump(1).c_str());
+  } else {
+    std::fputs(result->text.c_str(), stdout);
+  }
+  return result->failed ? kFailed : kDone;
+}

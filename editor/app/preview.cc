@@ -1,0 +1,167 @@
+#include "editor/app/preview.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/app/staging.h"
+#include "shared/capture/frame_source.h"
+#include "shared/render/graphics_context.h"
+#include "shared/render/render_target.h"
+#include "shared/show/show.h"
+#include "shared/show/show_renderer.h"
+#include "shared/vision/tracker.h"
+
+namespace lararium::app {
+
+// All that lives on the preview's thread.
+class Preview::Worker {
+ public:
+  static Result<std::unique_ptr<Worker>> Create(const ProjectPaths& paths,
+                                                const SourceDocument& source,
+                                                show::ShowContent content,
+                                                Log& log);
+
+  PreviewSource source() const {
+    return {source_->frame_count().value_or(0), source_->frames_per_second()};
+  }
+
+  Result<std::shared_ptr<const PreviewPicture>> Draw(const PreviewRequest& request);
+
+ private:
+  Worker() = default;
+
+  // Brings tracked_ to a frame; the frame at hand is not tracked again.
+  Status Track(int64_t frame);
+  PreviewPicture Describe() const;
+
+  std::unique_ptr<capture::FrameSource> source_;
+  std::unique_ptr<vision::PoseSource> poses_;
+  std::unique_ptr<show::Show> show_;
+  std::optional<render::OffscreenContext> context_;  // before all that draws
+  std::unique_ptr<show::ShowRenderer> renderer_;
+  std::optional<render::RenderTarget> target_;
+  std::shared_ptr<const stage::Place> place_;
+  std::optional<vision::TrackedFrame> tracked_;
+  show::StagedFrame staged_;
+};
+
+Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPaths& paths,
+                                                                 const SourceDocument& source,
+                                                                 show::ShowContent content,
+                                                                 Log& log) {
+  std::unique_ptr<Worker> worker(new Worker);
+  LARARIUM_ASSIGN_OR_RETURN(worker->source_, OpenSource(paths, source));
+  const int width = worker->source_->width();
+  const int height = worker->source_->height();
+  LARARIUM_ASSIGN_OR_RETURN(
+      const geometry::CameraModel camera,
+      CameraForSize(content.database->camera, width, height, paths.Resolve(source.path).string()));
+  LARARIUM_ASSIGN_OR_RETURN(worker->poses_,
+                            vision::CreateSiftTracker(content.database, camera, {}));
+  LARARIUM_ASSIGN_OR_RETURN(worker->show_, show::Show::Create(std::move(content), {}, log));
+  LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
+  LARARIUM_ASSIGN_OR_RETURN(worker->renderer_,
+                            show::ShowRenderer::Create(worker->show_->content()));
+  LARARIUM_ASSIGN_OR_RETURN(worker->target_, render::RenderTarget::Create(width, height));
+  return worker;
+}
+
+Status Preview::Worker::Track(int64_t frame) {
+  if (tracked_ && tracked_->frame.index == frame) {
+    return Status();
+  }
+  const bool follows = tracked_ && tracked_->frame.index + 1 == frame;
+  if (!follows) {
+    LARARIUM_RETURN_IF_ERROR(source_->Seek(frame));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(std::optional<geometry::Frame> image, source_->Next());
+  if (!image) {
+    tracked_.reset();
+    return Status::Error("frame " + std::to_string(frame), "lies beyond the end of the recording");
+  }
+  tracked_ = poses_->Track(*image);
+  return Status();
+}
+
+PreviewPicture Preview::Worker::Describe() const {
+  PreviewPicture picture;
+  picture.frame = staged_.tracked.frame.index;
+  picture.display = staged_.tracked.camera.DisplayPinhole();
+  picture.state = staged_.tracked.state;
+  picture.reason = staged_.tracked.reason;
+  picture.inliers = staged_.tracked.inliers;
+  picture.camera_from_map = staged_.tracked.camera_from_map;
+  picture.camera_from_stage = staged_.camera_from_stage;
+  for (const show::StagedActor& actor : staged_.actors) {
+    const auto skin = staged_.skin.begin() + actor.skin_begin;
+    picture.actors.push_back({show_->content().cast[actor.cast].human,
+                              actor.stage_from_actor,
+                              {skin, skin + actor.skin_count}});
+  }
+  return picture;
+}
+
+Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const PreviewRequest& request) {
+  if (request.place != nullptr && request.place != place_) {
+    place_ = request.place;
+    show_->SetPlace(*place_);
+    renderer_->SetPlace(*place_);
+  }
+  LARARIUM_RETURN_IF_ERROR(Track(request.frame));
+  const double time = static_cast<double>(request.frame) / source_->frames_per_second();
+  show_->StageFrame(*tracked_, time, staged_);
+  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
+  PreviewPicture picture = Describe();
+  target_->ReadPixels(picture.bgr);
+  return std::make_shared<const PreviewPicture>(std::move(picture));
+}
+
+Preview::Preview(ProjectPaths paths, SourceDocument source, show::ShowContent content, Log& log)
+    : paths_(std::move(paths)),
+      source_document_(std::move(source)),
+      content_(std::move(content)),
+      log_(log),
+      thread_([this](std::stop_token stop) { Run(stop); }) {}
+
+Preview::~Preview() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+void Preview::Run(std::stop_token stop) {
+  Result<std::unique_ptr<Worker>> worker =
+      Worker::Create(paths_, source_document_, std::move(content_), log_);
+  if (!worker) {
+    SetStatus(worker.status());
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    source_ = (*worker)->source();
+  }
+  while (const std::optional<PreviewRequest> request = requests_.Take(stop)) {
+    Result<std::shared_ptr<const PreviewPicture>> picture = (*worker)->Draw(*request);
+    if (picture.ok()) {
+      pictures_.Put(std::move(*picture));
+    } else {
+      SetStatus(picture.status());
+    }
+  }
+}
+
+void Preview::SetStatus(Status status) {
+  const std::lock_guard lock(mutex_);
+  status_ = std::move(status);
+}
+
+std::optional<PreviewSource> Preview::source() const {
+  const std::lock_guard lock(mutex_);
+  return source_;
+}
+
+Status Preview::TakeStatus() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(status_, Status());
+}
+
+}  // namespace lararium::app

@@ -1,0 +1,91 @@
+#pragma once
+
+// The camera view's picture: a recording, tracked and composited on a thread of
+// its own with an OpenGL context of its own, so that the interface never waits.
+
+#include <glm/mat4x4.hpp>
+#include <memory>
+#include <mutex>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "editor/app/project.h"
+#include "shared/core/log.h"
+#include "shared/core/mailbox.h"
+#include "shared/core/status.h"
+#include "shared/geometry/camera_model.h"
+#include "shared/geometry/transform.h"
+#include "shared/show/show_content.h"
+#include "shared/vision/tracked_frame.h"
+
+namespace lararium::app {
+
+struct PreviewRequest {
+  int64_t frame = 0;  // of the recording
+  // Staged as it is now; nullptr: as it was.
+  std::shared_ptr<const stage::Place> place;
+};
+
+struct PreviewActor {
+  std::shared_ptr<const human::Human> human;
+  glm::mat4 stage_from_actor = glm::mat4(1.0f);
+  std::vector<glm::mat4> skin;
+};
+
+struct PreviewPicture {
+  int64_t frame = -1;
+  cv::Mat bgr;                    // the composite, or the plain image without a pose
+  geometry::CameraModel display;  // the pinhole that it was drawn with
+  vision::TrackState state = vision::TrackState::kSearching;
+  vision::TrackReason reason = vision::TrackReason::kNone;
+  int inliers = 0;
+  std::optional<geometry::Rigid3> camera_from_map;
+  std::optional<geometry::Rigid3> camera_from_stage;
+  std::vector<PreviewActor> actors;  // those that the drama shows at this moment
+};
+
+// What the recording is like, once it is open.
+struct PreviewSource {
+  int64_t frames = 0;
+  double frames_per_second = 30.0;
+};
+
+class Preview {
+ public:
+  // Starts opening everything. Borrows log.
+  Preview(ProjectPaths paths, SourceDocument source, show::ShowContent content, Log& log);
+  // Stops the thread and waits.
+  ~Preview();
+  Preview(const Preview&) = delete;
+  Preview& operator=(const Preview&) = delete;
+
+  // The newest request wins.
+  void Request(PreviewRequest request) { requests_.Put(std::move(request)); }
+  // The newest picture, once.
+  std::optional<std::shared_ptr<const PreviewPicture>> TakePicture() { return pictures_.TryTake(); }
+
+  std::optional<PreviewSource> source() const;
+  // Why there is no picture; reported once.
+  Status TakeStatus();
+
+ private:
+  class Worker;
+
+  void Run(std::stop_token stop);
+  void SetStatus(Status status);
+
+  ProjectPaths paths_;
+  SourceDocument source_document_;
+  show::ShowContent content_;
+  Log& log_;
+  Mailbox<PreviewRequest> requests_;
+  Mailbox<std::shared_ptr<const PreviewPicture>> pictures_;
+  mutable std::mutex mutex_;
+  Status status_;
+  std::optional<PreviewSource> source_;
+  std::jthread thread_;
+};
+
+}  // namespace lararium::app

@@ -1,0 +1,367 @@
+#include "editor/app/workspace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "editor/app/baking.h"
+#include "editor/app/exporting.h"
+#include "editor/app/training.h"
+
+namespace lararium::app {
+
+namespace {
+
+constexpr size_t kMaxMessages = 200;
+
+// Modification time as text; changes when the file does.
+std::string FileStamp(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  return error ? "none" : std::to_string(time.time_since_epoch().count());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log) {
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  std::unique_ptr<Workspace> workspace(new Workspace(std::move(paths), std::move(document), log));
+  Result<std::optional<ProjectDocument>> left = LoadAutosave(workspace->paths_);
+  if (!left) {
+    workspace->Tell(Message::Level::kWarning,
+                    left.message() + "; it was left as it is, move it away to stop this message");
+  } else if (left->has_value()) {
+    workspace->Edit("recover", [&](ProjectDocument& current) { current = std::move(**left); });
+    workspace->Tell(Message::Level::kWarning,
+                    "Edits that were not saved have been recovered. Undo takes them back.");
+  }
+  for (const Status& missing : FindMissingFiles(workspace->paths_, workspace->document())) {
+    workspace->Tell(Message::Level::kWarning, missing.message());
+  }
+  if (!workspace->document().places.empty()) {
+    workspace->ShowPlace(workspace->document().places.front().name);
+  }
+  return workspace;
+}
+
+Workspace::Workspace(ProjectPaths paths, ProjectDocument document, Log& log)
+    : paths_(std::move(paths)), log_(log), commands_(std::move(document)), autosave_(paths_) {}
+
+void Workspace::Tell(Message::Level level, std::string text) {
+  messages_.push_back({level, std::move(text)});
+  if (messages_.size() > kMaxMessages) {
+    messages_.pop_front();
+  }
+}
+
+void Workspace::Report(const Status& status, bool cancelled, const std::string& success) {
+  if (cancelled) {
+    Tell(Message::Level::kInfo, "Cancelled. Nothing was changed.");
+  } else if (!status.ok()) {
+    Tell(Message::Level::kError, status.message());
+  } else {
+    Tell(Message::Level::kInfo, success);
+  }
+}
+
+void Workspace::ShowPlace(const std::string& name) {
+  place_name_ = name;
+  loaded_ = {};
+  picture_ = nullptr;
+  preview_ = nullptr;
+  position_ = 0.0;
+  playing_ = false;
+  map_stale_ = true;
+}
+
+void Workspace::Edit(const std::string& name,
+                     const std::function<void(ProjectDocument&)>& change,
+                     std::string_view gesture) {
+  commands_.Edit(name, change, gesture);
+  OnDocumentChanged();
+}
+
+void Workspace::EditPlace(const std::string& name,
+                          const std::function<void(PlaceDocument&)>& change,
+                          std::string_view gesture) {
+  Edit(
+      name,
+      [&](ProjectDocument& document) {
+        if (PlaceDocument* place = document.FindPlace(place_name_)) {
+          change(*place);
+        }
+      },
+      gesture);
+}
+
+void Workspace::Undo() {
+  if (commands_.CanUndo()) {
+    commands_.Undo();
+    OnDocumentChanged();
+  }
+}
+
+void Workspace::Redo() {
+  if (commands_.CanRedo()) {
+    commands_.Redo();
+    OnDocumentChanged();
+  }
+}
+
+void Workspace::Save() {
+  if (const Status status = SaveProject(paths_, document()); !status.ok()) {
+    Tell(Message::Level::kError, status.message());
+    return;
+  }
+  commands_.MarkSaved();
+  autosave_.Discard();
+  Tell(Message::Level::kInfo, "Saved " + paths_.Project().string());
+}
+
+void Workspace::OnDocumentChanged() {
+  if (commands_.dirty()) {
+    autosave_.Write(commands_.snapshot());
+  } else {
+    autosave_.Discard();
+  }
+  if (place() == nullptr && !document().places.empty()) {
+    ShowPlace(document().places.front().name);  // undo took the place away
+    return;
+  }
+  ResolvePicksAgain();
+  place_changed_ = true;
+  preview_stale_ = true;
+}
+
+void Workspace::ResolvePicksAgain() {
+  if (place() == nullptr || loaded_.database == nullptr) {
+    return;
+  }
+  const std::string key = FormatPicks(place()->picks).dump();
+  if (key != picks_key_) {
+    picks_key_ = key;
+    loaded_.picks = ResolvePicks(*place(), *loaded_.database);
+    if (!loaded_.picks.problem.ok()) {
+      Tell(Message::Level::kWarning, loaded_.picks.problem.message());
+    }
+  }
+}
+
+void Workspace::ReloadMap() {
+  const std::filesystem::path file = paths_.Scene(place_name_);
+  std::error_code ignored;
+  if (place() == nullptr || !std::filesystem::exists(file, ignored)) {
+    map_stale_ = false;
+    return;
+  }
+  using Database = std::shared_ptr<const vision::SceneDatabase>;
+  const auto loaded = std::make_shared<Database>();
+  const auto work = [=](Progress& progress) {
+    progress.Report("reading the map", 0.0);
+    LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
+    *loaded = std::make_shared<const vision::SceneDatabase>(std::move(database));
+    return Status();
+  };
+  const auto done = [this, loaded, name = place_name_](const Status& status, bool cancelled) {
+    if (!status.ok()) {
+      Report(status, cancelled, "");
+    } else if (name == place_name_) {
+      loaded_.database = *loaded;
+      picks_key_.clear();
+      ResolvePicksAgain();
+      preview_key_.clear();
+      preview_stale_ = true;
+    }
+  };
+  // False while something else opens: Update() tries again.
+  map_stale_ = !tasks_.Start(kOpening, work, done);
+}
+
+std::string Workspace::PreviewKey() const {
+  const PlaceDocument& at = *place();
+  Json key = {{"place", at.name},
+              {"drama", FileStamp(paths_.Drama())},
+              {"scene", FileStamp(paths_.Scene(at.name))},
+              {"training", at.training.path},
+              {"preview", at.preview.path}};
+  for (const OccluderDocument& occluder : at.occluders) {
+    key["occluders"].push_back({occluder.name, occluder.file});
+  }
+  if (at.probe) {
+    const Eigen::Vector4d q = at.probe->stage_from_probe.coeffs();
+    key["probe"] = {at.probe->file, at.probe->scale, q.x(), q.y(), q.z(), q.w()};
+  }
+  for (const CastDocument& member : document().cast) {
+    key["cast"].push_back({member.name, member.model});
+  }
+  return key.dump();
+}
+
+void Workspace::ReloadPreview() {
+  preview_stale_ = false;
+  if (place() == nullptr || loaded_.database == nullptr) {
+    return;
+  }
+  std::string key = PreviewKey();
+  if (key == preview_key_) {
+    return;
+  }
+  const auto content = std::make_shared<show::ShowContent>();
+  const auto work = [content, paths = paths_, document = commands_.snapshot(), name = place_name_,
+                     database = loaded_.database,
+                     map_from_picked = loaded_.picks.map_from_picked](Progress& progress) {
+    LARARIUM_RETURN_IF_ERROR(app::Bake(paths, *document, progress).status());
+    LARARIUM_ASSIGN_OR_RETURN(*content, AssembleShow(paths, *document, *document->FindPlace(name),
+                                                     database, map_from_picked));
+    return Status();
+  };
+  const auto done = [this, content, name = place_name_](const Status& status, bool cancelled) {
+    if (!status.ok()) {
+      Report(status, cancelled, "");
+      return;
+    }
+    if (name != place_name_ || place() == nullptr) {
+      preview_stale_ = true;
+      return;
+    }
+    loaded_.staged = std::make_shared<const stage::Place>(content->place);
+    const SourceDocument& source = place()->preview.empty() ? place()->training : place()->preview;
+    preview_ = std::make_unique<Preview>(paths_, source, std::move(*content), log_);
+    requested_frame_ = -1;
+    place_changed_ = true;
+  };
+  if (tasks_.Start(kOpening, work, done)) {
+    preview_key_ = std::move(key);
+  } else {
+    preview_stale_ = true;  // once the task at work has ended
+  }
+}
+
+void Workspace::SetFrame(int64_t frame) {
+  const std::optional<PreviewSource> source = recording();
+  const int64_t last = source ? std::max<int64_t>(source->frames - 1, 0) : 0;
+  position_ = static_cast<double>(std::clamp<int64_t>(frame, 0, last));
+}
+
+void Workspace::AdvancePlayback(double seconds) {
+  const std::optional<PreviewSource> source = recording();
+  if (!playing_ || !source || source->frames <= 0) {
+    return;
+  }
+  position_ = std::fmod(position_ + seconds * source->frames_per_second,
+                        static_cast<double>(source->frames));
+}
+
+void Workspace::RequestPicture() {
+  if (preview_ == nullptr || loaded_.staged == nullptr || place() == nullptr) {
+    return;
+  }
+  PreviewRequest request;
+  request.frame = frame();
+  if (place_changed_) {
+    auto staged = std::make_shared<stage::Place>(*loaded_.staged);
+    const PlaceDocument& at = *place();
+    staged->map_from_stage = loaded_.picks.map_from_picked * at.picked_from_stage;
+    staged->camera_nudge = at.camera_nudge;
+    for (stage::Occluder& occluder : staged->occluders) {
+      const auto known =
+          std::find_if(at.occluders.begin(), at.occluders.end(),
+                       [&](const OccluderDocument& o) { return o.name == occluder.name; });
+      if (known != at.occluders.end()) {
+        occluder.stage_from_mesh = known->stage_from_mesh;
+      }
+    }
+    loaded_.staged = staged;
+  } else if (request.frame == requested_frame_) {
+    return;
+  }
+  request.place = loaded_.staged;
+  place_changed_ = false;
+  requested_frame_ = request.frame;
+  awaiting_picture_ = true;
+  preview_->Request(std::move(request));
+}
+
+void Workspace::Update(double seconds) {
+  tasks_.Poll();
+  if (const Status status = autosave_.TakeStatus(); !status.ok()) {
+    Tell(Message::Level::kWarning, status.message());
+  }
+  if (map_stale_) {
+    ReloadMap();
+  }
+  if (preview_stale_) {
+    ReloadPreview();
+  }
+  AdvancePlayback(seconds);
+  RequestPicture();
+  if (preview_ == nullptr) {
+    awaiting_picture_ = false;
+    return;
+  }
+  if (auto picture = preview_->TakePicture()) {
+    picture_ = std::move(*picture);
+    awaiting_picture_ = picture_->frame != requested_frame_;
+  }
+  if (const Status status = preview_->TakeStatus(); !status.ok()) {
+    Tell(Message::Level::kError, status.message());
+    awaiting_picture_ = false;
+    playing_ = false;
+  }
+}
+
+void Workspace::Train() {
+  if (place() == nullptr) {
+    return;
+  }
+  const auto report = std::make_shared<train::TrainReport>();
+  const bool started = tasks_.Start(
+      kTraining,
+      [report, paths = paths_, place = *place(), &log = log_](Progress& progress) {
+        LARARIUM_ASSIGN_OR_RETURN(*report, TrainPlace(paths, place, progress, log));
+        return Status();
+      },
+      [this, report, name = place_name_](const Status& status, bool cancelled) {
+        Report(status, cancelled,
+               name + ": " + std::to_string(report->located.size()) + " of " +
+                   std::to_string(report->frames) + " images located, " +
+                   std::to_string(report->points) + " points.");
+        map_stale_ |= status.ok() && name == place_name_;
+      });
+  if (!started) {
+    Tell(Message::Level::kWarning, "A training is running already. Cancel it first.");
+  }
+}
+
+void Workspace::Bake() {
+  const auto report = std::make_shared<BakeReport>();
+  tasks_.Start(
+      kBaking,
+      [report, paths = paths_, document = commands_.snapshot()](Progress& progress) {
+        LARARIUM_ASSIGN_OR_RETURN(*report, app::Bake(paths, *document, progress));
+        return Status();
+      },
+      [this, report](const Status& status, bool cancelled) {
+        for (const std::string& warning : report->warnings) {
+          Tell(Message::Level::kWarning, warning);
+        }
+        Report(status, cancelled,
+               "Baked " + std::to_string(report->baked.size()) + ", " +
+                   std::to_string(report->unchanged.size()) + " were up to date.");
+        preview_key_.clear();
+        preview_stale_ = true;
+      });
+}
+
+void Workspace::Export(const std::filesystem::path& out) {
+  tasks_.Start(
+      kExporting,
+      [paths = paths_, document = commands_.snapshot(), out](Progress& progress) {
+        return ExportProject(paths, *document, out, progress);
+      },
+      [this, out](const Status& status, bool cancelled) {
+        Report(status, cancelled, "Wrote " + out.string());
+      });
+}
+
+}  // namespace lararium::app

@@ -1,0 +1,133 @@
+#pragma once
+
+// An open project: its document with undo, what was loaded for the place at
+// hand, and the work in the background. Knows nothing of windows; panels show it
+// and call its commands. Everything here happens on one thread.
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "editor/app/autosave.h"
+#include "editor/app/background_task.h"
+#include "editor/app/command_stack.h"
+#include "editor/app/preview.h"
+#include "editor/app/project.h"
+#include "editor/app/staging.h"
+#include "shared/core/log.h"
+#include "shared/core/status.h"
+#include "shared/stage/place.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::app {
+
+struct Message {
+  enum class Level { kInfo, kWarning, kError };
+  Level level = Level::kInfo;
+  std::string text;
+};
+
+// What of the place is loaded. Replaced as a whole.
+struct LoadedPlace {
+  std::shared_ptr<const vision::SceneDatabase> database;  // nullptr: not trained
+  ResolvedPicks picks;
+  // As staged for the preview; occluder meshes for drawing. nullptr before that.
+  std::shared_ptr<const stage::Place> staged;
+};
+
+class Workspace {
+ public:
+  static constexpr const char* kTraining = "Training";
+  static constexpr const char* kBaking = "Baking";
+  static constexpr const char* kExporting = "Exporting";
+  static constexpr const char* kOpening = "Opening";
+
+  // Reads the project, and what a crash left unsaved. Borrows log.
+  static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
+
+  const ProjectPaths& paths() const { return paths_; }
+  const ProjectDocument& document() const { return commands_.document(); }
+  const CommandStack<ProjectDocument>& commands() const { return commands_; }
+
+  // The place that the views show; nullptr where the project has none.
+  const PlaceDocument* place() const { return document().FindPlace(place_name_); }
+  void ShowPlace(const std::string& name);
+  const LoadedPlace& loaded() const { return loaded_; }
+
+  // Edits. gesture: see CommandStack::Edit.
+  void Edit(const std::string& name,
+            const std::function<void(ProjectDocument&)>& change,
+            std::string_view gesture = {});
+  void EditPlace(const std::string& name,
+                 const std::function<void(PlaceDocument&)>& change,
+                 std::string_view gesture = {});
+  void EndGesture() { commands_.EndGesture(); }
+  void Undo();
+  void Redo();
+  void Save();
+
+  // Long work; progress in tasks(), outcome in messages().
+  void Train();  // the place at hand, from its training recording
+  void Bake();
+  void Export(const std::filesystem::path& out);
+  TaskList& tasks() { return tasks_; }
+  bool tasks_empty() const { return tasks_.entries().empty(); }
+
+  // The recording in the camera view.
+  bool playing() const { return playing_; }
+  void SetPlaying(bool playing) { playing_ = playing; }
+  int64_t frame() const { return static_cast<int64_t>(position_); }
+  void SetFrame(int64_t frame);
+  std::optional<PreviewSource> recording() const {
+    return preview_ ? preview_->source() : std::nullopt;
+  }
+  // The newest picture; nullptr before the first.
+  const std::shared_ptr<const PreviewPicture>& picture() const { return picture_; }
+
+  const std::deque<Message>& messages() const { return messages_; }
+  void Tell(Message::Level level, std::string text);
+
+  // Brings everything up to date, once for each frame of the interface. seconds:
+  // since the last call.
+  void Update(double seconds);
+  // Something moves without input: redraw soon.
+  bool Busy() const { return playing_ || !tasks_.entries().empty() || awaiting_picture_; }
+
+ private:
+  Workspace(ProjectPaths paths, ProjectDocument document, Log& log);
+
+  void OnDocumentChanged();
+  void ResolvePicksAgain();
+  // What the preview is made of; it opens anew when this changes.
+  std::string PreviewKey() const;
+  void ReloadMap();
+  void ReloadPreview();
+  void RequestPicture();
+  void AdvancePlayback(double seconds);
+  void Report(const Status& status, bool cancelled, const std::string& success);
+
+  ProjectPaths paths_;
+  Log& log_;
+  CommandStack<ProjectDocument> commands_;
+  Autosave autosave_;
+  std::string place_name_;
+  LoadedPlace loaded_;
+  std::string picks_key_;
+  std::string preview_key_;
+  bool map_stale_ = false;
+  bool preview_stale_ = false;
+  std::unique_ptr<Preview> preview_;
+  std::shared_ptr<const PreviewPicture> picture_;
+  int64_t requested_frame_ = -1;
+  bool place_changed_ = true;
+  bool awaiting_picture_ = false;
+  bool playing_ = false;
+  double position_ = 0.0;  // frames
+  std::deque<Message> messages_;
+  TaskList tasks_;  // last: its threads end before the rest goes
+};
+
+}  // namespace lararium::app

@@ -1,0 +1,313 @@
+#include "editor/panels/around_view.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "editor/panels/gizmo_view.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+#include "shared/geometry/glm_convert.h"
+#include "shared/human/human.h"
+
+namespace lararium::panels {
+
+namespace {
+
+using Eigen::Vector3d;
+using geometry::Rigid3;
+using geometry::Similarity3;
+
+constexpr glm::u8vec4 kCameraColour(150, 156, 166, 255);
+constexpr glm::u8vec4 kPathColour(110, 116, 128, 255);
+constexpr glm::u8vec4 kGridColour(62, 67, 77, 255);
+constexpr glm::u8vec4 kLiveColour(217, 107, 73, 255);
+
+glm::u8vec4 Bytes(const ImVec4& c, float alpha = 1.0f) {
+  return glm::u8vec4(glm::vec4(c.x, c.y, c.z, alpha) * 255.0f + 0.5f);
+}
+
+bool SameTransform(const Similarity3& a, const Similarity3& b) {
+  return a.scale == b.scale && a.translation == b.translation &&
+         a.rotation.coeffs() == b.rotation.coeffs();
+}
+
+// Each point as grey as its first sight in a training image.
+std::vector<uint8_t> PointShades(const vision::SceneDatabase& database) {
+  constexpr uint8_t kUnseen = 128;
+  std::vector<uint8_t> shades(database.points.size(), kUnseen);
+  std::vector<bool> seen(database.points.size(), false);
+  for (const vision::Observation& observation : database.observations) {
+    const cv::Mat& grey = database.keyframes[observation.keyframe].grey;
+    const int x = static_cast<int>(std::lround(observation.x));
+    const int y = static_cast<int>(std::lround(observation.y));
+    if (!seen[observation.point] && x >= 0 && y >= 0 && x < grey.cols && y < grey.rows) {
+      seen[observation.point] = true;
+      shades[observation.point] = grey.at<uint8_t>(y, x);
+    }
+  }
+  return shades;
+}
+
+void AddLine(std::vector<render::OverlayLine>& lines,
+             const Vector3d& from,
+             const Vector3d& to,
+             glm::u8vec4 packed) {
+  lines.push_back({geometry::ToGlm(from), geometry::ToGlm(to), packed});
+}
+
+void AddFrustum(std::vector<render::OverlayLine>& lines,
+                const geometry::CameraModel& camera,
+                const Rigid3& camera_from_world,
+                double depth,
+                glm::u8vec4 packed) {
+  const Rigid3 world_from_camera = camera_from_world.Inverse();
+  const double half_x = 0.5 * camera.width / camera.fx * depth;
+  const double half_y = 0.5 * camera.height / camera.fy * depth;
+  const Vector3d eye = world_from_camera.translation;
+  const Vector3d corners[] = {{-half_x, -half_y, depth},
+                              {half_x, -half_y, depth},
+                              {half_x, half_y, depth},
+                              {-half_x, half_y, depth}};
+  for (int i = 0; i < 4; ++i) {
+    const Vector3d corner = world_from_camera * corners[i];
+    AddLine(lines, eye, corner, packed);
+    AddLine(lines, corner, world_from_camera * corners[(i + 1) % 4], packed);
+  }
+}
+
+void AddStage(std::vector<render::OverlayLine>& lines, const Similarity3& world_from_stage) {
+  constexpr int kHalf = 5;  // metres
+  for (int i = -kHalf; i <= kHalf; ++i) {
+    AddLine(lines, world_from_stage * Vector3d(i, 0, -kHalf),
+            world_from_stage * Vector3d(i, 0, kHalf), kGridColour);
+    AddLine(lines, world_from_stage * Vector3d(-kHalf, 0, i),
+            world_from_stage * Vector3d(kHalf, 0, i), kGridColour);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    AddLine(lines, world_from_stage.translation, world_from_stage * Vector3d::Unit(axis),
+            Bytes(colour::kAxes[axis]));
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<AroundView>> AroundView::Create() {
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Renderer> renderer, render::Renderer::Create());
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Overlay> overlay,
+                            render::Overlay::Create(*renderer));
+  return std::unique_ptr<AroundView>(new AroundView(std::move(renderer), std::move(overlay)));
+}
+
+AroundView::AroundView(std::unique_ptr<render::Renderer> renderer,
+                       std::unique_ptr<render::Overlay> overlay)
+    : renderer_(std::move(renderer)), overlay_(std::move(overlay)) {}
+
+AroundView::~AroundView() = default;
+
+void AroundView::UpdateMap(const app::LoadedPlace& loaded) {
+  if (loaded.database == database_ &&
+      SameTransform(loaded.picks.map_from_picked, map_from_picked_)) {
+    return;
+  }
+  framed_ = framed_ && loaded.database == database_;
+  database_ = loaded.database;
+  map_from_picked_ = loaded.picks.map_from_picked;
+  points_.clear();
+  cameras_.clear();
+  if (database_ == nullptr) {
+    return;
+  }
+  const Similarity3 picked_from_map = map_from_picked_.Inverse();
+  const std::vector<uint8_t> shades = PointShades(*database_);
+  for (size_t i = 0; i < shades.size(); ++i) {
+    // Lifted a little, so that dark points stand out from the background.
+    const auto shade = static_cast<uint8_t>(70 + shades[i] * 185 / 255);
+    const Vector3d at = picked_from_map * database_->points[i].cast<double>();
+    points_.push_back({geometry::ToGlm(at), glm::u8vec4(shade, shade, shade, 255)});
+  }
+  constexpr double kFrustumDepth = 0.12;  // metres
+  constexpr size_t kMaxFrusta = 60;
+  const size_t step = database_->keyframes.size() / kMaxFrusta + 1;
+  std::optional<Vector3d> previous;
+  for (size_t i = 0; i < database_->keyframes.size(); ++i) {
+    const Rigid3 camera_from_picked =
+        geometry::CameraFromB(database_->keyframes[i].camera_from_map, map_from_picked_);
+    const Vector3d center = camera_from_picked.Center();
+    if (previous) {
+      AddLine(cameras_, *previous, center, kPathColour);
+    }
+    previous = center;
+    if (i % step == 0) {
+      AddFrustum(cameras_, database_->camera, camera_from_picked, kFrustumDepth, kCameraColour);
+    }
+  }
+}
+
+void AroundView::UpdateOccluders(const app::Workspace& workspace) {
+  const auto& staged = workspace.loaded().staged;
+  static const std::vector<stage::Occluder> kNone;
+  const std::vector<stage::Occluder>& wanted = staged != nullptr ? staged->occluders : kNone;
+  const bool same = wanted.size() == occluders_.size() &&
+                    std::equal(wanted.begin(), wanted.end(), occluders_.begin(),
+                               [](const auto& a, const auto& b) {
+                                 return a.name == b.name && a.mesh.positions.size() == b.vertices;
+                               });
+  if (same) {
+    return;
+  }
+  for (const Ghost& ghost : occluders_) {
+    renderer_->RemoveMesh(ghost.mesh);
+  }
+  occluders_.clear();
+  for (const stage::Occluder& occluder : wanted) {
+    occluders_.push_back(
+        {occluder.name, occluder.mesh.positions.size(), renderer_->AddMesh(occluder.mesh)});
+  }
+}
+
+void AroundView::UpdateActors(const app::Workspace& workspace) {
+  if (workspace.picture() == actors_of_) {
+    return;
+  }
+  actors_of_ = workspace.picture();
+  for (const auto& [mesh, transform] : actors_) {
+    renderer_->RemoveMesh(mesh);
+  }
+  actors_.clear();
+  if (actors_of_ == nullptr) {
+    return;
+  }
+  for (const app::PreviewActor& actor : actors_of_->actors) {
+    for (const human::SkinnedMesh& part : actor.human->meshes) {
+      geometry::TriangleMesh mesh;
+      mesh.positions.resize(part.positions.size());
+      mesh.normals.resize(part.positions.size());
+      mesh.indices = part.indices;
+      human::SkinMesh(part, actor.skin, mesh.positions, mesh.normals);
+      actors_.emplace_back(renderer_->AddMesh(mesh), actor.stage_from_actor);
+    }
+  }
+}
+
+void AroundView::DrawMeshes(const app::Workspace& workspace, const EditorState& state) {
+  const app::PlaceDocument& place = *workspace.place();
+  const glm::mat4 world_from_stage = geometry::ToGlm(place.picked_from_stage);
+  Status status;
+  for (const auto& [mesh, stage_from_actor] : actors_) {
+    status = overlay_->DrawMesh(mesh, world_from_stage * stage_from_actor,
+                                glm::u8vec4(225, 214, 196, 255));
+  }
+  for (const Ghost& ghost : occluders_) {
+    const Selection selection{Selection::Kind::kOccluder, ghost.name};
+    if (const auto transform = SelectedTransform(workspace, selection)) {
+      const bool selected = state.selection == selection;
+      status = overlay_->DrawMesh(
+          ghost.mesh, geometry::ToGlm(*transform),
+          selected ? glm::u8vec4(217, 107, 73, 110) : glm::u8vec4(120, 150, 190, 70));
+    }
+  }
+  CHECK(status.ok());  // the meshes are our own
+}
+
+Status AroundView::Draw(const app::Workspace& workspace,
+                        const EditorState& state,
+                        const ViewCamera& view,
+                        int width,
+                        int height) {
+  if (!target_ || target_->width() != width || target_->height() != height) {
+    LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(width, height));
+  }
+  render::OverlayView overlay_view;
+  overlay_view.display.width = width;
+  overlay_view.display.height = height;
+  overlay_view.display.fx = view.focal_x;
+  overlay_view.display.fy = view.focal_y;
+  overlay_view.display.cx = 0.5 * (width - 1);
+  overlay_view.display.cy = 0.5 * (height - 1);
+  overlay_view.camera_from_stage = view.camera_from_world;
+  overlay_view.near = static_cast<float>(std::max(0.005 * state.orbit.distance, 1e-3));
+  overlay_view.far = static_cast<float>(1000.0 * state.orbit.distance);
+  overlay_view.clear = glm::vec3(0.075f, 0.082f, 0.094f);
+
+  overlay_->Begin(overlay_view, *target_);
+  lines_.clear();
+  if (const app::PlaceDocument* place = workspace.place()) {
+    AddStage(lines_, place->picked_from_stage);
+    const auto& picture = workspace.picture();
+    if (picture != nullptr && picture->camera_from_stage) {
+      AddFrustum(
+          lines_, picture->display,
+          geometry::CameraFromB(*picture->camera_from_stage, place->picked_from_stage.Inverse()),
+          0.35, kLiveColour);
+    }
+    overlay_->DrawLines(lines_, Px(1.5f));
+    overlay_->DrawLines(cameras_, Px(1.0f));
+    if (state.show_points) {
+      overlay_->DrawPoints(points_, Px(2.5f));
+    }
+    DrawMeshes(workspace, state);
+  }
+  overlay_->End();
+  return Status();
+}
+
+void AroundView::Interact(EditorState& state,
+                          bool hovered,
+                          bool gizmo_busy,
+                          const Eigen::Vector2d& size) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Eigen::Vector2d delta = ToEigen(io.MouseDelta);
+  if (ImGui::IsItemActive() && !gizmo_busy) {
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !io.KeyShift) {
+      state.orbit.Orbit(delta, size.x());
+    } else {
+      state.orbit.Pan(delta, size.y());
+    }
+  }
+  if (hovered && io.MouseWheel != 0.0f) {
+    state.orbit.Zoom(io.MouseWheel);
+  }
+}
+
+void AroundView::Show(app::Workspace& workspace, EditorState& state) {
+  UpdateMap(workspace.loaded());
+  UpdateOccluders(workspace);
+  UpdateActors(workspace);
+  if (!framed_ && database_ != nullptr) {
+    framed_ = true;
+    state.orbit = OrbitCamera();
+    state.orbit.target = Vector3d(0.0, 0.9, -0.5);
+    state.orbit.distance = 7.0;
+  }
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::GetContentRegionAvail();
+  const int width = std::max(static_cast<int>(size.x), 16);
+  const int height = std::max(static_cast<int>(size.y), 16);
+  const ViewCamera view = state.orbit.View(ToEigen(origin), Eigen::Vector2d(width, height));
+  ImGui::InvisibleButton("around", ImVec2(static_cast<float>(width), static_cast<float>(height)),
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  const bool hovered = ImGui::IsItemHovered();
+  const bool active = ImGui::IsItemActive();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (const Status status = Draw(workspace, state, view, width, height); !status.ok()) {
+    draw.AddText(origin, Packed(colour::kError), status.message().c_str());
+    return;
+  }
+  const ImVec2 corner(origin.x + static_cast<float>(width), origin.y + static_cast<float>(height));
+  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(target_->texture())), origin,
+                corner);
+  draw.PushClipRect(origin, corner, true);
+  const bool was_dragging = state.drag.has_value();
+  const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
+                    (state.drag.has_value() || was_dragging || !active);
+  draw.AddText(ImVec2(origin.x + Px(12), corner.y - Px(28)), Packed(colour::kDim),
+               "Drag to orbit, Shift or right drag to pan, wheel to zoom");
+  draw.PopClipRect();
+  Interact(state, hovered, busy, ToEigen(size));
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,177 @@
+#include "editor/panels/camera_view.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "editor/panels/gizmo_view.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+struct Rect {
+  ImVec2 origin;
+  ImVec2 size;
+};
+
+// The largest rectangle of a picture's proportions within what is available.
+Rect Fit(const ImVec2& origin, const ImVec2& available, int width, int height) {
+  const float scale =
+      std::min(available.x / static_cast<float>(width), available.y / static_cast<float>(height));
+  const ImVec2 size(static_cast<float>(width) * scale, static_cast<float>(height) * scale);
+  return {
+      ImVec2(origin.x + 0.5f * (available.x - size.x), origin.y + 0.5f * (available.y - size.y)),
+      size};
+}
+
+// The picture's camera, in the world of the picks.
+ViewCamera PictureView(const app::PreviewPicture& picture,
+                       const app::PlaceDocument& place,
+                       const Rect& rect) {
+  const double scale = rect.size.x / static_cast<double>(picture.display.width);
+  ViewCamera view;
+  view.camera_from_world =
+      geometry::CameraFromB(*picture.camera_from_stage, place.picked_from_stage.Inverse());
+  view.focal_x = picture.display.fx * scale;
+  view.focal_y = picture.display.fy * scale;
+  view.center = {rect.origin.x + scale * (picture.display.cx + 0.5),
+                 rect.origin.y + scale * (picture.display.cy + 0.5)};
+  return view;
+}
+
+const char* ReasonText(vision::TrackReason reason) {
+  switch (reason) {
+    case vision::TrackReason::kNone:
+      return "";
+    case vision::TrackReason::kTooDark:
+      return "too dark";
+    case vision::TrackReason::kTooFewFeatures:
+      return "too few features: blurred or covered";
+    case vision::TrackReason::kTooFewMatches:
+      return "does not look like this place";
+    case vision::TrackReason::kNoConsistentPose:
+      return "no consistent pose";
+  }
+  return "";
+}
+
+void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList& draw) {
+  char text[128];
+  const bool tracked = picture.camera_from_stage.has_value();
+  if (tracked) {
+    std::snprintf(text, sizeof(text), "Tracking, %d inliers", picture.inliers);
+  } else {
+    std::snprintf(text, sizeof(text), "No pose: %s", ReasonText(picture.reason));
+  }
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  const ImVec2 at(rect.origin.x + Px(12), rect.origin.y + Px(12));
+  draw.AddRectFilled(at, ImVec2(at.x + size.x + Px(34), at.y + size.y + Px(10)),
+                     Packed(colour::kWindow, 0.8f), Px(4));
+  draw.AddCircleFilled(ImVec2(at.x + Px(13), at.y + Px(5) + 0.5f * size.y), Px(4),
+                       tracked ? Packed(colour::kAxes[1]) : Packed(colour::kWarning));
+  draw.AddText(ImVec2(at.x + Px(24), at.y + Px(5)), Packed(colour::kText), text);
+}
+
+// Arrow keys and PageUp/PageDown move the camera in its image plane and depth.
+void NudgeWithKeys(app::Workspace& workspace) {
+  constexpr double kStep = 0.005;  // metres; 10 times that with Shift
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput || io.KeyCtrl || io.KeyAlt) {
+    return;
+  }
+  const std::pair<ImGuiKey_, Eigen::Vector3d> keys[] = {
+      {ImGuiKey_LeftArrow, {-1, 0, 0}}, {ImGuiKey_RightArrow, {1, 0, 0}},
+      {ImGuiKey_UpArrow, {0, -1, 0}},   {ImGuiKey_DownArrow, {0, 1, 0}},
+      {ImGuiKey_PageUp, {0, 0, 1}},     {ImGuiKey_PageDown, {0, 0, -1}}};
+  for (const auto& [key, direction] : keys) {
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))) {
+      const Eigen::Vector3d step = direction * (io.KeyShift ? 10.0 * kStep : kStep);
+      workspace.EditPlace(
+          "nudge the camera", [&](app::PlaceDocument& place) { place.camera_nudge += step; },
+          "nudge keys");
+    }
+  }
+}
+
+void ShowTransport(app::Workspace& workspace) {
+  const std::optional<app::PreviewSource> recording = workspace.recording();
+  ImGui::BeginDisabled(!recording.has_value());
+  if (ImGui::Button(workspace.playing() ? "Pause" : "Play", ImVec2(Px(72), 0))) {
+    workspace.SetPlaying(!workspace.playing());
+  }
+  ImGui::SameLine();
+  const int64_t last = recording ? std::max<int64_t>(recording->frames - 1, 0) : 0;
+  const double seconds =
+      recording ? static_cast<double>(workspace.frame()) / recording->frames_per_second : 0.0;
+  char label[64];
+  std::snprintf(label, sizeof(label), "%.2f s", seconds);
+  const float time_width = Px(70);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - time_width);
+  int frame = static_cast<int>(workspace.frame());
+  if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last), "frame %d",
+                       ImGuiSliderFlags_AlwaysClamp)) {
+    workspace.SetPlaying(false);
+    workspace.SetFrame(frame);
+  }
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  DimText(label);
+  ImGui::EndDisabled();
+}
+
+void ShowEmpty(const app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
+  const char* text = "Opening the recording\xe2\x80\xa6";
+  if (workspace.place() == nullptr) {
+    text = "This project has no place yet. Train one from a recording.";
+  } else if (workspace.loaded().database == nullptr && workspace.tasks_empty()) {
+    text = "This place is not trained yet. Choose Train\xe2\x80\xa6 above.";
+  } else if (workspace.tasks_empty() && !workspace.recording()) {
+    text = "No picture. The messages below say why.";
+  }
+  const ImVec2 extent = ImGui::CalcTextSize(text);
+  ImGui::GetWindowDrawList()->AddText(
+      ImVec2(origin.x + 0.5f * (size.x - extent.x), origin.y + 0.5f * (size.y - extent.y)),
+      Packed(colour::kDim), text);
+}
+
+}  // namespace
+
+void CameraView::Show(app::Workspace& workspace, EditorState& state) {
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  ImVec2 size = ImGui::GetContentRegionAvail();
+  size.y -= ImGui::GetFrameHeightWithSpacing() + Px(4);
+  ImGui::InvisibleButton("view", size);
+  const bool hovered = ImGui::IsItemHovered();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const std::shared_ptr<const app::PreviewPicture>& picture = workspace.picture();
+  if (picture == nullptr || workspace.place() == nullptr) {
+    ShowEmpty(workspace, origin, size);
+  } else {
+    if (picture.get() != uploaded_) {
+      texture_.Upload(picture->bgr);
+      uploaded_ = picture.get();
+    }
+    const Rect rect = Fit(origin, size, picture->bgr.cols, picture->bgr.rows);
+    const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
+    draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture_.id())), rect.origin,
+                  corner);
+    draw.PushClipRect(rect.origin, corner, true);
+    if (picture->camera_from_stage && state.show_stage) {
+      const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
+      DrawStage(workspace, view, draw);
+      ShowGizmo(workspace, state, view, hovered, draw);
+    }
+    DrawBadge(*picture, rect, draw);
+    draw.PopClipRect();
+  }
+  NudgeWithKeys(workspace);
+  ImGui::SetCursorScreenPos(ImVec2(origin.x, origin.y + size.y + Px(8)));
+  ShowTransport(workspace);
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,22 @@
+#pragma once
+
+// Through the camera: the recording, tracked and composited, with the stage and
+// the handles of the selected thing over it.
+
+#include "editor/app/workspace.h"
+#include "editor/panels/editor_state.h"
+#include "shared/render/texture.h"
+
+namespace lararium::panels {
+
+class CameraView {
+ public:
+  // Fills the current window.
+  void Show(app::Workspace& workspace, EditorState& state);
+
+ private:
+  render::Texture texture_;
+  const app::PreviewPicture* uploaded_ = nullptr;
+};
+
+}  // namespace lararium::panels

@@ -1,0 +1,297 @@
+#include "editor/panels/dialogs.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "editor/app/training.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", ".webm"};
+constexpr std::array<const char*, 6> kModels = {".glb", ".gltf", ".fbx", ".dae", ".obj", ".ply"};
+constexpr std::array<const char*, 2> kProbes = {".exr", ".hdr"};
+
+// Ends the dialog with a row of Cancel and the action. problem: why the action
+// is not possible yet; empty when it is. True when the action was chosen.
+bool DialogButtons(EditorState& state, const char* action, const std::string& problem) {
+  ImGui::Dummy(ImVec2(0, Px(2)));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour::kWarning);
+  ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
+  ImGui::PopStyleColor();
+  const float width = Px(110);
+  const float spacing = ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
+  bool chosen = false;
+  if (ImGui::Button("Cancel", ImVec2(width, 0))) {
+    state.dialog = Dialog::kNone;
+  }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!problem.empty());
+  ImGui::PushStyleColor(ImGuiCol_Button, colour::kAccent);
+  if (ImGui::Button(action, ImVec2(width, 0))) {
+    state.dialog = Dialog::kNone;
+    chosen = true;
+  }
+  ImGui::PopStyleColor();
+  ImGui::EndDisabled();
+  return chosen;
+}
+
+bool Exists(const app::Workspace& workspace, const std::string& file) {
+  std::error_code ignored;
+  return !file.empty() && std::filesystem::exists(workspace.paths().Resolve(file), ignored);
+}
+
+std::string NameProblem(const std::string& name) {
+  return app::IsPlainName(name) ? "" : "The name takes letters, digits, _ and -.";
+}
+
+// "600, 600, 320, 240" as numbers; empty where it is not 4 or 8 of them.
+std::vector<double> ParseNumbers(const std::string& text) {
+  std::vector<double> numbers;
+  const char* at = text.c_str();
+  while (*at != '\0') {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(at, &end));
+    if (end == at) {
+      return {};
+    }
+    at = end;
+    while (*at == ',' || *at == ' ') {
+      ++at;
+    }
+  }
+  return numbers.size() == 4 || numbers.size() == 8 ? numbers : std::vector<double>();
+}
+
+std::string TrainProblem(const app::Workspace& workspace, const DialogFields& fields) {
+  if (const std::string problem = NameProblem(fields.place); !problem.empty()) {
+    return problem;
+  }
+  if (!Exists(workspace, fields.file)) {
+    return "Choose a recording that exists.";
+  }
+  if (!fields.intrinsics.empty() && ParseNumbers(fields.intrinsics).empty()) {
+    return "Intrinsics are 4 or 8 numbers.";
+  }
+  return "";
+}
+
+// Sets the place up and trains it. The size of the images is needed for given
+// intrinsics, hence the look into the recording.
+void StartTraining(app::Workspace& workspace, const DialogFields& fields) {
+  app::PlaceDocument trained;
+  trained.name = fields.place;
+  if (const app::PlaceDocument* known = workspace.document().FindPlace(fields.place)) {
+    trained = *known;
+  }
+  trained.training = {
+      fields.images ? app::SourceDocument::Kind::kImages : app::SourceDocument::Kind::kVideo,
+      workspace.paths().Shorten(workspace.paths().Resolve(fields.file))};
+  if (const std::vector<double> numbers = ParseNumbers(fields.intrinsics); !numbers.empty()) {
+    const auto source = app::OpenSource(workspace.paths(), trained.training);
+    if (!source.ok()) {
+      workspace.Tell(app::Message::Level::kError, source.message());
+      return;
+    }
+    const auto camera = app::MakeIntrinsics(numbers, (*source)->width(), (*source)->height());
+    if (!camera.ok()) {
+      workspace.Tell(app::Message::Level::kError, camera.message());
+      return;
+    }
+    trained.intrinsics = *camera;
+  }
+  workspace.Edit("train " + fields.place, [&](app::ProjectDocument& document) {
+    if (app::PlaceDocument* known = document.FindPlace(trained.name)) {
+      *known = trained;
+    } else {
+      document.places.push_back(trained);
+    }
+  });
+  if (workspace.place() == nullptr || workspace.place()->name != fields.place) {
+    workspace.ShowPlace(fields.place);
+  }
+  workspace.Train();
+}
+
+void TrainDialog(app::Workspace& workspace, EditorState& state) {
+  DialogFields& fields = state.fields;
+  Hint(
+      "Learns the place from a recording: walk sideways around it, slowly, with everything in "
+      "view that visitors will see.");
+  if (BeginProperties("train")) {
+    PropertyLabel("Place");
+    ImGui::InputText("##place", &fields.place);
+    PropertyLabel("Recording");
+    static constexpr const char* kKinds[] = {"Video", "Folder of images"};
+    int kind = fields.images ? 1 : 0;
+    if (Segmented("kind", kKinds, kind)) {
+      fields.images = kind == 1;
+    }
+    PropertyLabel(fields.images ? "Folder" : "File");
+    PathField("file", fields.file, workspace.paths().folder,
+              fields.images ? std::span<const char* const>() : kVideos);
+    PropertyLabel("Intrinsics");
+    ImGui::InputTextWithHint("##intrinsics", "estimated; or fx, fy, cx, cy, k1, k2, p1, p2",
+                             &fields.intrinsics);
+    EndProperties();
+  }
+  if (DialogButtons(state, "Train", TrainProblem(workspace, fields))) {
+    StartTraining(workspace, fields);
+  }
+}
+
+void ExportDialog(app::Workspace& workspace, EditorState& state) {
+  DialogFields& fields = state.fields;
+  if (fields.file.empty()) {
+    const std::filesystem::path folder = workspace.paths().folder;
+    fields.file = (folder.parent_path() / folder.stem()).string() + ".larshow";
+  }
+  Hint("Packs what visitors need into one file. What is stale is baked first.");
+  if (BeginProperties("export")) {
+    static constexpr std::array<const char*, 1> kShows = {".larshow"};
+    PropertyLabel("File");
+    PathField("file", fields.file, workspace.paths().folder, kShows);
+    EndProperties();
+  }
+  const bool named = fields.file.ends_with(".larshow");
+  if (DialogButtons(state, "Export", named ? "" : "The name ends in .larshow.")) {
+    workspace.Export(workspace.paths().Resolve(fields.file));
+  }
+}
+
+template <typename Entry>
+bool Taken(const std::vector<Entry>& entries, const std::string& name) {
+  return std::any_of(entries.begin(), entries.end(),
+                     [&](const Entry& entry) { return entry.name == name; });
+}
+
+// Name and file of a thing to add. True when both are good and Add was chosen.
+bool NameAndFile(app::Workspace& workspace,
+                 EditorState& state,
+                 std::span<const char* const> extensions,
+                 bool file_needed,
+                 const std::function<bool(const std::string&)>& taken) {
+  DialogFields& fields = state.fields;
+  if (BeginProperties("add")) {
+    PropertyLabel("Name");
+    ImGui::InputText("##name", &fields.name);
+    PropertyLabel("File");
+    PathField("file", fields.file, workspace.paths().folder, extensions);
+    EndProperties();
+  }
+  std::string problem = NameProblem(fields.name);
+  if (problem.empty() && taken(fields.name)) {
+    problem = "That name is taken.";
+  }
+  if (problem.empty() && (file_needed || !fields.file.empty()) && !Exists(workspace, fields.file)) {
+    problem = "Choose a file that exists.";
+  }
+  return DialogButtons(state, "Add", problem);
+}
+
+std::string DocumentPath(const app::Workspace& workspace, const std::string& typed) {
+  return typed.empty() ? "" : workspace.paths().Shorten(workspace.paths().Resolve(typed));
+}
+
+void OccluderDialog(app::Workspace& workspace, EditorState& state) {
+  Hint(
+      "A model of something real, in stage axes and metres where possible: it hides people who "
+      "stand behind it.");
+  const auto taken = [&](const std::string& name) {
+    return workspace.place() != nullptr && Taken(workspace.place()->occluders, name);
+  };
+  if (NameAndFile(workspace, state, kModels, true, taken)) {
+    const app::OccluderDocument occluder{
+        state.fields.name, DocumentPath(workspace, state.fields.file), {}};
+    workspace.EditPlace("add " + occluder.name,
+                        [&](app::PlaceDocument& place) { place.occluders.push_back(occluder); });
+    state.selection = {Selection::Kind::kOccluder, occluder.name};
+  }
+}
+
+void CastDialog(app::Workspace& workspace, EditorState& state) {
+  Hint("A rigged figure to import. Without a file: the plain figure that is built in.");
+  const auto taken = [&](const std::string& name) {
+    return Taken(workspace.document().cast, name);
+  };
+  if (NameAndFile(workspace, state, kModels, false, taken)) {
+    const app::CastDocument member{state.fields.name, DocumentPath(workspace, state.fields.file)};
+    workspace.Edit("add " + member.name,
+                   [&](app::ProjectDocument& document) { document.cast.push_back(member); });
+    state.selection = {Selection::Kind::kActor, member.name};
+  }
+}
+
+void ProbeDialog(app::Workspace& workspace, EditorState& state) {
+  Hint(
+      "An equirectangular HDR photograph, twice as wide as high, its centre looking along the "
+      "stage's -Z.");
+  DialogFields& fields = state.fields;
+  if (BeginProperties("probe")) {
+    PropertyLabel("File");
+    PathField("file", fields.file, workspace.paths().folder, kProbes);
+    EndProperties();
+  }
+  const bool exists = Exists(workspace, fields.file);
+  if (DialogButtons(state, "Choose", exists ? "" : "Choose a file that exists.")) {
+    workspace.EditPlace("choose a probe", [&](app::PlaceDocument& place) {
+      app::ProbeDocument probe = place.probe.value_or(app::ProbeDocument());
+      probe.file = DocumentPath(workspace, fields.file);
+      place.probe = probe;
+    });
+    state.selection = {Selection::Kind::kProbe, ""};
+  }
+}
+
+struct DialogEntry {
+  Dialog dialog;
+  const char* title;
+  void (*show)(app::Workspace&, EditorState&);
+};
+
+constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, "Train a place", TrainDialog},
+                                    {Dialog::kExport, "Export the show", ExportDialog},
+                                    {Dialog::kOccluder, "Add an occluder", OccluderDialog},
+                                    {Dialog::kProbe, "Light probe", ProbeDialog},
+                                    {Dialog::kCast, "Add a person", CastDialog}};
+
+}  // namespace
+
+void ShowDialogs(app::Workspace& workspace, EditorState& state) {
+  for (const DialogEntry& entry : kDialogs) {
+    if (state.dialog != entry.dialog) {
+      continue;
+    }
+    const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
+    ImGui::OpenPopup(entry.title);
+    ImGui::SetNextWindowPos(center, ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
+    ImGui::SetNextWindowSize(ImVec2(Px(520), 0));
+    bool open = true;
+    if (ImGui::BeginPopupModal(entry.title, &open,
+                               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+      entry.show(workspace, state);
+      const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+      if (!open || escape) {
+        state.dialog = Dialog::kNone;
+      }
+      if (state.dialog != entry.dialog) {
+        ImGui::CloseCurrentPopup();
+      }
+      ImGui::EndPopup();
+    }
+    return;
+  }
+}
+
+}  // namespace lararium::panels

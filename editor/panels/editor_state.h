@@ -1,0 +1,53 @@
+#pragma once
+
+// What the interface remembers beside the project: what is selected, how the
+// views look, what is being dragged. Nothing of it is saved or undone.
+
+#include <optional>
+#include <string>
+
+#include "editor/panels/gizmo.h"
+#include "editor/panels/view_camera.h"
+
+namespace lararium::panels {
+
+enum class ViewKind { kCamera, kAround, kPicks };
+
+struct Selection {
+  enum class Kind { kProject, kPlace, kStage, kPicks, kNudge, kOccluder, kProbe, kActor };
+  Kind kind = Kind::kStage;
+  std::string name;  // of an occluder or actor
+
+  friend bool operator==(const Selection&, const Selection&) = default;
+};
+
+enum class Dialog { kNone, kTrain, kExport, kOccluder, kProbe, kCast };
+
+// What has been typed into the open dialog.
+struct DialogFields {
+  std::string place;
+  std::string name;
+  std::string file;
+  std::string intrinsics;
+  bool images = false;  // the recording is a folder of images
+};
+
+struct EditorState {
+  Selection selection;
+  ViewKind view = ViewKind::kCamera;
+  GizmoMode gizmo = GizmoMode::kMove;
+  std::optional<GizmoDrag> drag;
+  OrbitCamera orbit;
+  bool show_stage = true;   // axes, grid and handles over the camera's picture
+  bool show_points = true;  // around the place
+
+  // Picking: which anchor the next click sets, and in which keyframe.
+  int anchor = 0;
+  int keyframe = 0;
+
+  Dialog dialog = Dialog::kNone;
+  DialogFields fields;
+  bool quit = false;  // asked for; the window decides
+};
+
+}  // namespace lararium::panels

@@ -1,0 +1,194 @@
+#include "editor/panels/gizmo_view.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "editor/panels/theme.h"
+
+namespace lararium::panels {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using geometry::Similarity3;
+
+const app::OccluderDocument* FindOccluder(const app::PlaceDocument& place,
+                                          const std::string& name) {
+  const auto found = std::find_if(place.occluders.begin(), place.occluders.end(),
+                                  [&](const auto& occluder) { return occluder.name == name; });
+  return found == place.occluders.end() ? nullptr : &*found;
+}
+
+ImU32 HandleColour(GizmoHandle handle, bool hot) {
+  if (hot) {
+    return Packed({1.0f, 0.86f, 0.35f, 1.0f});
+  }
+  return handle == GizmoHandle::kScale ? Packed(colour::kText)
+                                       : Packed(colour::kAxes[AxisOf(handle)]);
+}
+
+void DrawArrow(const std::vector<Vector2d>& outline, ImU32 packed, bool hot, ImDrawList& draw) {
+  const Vector2d along = outline[1] - outline[0];
+  const double length = along.norm();
+  const ImVec2 tip = ToImGui(outline[1]);
+  draw.AddLine(ToImGui(outline[0]), tip, packed, Px(hot ? 3.5f : 2.5f));
+  if (length > 1.0) {
+    const Vector2d unit = along / length;
+    const Vector2d side(-unit.y(), unit.x());
+    const double size = Px(6.0f);
+    draw.AddTriangleFilled(ToImGui(outline[1] + 2.0 * size * unit),
+                           ToImGui(outline[1] + size * side), ToImGui(outline[1] - size * side),
+                           packed);
+  } else {
+    draw.AddCircleFilled(tip, Px(5), packed);  // seen end on
+  }
+}
+
+void DrawHandle(GizmoHandle handle,
+                const std::vector<Vector2d>& outline,
+                bool hot,
+                ImDrawList& draw) {
+  if (outline.empty()) {
+    return;
+  }
+  const ImU32 packed = HandleColour(handle, hot);
+  std::vector<ImVec2> points;
+  std::transform(outline.begin(), outline.end(), std::back_inserter(points), ToImGui);
+  const int count = static_cast<int>(points.size());
+  if (count == 2) {
+    DrawArrow(outline, packed, hot, draw);
+  } else if (handle == GizmoHandle::kScale) {
+    draw.AddRectFilled(points[0], points[2], Packed(colour::kPanel), Px(3));
+    draw.AddRect(points[0], points[2], packed, Px(3), 0, Px(2));
+  } else if (count == 4) {
+    draw.AddConvexPolyFilled(points.data(), count,
+                             (packed & 0x00ffffff) | (hot ? 0xb0u : 0x60u) << 24);
+    draw.AddPolyline(points.data(), count, packed, ImDrawFlags_Closed, Px(1));
+  } else {
+    draw.AddPolyline(points.data(), count, packed, 0, Px(hot ? 3.5f : 2.2f));
+  }
+}
+
+}  // namespace
+
+std::optional<Similarity3> SelectedTransform(const app::Workspace& workspace,
+                                             const Selection& selection) {
+  const app::PlaceDocument* place = workspace.place();
+  if (place == nullptr) {
+    return std::nullopt;
+  }
+  if (selection.kind == Selection::Kind::kStage) {
+    return place->picked_from_stage;
+  }
+  if (selection.kind == Selection::Kind::kOccluder) {
+    if (const app::OccluderDocument* occluder = FindOccluder(*place, selection.name)) {
+      return place->picked_from_stage * occluder->stage_from_mesh;
+    }
+  }
+  return std::nullopt;
+}
+
+void MoveSelected(app::Workspace& workspace,
+                  const Selection& selection,
+                  const Similarity3& world_from_thing,
+                  std::string_view gesture) {
+  if (selection.kind == Selection::Kind::kStage) {
+    workspace.EditPlace(
+        "move the stage",
+        [&](app::PlaceDocument& place) { place.picked_from_stage = world_from_thing; }, gesture);
+  } else if (selection.kind == Selection::Kind::kOccluder) {
+    workspace.EditPlace(
+        "move " + selection.name,
+        [&](app::PlaceDocument& place) {
+          for (app::OccluderDocument& occluder : place.occluders) {
+            if (occluder.name == selection.name) {
+              occluder.stage_from_mesh = place.picked_from_stage.Inverse() * world_from_thing;
+            }
+          }
+        },
+        gesture);
+  }
+}
+
+bool ShowGizmo(app::Workspace& workspace,
+               EditorState& state,
+               const ViewCamera& view,
+               bool hovered,
+               ImDrawList& draw) {
+  const std::optional<Similarity3> transform = SelectedTransform(workspace, state.selection);
+  if (!transform || !view.Project(transform->translation)) {
+    state.drag.reset();
+    return false;
+  }
+  const Vector2d pointer = ToEigen(ImGui::GetMousePos());
+  const GizmoLayout layout(*transform, view);
+  std::optional<GizmoHandle> hot;
+  if (state.drag) {
+    hot = state.drag->handle();
+  } else if (hovered) {
+    hot = PickHandle(layout, state.gizmo, view, pointer);
+  }
+  if (hot && !state.drag && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    state.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
+  }
+  if (state.drag && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    if (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f) {
+      MoveSelected(workspace, state.selection, state.drag->Update(view, pointer), "gizmo");
+    }
+  } else if (state.drag) {
+    state.drag.reset();
+    workspace.EndGesture();
+  }
+  for (const GizmoHandle handle : HandlesOf(state.gizmo)) {
+    DrawHandle(handle, layout.Outline(handle, view), hot == handle, draw);
+  }
+  draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(colour::kText));
+  return hot.has_value();
+}
+
+void DrawWorldLine(const ViewCamera& view,
+                   const Vector3d& from,
+                   const Vector3d& to,
+                   ImU32 colour,
+                   float width,
+                   ImDrawList& draw) {
+  constexpr double kClip = 0.02;  // world units in front of the eye
+  Vector3d a = view.camera_from_world * from;
+  Vector3d b = view.camera_from_world * to;
+  if (a.z() < kClip && b.z() < kClip) {
+    return;
+  }
+  if (a.z() < kClip) {
+    a = b + (a - b) * (b.z() - kClip) / (b.z() - a.z());
+  } else if (b.z() < kClip) {
+    b = a + (b - a) * (a.z() - kClip) / (a.z() - b.z());
+  }
+  const auto pixel = [&](const Vector3d& p) {
+    return ImVec2(static_cast<float>(view.center.x() + view.focal_x * p.x() / p.z()),
+                  static_cast<float>(view.center.y() + view.focal_y * p.y() / p.z()));
+  };
+  draw.AddLine(pixel(a), pixel(b), colour, width);
+}
+
+void DrawStage(const app::Workspace& workspace, const ViewCamera& view, ImDrawList& draw) {
+  const app::PlaceDocument* place = workspace.place();
+  if (place == nullptr) {
+    return;
+  }
+  constexpr int kHalf = 3;  // metres
+  const Similarity3& world_from_stage = place->picked_from_stage;
+  const ImU32 grid = Packed(colour::kText, 0.22f);
+  for (int i = -kHalf; i <= kHalf; ++i) {
+    DrawWorldLine(view, world_from_stage * Vector3d(i, 0, -kHalf),
+                  world_from_stage * Vector3d(i, 0, kHalf), grid, Px(1), draw);
+    DrawWorldLine(view, world_from_stage * Vector3d(-kHalf, 0, i),
+                  world_from_stage * Vector3d(kHalf, 0, i), grid, Px(1), draw);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    DrawWorldLine(view, world_from_stage.translation, world_from_stage * Vector3d::Unit(axis),
+                  Packed(colour::kAxes[axis]), Px(2), draw);
+  }
+}
+
+}  // namespace lararium::panels

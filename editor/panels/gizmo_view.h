@@ -1,0 +1,50 @@
+#pragma once
+
+// The handles of the selected thing in a viewport. The world of both viewports
+// is the stage that the picks give, before the adjustment by hand.
+
+#include <imgui.h>
+
+#include <optional>
+
+#include "editor/app/workspace.h"
+#include "editor/panels/editor_state.h"
+
+namespace lararium::panels {
+
+// Where the selected thing is; nullopt where it cannot be moved (or nothing is
+// selected).
+std::optional<geometry::Similarity3> SelectedTransform(const app::Workspace& workspace,
+                                                       const Selection& selection);
+
+// Moves the selected thing. gesture: see CommandStack::Edit.
+void MoveSelected(app::Workspace& workspace,
+                  const Selection& selection,
+                  const geometry::Similarity3& world_from_thing,
+                  std::string_view gesture);
+
+// Draws the handles and drags them. hovered: the pointer is over the view. True
+// while the handles want the pointer for themselves.
+bool ShowGizmo(app::Workspace& workspace,
+               EditorState& state,
+               const ViewCamera& view,
+               bool hovered,
+               ImDrawList& draw);
+
+// Axes and a metre grid of the stage.
+void DrawStage(const app::Workspace& workspace, const ViewCamera& view, ImDrawList& draw);
+
+// A line of the world, clipped at the near plane.
+void DrawWorldLine(const ViewCamera& view,
+                   const Eigen::Vector3d& from,
+                   const Eigen::Vector3d& to,
+                   ImU32 colour,
+                   float width,
+                   ImDrawList& draw);
+
+inline ImVec2 ToImGui(const Eigen::Vector2d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y())};
+}
+inline Eigen::Vector2d ToEigen(const ImVec2& v) { return {v.x, v.y}; }
+
+}  // namespace lararium::panels

@@ -1,0 +1,92 @@
+#include "editor/panels/messages.h"
+
+#include <imgui.h>
+
+#include <string>
+
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+ImVec4 ColourOf(app::Message::Level level) {
+  switch (level) {
+    case app::Message::Level::kWarning:
+      return colour::kWarning;
+    case app::Message::Level::kError:
+      return colour::kError;
+    case app::Message::Level::kInfo:
+      break;
+  }
+  return colour::kDim;
+}
+
+void ShowTask(app::BackgroundTask& task) {
+  const app::BackgroundTask::State state = task.state();
+  std::string text = task.name();
+  if (!state.step.empty()) {
+    text += ": " + state.step;
+  }
+  if (const auto left = app::EstimateSecondsLeft(state.fraction, state.step_seconds)) {
+    text += ", " + app::FormatDuration(*left) + " left";
+  }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::SameLine(0.0f, Px(12));
+  const float height = Px(6);
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (ImGui::GetFrameHeight() - height));
+  ImGui::ProgressBar(static_cast<float>(state.fraction), ImVec2(Px(140), height), "");
+  ImGui::SameLine(0.0f, Px(12));
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 0.5f * (ImGui::GetFrameHeight() - height));
+  ImGui::PushID(&task);
+  ImGui::BeginDisabled(state.cancelling);
+  if (ImGui::Button(state.cancelling ? "Stopping\xe2\x80\xa6" : "Cancel")) {
+    task.Cancel();
+  }
+  ImGui::EndDisabled();
+  ImGui::PopID();
+  ImGui::SameLine(0.0f, Px(20));
+}
+
+}  // namespace
+
+void ShowMessages(const app::Workspace& workspace) {
+  const bool at_end = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1.0f;
+  if (workspace.messages().empty()) {
+    DimText("Nothing to report.");
+  }
+  for (const app::Message& message : workspace.messages()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ColourOf(message.level));
+    ImGui::TextWrapped("%s", message.text.c_str());
+    ImGui::PopStyleColor();
+  }
+  if (at_end) {
+    ImGui::SetScrollHereY(1.0f);
+  }
+}
+
+void ShowStatusBar(app::Workspace& workspace) {
+  for (const app::TaskList::Entry& entry : workspace.tasks().entries()) {
+    ShowTask(*entry.task);
+  }
+  std::string text = workspace.paths().folder.string();
+  if (workspace.commands().dirty()) {
+    text += "  \xe2\x80\xa2  not saved";
+  }
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
+  const float right = ImGui::GetContentRegionMax().x - width;
+  if (workspace.tasks_empty()) {
+    ImGui::AlignTextToFramePadding();
+    DimText("Ready");
+    ImGui::SameLine();
+  }
+  if (right > ImGui::GetCursorPosX()) {
+    ImGui::SetCursorPosX(right);
+    ImGui::AlignTextToFramePadding();
+    DimText(text);
+  }
+}
+
+}  // namespace lararium::panels

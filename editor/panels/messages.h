@@ -1,0 +1,13 @@
+#pragma once
+
+#include "editor/app/workspace.h"
+
+namespace lararium::panels {
+
+// What happened, newest last: errors name the file and the remedy.
+void ShowMessages(const app::Workspace& workspace);
+
+// One line: the project, what runs in the background, with a button to cancel.
+void ShowStatusBar(app::Workspace& workspace);
+
+}  // namespace lararium::panels

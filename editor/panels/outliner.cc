@@ -1,0 +1,73 @@
+#include "editor/panels/outliner.h"
+
+#include <imgui.h>
+
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+void Row(EditorState& state, const char* label, const Selection& selection) {
+  ImGui::PushID(static_cast<int>(selection.kind));
+  ImGui::PushID(selection.name.c_str());
+  ImGui::Indent(Px(6));
+  if (ImGui::Selectable(label, state.selection == selection)) {
+    state.selection = selection;
+  }
+  ImGui::Unindent(Px(6));
+  ImGui::PopID();
+  ImGui::PopID();
+}
+
+// A heading with a button at the right that adds to its list.
+void Section(const char* title, EditorState* state = nullptr, Dialog add = Dialog::kNone) {
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  ImGui::AlignTextToFramePadding();
+  DimText(title);
+  if (state != nullptr) {
+    const float width = ImGui::GetFrameHeight();
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+    ImGui::PushID(title);
+    if (ImGui::Button("+", ImVec2(width, 0))) {
+      state->dialog = add;
+      state->fields = {};
+    }
+    ImGui::PopID();
+  }
+}
+
+}  // namespace
+
+void ShowOutliner(app::Workspace& workspace, EditorState& state) {
+  using Kind = Selection::Kind;
+  Row(state, "Project", {Kind::kProject, ""});
+  Section("Places", &state, Dialog::kTrain);
+  for (const app::PlaceDocument& place : workspace.document().places) {
+    const bool shown = workspace.place() == &place;
+    const std::string label = shown ? place.name : place.name + " (not shown)";
+    Row(state, label.c_str(), {Kind::kPlace, place.name});
+    if (!shown && state.selection == Selection{Kind::kPlace, place.name}) {
+      workspace.ShowPlace(place.name);
+      return;  // the document's views have changed
+    }
+  }
+  if (const app::PlaceDocument* place = workspace.place()) {
+    Section("On the stage");
+    Row(state, "Stage", {Kind::kStage, ""});
+    Row(state, "Picks", {Kind::kPicks, ""});
+    Row(state, "Camera nudge", {Kind::kNudge, ""});
+    Row(state, "Light probe", {Kind::kProbe, ""});
+    Section("Occluders", &state, Dialog::kOccluder);
+    for (const app::OccluderDocument& occluder : place->occluders) {
+      Row(state, occluder.name.c_str(), {Kind::kOccluder, occluder.name});
+    }
+  }
+  Section("Cast", &state, Dialog::kCast);
+  for (const app::CastDocument& member : workspace.document().cast) {
+    Row(state, member.name.c_str(), {Kind::kActor, member.name});
+  }
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,115 @@
+#include "editor/panels/theme.h"
+
+#include <filesystem>
+
+namespace lararium::panels {
+
+namespace {
+
+constexpr float kFontPx = 15.5f;
+constexpr const char* kFontFolders[] = {"/usr/share/fonts/opentype/inter",
+                                        "/usr/share/fonts/truetype/inter",
+                                        "/usr/local/share/fonts/inter"};
+
+float g_scale = 1.0f;  // of the one interface; set with the theme
+
+ImFont* LoadFont(const char* name, float size) {
+  // Latin, and the few signs beyond it that labels use.
+  static const ImWchar kRanges[] = {0x0020, 0x00ff, 0x2013, 0x2014, 0x2018, 0x201d, 0x2022,
+                                    0x2022, 0x2026, 0x2026, 0x2190, 0x2193, 0};
+  for (const char* folder : kFontFolders) {
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored)) {
+      return ImGui::GetIO().Fonts->AddFontFromFileTTF(file.c_str(), size, nullptr, kRanges);
+    }
+  }
+  return nullptr;
+}
+
+Fonts LoadFonts(float scale) {
+  Fonts fonts;
+  fonts.regular = LoadFont("Inter-Regular.otf", kFontPx * scale);
+  fonts.strong = LoadFont("Inter-SemiBold.otf", kFontPx * scale);
+  if (fonts.regular == nullptr) {
+    ImFontConfig config;
+    config.SizePixels = kFontPx * scale;
+    fonts.regular = ImGui::GetIO().Fonts->AddFontDefault(&config);
+  }
+  if (fonts.strong == nullptr) {
+    fonts.strong = fonts.regular;
+  }
+  return fonts;
+}
+
+void SetColours(ImGuiStyle& style) {
+  ImVec4* c = style.Colors;
+  const ImVec4 clear(0, 0, 0, 0);
+  const auto accent = [](float alpha) {
+    return ImVec4(colour::kAccent.x, colour::kAccent.y, colour::kAccent.z, alpha);
+  };
+  c[ImGuiCol_Text] = colour::kText;
+  c[ImGuiCol_TextDisabled] = colour::kDim;
+  c[ImGuiCol_WindowBg] = colour::kWindow;
+  c[ImGuiCol_ChildBg] = clear;
+  c[ImGuiCol_PopupBg] = colour::kPanel;
+  c[ImGuiCol_MenuBarBg] = colour::kWindow;
+  c[ImGuiCol_Border] = colour::kLine;
+  c[ImGuiCol_Separator] = colour::kLine;
+  c[ImGuiCol_SeparatorHovered] = accent(0.6f);
+  c[ImGuiCol_SeparatorActive] = accent(1.0f);
+  c[ImGuiCol_FrameBg] = colour::kFrame;
+  c[ImGuiCol_FrameBgHovered] = colour::kHover;
+  c[ImGuiCol_FrameBgActive] = colour::kHover;
+  c[ImGuiCol_Button] = colour::kFrame;
+  c[ImGuiCol_ButtonHovered] = colour::kHover;
+  c[ImGuiCol_ButtonActive] = accent(0.8f);
+  c[ImGuiCol_Header] = accent(0.30f);
+  c[ImGuiCol_HeaderHovered] = colour::kHover;
+  c[ImGuiCol_HeaderActive] = accent(0.45f);
+  c[ImGuiCol_CheckMark] = accent(1.0f);
+  c[ImGuiCol_SliderGrab] = accent(0.9f);
+  c[ImGuiCol_SliderGrabActive] = accent(1.0f);
+  c[ImGuiCol_PlotHistogram] = accent(1.0f);
+  c[ImGuiCol_TextSelectedBg] = accent(0.35f);
+  c[ImGuiCol_NavHighlight] = accent(0.8f);
+  c[ImGuiCol_ScrollbarBg] = clear;
+  c[ImGuiCol_ScrollbarGrab] = colour::kFrame;
+  c[ImGuiCol_ScrollbarGrabHovered] = colour::kHover;
+  c[ImGuiCol_ScrollbarGrabActive] = colour::kHover;
+  c[ImGuiCol_TitleBg] = colour::kPanel;
+  c[ImGuiCol_TitleBgActive] = colour::kPanel;
+  c[ImGuiCol_ModalWindowDimBg] = ImVec4(0, 0, 0, 0.45f);
+}
+
+}  // namespace
+
+Fonts ApplyTheme(float scale) {
+  g_scale = scale;
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  style.WindowPadding = {12, 10};
+  style.FramePadding = {9, 5};
+  style.ItemSpacing = {8, 7};
+  style.ItemInnerSpacing = {6, 5};
+  style.CellPadding = {4, 3};
+  style.IndentSpacing = 16;
+  style.ScrollbarSize = 11;
+  style.GrabMinSize = 11;
+  style.WindowRounding = 0;
+  style.ChildRounding = 4;
+  style.FrameRounding = 4;
+  style.PopupRounding = 6;
+  style.GrabRounding = 4;
+  style.ScrollbarRounding = 6;
+  style.WindowBorderSize = 0;
+  style.ChildBorderSize = 0;
+  style.PopupBorderSize = 1;
+  style.ScaleAllSizes(scale);
+  SetColours(style);
+  return LoadFonts(scale);
+}
+
+float Px(float logical) { return logical * g_scale; }
+
+}  // namespace lararium::panels

@@ -1,0 +1,222 @@
+#include "editor/panels/widgets.h"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "editor/panels/angles.h"
+#include "editor/panels/theme.h"
+
+namespace lararium::panels {
+
+namespace {
+
+constexpr float kLabelWidth = 92.0f;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+void EndGestureWithItem(app::Workspace& workspace) {
+  if (ImGui::IsItemDeactivated()) {
+    workspace.EndGesture();
+  }
+}
+
+struct FolderEntry {
+  std::string name;
+  bool folder = false;
+};
+
+bool HasExtension(const std::filesystem::path& file, std::span<const char* const> extensions) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const char* known) { return extension == known; });
+}
+
+// Folders first, then files, each by name.
+std::vector<FolderEntry> ListFolder(const std::filesystem::path& folder,
+                                    std::span<const char* const> extensions) {
+  std::vector<FolderEntry> entries;
+  std::error_code error;
+  for (auto at = std::filesystem::directory_iterator(folder, error);
+       !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
+    std::error_code ignored;
+    const bool is_folder = at->is_directory(ignored);
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with('.') && (is_folder || HasExtension(at->path(), extensions))) {
+      entries.push_back({name, is_folder});
+    }
+  }
+  std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
+    return a.folder != b.folder ? a.folder : a.name < b.name;
+  });
+  return entries;
+}
+
+// The folder whose content is listed for what has been typed.
+std::filesystem::path ListedFolder(const std::filesystem::path& typed) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(typed, ignored) ? typed : typed.parent_path();
+}
+
+bool FolderList(std::string& path,
+                const std::filesystem::path& folder,
+                std::span<const char* const> extensions) {
+  const std::filesystem::path listed = ListedFolder(folder / path).lexically_normal();
+  DimText(listed.string());
+  ImGui::Separator();
+  bool changed = false;
+  if (ImGui::Selectable("..", false, ImGuiSelectableFlags_DontClosePopups)) {
+    const std::filesystem::path at = listed.has_filename() ? listed : listed.parent_path();
+    path = at.parent_path().string();
+    changed = true;
+  }
+  for (const FolderEntry& entry : ListFolder(listed, extensions)) {
+    const std::string label = entry.folder ? entry.name + "/" : entry.name;
+    const ImGuiSelectableFlags flags =
+        entry.folder ? ImGuiSelectableFlags_DontClosePopups : ImGuiSelectableFlags_None;
+    if (ImGui::Selectable(label.c_str(), false, flags)) {
+      path = (listed / entry.name).string();
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+}  // namespace
+
+void Heading(const char* text) {
+  ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back());
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
+void DimText(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour::kDim);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void Hint(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour::kDim);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+bool Segmented(const char* id, std::span<const char* const> labels, int& chosen) {
+  ImGui::PushID(id);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(1), 0));
+  bool changed = false;
+  for (int i = 0; i < static_cast<int>(labels.size()); ++i) {
+    if (i > 0) {
+      ImGui::SameLine();
+    }
+    const bool active = i == chosen;
+    ImGui::PushStyleColor(ImGuiCol_Button, active ? colour::kAccent : colour::kFrame);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, active ? colour::kAccent : colour::kHover);
+    if (ImGui::Button(labels[static_cast<size_t>(i)]) && !active) {
+      chosen = i;
+      changed = true;
+    }
+    ImGui::PopStyleColor(2);
+  }
+  ImGui::PopStyleVar();
+  ImGui::PopID();
+  return changed;
+}
+
+bool BeginProperties(const char* id) {
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) {
+    return false;
+  }
+  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, Px(kLabelWidth));
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  return true;
+}
+
+void EndProperties() { ImGui::EndTable(); }
+
+void PropertyLabel(const char* label) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  DimText(label);
+  ImGui::TableNextColumn();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+void PropertyText(const char* label, const std::string& value) {
+  PropertyLabel(label);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextWrapped("%s", value.c_str());
+}
+
+bool NumberProperty(app::Workspace& workspace,
+                    const char* label,
+                    double& value,
+                    double speed,
+                    double min,
+                    double max,
+                    const char* format) {
+  PropertyLabel(label);
+  ImGui::PushID(label);
+  const bool changed =
+      ImGui::DragScalar("##value", ImGuiDataType_Double, &value, static_cast<float>(speed), &min,
+                        &max, format, ImGuiSliderFlags_AlwaysClamp);
+  EndGestureWithItem(workspace);
+  ImGui::PopID();
+  return changed;
+}
+
+bool VectorProperty(app::Workspace& workspace,
+                    const char* label,
+                    Eigen::Vector3d& value,
+                    double speed,
+                    const char* format) {
+  PropertyLabel(label);
+  ImGui::PushID(label);
+  const bool changed = ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), 3,
+                                          static_cast<float>(speed), nullptr, nullptr, format);
+  EndGestureWithItem(workspace);
+  ImGui::PopID();
+  return changed;
+}
+
+bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quaterniond& rotation) {
+  Eigen::Vector3d degrees = HeadingTiltRoll(rotation) * kDegrees;
+  for (double& angle : degrees) {
+    angle = std::abs(angle) < 5e-3 ? 0.0 : angle;  // no "-0.00"
+  }
+  if (!VectorProperty(workspace, label, degrees, 0.5, "%.2f\xc2\xb0")) {
+    return false;
+  }
+  rotation = FromHeadingTiltRoll(degrees / kDegrees);
+  return true;
+}
+
+bool PathField(const char* id,
+               std::string& path,
+               const std::filesystem::path& folder,
+               std::span<const char* const> extensions) {
+  ImGui::PushID(id);
+  const float button = ImGui::GetFrameHeight() * 1.4f;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button -
+                          ImGui::GetStyle().ItemSpacing.x);
+  bool changed = ImGui::InputText("##path", &path);
+  ImGui::SameLine();
+  if (ImGui::Button("\xe2\x80\xa6", ImVec2(button, 0))) {
+    ImGui::OpenPopup("files");
+  }
+  ImGui::SetNextWindowSize(ImVec2(Px(460), Px(320)), ImGuiCond_Always);
+  if (ImGui::BeginPopup("files")) {
+    changed |= FolderList(path, folder, extensions);
+    ImGui::EndPopup();
+  }
+  ImGui::PopID();
+  return changed;
+}
+
+}  // namespace lararium::panels

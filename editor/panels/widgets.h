@@ -1,0 +1,55 @@
+#pragma once
+
+// Small pieces that several panels share.
+
+#include <imgui.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
+#include <string>
+
+#include "editor/app/workspace.h"
+
+namespace lararium::panels {
+
+void Heading(const char* text);
+void DimText(const std::string& text);
+// Wrapped, dim.
+void Hint(const std::string& text);
+
+// A row of buttons of which one is chosen; true when the choice changed.
+bool Segmented(const char* id, std::span<const char* const> labels, int& chosen);
+
+// A grid of label and value; values fill the width that is left.
+bool BeginProperties(const char* id);
+void EndProperties();
+// Starts a row: the next widget is the value.
+void PropertyLabel(const char* label);
+void PropertyText(const char* label, const std::string& value);
+
+// Editors of numbers in a row of the grid. True while the value changes. When
+// the mouse or the keyboard lets go, the workspace's gesture ends.
+bool NumberProperty(app::Workspace& workspace,
+                    const char* label,
+                    double& value,
+                    double speed,
+                    double min,
+                    double max,
+                    const char* format);
+bool VectorProperty(app::Workspace& workspace,
+                    const char* label,
+                    Eigen::Vector3d& value,
+                    double speed,
+                    const char* format);
+// Degrees of heading (about Y), tilt (about X), roll (about Z).
+bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quaterniond& rotation);
+
+// A path as text, and a button that lists the folder. extensions: with dots,
+// lower case; none: folders are chosen. folder: what relative paths start from.
+bool PathField(const char* id,
+               std::string& path,
+               const std::filesystem::path& folder,
+               std::span<const char* const> extensions);
+
+}  // namespace lararium::panels
