@@ -1,8 +1,8 @@
 #pragma once
 
 // A running drama: the curator's Lua script, which moves the actors of a stage
-// in ticks of a 120th of a second. The script runs in a sandbox (sandbox.h); its
-// vocabulary is lua/std, and docs/drama.md tells it.
+// in ticks of a 120th of a second. The script runs in a sandbox (sandbox.h) and
+// speaks the words of lua/std.
 
 #include <cstdint>
 #include <memory>

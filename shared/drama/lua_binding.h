@@ -47,6 +47,17 @@ inline double CheckFinite(lua_State* lua, int argument, const char* what) {
   return value;
 }
 
+// Puts function in the place of field `name` of the table on top of the stack.
+// Its upvalue is what was there before.
+inline void WrapField(lua_State* lua, const char* name, lua_CFunction function) {
+  lua_getfield(lua, -1, name);
+  lua_pushcclosure(lua, function, 1);
+  lua_setfield(lua, -2, name);
+}
+
+// In such a function: calls what it wraps with the same arguments.
+inline int CallWrapped(lua_State* lua) { return lua_tocfunction(lua, lua_upvalueindex(1))(lua); }
+
 // Calls body(lua) so that a Lua error ends it and is then dropped. For what the
 // host does outside of any script. False when there was an error.
 template <typename Body>

@@ -110,7 +110,7 @@ int CoroutineWrap(lua_State* lua) {
 
 // The upvalue is Lua's coroutine.close, which runs what is to be closed.
 int CoroutineClose(lua_State* lua) {
-  const int results = lua_tocfunction(lua, lua_upvalueindex(1))(lua);
+  const int results = CallWrapped(lua);
   RaiseIfTripped(lua);
   return results;
 }
@@ -275,7 +275,7 @@ int ToNumber(lua_State* lua) {
     lua_pushnil(lua);
     return 1;
   }
-  return lua_tocfunction(lua, lua_upvalueindex(1))(lua);
+  return CallWrapped(lua);
 }
 
 // Uniform in [0, range].
@@ -313,19 +313,11 @@ int DrawRandom(lua_State* lua) {
   return 1;
 }
 
-// Replaces field `name` of the table on top by function; its upvalue is the
-// field's old value.
-void Replace(lua_State* lua, const char* name, lua_CFunction function) {
-  lua_getfield(lua, -1, name);
-  lua_pushcclosure(lua, function, 1);
-  lua_setfield(lua, -2, name);
-}
-
 void OpenCoroutines(lua_State* lua) {
   luaL_requiref(lua, "coroutine", luaopen_coroutine, 1);
-  Replace(lua, "resume", CoroutineResume);
-  Replace(lua, "wrap", CoroutineWrap);
-  Replace(lua, "close", CoroutineClose);
+  WrapField(lua, "resume", CoroutineResume);
+  WrapField(lua, "wrap", CoroutineWrap);
+  WrapField(lua, "close", CoroutineClose);
   lua_pop(lua, 1);
 }
 

@@ -26,7 +26,12 @@ void OpenSafeMath(lua_State* lua, Random& random);
 // Pushes the text of a value as tostring() gives it: no addresses.
 void PushTextOf(lua_State* lua, int index);
 
-// How many values a function may return at once.
+// How many values a function may return at once: every call that passes them on
+// copies them.
 inline constexpr int kMaxResults = 255;
+
+// Wraps (WrapField) a function of Lua's that goes through the text in its first
+// argument: pays for that, and bounds the results.
+int CallOnText(lua_State* lua);
 
 }  // namespace lararium::drama

@@ -320,23 +320,21 @@ int Format(lua_State* lua) {
       lua_replace(lua, argument);
     }
   }
-  return lua_tocfunction(lua, lua_upvalueindex(1))(lua);
+  return CallWrapped(lua);
 }
 
-// The upvalue is a function of Lua's whose work grows with its first argument,
-// and whose results could be too many for the stack that others copy.
-int Charged(lua_State* lua) {
+}  // namespace
+
+int CallOnText(lua_State* lua) {
   if (lua_type(lua, 1) == LUA_TSTRING) {
     Charge(lua, static_cast<int64_t>(lua_rawlen(lua, 1) / kBytesPerInstruction));
   }
-  const int results = lua_tocfunction(lua, lua_upvalueindex(1))(lua);
+  const int results = CallWrapped(lua);
   if (results > kMaxResults) {
     return luaL_error(lua, "more than %d results", kMaxResults);
   }
   return results;
 }
-
-}  // namespace
 
 void OpenSafeString(lua_State* lua) {
   constexpr luaL_Reg kOurs[] = {{"find", Find},   {"gmatch", MatchAll}, {"gsub", Substitute},
@@ -345,13 +343,9 @@ void OpenSafeString(lua_State* lua) {
   lua_pushnil(lua);
   lua_setfield(lua, -2, "dump");
   for (const char* name : {"byte", "lower", "pack", "reverse", "unpack", "upper"}) {
-    lua_getfield(lua, -1, name);
-    lua_pushcclosure(lua, Charged, 1);
-    lua_setfield(lua, -2, name);
+    WrapField(lua, name, CallOnText);
   }
-  lua_getfield(lua, -1, "format");
-  lua_pushcclosure(lua, Format, 1);
-  lua_setfield(lua, -2, "format");
+  WrapField(lua, "format", Format);
   luaL_setfuncs(lua, kOurs, 0);
 
   // The metatable of all texts: methods, but no arithmetic on digits in texts.

@@ -11,8 +11,6 @@
 namespace lararium::drama {
 namespace {
 
-lua_CFunction Original(lua_State* lua) { return lua_tocfunction(lua, lua_upvalueindex(1)); }
-
 // Pays for each of the indices from first to last.
 void ChargeRange(lua_State* lua, lua_Integer first, lua_Integer last) {
   constexpr int64_t kMax = int64_t{1} << 40;
@@ -34,7 +32,7 @@ int Concat(lua_State* lua) {
   lua_replace(lua, 3);
   lua_pushinteger(lua, last);
   lua_replace(lua, 4);
-  return Original(lua)(lua);
+  return CallWrapped(lua);
 }
 
 // unpack(list, i, j)
@@ -59,7 +57,7 @@ int Unpack(lua_State* lua) {
 // move(from, first, last, to_index, to)
 int Move(lua_State* lua) {
   ChargeRange(lua, luaL_checkinteger(lua, 2), luaL_checkinteger(lua, 3));
-  return Original(lua)(lua);
+  return CallWrapped(lua);
 }
 
 int Insert(lua_State* lua) {
@@ -167,26 +165,6 @@ int Sort(lua_State* lua) {
   return 0;
 }
 
-// The upvalue is a function of Lua's that goes through a text.
-int ChargedText(lua_State* lua) {
-  if (lua_type(lua, 1) == LUA_TSTRING) {
-    Charge(lua, static_cast<int64_t>(lua_rawlen(lua, 1) / 16));
-  }
-  const int results = Original(lua)(lua);
-  if (results > kMaxResults) {
-    return luaL_error(lua, "more than %d results", kMaxResults);
-  }
-  return results;
-}
-
-// Replaces field `name` of the table on top by function; its upvalue is the
-// field's old value.
-void Replace(lua_State* lua, const char* name, lua_CFunction function) {
-  lua_getfield(lua, -1, name);
-  lua_pushcclosure(lua, function, 1);
-  lua_setfield(lua, -2, name);
-}
-
 }  // namespace
 
 void OpenSafeTable(lua_State* lua) {
@@ -196,14 +174,14 @@ void OpenSafeTable(lua_State* lua) {
                                 {"unpack", Unpack},
                                 {nullptr, nullptr}};
   luaL_requiref(lua, LUA_TABLIBNAME, luaopen_table, 1);
-  Replace(lua, "concat", Concat);
-  Replace(lua, "move", Move);
+  WrapField(lua, "concat", Concat);
+  WrapField(lua, "move", Move);
   luaL_setfuncs(lua, kOurs, 0);
   lua_pop(lua, 1);
 
   luaL_requiref(lua, LUA_UTF8LIBNAME, luaopen_utf8, 1);
   for (const char* name : {"codepoint", "len", "offset"}) {
-    Replace(lua, name, ChargedText);
+    WrapField(lua, name, CallOnText);
   }
   lua_pop(lua, 1);
 }

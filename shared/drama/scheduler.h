@@ -34,8 +34,6 @@ class Scheduler {
 
   bool Alive(TaskId id) const { return Find(id) != nullptr; }
   TaskId running() const { return running_; }
-  // Whether any task is left.
-  bool idle() const { return tasks_.empty(); }
 
   // Runs all that is due at a tick.
   void Run(int64_t tick);

@@ -1,0 +1,25 @@
+// Any bytes as an archive, and as a manifest. (The manifest's CRC-32 and the
+// members' hashes stand between the two: what they guard is reached directly.)
+
+#include <span>
+#include <string_view>
+
+#include "shared/bundle/show_manifest.h"
+#include "shared/bundle/zip_reader.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace lararium::bundle;
+  const auto bytes = std::as_bytes(std::span(data, size));
+  if (const auto members = ReadZip(bytes, "fuzz.larshow"); members.ok()) {
+    for (const ZipMember& member : *members) {
+      CHECK(member.data.empty() ||
+            (member.data.data() >= bytes.data() &&
+             member.data.data() + member.data.size() <= bytes.data() + bytes.size()));
+    }
+  }
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  if (const auto manifest = ParseShowManifest(text, "manifest.json"); manifest.ok()) {
+    CHECK(ParseShowManifest(FormatShowManifest(*manifest), "manifest.json").ok());
+  }
+  return 0;
+}
