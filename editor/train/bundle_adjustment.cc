@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "shared/core/check.h"
@@ -16,8 +17,8 @@ namespace {
 
 using geometry::CameraModel;
 using geometry::Rigid3;
-using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold,
-                                            ceres::EuclideanManifold<3>>;
+using PoseManifold =
+    ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 
 using Matrix2x3 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
 using Matrix2x7 = Eigen::Matrix<double, 2, 7, Eigen::RowMajor>;
@@ -146,8 +147,7 @@ class Bundle {
     for (Eigen::Vector3d& point : points_) {
       blocks.push_back(point.data());
     }
-    std::erase_if(blocks,
-                  [&](double* block) { return problem_.IsParameterBlockConstant(block); });
+    std::erase_if(blocks, [&](double* block) { return problem_.IsParameterBlockConstant(block); });
     return blocks;
   }
 
@@ -194,24 +194,50 @@ std::vector<uint32_t> TracksWithPoints(const Reconstruction& reconstruction) {
   return tracks;
 }
 
+// The most observed of tracks, until each image sees points_per_image of them;
+// in order of index.
+std::vector<uint32_t> ThinOut(const Reconstruction& reconstruction,
+                              std::vector<uint32_t> tracks,
+                              size_t points_per_image) {
+  std::stable_sort(tracks.begin(), tracks.end(), [&](uint32_t a, uint32_t b) {
+    return reconstruction.ObservationCount(a) > reconstruction.ObservationCount(b);
+  });
+  std::vector<size_t> seen(reconstruction.image_count(), 0);
+  std::erase_if(tracks, [&](uint32_t track) {
+    const std::vector<uint32_t> observations = reconstruction.Observations(track);
+    const bool needed = std::any_of(observations.begin(), observations.end(), [&](uint32_t e) {
+      return seen[reconstruction.ImageOf(e)] < points_per_image;
+    });
+    for (const uint32_t element : observations) {
+      seen[reconstruction.ImageOf(element)] += needed ? 1 : 0;
+    }
+    return !needed;
+  });
+  std::sort(tracks.begin(), tracks.end());
+  return tracks;
+}
+
 // A bundle of tracks' points and of all images that observe them, in which only
-// the poses of some images may change.
+// the poses of some images may change. Points of more than firm_observations
+// hold still too.
 struct ReconstructionBundle {
   ReconstructionBundle(const Reconstruction& reconstruction,
                        std::vector<uint32_t> bundled_tracks,
                        const std::vector<bool>& variable,  // [image]
-                       const BundleOptions& options)
+                       const BundleOptions& options,
+                       size_t firm_observations = std::numeric_limits<size_t>::max())
       : bundle(reconstruction.camera(), options), tracks(std::move(bundled_tracks)) {
     bundle.Reserve(reconstruction.image_count(), tracks.size());
     std::vector<double*> poses(reconstruction.image_count(), nullptr);
     for (const uint32_t track : tracks) {
-      double* point = bundle.AddPoint(reconstruction.Point(track), true);
-      const uint32_t end = reconstruction.tracks().begin[track + 1];
-      for (uint32_t element = reconstruction.tracks().begin[track]; element < end; ++element) {
-        if (!reconstruction.Observed(element)) {
+      const std::vector<uint32_t> observations = reconstruction.Observations(track);
+      const bool firm = observations.size() > firm_observations;
+      double* point = bundle.AddPoint(reconstruction.Point(track), !firm);
+      for (const uint32_t element : observations) {
+        const uint32_t image = reconstruction.ImageOf(element);
+        if (firm && !variable[image]) {
           continue;
         }
-        const uint32_t image = reconstruction.ImageOf(element);
         if (poses[image] == nullptr) {
           poses[image] = bundle.AddPose(reconstruction.camera_from_map(image), variable[image]);
           images.push_back(image);
@@ -234,6 +260,15 @@ struct ReconstructionBundle {
   std::vector<uint32_t> tracks;
   std::vector<uint32_t> images;  // in the order of the bundle's poses
 };
+
+// Moves all points but those of tracks (ascending) to where their rays meet now.
+void IntersectOthers(Reconstruction& reconstruction, std::span<const uint32_t> tracks) {
+  for (const uint32_t track : TracksWithPoints(reconstruction)) {
+    if (!std::binary_search(tracks.begin(), tracks.end(), track)) {
+      reconstruction.Reintersect(track);
+    }
+  }
+}
 
 // Scales the map about one camera so that another is at a distance again.
 void RestoreUnit(Reconstruction& reconstruction,
@@ -313,8 +348,7 @@ bool ReprojectionResidual(const CameraModel& fixed,
     jacobian.rightCols<3>() = by_camera;
   }
   if (by_point != nullptr) {
-    const Eigen::Matrix3d rotation =
-        Eigen::Map<const Eigen::Quaterniond>(pose).toRotationMatrix();
+    const Eigen::Matrix3d rotation = Eigen::Map<const Eigen::Quaterniond>(pose).toRotationMatrix();
     Eigen::Map<Matrix2x3> jacobian(by_point);
     jacobian = by_camera * rotation;
   }
@@ -329,8 +363,11 @@ bool AdjustAll(Reconstruction& reconstruction,
   const double distance = (reconstruction.camera_from_map(anchors[0]).Center() -
                            reconstruction.camera_from_map(anchors[1]).Center())
                               .norm();
-  ReconstructionBundle adjusted(reconstruction, TracksWithPoints(reconstruction), variable,
-                                options);
+  std::vector<uint32_t> tracks = TracksWithPoints(reconstruction);
+  if (options.points_per_image > 0) {
+    tracks = ThinOut(reconstruction, std::move(tracks), options.points_per_image);
+  }
+  ReconstructionBundle adjusted(reconstruction, std::move(tracks), variable, options);
   if (adjusted.tracks.empty() || !adjusted.bundle.Solve()) {
     return false;
   }
@@ -342,6 +379,9 @@ bool AdjustAll(Reconstruction& reconstruction,
     reconstruction.SetCamera(camera);
   }
   adjusted.WriteTo(reconstruction);
+  if (options.points_per_image > 0) {
+    IntersectOthers(reconstruction, adjusted.tracks);
+  }
   RestoreUnit(reconstruction, anchors, distance);
   return true;
 }
@@ -360,7 +400,10 @@ bool AdjustLocally(Reconstruction& reconstruction,
       tracks.push_back(reconstruction.TrackOf(element));
     }
   }
-  ReconstructionBundle adjusted(reconstruction, std::move(tracks), variable, options);
+  // One image more hardly moves a point that so many fix.
+  constexpr size_t kFirmObservations = 10;
+  ReconstructionBundle adjusted(reconstruction, std::move(tracks), variable, options,
+                                kFirmObservations);
   if (adjusted.tracks.empty() || !adjusted.bundle.Solve()) {
     return false;
   }
@@ -405,8 +448,8 @@ double FocalDeviation(const Reconstruction& reconstruction, uint32_t anchor) {
   }
   const Eigen::SparseMatrix<double> jacobian =
       Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
-          crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()),
-          crs.rows.data(), crs.cols.data(), crs.values.data());
+          crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
+          crs.cols.data(), crs.values.data());
   Eigen::SparseMatrix<double> normal = jacobian.transpose() * jacobian;
   // The unit is free. It does not touch the focal length, so that a trace of
   // damping makes the equations solvable without a change of the answer.

@@ -38,6 +38,9 @@ struct BundleOptions {
   double loss_scale_px = 1.0;  // of Cauchy's loss
   double function_tolerance = 1e-6;
   bool refine_intrinsics = false;
+  // Of AdjustAll: enough of the most observed points take part that each image
+  // sees so many of them; the others are intersected again afterwards. 0: all.
+  size_t points_per_image = 0;
 };
 
 // Adjusts all located images and all points. The first of anchors keeps its pose;
@@ -48,7 +51,7 @@ bool AdjustAll(Reconstruction& reconstruction,
                const BundleOptions& options);
 
 // Adjusts the poses of images and the points that the first of them observes;
-// other images that see these points hold still.
+// other images that see these points hold still, and so do points that many see.
 bool AdjustLocally(Reconstruction& reconstruction,
                    std::span<const uint32_t> images,
                    const BundleOptions& options);

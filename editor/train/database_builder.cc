@@ -71,8 +71,7 @@ std::vector<Descriptor> ChooseDescriptors(std::span<const Descriptor* const> can
   while (chosen.size() < std::min(max_count, candidates.size())) {
     chosen.push_back(*candidates[next]);
     for (size_t i = 0; i < candidates.size(); ++i) {
-      nearest[i] =
-          std::min(nearest[i], vision::SquaredDistance(*candidates[i], *candidates[next]));
+      nearest[i] = std::min(nearest[i], vision::SquaredDistance(*candidates[i], *candidates[next]));
     }
     next = static_cast<size_t>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
     if (nearest[next] < kNear) {
@@ -155,8 +154,8 @@ class Builder {
     database_.normals.push_back(towards_viewers.normalized().cast<float>());
     database_.observation_counts.push_back(static_cast<uint32_t>(candidates.size()));
     database_.session_masks.push_back(1u << options_.session);
-    for (const Descriptor& descriptor : ChooseDescriptors(
-             candidates, static_cast<size_t>(options_.max_descriptors_per_point))) {
+    for (const Descriptor& descriptor :
+         ChooseDescriptors(candidates, static_cast<size_t>(options_.max_descriptors_per_point))) {
       database_.descriptors.push_back(descriptor);
       database_.descriptor_point.push_back(index);
     }

@@ -39,9 +39,9 @@ std::optional<geometry::Rigid3> FrameLocator::Locate(const cv::Mat& grey,
   if (!features.ok()) {
     return std::nullopt;
   }
-  const auto after = std::lower_bound(
-      views_.begin(), views_.end(), frame_index,
-      [](const View& view, int64_t index) { return view.frame_index < index; });
+  const auto after =
+      std::lower_bound(views_.begin(), views_.end(), frame_index,
+                       [](const View& view, int64_t index) { return view.frame_index < index; });
   const auto position = static_cast<size_t>(after - views_.begin());
   const size_t begin = position - std::min(position, kKeyframes / 2);
   const size_t end = std::min(views_.size(), begin + kKeyframes);

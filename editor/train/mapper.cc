@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "editor/train/bundle_adjustment.h"
 #include "editor/train/two_view.h"
-#include "shared/core/parallel.h"
 
 namespace lararium::train {
 namespace {
@@ -33,7 +33,7 @@ class Mapper {
       if (progress_.Cancelled()) {
         return std::nullopt;
       }
-      if (!Start(pairs_[starts[i]])) {
+      if (!StartFromBestPose(pairs_[starts[i]])) {
         continue;
       }
       Grow();
@@ -74,11 +74,78 @@ class Mapper {
     }
   }
 
-  bool Start(const VerifiedPair& pair) {
+  // Two views of a plane allow two maps; further images show which is true.
+  bool StartFromBestPose(const VerifiedPair& pair) {
+    const std::vector<Rigid3> poses = PossiblePoses(pair);
+    if (poses.size() == 1) {
+      return Start(pair, poses.front());
+    }
+    constexpr int kImagesForTrial = 3;
+    double best_support = 0.0;
+    Rigid3 best;
+    for (const Rigid3& pose : poses) {
+      if (!Start(pair, pose)) {
+        continue;
+      }
+      for (int i = 0; i < kImagesForTrial && LocateNext(); ++i) {
+      }
+      Refresh();
+      const double support = Support();
+      if (support > best_support) {
+        best_support = support;
+        best = pose;
+      }
+    }
+    return best_support > 0.0 && Start(pair, best);
+  }
+
+  std::vector<Rigid3> PossiblePoses(const VerifiedPair& pair) const {
+    constexpr double kPlanarShare = 0.8;
+    constexpr double kThresholdPx = 2.0;
+    const geometry::CameraModel& camera = reconstruction_.camera();
+    std::vector<Rigid3> poses = {pair.b_from_a};
+    const PlanarGeometry planar =
+        EstimatePlanarGeometry(CommonPoints(pair), kThresholdPx / camera.Focal());
+    if (planar.share > kPlanarShare) {
+      poses.insert(poses.end(), planar.b_from_a.begin(), planar.b_from_a.end());
+    }
+    return poses;
+  }
+
+  // What tracks both images of a pair see, on the plane z = 1.
+  PointPairs CommonPoints(const VerifiedPair& pair) const {
+    std::map<uint32_t, uint32_t> element_in_a;  // by track
+    for (const uint32_t element : reconstruction_.ElementsOf(pair.images.a)) {
+      element_in_a[reconstruction_.TrackOf(element)] = element;
+    }
+    PointPairs points;
+    for (const uint32_t element : reconstruction_.ElementsOf(pair.images.b)) {
+      const auto in_a = element_in_a.find(reconstruction_.TrackOf(element));
+      if (in_a != element_in_a.end()) {
+        points.a.push_back(reconstruction_.PlanePoint(in_a->second));
+        points.b.push_back(reconstruction_.PlanePoint(element));
+      }
+    }
+    return points;
+  }
+
+  // How many observations speak for the map; those of large error hardly do.
+  double Support() const {
+    double support = 0.0;
+    for (uint32_t track = 0; track < reconstruction_.tracks().size(); ++track) {
+      for (const uint32_t element : reconstruction_.Observations(track)) {
+        support +=
+            1.0 / (1.0 + reconstruction_.SquaredErrorPx(element, reconstruction_.Point(track)));
+      }
+    }
+    return support;
+  }
+
+  bool Start(const VerifiedPair& pair, const Rigid3& b_from_a) {
     Forget();
     anchors_ = {pair.images.a, pair.images.b};
     reconstruction_.Locate(anchors_[0], Rigid3{});
-    reconstruction_.Locate(anchors_[1], pair.b_from_a);
+    reconstruction_.Locate(anchors_[1], b_from_a);
     Retriangulate();
     AdjustAll(reconstruction_, anchors_, Growing());
     FilterAll(options_.triangulation);
@@ -119,22 +186,23 @@ class Mapper {
   }
 
   void Finish() {
-    constexpr int kRounds = 3;
+    constexpr int kRounds = 2;
     TriangulationOptions limits = options_.triangulation;
     for (int round = 0; round < kRounds && !progress_.Cancelled(); ++round) {
       progress_.Report("refining", static_cast<double>(round) / kRounds);
       CompleteAll(limits.max_error_px);
       Retriangulate();
       BundleOptions bundle = Growing();
-      bundle.max_iterations = 50;
+      bundle.points_per_image = 0;
       AdjustAll(reconstruction_, anchors_, bundle);
       limits.max_error_px = options_.final_max_error_px;
       FilterAll(limits);
       DropWeakImages();
     }
     BundleOptions bundle = Growing();
-    bundle.max_iterations = 100;
-    bundle.function_tolerance = 1e-9;
+    bundle.points_per_image = 0;
+    bundle.max_iterations = 50;
+    bundle.function_tolerance = 1e-6;
     AdjustAll(reconstruction_, anchors_, bundle);
     FilterAll(limits);
   }
@@ -143,9 +211,10 @@ class Mapper {
     constexpr size_t kImagesForIntrinsics = 4;
     BundleOptions bundle;
     bundle.max_iterations = 20;
-    bundle.refine_intrinsics =
-        options_.refine_intrinsics &&
-        reconstruction_.LocatedImages().size() >= kImagesForIntrinsics;
+    bundle.function_tolerance = 1e-4;
+    bundle.points_per_image = 300;
+    bundle.refine_intrinsics = options_.refine_intrinsics &&
+                               reconstruction_.LocatedImages().size() >= kImagesForIntrinsics;
     return bundle;
   }
 
@@ -214,8 +283,8 @@ class Mapper {
     ExtendBy(image);
     AdjustAround(image);
     FilterAround(image);
-    log_.debug("located image {}: {} of {} points, {} in the map", image,
-               resection->inliers.size(), points.size(), reconstruction_.PointCount());
+    log_.debug("located image {}: {} of {} points, {} in the map", image, resection->inliers.size(),
+               points.size(), reconstruction_.PointCount());
     return true;
   }
 
@@ -234,15 +303,14 @@ class Mapper {
   // The new image and those that share most points with it.
   void AdjustAround(uint32_t image) {
     constexpr size_t kNeighbours = 5;
+    constexpr size_t kMinShared = 10;  // points; fewer do not hold a pose
     std::vector<size_t> shared(reconstruction_.image_count(), 0);
     for (const uint32_t element : reconstruction_.ElementsOf(image)) {
       if (!reconstruction_.Observed(element)) {
         continue;
       }
-      const uint32_t track = reconstruction_.TrackOf(element);
-      for (uint32_t e = reconstruction_.tracks().begin[track];
-           e < reconstruction_.tracks().begin[track + 1]; ++e) {
-        shared[reconstruction_.ImageOf(e)] += reconstruction_.Observed(e) ? 1 : 0;
+      for (const uint32_t e : reconstruction_.Observations(reconstruction_.TrackOf(element))) {
+        ++shared[reconstruction_.ImageOf(e)];
       }
     }
     shared[image] = 0;
@@ -254,7 +322,8 @@ class Mapper {
     std::stable_sort(order.begin(), order.end(),
                      [&](uint32_t a, uint32_t b) { return shared[a] > shared[b]; });
     std::vector<uint32_t> images = {image};
-    for (size_t i = 0; i < std::min(kNeighbours, order.size()) && shared[order[i]] > 0; ++i) {
+    for (size_t i = 0; i < std::min(kNeighbours, order.size()) && shared[order[i]] >= kMinShared;
+         ++i) {
       images.push_back(order[i]);
     }
     BundleOptions bundle;
@@ -285,9 +354,8 @@ class Mapper {
     ForAllTracks(true, [&](uint32_t track) { reconstruction_.Complete(track, max_error_px); });
   }
   void Retriangulate() {
-    ForAllTracks(false, [&](uint32_t track) {
-      reconstruction_.Triangulate(track, options_.triangulation);
-    });
+    ForAllTracks(
+        false, [&](uint32_t track) { reconstruction_.Triangulate(track, options_.triangulation); });
   }
 
   // Images that filtering left with hardly any observation are not trusted.

@@ -111,8 +111,8 @@ std::vector<FeatureMatch> MatchDescriptors(std::span<const Descriptor> a,
   std::vector<FeatureMatch> matches;
   for (uint32_t i = 0; i < of_a.size(); ++i) {
     const Nearest& forward = of_a[i];
-    if (forward.best != kFar && forward.Distinct(ratio * ratio) &&
-        of_b[forward.index].index == i && of_b[forward.index].Distinct(ratio * ratio)) {
+    if (forward.best != kFar && forward.Distinct(ratio * ratio) && of_b[forward.index].index == i &&
+        of_b[forward.index].Distinct(ratio * ratio)) {
       matches.push_back({i, forward.index});
     }
   }

@@ -154,15 +154,15 @@ VerifiedPairs VerifyPairsUncalibrated(std::span<const Features> images,
                                       Progress& progress) {
   std::vector<std::optional<VerifiedPair>> found(candidates.size());
   std::vector<std::optional<Fundamental>> fundamentals(candidates.size());
-  MatchPairs(images, candidates, options, progress,
-             [&](size_t i, const std::vector<FeatureMatch>& matches) {
-               fundamentals[i] = EstimateFundamental(PixelPairs(images, candidates[i], matches),
-                                                     options.threshold_px);
-               if (fundamentals[i] && fundamentals[i]->inliers.size() >= options.min_matches) {
-                 found[i] = VerifiedPair{
-                     candidates[i], Keep(matches, fundamentals[i]->inliers), {}, 0.0};
-               }
-             });
+  MatchPairs(
+      images, candidates, options, progress,
+      [&](size_t i, const std::vector<FeatureMatch>& matches) {
+        fundamentals[i] =
+            EstimateFundamental(PixelPairs(images, candidates[i], matches), options.threshold_px);
+        if (fundamentals[i] && fundamentals[i]->inliers.size() >= options.min_matches) {
+          found[i] = VerifiedPair{candidates[i], Keep(matches, fundamentals[i]->inliers), {}, 0.0};
+        }
+      });
   std::vector<Fundamental> votes;
   for (size_t i = 0; i < found.size(); ++i) {
     if (found[i]) {

@@ -103,8 +103,7 @@ bool Reconstruction::WideEnough(std::span<const uint32_t> elements,
   return false;
 }
 
-std::optional<Eigen::Vector3d> Reconstruction::Intersect(
-    std::span<const uint32_t> elements) const {
+std::optional<Eigen::Vector3d> Reconstruction::Intersect(std::span<const uint32_t> elements) const {
   std::vector<Rigid3> cameras;
   std::vector<Eigen::Vector2d> plane_points;
   for (const uint32_t element : elements) {
@@ -175,6 +174,15 @@ bool Reconstruction::Triangulate(uint32_t track, const TriangulationOptions& opt
     observed_[element] = 1;
   }
   return true;
+}
+
+void Reconstruction::Reintersect(uint32_t track) {
+  const std::optional<Eigen::Vector3d> point = Intersect(Observations(track));
+  if (point) {
+    points_[track] = *point;
+  } else {
+    DropPoint(track);
+  }
 }
 
 void Reconstruction::Complete(uint32_t track, double max_error_px) {

@@ -55,6 +55,7 @@ class Reconstruction {
   void MovePoint(uint32_t track, const Eigen::Vector3d& point) { points_[track] = point; }
   // Whether the element is a sight of its track's point, not an outlier.
   bool Observed(uint32_t element) const { return observed_[element] != 0; }
+  std::vector<uint32_t> Observations(uint32_t track) const;
   size_t ObservationCount(uint32_t track) const;
   size_t PointCount() const;
 
@@ -63,6 +64,8 @@ class Reconstruction {
 
   // Finds the point of a track that has none, by consensus of the located images.
   bool Triangulate(uint32_t track, const TriangulationOptions& options);
+  // Moves the point to where the rays of its observations meet, or drops it.
+  void Reintersect(uint32_t track);
   // Makes every element in a located image that fits the point an observation.
   void Complete(uint32_t track, double max_error_px);
   // Drops observations of larger error, then the point if fewer than two are
@@ -85,7 +88,6 @@ class Reconstruction {
   std::vector<uint32_t> BestConsensus(std::span<const uint32_t> elements,
                                       const TriangulationOptions& options) const;
   std::vector<uint32_t> LocatedElements(uint32_t track) const;
-  std::vector<uint32_t> Observations(uint32_t track) const;
   void DropPoint(uint32_t track);
 
   geometry::CameraModel camera_;
@@ -93,10 +95,10 @@ class Reconstruction {
   Tracks tracks_;
   std::vector<uint32_t> element_track_;
   std::vector<std::vector<uint32_t>> image_elements_;
-  std::vector<Eigen::Vector2d> plane_points_;                         // [element]
-  std::vector<std::optional<geometry::Rigid3>> camera_from_map_;      // [image]
-  std::vector<std::optional<Eigen::Vector3d>> points_;                // [track]
-  std::vector<uint8_t> observed_;                                     // [element]
+  std::vector<Eigen::Vector2d> plane_points_;                     // [element]
+  std::vector<std::optional<geometry::Rigid3>> camera_from_map_;  // [image]
+  std::vector<std::optional<Eigen::Vector3d>> points_;            // [track]
+  std::vector<uint8_t> observed_;                                 // [element]
 };
 
 }  // namespace lararium::train

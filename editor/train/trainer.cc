@@ -266,24 +266,22 @@ class Trainer {
   }
 
   Status WhyNoMap(double min_angle) const {
-    const auto widest = std::max_element(
-        pairs_.begin(), pairs_.end(), [](const VerifiedPair& a, const VerifiedPair& b) {
-          return a.median_angle < b.median_angle;
-        });
+    const auto widest = std::max_element(pairs_.begin(), pairs_.end(),
+                                         [](const VerifiedPair& a, const VerifiedPair& b) {
+                                           return a.median_angle < b.median_angle;
+                                         });
     const std::string a = images_[widest->images.a].name;
     const std::string b = images_[widest->images.b].name;
     if (widest->median_angle < min_angle) {
-      return Status::Error(kPlace,
-                           "too little parallax: from " + images_.front().name + " to " +
-                               images_.back().name +
-                               " the camera turned or stood still (most between " + a + " and " +
-                               b + ")",
-                           "film while walking sideways past the place; do not pan on the spot");
+      return Status::Error(
+          kPlace,
+          "too little parallax: from " + images_.front().name + " to " + images_.back().name +
+              " the camera turned or stood still (most between " + a + " and " + b + ")",
+          "film while walking sideways past the place; do not pan on the spot");
     }
-    return Status::Error(kPlace,
-                         "no two images fix enough points to start a map (best " + a + " and " + b +
-                             ")",
-                         "film textured, unmoving things, with neighbouring images that overlap");
+    return Status::Error(
+        kPlace, "no two images fix enough points to start a map (best " + a + " and " + b + ")",
+        "film textured, unmoving things, with neighbouring images that overlap");
   }
 
   // The first image's camera becomes the frame, the median depth the unit.
@@ -359,8 +357,8 @@ class Trainer {
       if (batch.size() == kBatch || !frame) {
         LocateBatch(locator, batch);
         batch.clear();
-        progress_.Report("locating", static_cast<double>(done) /
-                                         static_cast<double>(frame_indices_.size()));
+        progress_.Report("locating",
+                         static_cast<double>(done) / static_cast<double>(frame_indices_.size()));
       }
       if (!frame) {
         return Status();
@@ -395,10 +393,9 @@ class Trainer {
       report_.located.push_back({images_[image].frame_index, images_[image].name,
                                  reconstruction_->camera_from_map(image), true});
     }
-    std::sort(report_.located.begin(), report_.located.end(),
-              [](const LocatedFrame& a, const LocatedFrame& b) {
-                return a.frame_index < b.frame_index;
-              });
+    std::sort(
+        report_.located.begin(), report_.located.end(),
+        [](const LocatedFrame& a, const LocatedFrame& b) { return a.frame_index < b.frame_index; });
     size_t next = 0;
     for (const int64_t index : frame_indices_) {
       if (next < report_.located.size() && report_.located[next].frame_index == index) {

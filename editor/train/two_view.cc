@@ -155,18 +155,42 @@ std::optional<Fundamental> EstimateFundamental(const PointPairs& pixels, double 
   return fundamental;
 }
 
-double HomographyShare(const PointPairs& plane_points, double threshold) {
+PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double threshold) {
+  PlanarGeometry geometry;
   if (plane_points.size() < kMinPairs) {
-    return 1.0;
+    return geometry;
   }
   cv::Mat mask;
+  std::vector<cv::Mat> rotations;
+  std::vector<cv::Mat> translations;
+  std::vector<cv::Mat> normals;
   try {
-    cv::findHomography(ToOpenCv(plane_points.a), ToOpenCv(plane_points.b), cv::RANSAC, threshold,
-                       mask);
+    const cv::Mat homography = cv::findHomography(
+        ToOpenCv(plane_points.a), ToOpenCv(plane_points.b), cv::RANSAC, threshold, mask);
+    if (homography.empty()) {
+      return geometry;
+    }
+    cv::decomposeHomographyMat(homography, cv::Mat::eye(3, 3, CV_64F), rotations, translations,
+                               normals);
   } catch (const cv::Exception&) {
-    return 0.0;
+    return geometry;  // no four of the points have a solution
   }
-  return static_cast<double>(IndicesOf(mask).size()) / static_cast<double>(plane_points.size());
+  const std::vector<uint32_t> inliers = IndicesOf(mask);
+  geometry.share = static_cast<double>(inliers.size()) / static_cast<double>(plane_points.size());
+  for (size_t i = 0; i < rotations.size(); ++i) {
+    Eigen::Matrix3d rotation;
+    Eigen::Vector3d translation;
+    cv::cv2eigen(rotations[i], rotation);
+    cv::cv2eigen(translations[i], translation);
+    if (!(translation.norm() > 1e-6) || !rotation.allFinite()) {
+      continue;  // the camera only turned
+    }
+    const Rigid3 pose = Rigid3::FromMatrix(rotation, translation.normalized());
+    if (2 * Cheiral(plane_points, inliers, pose).size() > inliers.size()) {
+      geometry.b_from_a.push_back(pose);
+    }
+  }
+  return geometry;
 }
 
 std::optional<double> EstimateFocal(std::span<const Fundamental> pairs, int width, int height) {

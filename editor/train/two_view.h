@@ -20,9 +20,9 @@ struct PointPairs {
 };
 
 struct RelativePose {
-  geometry::Rigid3 b_from_a;     // baseline of length 1
-  std::vector<uint32_t> inliers; // indices of point pairs in front of both cameras
-  double median_angle = 0.0;     // radians, between the two rays to a point
+  geometry::Rigid3 b_from_a;      // baseline of length 1
+  std::vector<uint32_t> inliers;  // indices of point pairs in front of both cameras
+  double median_angle = 0.0;      // radians, between the two rays to a point
 };
 
 // From points on the plane z = 1: the essential matrix by five points (Nister,
@@ -39,9 +39,16 @@ struct Fundamental {
 // From pixels, without intrinsics, within RANSAC.
 std::optional<Fundamental> EstimateFundamental(const PointPairs& pixels, double threshold_px);
 
-// The share, 0..1, of the point pairs that one homography explains: near 1 for a
-// plane and for a camera that only turned.
-double HomographyShare(const PointPairs& plane_points, double threshold);
+struct PlanarGeometry {
+  double share = 0.0;  // 0..1, of the point pairs that one homography explains
+  // The poses that this homography allows with the points in front of both
+  // cameras (Faugeras & Lustman, "Motion and structure from motion in a piecewise
+  // planar environment", 1988): up to two, which only a third view tells apart.
+  std::vector<geometry::Rigid3> b_from_a;  // baseline of length 1
+};
+
+// The share is near 1 for a plane and for a camera that only turned.
+PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double threshold);
 
 // The focal length in pixels that makes the fundamental matrices most like
 // essential ones, whose two singular values are equal (Mendonca & Cipolla, "A
