@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Takes the sample from its video to tracked, composited frames, as a person would.
 
-Runs lararium-editor (cast, train, bake, check, export) and lararium-player on the
+Runs lararium-editor (train, bake, check, export) and lararium-player on the
 maquette and compares what comes out with the ground truth.  Prints every figure
 beside its bar; a figure that misses its bar fails the test.  Skips (status 77)
 where the ground truth is absent.
@@ -91,9 +91,7 @@ class Sample:
 
 
 def make_show(sample: Sample, report: Report) -> None:
-    """Cast, train, bake, check, export; figures of the training."""
-    for actor in ("keeper", "guest"):
-        sample.editor("cast", "--name", actor)
+    """Train, bake, check, export; figures of the training."""
     poses = sample.work / "training_poses.json"
     start = time.monotonic()
     sample.editor("train", "--place", "maquette", "--poses-out", poses, "--json")
