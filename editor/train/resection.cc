@@ -1,10 +1,14 @@
 #include "editor/train/resection.h"
 
-#include <opencv2/calib3d.hpp>
-#include <opencv2/core/eigen.hpp>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "editor/train/bundle_adjustment.h"
 #include "shared/core/check.h"
+#include "shared/core/random.h"
+#include "shared/geometry/p3p.h"
 
 namespace lararium::train {
 namespace {
@@ -12,39 +16,61 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
+// Squared distances on the plane z = 1, each cut at the threshold (MSAC: Torr &
+// Zisserman, "MLESAC", CVIU 2000). Gives up beyond limit.
+double RobustCost(std::span<const Eigen::Vector2d> plane_points,
+                  std::span<const Eigen::Vector3d> points,
+                  const Rigid3& camera_from_map,
+                  double squared_threshold,
+                  double limit) {
+  const Eigen::Matrix3d rotation = camera_from_map.rotation.toRotationMatrix();
+  double cost = 0.0;
+  for (size_t i = 0; i < points.size() && cost < limit; ++i) {
+    const Eigen::Vector3d in_camera = rotation * points[i] + camera_from_map.translation;
+    const double error = in_camera.z() > 1e-9
+                             ? (in_camera.hnormalized() - plane_points[i]).squaredNorm()
+                             : squared_threshold;
+    cost += std::min(error, squared_threshold);
+  }
+  return cost;
+}
+
 std::optional<Rigid3> EstimateByRansac(const CameraModel& camera,
                                        std::span<const Eigen::Vector2d> pixels,
                                        std::span<const Eigen::Vector3d> points,
-                                       double max_error_px) {
-  std::vector<cv::Point2d> plane_points;
-  std::vector<cv::Point3d> object_points;
-  for (size_t i = 0; i < pixels.size(); ++i) {
-    const Eigen::Vector2d plane = camera.PlaneFromPixel(pixels[i]);
-    plane_points.emplace_back(plane.x(), plane.y());
-    object_points.emplace_back(points[i].x(), points[i].y(), points[i].z());
+                                       const ResectionOptions& options) {
+  std::vector<Eigen::Vector2d> plane_points;
+  for (const Eigen::Vector2d& pixel : pixels) {
+    plane_points.push_back(camera.PlaneFromPixel(pixel));
   }
-  cv::Mat rotation_vector;
-  cv::Mat translation;
-  constexpr int kIterations = 2000;
-  constexpr double kConfidence = 0.9999;
-  try {
-    if (!cv::solvePnPRansac(object_points, plane_points, cv::Mat::eye(3, 3, CV_64F), cv::noArray(),
-                            rotation_vector, translation, false, kIterations,
-                            static_cast<float>(max_error_px / camera.Focal()), kConfidence,
-                            cv::noArray(), cv::SOLVEPNP_AP3P)) {
-      return std::nullopt;
+  const double threshold = options.max_error_px / camera.Focal();
+  const double all_outliers = threshold * threshold * static_cast<double>(points.size());
+  Random random(options.seed);
+  std::optional<Rigid3> best;
+  double best_cost = all_outliers;
+  double needed = options.max_iterations;
+  for (int i = 0; i < needed && i < options.max_iterations; ++i) {
+    std::array<Eigen::Vector3d, 3> rays;
+    std::array<Eigen::Vector3d, 3> sample;
+    for (size_t k = 0; k < 3; ++k) {  // a point drawn twice has no solution
+      const uint32_t index = random.Below(static_cast<uint32_t>(points.size()));
+      rays[k] = plane_points[index].homogeneous().normalized();
+      sample[k] = points[index];
     }
-  } catch (const cv::Exception&) {
-    return std::nullopt;  // the sample had no solution
+    const geometry::P3pSolutions solutions = geometry::SolveP3p(rays, sample);
+    for (const Rigid3& pose : solutions.poses()) {
+      const double cost = RobustCost(plane_points, points, pose, threshold * threshold, best_cost);
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = pose;
+        // The share of inliers is no less than what the cost has left.
+        const double share = std::max(1.0 - cost / all_outliers, 1e-3);
+        constexpr double kLogOfFailure = -9.2;  // ln 0.0001
+        needed = kLogOfFailure / std::log1p(-std::min(share * share * share, 0.999));
+      }
+    }
   }
-  Eigen::Vector3d w;
-  Eigen::Vector3d t;
-  cv::cv2eigen(rotation_vector, w);
-  cv::cv2eigen(translation, t);
-  if (!w.allFinite() || !t.allFinite()) {
-    return std::nullopt;
-  }
-  return Rigid3{geometry::RotationFromVector(w), t};
+  return best;
 }
 
 std::vector<uint32_t> Inliers(const CameraModel& camera,
@@ -72,7 +98,7 @@ std::optional<Resection> LocateImage(const CameraModel& camera,
   if (pixels.size() < options.min_inliers) {
     return std::nullopt;
   }
-  std::optional<Rigid3> pose = EstimateByRansac(camera, pixels, points, options.max_error_px);
+  std::optional<Rigid3> pose = EstimateByRansac(camera, pixels, points, options);
   constexpr int kRefinements = 2;  // the second with the inliers that the first brought in
   for (int i = 0; i < kRefinements && pose; ++i) {
     std::vector<Eigen::Vector2d> inlier_pixels;

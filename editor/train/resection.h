@@ -22,11 +22,12 @@ struct ResectionOptions {
   double max_error_px = 4.0;
   size_t min_inliers = 20;
   double min_inlier_share = 0.2;
+  int max_iterations = 5000;
+  uint64_t seed = 1;
 };
 
-// P3P (Ke & Roumeliotis, "An efficient algebraic solution to the
-// perspective-three-point problem", CVPR 2017) within RANSAC, then robust least
-// squares on the inliers. nullopt when too few correspondences agree.
+// Three-point poses within RANSAC, then robust least squares on the inliers. nullopt when too few
+// correspondences agree.
 std::optional<Resection> LocateImage(const geometry::CameraModel& camera,
                                      std::span<const Eigen::Vector2d> pixels,
                                      std::span<const Eigen::Vector3d> points,
