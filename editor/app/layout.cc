@@ -120,6 +120,7 @@ void Layout::Show(Workspace& workspace) {
   ShowPanels(workspace);
   panels::ShowDialogs(workspace, state_);
   ImGui::End();
+  state_.keys.clear();
 }
 
 }  // namespace lararium::app

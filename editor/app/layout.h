@@ -20,6 +20,7 @@ class Layout {
   // The whole interface, for one frame.
   void Show(Workspace& workspace);
 
+  void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
   bool quit_requested() const { return state_.quit; }
 
  private:

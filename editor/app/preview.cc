@@ -22,15 +22,17 @@ class Preview::Worker {
                                                 Log& log);
 
   PreviewSource source() const {
-    return {source_->frame_count().value_or(0), source_->frames_per_second()};
+    return {end_.value_or(source_->estimated_frame_count()), source_->frames_per_second()};
   }
 
+  // nullptr for a frame beyond the end.
   Result<std::shared_ptr<const PreviewPicture>> Draw(const PreviewRequest& request);
 
  private:
   Worker() = default;
 
-  // Brings tracked_ to a frame; the frame at hand is not tracked again.
+  // Brings tracked_ to a frame; the frame at hand is not tracked again. Empties
+  // it beyond the end.
   Status Track(int64_t frame);
   PreviewPicture Describe() const;
 
@@ -41,6 +43,7 @@ class Preview::Worker {
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
   std::shared_ptr<const stage::Place> place_;
+  std::optional<int64_t> end_;  // number of frames, once known for certain
   std::optional<vision::TrackedFrame> tracked_;
   show::StagedFrame staged_;
 };
@@ -77,7 +80,8 @@ Status Preview::Worker::Track(int64_t frame) {
   LARARIUM_ASSIGN_OR_RETURN(std::optional<geometry::Frame> image, source_->Next());
   if (!image) {
     tracked_.reset();
-    return Status::Error("frame " + std::to_string(frame), "lies beyond the end of the recording");
+    end_ = frame;
+    return Status();
   }
   tracked_ = poses_->Track(*image);
   return Status();
@@ -108,6 +112,9 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
     renderer_->SetPlace(*place_);
   }
   LARARIUM_RETURN_IF_ERROR(Track(request.frame));
+  if (!tracked_) {
+    return std::shared_ptr<const PreviewPicture>();
+  }
   const double time = static_cast<double>(request.frame) / source_->frames_per_second();
   show_->StageFrame(*tracked_, time, staged_);
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
@@ -141,10 +148,13 @@ void Preview::Run(std::stop_token stop) {
   }
   while (const std::optional<PreviewRequest> request = requests_.Take(stop)) {
     Result<std::shared_ptr<const PreviewPicture>> picture = (*worker)->Draw(*request);
-    if (picture.ok()) {
+    if (!picture.ok()) {
+      SetStatus(picture.status());
+    } else if (*picture != nullptr) {
       pictures_.Put(std::move(*picture));
     } else {
-      SetStatus(picture.status());
+      const std::lock_guard lock(mutex_);
+      source_ = (*worker)->source();
     }
   }
 }

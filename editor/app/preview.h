@@ -48,7 +48,7 @@ struct PreviewPicture {
 
 // What the recording is like, once it is open.
 struct PreviewSource {
-  int64_t frames = 0;
+  int64_t frames = 0;  // an estimate until the end was seen
   double frames_per_second = 30.0;
 };
 
@@ -61,7 +61,8 @@ class Preview {
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
 
-  // The newest request wins.
+  // The newest request wins. Frames beyond the end give no picture; source()
+  // knows better afterwards.
   void Request(PreviewRequest request) { requests_.Put(std::move(request)); }
   // The newest picture, once.
   std::optional<std::shared_ptr<const PreviewPicture>> TakePicture() { return pictures_.TryTake(); }

@@ -107,6 +107,13 @@ void WaitForInput(render::Window& window, const Workspace& workspace) {
 Status MainLoop(render::Window& window, Workspace& workspace) {
   Interface interface(window);
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<Layout> layout, Layout::Create());
+  render::WindowCallbacks callbacks;
+  callbacks.key = [&layout](int key, int action, int modifiers) {
+    if (action != GLFW_RELEASE) {
+      layout->AddKey({key, modifiers, action == GLFW_REPEAT});
+    }
+  };
+  window.SetCallbacks(std::move(callbacks));
   auto last = std::chrono::steady_clock::now();
   std::string title;
   while (!window.ShouldClose() && !layout->quit_requested()) {
@@ -127,6 +134,7 @@ Status MainLoop(render::Window& window, Workspace& workspace) {
     interface.End(size);
     window.SwapBuffers();
   }
+  window.SetCallbacks({});
   return Status();
 }
 

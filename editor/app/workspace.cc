@@ -240,7 +240,9 @@ void Workspace::ReloadPreview() {
 void Workspace::SetFrame(int64_t frame) {
   const std::optional<PreviewSource> source = recording();
   const int64_t last = source ? std::max<int64_t>(source->frames - 1, 0) : 0;
-  position_ = static_cast<double>(std::clamp<int64_t>(frame, 0, last));
+  if (frame != this->frame() || frame > last) {
+    position_ = static_cast<double>(std::clamp<int64_t>(frame, 0, last));
+  }
 }
 
 void Workspace::AdvancePlayback(double seconds) {
@@ -294,6 +296,7 @@ void Workspace::Update(double seconds) {
     ReloadPreview();
   }
   AdvancePlayback(seconds);
+  SetFrame(frame());  // the end may have turned out to be nearer
   RequestPicture();
   if (preview_ == nullptr) {
     awaiting_picture_ = false;

@@ -1,5 +1,6 @@
 #include "editor/panels/camera_view.h"
 
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -77,24 +78,44 @@ void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList&
   draw.AddText(ImVec2(at.x + Px(24), at.y + Px(5)), Packed(colour::kText), text);
 }
 
+// Along the camera's axes: x right, y down, z forward.
+Eigen::Vector3d NudgeDirection(int key) {
+  switch (key) {
+    case GLFW_KEY_LEFT:
+      return {-1, 0, 0};
+    case GLFW_KEY_RIGHT:
+      return {1, 0, 0};
+    case GLFW_KEY_UP:
+      return {0, -1, 0};
+    case GLFW_KEY_DOWN:
+      return {0, 1, 0};
+    case GLFW_KEY_PAGE_UP:
+      return {0, 0, 1};
+    case GLFW_KEY_PAGE_DOWN:
+      return {0, 0, -1};
+    default:
+      return Eigen::Vector3d::Zero();
+  }
+}
+
 // Arrow keys and PageUp/PageDown move the camera in its image plane and depth.
-void NudgeWithKeys(app::Workspace& workspace) {
+void NudgeWithKeys(app::Workspace& workspace, const EditorState& state) {
   constexpr double kStep = 0.005;  // metres; 10 times that with Shift
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || io.KeyCtrl || io.KeyAlt) {
+  if (ImGui::GetIO().WantTextInput || state.dialog != Dialog::kNone) {
     return;
   }
-  const std::pair<ImGuiKey_, Eigen::Vector3d> keys[] = {
-      {ImGuiKey_LeftArrow, {-1, 0, 0}}, {ImGuiKey_RightArrow, {1, 0, 0}},
-      {ImGuiKey_UpArrow, {0, -1, 0}},   {ImGuiKey_DownArrow, {0, 1, 0}},
-      {ImGuiKey_PageUp, {0, 0, 1}},     {ImGuiKey_PageDown, {0, 0, -1}}};
-  for (const auto& [key, direction] : keys) {
-    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))) {
-      const Eigen::Vector3d step = direction * (io.KeyShift ? 10.0 * kStep : kStep);
-      workspace.EditPlace(
-          "nudge the camera", [&](app::PlaceDocument& place) { place.camera_nudge += step; },
-          "nudge keys");
+  for (const KeyPress& press : state.keys) {
+    const Eigen::Vector3d direction = NudgeDirection(press.key);
+    if (direction.isZero() || (press.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) != 0) {
+      continue;
     }
+    if (!press.repeats) {
+      workspace.EndGesture();  // each press is a command of its own
+    }
+    const double step = (press.modifiers & GLFW_MOD_SHIFT) != 0 ? 10.0 * kStep : kStep;
+    workspace.EditPlace(
+        "nudge the camera",
+        [&](app::PlaceDocument& place) { place.camera_nudge += step * direction; }, "nudge keys");
   }
 }
 
@@ -169,7 +190,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     DrawBadge(*picture, rect, draw);
     draw.PopClipRect();
   }
-  NudgeWithKeys(workspace);
+  NudgeWithKeys(workspace, state);
   ImGui::SetCursorScreenPos(ImVec2(origin.x, origin.y + size.y + Px(8)));
   ShowTransport(workspace);
 }

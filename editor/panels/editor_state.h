@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "editor/panels/gizmo.h"
 #include "editor/panels/view_camera.h"
@@ -32,7 +33,16 @@ struct DialogFields {
   bool images = false;  // the recording is a folder of images
 };
 
+// A key that went down or repeats; GLFW's codes. ImGui 1.86 looks at the state
+// of keys once a frame and misses what is pressed and released in between.
+struct KeyPress {
+  int key = 0;
+  int modifiers = 0;
+  bool repeats = false;  // it was held down
+};
+
 struct EditorState {
+  std::vector<KeyPress> keys;  // since the last frame
   Selection selection;
   ViewKind view = ViewKind::kCamera;
   GizmoMode gizmo = GizmoMode::kMove;

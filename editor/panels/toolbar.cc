@@ -94,20 +94,54 @@ void ViewMenu(EditorState& state) {
   ImGui::MenuItem("Points", nullptr, &state.show_points);
 }
 
-bool Pressed(int glfw_key) { return ImGui::IsKeyPressed(glfw_key, false); }
+void HandleControlKey(app::Workspace& workspace, EditorState& state, const KeyPress& press) {
+  switch (press.key) {
+    case GLFW_KEY_S:
+      workspace.Save();
+      break;
+    case GLFW_KEY_Z:
+      if (ImGui::GetIO().WantTextInput) {
+        break;  // the field that is being typed into has its own
+      }
+      (press.modifiers & GLFW_MOD_SHIFT) != 0 ? workspace.Redo() : workspace.Undo();
+      break;
+    case GLFW_KEY_Y:
+      workspace.Redo();
+      break;
+    case GLFW_KEY_Q:
+      state.quit = true;
+      break;
+  }
+}
 
-void HandleControlKeys(app::Workspace& workspace, EditorState& state, bool shift) {
-  if (Pressed(GLFW_KEY_S)) {
-    workspace.Save();
-  }
-  if (Pressed(GLFW_KEY_Z)) {
-    shift ? workspace.Redo() : workspace.Undo();
-  }
-  if (Pressed(GLFW_KEY_Y)) {
-    workspace.Redo();
-  }
-  if (Pressed(GLFW_KEY_Q)) {
-    state.quit = true;
+void SetGizmo(EditorState& state, GizmoMode mode) {
+  state.gizmo = mode;
+  state.drag.reset();
+}
+
+void HandlePlainKey(app::Workspace& workspace, EditorState& state, int key) {
+  switch (key) {
+    case GLFW_KEY_1:
+      state.view = ViewKind::kCamera;
+      break;
+    case GLFW_KEY_2:
+      state.view = ViewKind::kAround;
+      break;
+    case GLFW_KEY_3:
+      state.view = ViewKind::kPicks;
+      break;
+    case GLFW_KEY_W:
+      SetGizmo(state, GizmoMode::kMove);
+      break;
+    case GLFW_KEY_E:
+      SetGizmo(state, GizmoMode::kTurn);
+      break;
+    case GLFW_KEY_R:
+      SetGizmo(state, GizmoMode::kScale);
+      break;
+    case GLFW_KEY_SPACE:
+      workspace.SetPlaying(!workspace.playing());
+      break;
   }
 }
 
@@ -166,8 +200,7 @@ void ShowToolbar(app::Workspace& workspace, EditorState& state) {
   static constexpr const char* kModes[] = {"Move", "Turn", "Scale"};
   int mode = static_cast<int>(state.gizmo);
   if (Segmented("gizmo", kModes, mode)) {
-    state.gizmo = static_cast<GizmoMode>(mode);
-    state.drag.reset();
+    SetGizmo(state, static_cast<GizmoMode>(mode));
   }
   ImGui::SameLine(0.0f, gap);
   ImGui::BeginDisabled(!workspace.commands().CanUndo());
@@ -184,33 +217,15 @@ void ShowToolbar(app::Workspace& workspace, EditorState& state) {
 }
 
 void HandleShortcuts(app::Workspace& workspace, EditorState& state) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyCtrl) {
-    HandleControlKeys(workspace, state, io.KeyShift);
+  if (state.dialog != Dialog::kNone) {
     return;
   }
-  if (io.WantTextInput || io.KeyAlt) {
-    return;
-  }
-  const std::pair<int, ViewKind> views[] = {{GLFW_KEY_1, ViewKind::kCamera},
-                                            {GLFW_KEY_2, ViewKind::kAround},
-                                            {GLFW_KEY_3, ViewKind::kPicks}};
-  for (const auto& [key, view] : views) {
-    if (Pressed(key)) {
-      state.view = view;
+  for (const KeyPress& press : state.keys) {
+    if ((press.modifiers & GLFW_MOD_CONTROL) != 0) {
+      HandleControlKey(workspace, state, press);
+    } else if (!ImGui::GetIO().WantTextInput && (press.modifiers & GLFW_MOD_ALT) == 0) {
+      HandlePlainKey(workspace, state, press.key);
     }
-  }
-  const std::pair<int, GizmoMode> modes[] = {{GLFW_KEY_W, GizmoMode::kMove},
-                                             {GLFW_KEY_E, GizmoMode::kTurn},
-                                             {GLFW_KEY_R, GizmoMode::kScale}};
-  for (const auto& [key, mode] : modes) {
-    if (Pressed(key)) {
-      state.gizmo = mode;
-      state.drag.reset();
-    }
-  }
-  if (Pressed(GLFW_KEY_SPACE)) {
-    workspace.SetPlaying(!workspace.playing());
   }
 }
 

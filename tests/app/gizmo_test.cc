@@ -60,9 +60,11 @@ TEST_P(GizmoHandles, AreFoundWhereTheyAreDrawn) {
   for (const GizmoHandle handle : HandlesOf(GetParam())) {
     const std::vector<Vector2d> outline = layout.Outline(handle, view);
     ASSERT_FALSE(outline.empty());
-    Vector2d grip = outline.back();  // the tip of an arrow, a point of a ring
+    Vector2d grip = outline.back();  // the tip of an arrow
     if (outline.size() == 4) {
       grip = 0.25 * (outline[0] + outline[1] + outline[2] + outline[3]);
+    } else if (outline.size() > 4) {
+      grip = outline[outline.size() / 8];  // of a ring, away from where it meets the others
     }
     EXPECT_EQ(PickHandle(layout, GetParam(), view, grip), handle);
   }
