@@ -208,11 +208,10 @@ human::Clip MakeClip(const human::Skeleton& skeleton,
 // ---- Walking --------------------------------------------------------------------
 
 // The thigh's inclination forwards and the flexion of knee and ankle over a
-// stride that begins with the heel's contact, in degrees at every 5 %: through
-// the values that Perry & Burnfield, "Gait Analysis: Normal and Pathological
-// Function", 2nd ed. 2010, give for the phases of normal gait, in the shape of
-// the mean curves in Winter, "The Biomechanics and Motor Control of Human Gait",
-// 1991.
+// stride that begins with the heel's contact, in degrees at every 5 %. Set by
+// hand to the landmarks of normal gait (peaks and zero crossings by phase, as in
+// Perry & Burnfield, "Gait Analysis: Normal and Pathological Function", 2010);
+// they are not the tabulated means of any study.
 constexpr int kGaitSamples = 20;
 using GaitCurve = std::array<float, kGaitSamples>;
 constexpr GaitCurve kThighInclination = {20,  20,  18.5f, 14, 8,  2,  -3.5f, -9, -14, -18,
