@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "shared/core/file.h"
 #include "shared/core/random.h"
 #include "tests/drama/drama_fixture.h"
 
@@ -304,6 +305,15 @@ TEST_F(DramaTest, SeekingKeepsTheErrorsUntilThen) {
   EXPECT_TRUE(drama->errors().empty());
   ASSERT_TRUE(drama->Seek(1.5).ok());
   EXPECT_EQ(drama->errors().size(), 1u);
+}
+
+TEST_F(DramaTest, TheTemplateIsAGoodDrama) {
+  const auto script = ReadText(LARARIUM_SOURCE_DIR "/lua/template/drama.lua");
+  ASSERT_TRUE(script.ok()) << script.message();
+  const auto drama = Make(*script);
+  PlayTo(*drama, 30.0);
+  EXPECT_EQ(FirstError(*drama), "");
+  EXPECT_TRUE(State("keeper").visible);
 }
 
 TEST_F(DramaTest, TheSeedDecidesTheChances) {
