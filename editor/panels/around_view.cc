@@ -206,7 +206,7 @@ void AroundView::DrawMeshes(const app::Workspace& workspace, const EditorState& 
       const bool selected = state.selection == selection;
       status = overlay_->DrawMesh(
           ghost.mesh, geometry::ToGlm(*transform),
-          selected ? glm::u8vec4(217, 107, 73, 110) : glm::u8vec4(120, 150, 190, 70));
+          selected ? glm::u8vec4(217, 107, 73, 60) : glm::u8vec4(120, 150, 190, 44));
     }
   }
   CHECK(status.ok());  // the meshes are our own

@@ -98,6 +98,7 @@ void StartTraining(app::Workspace& workspace, const DialogFields& fields) {
   trained.training = {
       fields.images ? app::SourceDocument::Kind::kImages : app::SourceDocument::Kind::kVideo,
       workspace.paths().Shorten(workspace.paths().Resolve(fields.file))};
+  trained.intrinsics.reset();
   if (const std::vector<double> numbers = ParseNumbers(fields.intrinsics); !numbers.empty()) {
     const auto source = app::OpenSource(workspace.paths(), trained.training);
     if (!source.ok()) {

@@ -3,6 +3,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <cstdio>
 #include <string>
 
 #include "editor/panels/theme.h"
@@ -17,6 +18,13 @@ void OpenDialog(EditorState& state, Dialog dialog) {
   state.fields = {};
 }
 
+std::string IntrinsicsText(const geometry::CameraModel& camera) {
+  char text[256];
+  std::snprintf(text, sizeof(text), "%.9g, %.9g, %.9g, %.9g, %.9g, %.9g, %.9g, %.9g", camera.fx,
+                camera.fy, camera.cx, camera.cy, camera.k1, camera.k2, camera.p1, camera.p2);
+  return text;
+}
+
 void OpenTrainDialog(const app::Workspace& workspace, EditorState& state) {
   OpenDialog(state, Dialog::kTrain);
   state.fields.place = "place";
@@ -24,6 +32,7 @@ void OpenTrainDialog(const app::Workspace& workspace, EditorState& state) {
     state.fields.place = place->name;
     state.fields.file = place->training.path;
     state.fields.images = place->training.kind == app::SourceDocument::Kind::kImages;
+    state.fields.intrinsics = place->intrinsics ? IntrinsicsText(*place->intrinsics) : "";
   }
 }
 

@@ -1,0 +1,130 @@
+#!/bin/bash
+# Drives the editor's window with real input events: types a number, drags a
+# handle, undoes, redoes, saves, quits; then edits, crashes and recovers. Looks at
+# the saved project and at a screenshot.
+#
+#   editor_window_test.sh EDITOR OUTPUT_FOLDER
+set -u
+editor=$1
+out=$2
+
+for tool in xvfb-run Xvfb xdotool import identify; do
+  if ! command -v $tool > /dev/null; then
+    echo "skipped: $tool is not installed"
+    exit 77
+  fi
+done
+if [ -z "${LARARIUM_UI_TEST_DISPLAY:-}" ]; then
+  export LARARIUM_UI_TEST_DISPLAY=1
+  exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$@"
+fi
+
+export LIBGL_ALWAYS_SOFTWARE=1
+export XDG_STATE_HOME=$out/state
+project=$out/ui.lararium
+json=$project/project.json
+rm -rf "$out"
+mkdir -p "$out"
+pid=0
+
+fail() {
+  echo "FAILED: $*"
+  import -window root "$out/failure.png"
+  cat "$out/editor.log"
+  [ $pid -ne 0 ] && kill $pid
+  exit 1
+}
+
+# wait_for SECONDS COMMAND...: until the command succeeds.
+wait_for() {
+  local tries=$(($1 * 10))
+  shift
+  for ((i = 0; i < tries; ++i)); do
+    "$@" > /dev/null 2>&1 && return 0
+    sleep 0.1
+  done
+  return 1
+}
+
+# The numbers of "adjust.translation" in a project file, on one line.
+translation() {
+  tr -d ' \n' < "$1" | sed -E 's/.*"adjust":\{[^}]*"translation":\[([^]]*)\].*/\1/'
+}
+translation_is() { [ "$(translation "$json")" = "$1" ]; }
+
+start_editor() {
+  "$editor" "$project" >> "$out/editor.log" 2>&1 &
+  pid=$!
+  wait_for 20 xdotool search --name Lararium || fail "no window"
+  xdotool mousemove 700 780
+  sleep 2
+}
+
+press() { xdotool key --delay 60 "$1" && sleep 0.5; }
+# Enter is read from the state of the key once a frame: hold it for a while.
+hold() { xdotool keydown "$1" && sleep 0.4 && xdotool keyup "$1" && sleep 0.2; }
+
+"$editor" new "$project" > /dev/null || fail "cannot make a project"
+cat > "$json" << 'JSON'
+{"schema": 1, "title": "Test", "credits": "", "cast": [], "places": [{
+  "name": "site", "camera_nudge": [0, 0, 0], "occluders": [],
+  "adjust": {"translation": [0, 0, 0], "rotation": [1, 0, 0, 0], "scale": 1},
+  "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
+            "length_m": 1}}]}
+JSON
+
+# A number typed into the inspector: the X of the stage's position.
+start_editor
+xdotool mousemove 1241 134 sleep 0.3 keydown ctrl mousedown 1 sleep 0.4 mouseup 1 keyup ctrl
+sleep 0.5
+xdotool type --delay 80 "1.25"
+hold Return
+press ctrl+s
+wait_for 10 translation_is "1.25,0.0,0.0" || fail "the number was not saved: $(translation "$json")"
+press ctrl+z
+press ctrl+s
+wait_for 10 translation_is "0.0,0.0,0.0" || fail "undo was not saved: $(translation "$json")"
+press ctrl+shift+z
+press ctrl+s
+wait_for 10 translation_is "1.25,0.0,0.0" || fail "redo was not saved: $(translation "$json")"
+
+# The upward arrow of the stage's handles, dragged up in the view around the place.
+press ctrl+z
+press 2
+sleep 1
+import -window root "$out/around.png"
+xdotool mousemove 664 360 sleep 0.3 mousedown 1 sleep 0.3
+xdotool mousemove 664 340 sleep 0.2 mousemove 664 310 sleep 0.3 mouseup 1
+sleep 0.5
+press ctrl+s
+raised() { translation "$json" | awk -F, '{exit !($1 == 0 && $2 > 0.2 && $2 < 2 && $3 == 0)}'; }
+wait_for 10 raised || fail "the drag did not raise the stage: $(translation "$json")"
+
+# One drag is one command.
+press ctrl+z
+press ctrl+s
+wait_for 10 translation_is "0.0,0.0,0.0" || fail "undo of the drag: $(translation "$json")"
+
+colours=$(identify -format %k "$out/around.png")
+[ "$colours" -gt 100 ] || fail "the screenshot is blank: $colours colours"
+
+# Quitting ends the program well.
+press ctrl+q
+wait_for 10 bash -c "! kill -0 $pid" || fail "did not quit"
+wait $pid || fail "exit code $?"
+
+# A crash loses nothing: the camera nudged by a key, killed, started again.
+start_editor
+press Right
+wait_for 10 test -e "$project/autosave.json" || fail "no autosave"
+sleep 0.5
+kill -KILL $pid
+wait $pid 2> /dev/null
+start_editor
+press ctrl+s
+nudged() { tr -d ' \n' < "$json" | grep -q '"camera_nudge":\[0.005,0.0,0.0\]'; }
+wait_for 10 nudged || fail "the edit was not recovered"
+wait_for 10 test ! -e "$project/autosave.json" || fail "the autosave stayed after saving"
+press ctrl+q
+wait_for 10 bash -c "! kill -0 $pid" || fail "did not quit"
+echo "passed; screenshot: $out/around.png"
