@@ -14,7 +14,11 @@ struct P3pSolutions {
   std::array<Rigid3, 4> camera_from_world;
   int count = 0;
 
-  std::span<const Rigid3> poses() const { return {camera_from_world.data(), size_t(count)}; }
+  // Of a variable, not of a temporary that would be gone.
+  std::span<const Rigid3> poses() const& {
+    return {camera_from_world.data(), static_cast<size_t>(count)};
+  }
+  std::span<const Rigid3> poses() const&& = delete;
 };
 
 // All poses (up to four) from which points_in_world are seen along rays: unit

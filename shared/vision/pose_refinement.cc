@@ -102,14 +102,18 @@ Rigid3 Minimise(Rigid3 pose,
   return pose;
 }
 
+// Vague matches may be off by twice the threshold, not by any number of sigmas.
 void SelectInliers(const Rigid3& pose,
                    std::span<const PoseMatch> matches,
                    double focal,
                    double threshold_px,
                    std::vector<uint32_t>& inliers) {
+  constexpr double kMostSigma = 2.0;
   inliers.clear();
   for (size_t i = 0; i < matches.size(); ++i) {
-    if (NormalisedSquare(pose, matches[i], focal) < threshold_px * threshold_px) {
+    const double sigma = matches[i].sigma_px;
+    const double limit = threshold_px * std::min(1.0, kMostSigma / sigma);
+    if (NormalisedSquare(pose, matches[i], focal) < limit * limit) {
       inliers.push_back(static_cast<uint32_t>(i));
     }
   }

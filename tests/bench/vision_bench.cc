@@ -104,7 +104,8 @@ void BenchPreemptiveRansac(benchmark::State& state) {
       rays[k] = seen[i].homogeneous().normalized();
       points[k] = world.points[i];
     }
-    for (const geometry::Rigid3& pose : geometry::SolveP3p(rays, points).poses()) {
+    const geometry::P3pSolutions solutions = geometry::SolveP3p(rays, points);
+    for (const geometry::Rigid3& pose : solutions.poses()) {
       poses.push_back(pose.Matrix3x4());
     }
   };

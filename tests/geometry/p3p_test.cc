@@ -83,7 +83,8 @@ TEST(P3p, EverySolutionSeesThePointsAlongTheRays) {
   Random random(8);
   for (int i = 0; i < 20000; ++i) {
     const Case c = RandomCase(random, 4.0);
-    for (const Rigid3& pose : SolveP3p(c.rays, c.points).poses()) {
+    const P3pSolutions solutions = SolveP3p(c.rays, c.points);
+    for (const Rigid3& pose : solutions.poses()) {
       ASSERT_LT(LargestRayError(c, pose), 1e-5) << "case " << i;
       ASSERT_NEAR(pose.rotation.norm(), 1.0, 1e-12);
     }
@@ -153,7 +154,8 @@ TEST(P3p, SurvivesRaysThatNoTriangleFits) {
     for (Vector3d& ray : c.rays) {
       ray = RandomVector(random).normalized();
     }
-    for (const Rigid3& pose : SolveP3p(c.rays, c.points).poses()) {
+    const P3pSolutions solutions = SolveP3p(c.rays, c.points);
+    for (const Rigid3& pose : solutions.poses()) {
       ASSERT_LT(LargestRayError(c, pose), 1e-3);
     }
   }
