@@ -47,9 +47,7 @@ struct FeatureOptions {
   Status Validate() const;
 };
 
-class ScaleSpace;
-
-// Keeps the memory of its pyramids from image to image.
+// Keeps its memory from image to image: allocates nothing in steady state.
 class FeatureExtractor {
  public:
   FeatureExtractor();
@@ -57,10 +55,11 @@ class FeatureExtractor {
 
   // Deterministic: the same image and options give the same features in the same
   // order, whatever the number of threads. grey: CV_8UC1.
-  Result<Features> Extract(const cv::Mat& grey, const FeatureOptions& options);
+  Status Extract(const cv::Mat& grey, const FeatureOptions& options, Features& features);
 
  private:
-  std::unique_ptr<ScaleSpace> scale_space_;
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
 };
 
 // The same for a single image.

@@ -22,9 +22,9 @@ inline Lanes Load(const float* from) {
 inline void Store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof(lanes)); }
 
 // The centre and one side of a kernel of sum 1.
-std::vector<float> HalfKernel(float sigma) {
+void FillHalfKernel(float sigma, std::vector<float>& kernel) {
   const int radius = std::max(1, static_cast<int>(std::ceil(3.0f * sigma)));
-  std::vector<float> kernel(radius + 1);
+  kernel.resize(radius + 1);
   float sum = 0.0f;
   for (int i = 0; i <= radius; ++i) {
     const auto d = static_cast<float>(i);
@@ -34,7 +34,6 @@ std::vector<float> HalfKernel(float sigma) {
   for (float& weight : kernel) {
     weight /= sum;
   }
-  return kernel;
 }
 
 // Row or column i of count, mirrored about the first and the last.
@@ -76,60 +75,55 @@ void Convolve(const std::vector<float>& kernel,
   }
 }
 
-// Blurs rows [begin, end): down the columns into a row with margins, then along.
-class RowBlur {
- public:
-  RowBlur(const cv::Mat& image, const std::vector<float>& kernel)
-      : image_(image),
-        kernel_(kernel),
-        radius_(static_cast<int>(kernel.size()) - 1),
-        row_(image.cols + 2 * radius_),
-        before_(kernel.size()),
-        after_(kernel.size()) {}
-
-  void Blur(int y, float* out) {
-    for (int k = 0; k <= radius_; ++k) {
-      before_[k] = image_.ptr<float>(Mirrored(y - k, image_.rows));
-      after_[k] = image_.ptr<float>(Mirrored(y + k, image_.rows));
-    }
-    float* row = row_.data() + radius_;
-    Convolve(kernel_, before_.data(), after_.data(), image_.cols, row);
-    for (int k = 1; k <= radius_; ++k) {
-      row[-k] = row[Mirrored(-k, image_.cols)];
-      row[image_.cols - 1 + k] = row[Mirrored(image_.cols - 1 + k, image_.cols)];
-    }
-    for (int k = 0; k <= radius_; ++k) {
-      before_[k] = row - k;
-      after_[k] = row + k;
-    }
-    Convolve(kernel_, before_.data(), after_.data(), image_.cols, out);
+// Blurs row y: down the columns into a row with margins, then along it. row:
+// image.cols and the kernel's radius on both sides; taps: two for each weight.
+void BlurRow(const cv::Mat& image,
+             int y,
+             const std::vector<float>& kernel,
+             std::vector<float>& row,
+             std::vector<const float*>& taps,
+             float* out) {
+  const int radius = static_cast<int>(kernel.size()) - 1;
+  const int width = image.cols;
+  const float** before = taps.data();
+  const float** after = taps.data() + kernel.size();
+  for (int k = 0; k <= radius; ++k) {
+    before[k] = image.ptr<float>(Mirrored(y - k, image.rows));
+    after[k] = image.ptr<float>(Mirrored(y + k, image.rows));
   }
-
- private:
-  const cv::Mat& image_;
-  const std::vector<float>& kernel_;
-  int radius_;
-  std::vector<float> row_;
-  std::vector<const float*> before_;
-  std::vector<const float*> after_;
-};
+  float* middle = row.data() + radius;
+  Convolve(kernel, before, after, width, middle);
+  for (int k = 1; k <= radius; ++k) {
+    middle[-k] = middle[Mirrored(-k, width)];
+    middle[width - 1 + k] = middle[Mirrored(width - 1 + k, width)];
+  }
+  for (int k = 0; k <= radius; ++k) {
+    before[k] = middle - k;
+    after[k] = middle + k;
+  }
+  Convolve(kernel, before, after, width, out);
+}
 
 }  // namespace
 
-void GaussianBlur(const cv::Mat& image, float sigma, cv::Mat& blurred, cv::Mat* difference) {
-  const std::vector<float> kernel = HalfKernel(sigma);
+void GaussianBlur::Apply(const cv::Mat& image, float sigma, cv::Mat& blurred, cv::Mat* difference) {
+  FillHalfKernel(sigma, kernel_);
   blurred.create(image.size(), CV_32F);
   if (difference != nullptr) {
     difference->create(image.size(), CV_32F);
   }
   constexpr int kRowsPerJob = 64;
-  ParallelFor(static_cast<size_t>((image.rows + kRowsPerJob - 1) / kRowsPerJob), [&](size_t job) {
-    const int begin = static_cast<int>(job) * kRowsPerJob;
+  const auto count = static_cast<size_t>((image.rows + kRowsPerJob - 1) / kRowsPerJob);
+  jobs_.resize(std::max(jobs_.size(), count));
+  ParallelFor(count, [&](size_t j) {
+    Job& job = jobs_[j];
+    job.row.resize(image.cols + 2 * (kernel_.size() - 1));
+    job.taps.resize(2 * kernel_.size());
+    const int begin = static_cast<int>(j) * kRowsPerJob;
     const int end = std::min(begin + kRowsPerJob, image.rows);
-    RowBlur row_blur(image, kernel);
     for (int y = begin; y < end; ++y) {
       float* out = blurred.ptr<float>(y);
-      row_blur.Blur(y, out);
+      BlurRow(image, y, kernel_, job.row, job.taps, out);
       if (difference != nullptr) {
         const float* in = image.ptr<float>(y);
         float* d = difference->ptr<float>(y);

@@ -1,12 +1,25 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 namespace lararium::vision {
 
-// Convolves a CV_32FC1 image with a Gaussian of sigma pixels, cut off at 3 sigma,
-// with the image mirrored about its outer pixels. difference, when given, becomes
-// blurred minus image. Neither may share pixels with image. Rows run in parallel.
-void GaussianBlur(const cv::Mat& image, float sigma, cv::Mat& blurred, cv::Mat* difference);
+// Convolves with Gaussians; keeps its memory from image to image.
+class GaussianBlur {
+ public:
+  // image: CV_32FC1; sigma in pixels, the kernel ends at 3 sigma, and the image is
+  // mirrored about its outer pixels. difference, when given, becomes blurred minus
+  // image. Neither may share pixels with image. Rows run in parallel.
+  void Apply(const cv::Mat& image, float sigma, cv::Mat& blurred, cv::Mat* difference);
+
+ private:
+  struct Job {
+    std::vector<float> row;
+    std::vector<const float*> taps;
+  };
+  std::vector<float> kernel_;  // the centre and one side, of sum 1
+  std::vector<Job> jobs_;
+};
 
 }  // namespace lararium::vision

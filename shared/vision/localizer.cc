@@ -67,13 +67,13 @@ Location Localizer::Locate(const Features& features, const CameraModel& camera) 
     return location;
   }
   const RefinementOptions refinement{camera.Focal(), options_.inlier_threshold_px};
-  RefinePose(pose_matches_, refinement, *first, refined_);
+  refiner_.Refine(pose_matches_, refinement, *first, refined_);
   if (refined_.inliers.size() < kLeastMatches) {
     return location;
   }
   guided_.Match(camera, refined_.camera_from_map, features, kGuidedRadiusPx, guided_matches_);
   FillPoseMatches(features, guided_matches_);
-  RefinePose(pose_matches_, refinement, Rigid3(refined_.camera_from_map), refined_);
+  refiner_.Refine(pose_matches_, refinement, refined_.camera_from_map, refined_);
   Judge(camera, location);
   return location;
 }

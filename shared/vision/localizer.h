@@ -78,6 +78,7 @@ class Localizer {
   std::vector<FeatureMatch> guided_matches_;
   std::vector<PoseMatch> pose_matches_;
   geometry::PreemptiveRansac<Eigen::Matrix<double, 3, 4>> ransac_;
+  PoseRefiner refiner_;
   RefinedPose refined_;
   std::vector<double> depths_;
 };

@@ -120,13 +120,13 @@ void SelectInliers(const Rigid3& pose,
 }
 
 // Standard deviation along one axis from the median distance: that of a
-// two-dimensional normal distribution is 1.1774 sigma.
+// two-dimensional normal distribution is 1.1774 sigma. squares: working memory.
 double NoiseOf(const Rigid3& pose,
                std::span<const PoseMatch> matches,
                std::span<const uint32_t> chosen,
-               double focal) {
-  std::vector<double> squares;
-  squares.reserve(chosen.size());
+               double focal,
+               std::vector<double>& squares) {
+  squares.clear();
   for (const uint32_t i : chosen) {
     squares.push_back(NormalisedSquare(pose, matches[i], focal));
   }
@@ -163,10 +163,10 @@ Rigid3 Moved(const Rigid3& camera_from_map, const Vector6d& step) {
   return motion * camera_from_map;
 }
 
-void RefinePose(std::span<const PoseMatch> matches,
-                const RefinementOptions& options,
-                const Rigid3& start,
-                RefinedPose& refined) {
+void PoseRefiner::Refine(std::span<const PoseMatch> matches,
+                         const RefinementOptions& options,
+                         const Rigid3& start,
+                         RefinedPose& refined) {
   // The first pose carries the noise of three matches: look further than the
   // threshold, then narrow.
   constexpr int kRounds = 3;
@@ -184,7 +184,8 @@ void RefinePose(std::span<const PoseMatch> matches,
       break;
     }
     pose = Minimise(pose, matches, inliers, options.focal, scale);
-    refined.noise_px = std::max(NoiseOf(pose, matches, inliers, options.focal), kLeastNoise);
+    refined.noise_px =
+        std::max(NoiseOf(pose, matches, inliers, options.focal, squares_), kLeastNoise);
     scale = std::min(kCauchyScale * refined.noise_px, options.inlier_threshold_px);
   }
   SelectInliers(pose, matches, options.focal, options.inlier_threshold_px, inliers);

@@ -47,10 +47,18 @@ struct RefinedPose {
 
 // Iteratively reweighted Gauss-Newton with damping: minimises the Cauchy loss of
 // pixel residuals over their sigmas; the loss narrows to the noise found and the
-// inliers are chosen anew. Fewer than 3 inliers: covariance and noise are zero.
-void RefinePose(std::span<const PoseMatch> matches,
-                const RefinementOptions& options,
-                const geometry::Rigid3& start,
-                RefinedPose& refined);
+// inliers are chosen anew. Keeps its memory from image to image.
+class PoseRefiner {
+ public:
+  // start may be refined.camera_from_map. Fewer than 3 inliers: covariance and
+  // noise are zero.
+  void Refine(std::span<const PoseMatch> matches,
+              const RefinementOptions& options,
+              const geometry::Rigid3& start,
+              RefinedPose& refined);
+
+ private:
+  std::vector<double> squares_;
+};
 
 }  // namespace lararium::vision

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "shared/vision/gaussian_blur.h"
-
 namespace lararium::vision {
 namespace {
 
@@ -73,7 +71,7 @@ void ScaleSpace::Build(const cv::Mat& grey, int first_octave, int scales_per_oct
     octave.differences.resize(scales_per_octave + 2);
     if (count_ == 0) {
       octave.pixel_size = first.pixel_size;
-      GaussianBlur(start_, AddedSigma(sigma, kBaseSigma), octave.gaussians[0], nullptr);
+      blur_.Apply(start_, AddedSigma(sigma, kBaseSigma), octave.gaussians[0], nullptr);
     } else {
       const Octave& finer = octaves_[count_ - 1];
       octave.pixel_size = 2.0f * finer.pixel_size;
@@ -83,8 +81,8 @@ void ScaleSpace::Build(const cv::Mat& grey, int first_octave, int scales_per_oct
     for (int level = 1; level < scales_per_octave + 3; ++level) {
       const float added =
           AddedSigma(SigmaOf(level - 1, scales_per_octave), SigmaOf(level, scales_per_octave));
-      GaussianBlur(octave.gaussians[level - 1], added, octave.gaussians[level],
-                   &octave.differences[level - 1]);
+      blur_.Apply(octave.gaussians[level - 1], added, octave.gaussians[level],
+                  &octave.differences[level - 1]);
     }
     rows /= 2;
     columns /= 2;

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "shared/vision/gaussian_blur.h"
+
 namespace lararium::vision {
 
 // Blur of an octave's first level, in pixels of the octave.
@@ -38,6 +40,7 @@ class ScaleSpace {
 
   std::vector<Octave> octaves_;
   size_t count_ = 0;
+  GaussianBlur blur_;
   cv::Mat grey_;   // CV_32FC1, 0..1
   cv::Mat start_;  // grey_ resized to the first octave
 };

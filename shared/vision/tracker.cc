@@ -36,7 +36,9 @@ class SiftTracker final : public PoseSource {
     TrackedFrame tracked;
     tracked.frame = frame;
     tracked.camera = CameraFor(frame);
-    if (cv::mean(frame.grey)[0] < kDarkMean) {
+    if (frame.grey.empty()) {
+      tracked.reason = TrackReason::kTooFewFeatures;
+    } else if (cv::mean(frame.grey)[0] < kDarkMean) {
       tracked.reason = TrackReason::kTooDark;
     } else {
       LocateWithDetail(tracked);
@@ -50,7 +52,8 @@ class SiftTracker final : public PoseSource {
 
  private:
   CameraModel CameraFor(const geometry::Frame& frame) const {
-    const bool same = frame.grey.cols == camera_.width && frame.grey.rows == camera_.height;
+    const bool same = frame.grey.empty() ||
+                      (frame.grey.cols == camera_.width && frame.grey.rows == camera_.height);
     return same ? camera_ : camera_.Resized(frame.grey.cols, frame.grey.rows);
   }
 
@@ -66,13 +69,12 @@ class SiftTracker final : public PoseSource {
   }
 
   void Locate(const FeatureOptions& options, TrackedFrame& tracked) {
-    const Result<Features> features = extractor_.Extract(tracked.frame.grey, options);
-    CHECK(features.ok());
-    const Location location = localizer_.Locate(*features, tracked.camera);
+    CHECK(extractor_.Extract(tracked.frame.grey, options, features_).ok());
+    const Location location = localizer_.Locate(features_, tracked.camera);
     tracked.camera_from_map = location.camera_from_map;
     tracked.reason = location.reason;
     tracked.confidence = location.confidence;
-    tracked.features = static_cast<int>(features->size());
+    tracked.features = static_cast<int>(features_.size());
     tracked.matches = location.matches;
     tracked.inliers = location.inliers;
   }
@@ -80,6 +82,7 @@ class SiftTracker final : public PoseSource {
   std::shared_ptr<const SceneDatabase> database_;
   CameraModel camera_;
   FeatureExtractor extractor_;
+  Features features_;
   Localizer localizer_;
   LevelOfDetail detail_;
   bool had_pose_ = false;

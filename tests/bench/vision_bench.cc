@@ -7,6 +7,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "shared/core/check.h"
 #include "shared/core/parallel.h"
 #include "shared/geometry/p3p.h"
 #include "shared/geometry/preemptive_ransac.h"
@@ -43,11 +44,11 @@ void BenchExtractFeatures(benchmark::State& state) {
   options.first_octave = static_cast<int>(state.range(0));
   options.max_features = kFeatures;
   FeatureExtractor extractor;
-  size_t features = 0;
+  Features features;
   for (auto _ : state) {
-    features = extractor.Extract(picture, options)->size();
+    CHECK(extractor.Extract(picture, options, features).ok());
   }
-  state.counters["features"] = static_cast<double>(features);
+  state.counters["features"] = static_cast<double>(features.size());
 }
 BENCHMARK(BenchExtractFeatures)->Arg(-1)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 

@@ -77,19 +77,19 @@ TEST(PlaneResidual, RefusesPointsBehindTheCamera) {
   EXPECT_FALSE(PlaneResidual(Rigid3(), match, residual, nullptr));
 }
 
-TEST(RefinePose, IsExactWithoutNoise) {
+TEST(PoseRefiner, IsExactWithoutNoise) {
   Random random(2);
   for (int i = 0; i < 50; ++i) {
     const Rigid3 truth = SomePose(random);
     const auto matches = Matches(truth, 40, 0.0, random);
     RefinedPose refined;
-    RefinePose(matches, {kFocal, 2.0}, Moved(truth, SmallStep(1e-3, random)), refined);
+    PoseRefiner().Refine(matches, {kFocal, 2.0}, Moved(truth, SmallStep(1e-3, random)), refined);
     EXPECT_EQ(refined.inliers.size(), matches.size());
     EXPECT_LT(Difference(refined.camera_from_map, truth).norm(), 1e-9);
   }
 }
 
-TEST(RefinePose, LeavesOutliersAlone) {
+TEST(PoseRefiner, LeavesOutliersAlone) {
   Random random(3);
   for (int i = 0; i < 20; ++i) {
     const Rigid3 truth = SomePose(random);
@@ -100,7 +100,7 @@ TEST(RefinePose, LeavesOutliersAlone) {
       matches.back().plane = elsewhere[(k + 1) % elsewhere.size()].plane;
     }
     RefinedPose refined;
-    RefinePose(matches, {kFocal, 2.0}, Moved(truth, SmallStep(2e-3, random)), refined);
+    PoseRefiner().Refine(matches, {kFocal, 2.0}, Moved(truth, SmallStep(2e-3, random)), refined);
     const auto right = std::count_if(refined.inliers.begin(), refined.inliers.end(),
                                      [](uint32_t k) { return k < 60; });
     EXPECT_GE(right, 58);
@@ -112,7 +112,7 @@ TEST(RefinePose, LeavesOutliersAlone) {
 // For normal noise the normalised squared error follows chi-square with six
 // degrees of freedom, of mean 6, when the estimate is efficient and its
 // covariance true.
-TEST(RefinePose, IsAsPreciseAsItsCovarianceSays) {
+TEST(PoseRefiner, IsAsPreciseAsItsCovarianceSays) {
   Random random(4);
   double sum = 0.0;
   double noise_sum = 0.0;
@@ -121,7 +121,7 @@ TEST(RefinePose, IsAsPreciseAsItsCovarianceSays) {
     const Rigid3 truth = SomePose(random);
     const auto matches = Matches(truth, 100, 0.3, random);
     RefinedPose refined;
-    RefinePose(matches, {kFocal, 2.0}, Moved(truth, SmallStep(1e-3, random)), refined);
+    PoseRefiner().Refine(matches, {kFocal, 2.0}, Moved(truth, SmallStep(1e-3, random)), refined);
     const Vector6d error = Difference(refined.camera_from_map, truth);
     sum += error.dot(refined.covariance.ldlt().solve(error));
     noise_sum += refined.noise_px;
@@ -130,7 +130,7 @@ TEST(RefinePose, IsAsPreciseAsItsCovarianceSays) {
   EXPECT_NEAR(sum / kTrials, 6.0, 1.5);
 }
 
-TEST(RefinePose, WeighsMatchesByTheirSigma) {
+TEST(PoseRefiner, WeighsMatchesByTheirSigma) {
   Random random(5);
   double weighted = 0.0;
   double equal = 0.0;
@@ -143,23 +143,23 @@ TEST(RefinePose, WeighsMatchesByTheirSigma) {
     }
     matches.insert(matches.end(), coarse.begin(), coarse.end());
     RefinedPose refined;
-    RefinePose(matches, {kFocal, 4.0}, truth, refined);
+    PoseRefiner().Refine(matches, {kFocal, 4.0}, truth, refined);
     weighted += Difference(refined.camera_from_map, truth).norm();
     for (PoseMatch& match : matches) {
       match.sigma_px = 1.0;
     }
-    RefinePose(matches, {kFocal, 4.0}, truth, refined);
+    PoseRefiner().Refine(matches, {kFocal, 4.0}, truth, refined);
     equal += Difference(refined.camera_from_map, truth).norm();
   }
   EXPECT_LT(weighted, 0.9 * equal);
 }
 
-TEST(RefinePose, SurvivesTooFewMatches) {
+TEST(PoseRefiner, SurvivesTooFewMatches) {
   Random random(6);
   for (const int count : {0, 1, 2}) {
     const auto matches = Matches(Rigid3(), count, 0.0, random);
     RefinedPose refined;
-    RefinePose(matches, {kFocal, 2.0}, Rigid3(), refined);
+    PoseRefiner().Refine(matches, {kFocal, 2.0}, Rigid3(), refined);
     EXPECT_EQ(refined.inliers.size(), static_cast<size_t>(count));
     EXPECT_EQ(refined.covariance.norm(), 0.0);
   }

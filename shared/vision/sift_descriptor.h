@@ -1,0 +1,43 @@
+#pragma once
+
+// The histogram of gradients around a keypoint: Lowe, IJCV 2004, section 6.
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "shared/vision/features.h"
+#include "shared/vision/gradients.h"
+#include "shared/vision/orientation.h"
+
+namespace lararium::vision {
+
+// Samples of part of a row in a descriptor's own axes.
+struct SampleRow {
+  std::vector<float> u;
+  std::vector<float> v;
+  std::vector<float> angle_bin;
+  std::vector<float> weight;
+
+  void Reserve(size_t count) {
+    if (u.size() < count) {
+      for (std::vector<float>* values : {&u, &v, &angle_bin, &weight}) {
+        values->resize(count);
+      }
+    }
+  }
+};
+
+// Working memory; keep one for each thread.
+struct DescriptorMemory {
+  GradientRow gradients;
+  SampleRow samples;
+  std::vector<float> weights_x;
+  std::vector<float> weights_y;
+};
+
+// image: the extremum's level of the scale space.
+Descriptor Describe(const cv::Mat& image,
+                    const OrientedExtremum& oriented,
+                    DescriptorMemory& memory);
+
+}  // namespace lararium::vision
