@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cstdio>
 #include <variant>
 
@@ -75,6 +77,9 @@ int main(int argc, char** argv) {
   const Result<std::shared_ptr<Log>> log = MakeLog();
   if (!log.ok()) {
     return ReportFailure(log.status(), line.json);
+  }
+  if (::isatty(STDERR_FILENO) == 1) {
+    (*log)->set_level(spdlog::level::warn);  // the progress bar tells the rest
   }
   const Result<CommandResult> result = Run(line, **log);
   if (!result.ok()) {

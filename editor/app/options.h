@@ -11,7 +11,7 @@
 namespace lararium::app {
 
 struct WindowOptions {
-  std::filesystem::path project;  // empty: the last one
+  std::filesystem::path project;  // empty: the last one, or the sample
 };
 
 struct NewOptions {

@@ -1,6 +1,7 @@
 #include "editor/app/preview.h"
 
-#include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "editor/app/staging.h"
@@ -28,6 +29,9 @@ class Preview::Worker {
   // nullptr for a frame beyond the end.
   Result<std::shared_ptr<const PreviewPicture>> Draw(const PreviewRequest& request);
 
+  // What went wrong in the drama and was not told before: seeking plays it again.
+  std::vector<Status> TakeScriptErrors();
+
  private:
   Worker() = default;
 
@@ -46,6 +50,7 @@ class Preview::Worker {
   std::optional<int64_t> end_;  // number of frames, once known for certain
   std::optional<vision::TrackedFrame> tracked_;
   show::StagedFrame staged_;
+  std::set<std::string> told_;  // script errors
 };
 
 Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPaths& paths,
@@ -123,6 +128,16 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   return std::make_shared<const PreviewPicture>(std::move(picture));
 }
 
+std::vector<Status> Preview::Worker::TakeScriptErrors() {
+  std::vector<Status> errors;
+  for (const drama::ScriptError& error : show_->drama().errors()) {
+    if (told_.insert(error.message).second) {
+      errors.push_back(Status::Error("drama", error.message));
+    }
+  }
+  return errors;
+}
+
 Preview::Preview(ProjectPaths paths, SourceDocument source, show::ShowContent content, Log& log)
     : paths_(std::move(paths)),
       source_document_(std::move(source)),
@@ -139,7 +154,7 @@ void Preview::Run(std::stop_token stop) {
   Result<std::unique_ptr<Worker>> worker =
       Worker::Create(paths_, source_document_, std::move(content_), log_);
   if (!worker) {
-    SetStatus(worker.status());
+    AddProblem(worker.status());
     return;
   }
   {
@@ -149,9 +164,12 @@ void Preview::Run(std::stop_token stop) {
   while (const std::optional<PreviewRequest> request = requests_.Take(stop)) {
     Result<std::shared_ptr<const PreviewPicture>> picture = (*worker)->Draw(*request);
     if (!picture.ok()) {
-      SetStatus(picture.status());
+      AddProblem(picture.status());
     } else if (*picture != nullptr) {
       pictures_.Put(std::move(*picture));
+      for (Status& problem : (*worker)->TakeScriptErrors()) {
+        AddProblem(std::move(problem));
+      }
     } else {
       const std::lock_guard lock(mutex_);
       source_ = (*worker)->source();
@@ -159,9 +177,9 @@ void Preview::Run(std::stop_token stop) {
   }
 }
 
-void Preview::SetStatus(Status status) {
+void Preview::AddProblem(Status problem) {
   const std::lock_guard lock(mutex_);
-  status_ = std::move(status);
+  problems_.push_back(std::move(problem));
 }
 
 std::optional<PreviewSource> Preview::source() const {
@@ -169,9 +187,9 @@ std::optional<PreviewSource> Preview::source() const {
   return source_;
 }
 
-Status Preview::TakeStatus() {
+std::vector<Status> Preview::TakeProblems() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(status_, Status());
+  return std::exchange(problems_, {});
 }
 
 }  // namespace lararium::app

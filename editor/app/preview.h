@@ -68,14 +68,14 @@ class Preview {
   std::optional<std::shared_ptr<const PreviewPicture>> TakePicture() { return pictures_.TryTake(); }
 
   std::optional<PreviewSource> source() const;
-  // Why there is no picture; reported once.
-  Status TakeStatus();
+  // What went wrong since the last call, in the recording or in the drama.
+  std::vector<Status> TakeProblems();
 
  private:
   class Worker;
 
   void Run(std::stop_token stop);
-  void SetStatus(Status status);
+  void AddProblem(Status problem);
 
   ProjectPaths paths_;
   SourceDocument source_document_;
@@ -84,7 +84,7 @@ class Preview {
   Mailbox<PreviewRequest> requests_;
   Mailbox<std::shared_ptr<const PreviewPicture>> pictures_;
   mutable std::mutex mutex_;
-  Status status_;
+  std::vector<Status> problems_;
   std::optional<PreviewSource> source_;
   std::jthread thread_;
 };

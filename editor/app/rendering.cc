@@ -1,5 +1,6 @@
 #include "editor/app/rendering.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "editor/app/staging.h"
@@ -36,7 +37,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   show::LockStep lock_step({*source, *poses, *show, statistics});
   show::StagedFrame staged;
   cv::Mat picture;
-  const double frame_count = static_cast<double>(source->frame_count().value_or(0));
+  const double frame_count = static_cast<double>(source->estimated_frame_count());
   while (true) {
     if (progress.Cancelled()) {
       return Status::Error(job.out.string(), "rendering was cancelled, nothing was written");
@@ -50,7 +51,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
     LARARIUM_RETURN_IF_ERROR(writer->Write(picture));
     ++report.frames;
     report.tracked += staged.camera_from_stage.has_value() ? 1 : 0;
-    progress.Report("rendering", frame_count > 0 ? report.frames / frame_count : 0.0);
+    progress.Report("rendering", std::min(report.frames / std::max(frame_count, 1.0), 1.0));
   }
   LARARIUM_RETURN_IF_ERROR(writer->Finish());
   return report;

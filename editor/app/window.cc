@@ -32,13 +32,27 @@ std::filesystem::path StateFile() {
   return base / "lararium" / "editor.json";
 }
 
+// The sample beside the build tree that this program runs from; empty elsewhere.
+std::filesystem::path SampleProject() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path root = program.parent_path() / ".." / ".." / "..";
+  const std::filesystem::path sample =
+      (root / "scenes" / "maquette" / "maquette.lararium").lexically_normal();
+  return !error && std::filesystem::exists(sample, error) ? sample : std::filesystem::path();
+}
+
 Result<std::filesystem::path> LastProject() {
   const Result<Json> json = LoadJson(StateFile());
   if (json.ok()) {
     const Result<std::string> project = JsonView(*json, StateFile().string()).Text("project");
-    if (project.ok()) {
+    std::error_code ignored;
+    if (project.ok() && std::filesystem::exists(*project, ignored)) {
       return std::filesystem::path(*project);
     }
+  }
+  if (std::filesystem::path sample = SampleProject(); !sample.empty()) {
+    return sample;
   }
   return Status::Error(
       "lararium-editor", "no project was opened before",

@@ -9,7 +9,7 @@
 namespace lararium::app {
 
 // Opens the project in a window and returns when it is closed. Without a project
-// the last one is opened.
+// the last one is opened, or the sample.
 Status RunWindow(const WindowOptions& options, Log& log);
 
 }  // namespace lararium::app

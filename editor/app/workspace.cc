@@ -48,6 +48,9 @@ Workspace::Workspace(ProjectPaths paths, ProjectDocument document, Log& log)
     : paths_(std::move(paths)), log_(log), commands_(std::move(document)), autosave_(paths_) {}
 
 void Workspace::Tell(Message::Level level, std::string text) {
+  if (!messages_.empty() && messages_.back().text == text) {
+    return;  // said already
+  }
   messages_.push_back({level, std::move(text)});
   if (messages_.size() > kMaxMessages) {
     messages_.pop_front();
@@ -292,6 +295,13 @@ void Workspace::Update(double seconds) {
   if (map_stale_) {
     ReloadMap();
   }
+  // The drama is edited outside of this window.
+  constexpr double kFilesInterval = 1.0;
+  since_files_checked_ += seconds;
+  if (since_files_checked_ > kFilesInterval) {
+    since_files_checked_ = 0.0;
+    preview_stale_ = true;
+  }
   if (preview_stale_) {
     ReloadPreview();
   }
@@ -306,10 +316,9 @@ void Workspace::Update(double seconds) {
     picture_ = std::move(*picture);
     awaiting_picture_ = picture_->frame != requested_frame_;
   }
-  if (const Status status = preview_->TakeStatus(); !status.ok()) {
-    Tell(Message::Level::kError, status.message());
+  for (const Status& problem : preview_->TakeProblems()) {
+    Tell(Message::Level::kError, problem.message());
     awaiting_picture_ = false;
-    playing_ = false;
   }
 }
 

@@ -125,7 +125,8 @@ class Workspace {
   bool place_changed_ = true;
   bool awaiting_picture_ = false;
   bool playing_ = false;
-  double position_ = 0.0;  // frames
+  double position_ = 0.0;             // frames
+  double since_files_checked_ = 0.0;  // seconds
   std::deque<Message> messages_;
   TaskList tasks_;  // last: its threads end before the rest goes
 };
