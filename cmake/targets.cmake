@@ -20,6 +20,24 @@ function(lararium_flatbuffer room schema)
   target_sources(lararium_${room} PRIVATE ${out}/${stem}_generated.h)
 endfunction()
 
+# lararium_embed(ROOM FUNCTION FunctionName HEADER room/header.h FILES ...)
+# Builds the texts of files into a room: lararium::ROOM::FunctionName() returns
+# them as EmbeddedText, in this order.
+function(lararium_embed room)
+  cmake_parse_arguments(arg "" "FUNCTION;HEADER" "FILES" ${ARGN})
+  get_filename_component(stem ${arg_HEADER} NAME_WE)
+  set(output ${CMAKE_BINARY_DIR}/generated/shared/${room}/${stem}_embedded.cc)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} "-DFILES=${arg_FILES}" -DNAMESPACE=lararium::${room}
+      -DFUNCTION=${arg_FUNCTION} -DHEADER=${arg_HEADER} -DOUTPUT=${output}
+      -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+    DEPENDS ${arg_FILES} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+    VERBATIM
+    COMMENT "Embedding ${arg_FUNCTION}")
+  target_sources(lararium_${room} PRIVATE ${output})
+endfunction()
+
 # lararium_test(NAME LABEL label SOURCES ... LINK ... [TIMEOUT s])
 # A GoogleTest program. LABEL: unit (no GL, under a second a test), data (reads
 # scenes/ or LARARIUM_DATA_DIR), gl (draws, software Mesa suffices), ui, slow.

@@ -53,7 +53,7 @@ class Performance {
 
   // Compiles the script and plays tick 0.
   Status Begin(std::string_view script, const std::string& place) {
-    for (const StdScript& std_script : StdScripts()) {
+    for (const EmbeddedText& std_script : StdScripts()) {
       LARARIUM_RETURN_IF_ERROR(LoadStd(std_script));
     }
     LARARIUM_RETURN_IF_ERROR(StartChunk(script, place));
@@ -105,10 +105,10 @@ class Performance {
     });
   }
 
-  Status LoadStd(const StdScript& script) {
+  Status LoadStd(const EmbeddedText& script) {
     Status status;
     const bool done = Protected(sandbox_->lua(), [&](lua_State* lua) {
-      status = sandbox_->Compile(script.text, script.name);
+      status = sandbox_->Compile(script.text, "std/" + std::string(script.name));
       if (status.ok()) {
         PushHost(lua);
         lua_call(lua, 1, 0);

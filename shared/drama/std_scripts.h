@@ -1,17 +1,12 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "shared/core/embedded_text.h"
 
 namespace lararium::drama {
 
-// A file of lua/std, embedded when the library is built.
-struct StdScript {
-  const char* name;
-  std::string_view text;
-};
-
-// In the order in which they are loaded before every drama.
-std::span<const StdScript> StdScripts();
+// lua/std, in the order in which its files are loaded before every drama.
+std::span<const EmbeddedText> StdScripts();
 
 }  // namespace lararium::drama

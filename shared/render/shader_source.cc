@@ -26,7 +26,7 @@ std::string_view IncludedName(std::string_view line) {
 
 class Assembler {
  public:
-  Assembler(std::span<const ShaderSource> sources, AssembledShader& shader)
+  Assembler(std::span<const EmbeddedText> sources, AssembledShader& shader)
       : sources_(sources), shader_(shader) {}
 
   Status Append(std::string_view name) {
@@ -34,7 +34,7 @@ class Assembler {
       return Status();
     }
     const auto source = std::find_if(sources_.begin(), sources_.end(),
-                                     [&](const ShaderSource& s) { return s.name == name; });
+                                     [&](const EmbeddedText& s) { return s.name == name; });
     if (source == sources_.end()) {
       return Status::Error(name, "there is no such shader file");
     }
@@ -62,7 +62,7 @@ class Assembler {
     shader_.text += "#line " + std::to_string(line) + " " + std::to_string(number) + "\n";
   }
 
-  std::span<const ShaderSource> sources_;
+  std::span<const EmbeddedText> sources_;
   AssembledShader& shader_;
 };
 
@@ -100,7 +100,7 @@ std::string AssembledShader::ExplainLog(std::string_view log) const {
 
 Result<AssembledShader> AssembleShader(std::string_view name,
                                        std::string_view header,
-                                       std::span<const ShaderSource> sources) {
+                                       std::span<const EmbeddedText> sources) {
   AssembledShader shader;
   shader.text = header;
   LARARIUM_RETURN_IF_ERROR(Assembler(sources, shader).Append(name));

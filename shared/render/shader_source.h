@@ -7,15 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "shared/core/embedded_text.h"
 #include "shared/core/status.h"
 
 namespace lararium::render {
 
-struct ShaderSource {
-  std::string_view name;  // of its file, without folder
-  std::string_view text;
-};
-std::span<const ShaderSource> ShaderSources();
+std::span<const EmbeddedText> ShaderSources();
 
 // A shader as the compiler takes it: version line first, includes in place.
 struct AssembledShader {
@@ -32,6 +29,6 @@ Result<AssembledShader> AssembleShader(std::string_view name, std::string_view h
 // For tests: from other sources.
 Result<AssembledShader> AssembleShader(std::string_view name,
                                        std::string_view header,
-                                       std::span<const ShaderSource> sources);
+                                       std::span<const EmbeddedText> sources);
 
 }  // namespace lararium::render

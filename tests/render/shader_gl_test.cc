@@ -13,13 +13,13 @@ namespace {
 // Every fragment shader with the vertex shader of its pass.
 std::map<std::string, std::string> Passes() {
   std::map<std::string, std::string> vertex_of;
-  for (const ShaderSource& source : ShaderSources()) {
+  for (const EmbeddedText& source : ShaderSources()) {
     const std::string name(source.name);
     if (name.ends_with(".frag")) {
       vertex_of[name] = "full_screen.vert";
     }
   }
-  for (const ShaderSource& source : ShaderSources()) {
+  for (const EmbeddedText& source : ShaderSources()) {
     const std::string name(source.name);
     if (name.ends_with(".vert") && name != "full_screen.vert") {
       vertex_of[name.substr(0, name.size() - 5) + ".frag"] = name;

@@ -9,7 +9,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr ShaderSource kSources[] = {
+constexpr EmbeddedText kSources[] = {
     {"main.frag", "// main\n#include \"a.glsl\"\n#include \"b.glsl\"\nvoid main() {}\n"},
     {"a.glsl", "float A();\n"},
     {"b.glsl", "#include \"a.glsl\"\nfloat B();"},
