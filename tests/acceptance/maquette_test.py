@@ -182,7 +182,7 @@ def hostile_scripts(sample: Sample, report: Report) -> None:
     drama = sample.project / "drama.lua"
     original = drama.read_text()
     for name, script in (("endless loop", "while true do end"),
-                         ("endless allocation", "local block, all = ('x'):rep(1000000), {} while true do all[#all + 1] = block .. #all end")):
+                         ("endless allocation", "local block, all = ('x'):rep(60000), {} while true do all[#all + 1] = block .. #all end")):
         drama.write_text(original.replace("function main()", f"function main()\n  start(function() {script} end)"))
         show, stats = sample.work / "hostile.larshow", sample.work / "hostile_stats.json"
         sample.editor("export", "--out", show)
