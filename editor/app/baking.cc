@@ -3,6 +3,7 @@
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <span>
+#include <sstream>
 #include <utility>
 
 #include "editor/bake/probe.h"
@@ -114,13 +115,19 @@ BakeStep MeshStep(const ProjectPaths& paths,
 BakeStep HumanStep(const ProjectPaths& paths, const CastDocument& member) {
   const std::filesystem::path product = paths.Human(member.name);
   if (member.model.empty()) {
+    std::ostringstream settings;
+    settings << "plain figure " << member.name << " " << member.height << " "
+             << member.tunic.transpose();
     return {"human " + member.name,
             product,
             {},
-            "plain figure " + member.name,
-            [name = member.name](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
-              human::Human human = import::BuildPlainFigure();
-              human.name = name;
+            settings.str(),
+            [member](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+              import::PlainFigureOptions options;
+              options.height = static_cast<float>(member.height);
+              options.tunic = geometry::ToGlm(member.tunic);
+              human::Human human = import::BuildPlainFigure(options);
+              human.name = member.name;
               return human::SerializeHuman(human);
             }};
   }

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "editor/app/project.h"
+
 namespace lararium::app {
 
 namespace {
@@ -70,6 +72,12 @@ void AddOthers(CLI::App& app, AllOptions& options) {
 
   CLI::App* cast = AddSubcommand(app, "cast", "Add a person", options.cast.project);
   cast->add_option("--name", options.cast.name, "As the drama calls the person")->required();
+  cast->add_option("--height", options.cast.height, "Of the plain figure, metres")
+      ->check(CLI::Range(kMinHeight, kMaxHeight));
+  cast->add_option("--tunic", options.cast.tunic, "Of the plain figure: r,g,b, albedo from 0 to 1")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Range(0.0, 1.0));
   cast->add_option("--model", options.cast.model, "Figure to import; the plain one otherwise")
       ->check(CLI::ExistingFile);
 

@@ -36,7 +36,9 @@ struct TrainOptions {
 struct CastOptions {
   std::filesystem::path project;
   std::string name;
-  std::filesystem::path model;  // empty: the plain built-in figure
+  std::filesystem::path model;   // empty: the plain built-in figure
+  std::optional<double> height;  // of the plain figure, metres
+  std::vector<double> tunic;     // of the plain figure, linear albedo; or empty
 };
 
 struct BakeOptions {

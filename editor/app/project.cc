@@ -205,11 +205,21 @@ Result<PlaceDocument> ParsePlace(const JsonView& view) {
 }
 
 Result<CastDocument> ParseCastMember(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "model"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "model", "height", "tunic"}));
   CastDocument member;
   LARARIUM_ASSIGN_OR_RETURN(member.name, ParsePlainName(view, "name"));
   if (view.Has("model")) {
     LARARIUM_ASSIGN_OR_RETURN(member.model, view.Text("model"));
+  }
+  if (view.Has("height")) {
+    LARARIUM_ASSIGN_OR_RETURN(member.height, view.Number("height", kMinHeight, kMaxHeight));
+  }
+  if (view.Has("tunic")) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> tunic, view.Numbers("tunic", 3));
+    member.tunic = {tunic[0], tunic[1], tunic[2]};
+    if (member.tunic.minCoeff() < 0.0 || member.tunic.maxCoeff() > 1.0) {
+      return view.Problem("\"tunic\" must hold albedos from 0 to 1");
+    }
   }
   return member;
 }
@@ -383,6 +393,9 @@ Json FormatProject(const ProjectDocument& document) {
     Json entry = {{"name", member.name}};
     if (!member.model.empty()) {
       entry["model"] = member.model;
+    } else {
+      entry["height"] = member.height;
+      entry["tunic"] = FormatVector(member.tunic);
     }
     json["cast"].push_back(std::move(entry));
   }

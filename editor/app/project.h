@@ -59,9 +59,16 @@ struct PlaceDocument {
   std::optional<ProbeDocument> probe;
 };
 
+// Of the plain figure, metres.
+inline constexpr double kMinHeight = 0.8;
+inline constexpr double kMaxHeight = 2.2;
+
 struct CastDocument {
   std::string name;   // as the drama calls the actor
   std::string model;  // a figure that the editor imports; empty: the plain built-in one
+  // Of the plain figure only.
+  double height = 1.72;                        // metres
+  Eigen::Vector3d tunic = {0.60, 0.55, 0.45};  // linear RGB albedo
 };
 
 // All that a curator edits, but the drama, which is a file of its own.

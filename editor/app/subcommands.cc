@@ -176,8 +176,13 @@ Result<CommandResult> RunCast(const CastOptions& options) {
     return Status::Error("--name " + options.name, "cannot name a person",
                          "use 1 to 64 letters, digits, '_' and '-'");
   }
-  const CastDocument member{options.name,
-                            options.model.empty() ? "" : paths.Shorten(options.model)};
+  CastDocument member;
+  member.name = options.name;
+  member.model = options.model.empty() ? "" : paths.Shorten(options.model);
+  member.height = options.height.value_or(member.height);
+  if (!options.tunic.empty()) {
+    member.tunic = {options.tunic[0], options.tunic[1], options.tunic[2]};
+  }
   const auto known = std::find_if(document.cast.begin(), document.cast.end(),
                                   [&](const auto& m) { return m.name == member.name; });
   if (known == document.cast.end()) {

@@ -195,7 +195,9 @@ std::string Workspace::PreviewKey() const {
     key["probe"] = {at.probe->file, at.probe->scale, q.x(), q.y(), q.z(), q.w()};
   }
   for (const CastDocument& member : document().cast) {
-    key["cast"].push_back({member.name, member.model});
+    const Eigen::Vector3d& tunic = member.tunic;
+    key["cast"].push_back(
+        {member.name, member.model, member.height, tunic.x(), tunic.y(), tunic.z()});
   }
   return key.dump();
 }

@@ -264,10 +264,27 @@ void ShowProbe(app::Workspace& workspace, EditorState& state, const app::PlaceDo
 void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDocument& member) {
   Heading(member.name.c_str());
   Hint("Where people stand and what they do is written in the drama.");
+  app::CastDocument edited = member;
+  bool changed = false;
   if (BeginProperties("actor")) {
     PropertyText("Figure", member.model.empty() ? "plain, built in" : member.model);
+    if (member.model.empty()) {
+      changed = NumberProperty(workspace, "Height", edited.height, 0.005, app::kMinHeight,
+                               app::kMaxHeight, "%.2f m");
+      changed |= ColourProperty(workspace, "Tunic", edited.tunic);
+    }
     PropertyText("Baked", workspace.paths().Shorten(workspace.paths().Human(member.name)));
     EndProperties();
+  }
+  if (changed) {
+    workspace.Edit(
+        "figure of " + member.name,
+        [&edited](app::ProjectDocument& document) {
+          std::replace_if(
+              document.cast.begin(), document.cast.end(),
+              [&](const auto& m) { return m.name == edited.name; }, edited);
+        },
+        "figure");
   }
   if (ImGui::Button("Remove", ImVec2(-FLT_MIN, 0))) {
     workspace.Edit("remove " + member.name, [name = member.name](app::ProjectDocument& document) {

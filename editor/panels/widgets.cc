@@ -197,6 +197,23 @@ bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quate
   return true;
 }
 
+bool ColourProperty(app::Workspace& workspace, const char* label, Eigen::Vector3d& albedo) {
+  PropertyLabel(label);
+  const auto encode = [](double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+  };
+  const auto decode = [](double srgb) {
+    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+  };
+  Eigen::Vector3f colour = albedo.unaryExpr(encode).cast<float>();
+  const bool changed = ImGui::ColorEdit3(label, colour.data(), ImGuiColorEditFlags_NoLabel);
+  EndGestureWithItem(workspace);
+  if (changed) {
+    albedo = colour.cast<double>().unaryExpr(decode).cwiseMax(0.0).cwiseMin(1.0);
+  }
+  return changed;
+}
+
 bool PathField(const char* id,
                std::string& path,
                const std::filesystem::path& folder,

@@ -45,6 +45,9 @@ bool VectorProperty(app::Workspace& workspace,
 // Degrees of heading (about Y), tilt (about X), roll (about Z).
 bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quaterniond& rotation);
 
+// A linear RGB albedo, shown and typed as the sRGB colour that people know.
+bool ColourProperty(app::Workspace& workspace, const char* label, Eigen::Vector3d& albedo);
+
 // A path as text, and a button that lists the folder. extensions: with dots,
 // lower case; none: folders are chosen. folder: what relative paths start from.
 bool PathField(const char* id,

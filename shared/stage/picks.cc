@@ -320,12 +320,4 @@ Result<StageSolution> SolveStage(const StagePicks& picks, const SceneDatabase& d
   return solution;
 }
 
-geometry::Similarity3 AdjustStage(const geometry::Similarity3& map_from_stage,
-                                  const StageAdjust& adjust) {
-  const geometry::Similarity3 stage_from_adjusted = {
-      adjust.scale, Eigen::Quaterniond(Eigen::AngleAxisd(adjust.heading, Eigen::Vector3d::UnitY())),
-      adjust.translation};
-  return map_from_stage * stage_from_adjusted;
-}
-
 }  // namespace lararium::stage

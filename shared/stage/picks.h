@@ -63,14 +63,4 @@ struct StageSolution {
 // this map, rays too parallel, points on a line or in one place.
 Result<StageSolution> SolveStage(const StagePicks& picks, const vision::SceneDatabase& database);
 
-// What is moved by hand after the picks, in the stage that they give.
-struct StageAdjust {
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // of the origin, metres
-  double heading = 0.0;                                   // about +Y, radians
-  double scale = 1.0;  // > 1: everything on the stage appears larger
-};
-
-geometry::Similarity3 AdjustStage(const geometry::Similarity3& map_from_stage,
-                                  const StageAdjust& adjust);
-
 }  // namespace lararium::stage

@@ -31,7 +31,7 @@ ProjectDocument FullDocument() {
   document.title = "Vetutius";
   document.credits = "by hand";
   document.places = {place, untouched};
-  document.cast = {{"Publia", "models/publia.glb"}, {"Vetutius", ""}};
+  document.cast = {{"Publia", "models/publia.glb"}, {"Vetutius", "", 1.64, {0.3, 0.1, 0.05}}};
   return document;
 }
 
@@ -125,7 +125,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"pixel", "/places/0/picks/origin/0/pixel", {1e300, 0}},
                     Damage{"length", "/places/0/picks/length_m", 0.0},
                     Damage{"probe", "/places/0/probe/scale", -1.0},
-                    Damage{"cast", "/cast/0", "Publia"}),
+                    Damage{"cast", "/cast/0", "Publia"},
+                    Damage{"giant", "/cast/1/height", 3.0},
+                    Damage{"glowing", "/cast/1/tunic", {2.0, 0.1, 0.1}}),
     [](const auto& info) { return info.param.name; });
 
 TEST(Project, MissingFilesAreNamed) {

@@ -251,18 +251,5 @@ TEST(StagePicks, FailuresNameTheAnchorAndTheRemedy) {
   EXPECT_THAT(SolveStage(picks, empty).message(), HasSubstr("second training image"));
 }
 
-TEST(AdjustStage, MovesTurnsAndScalesWithinTheStage) {
-  const Similarity3 map_from_stage = SomeGauge();
-  EXPECT_TRUE((AdjustStage(map_from_stage, {}) * Eigen::Vector3d(1, 2, 3))
-                  .isApprox(map_from_stage * Eigen::Vector3d(1, 2, 3)));
-  StageAdjust adjust;
-  adjust.translation = {1.0, 0.0, 0.0};
-  adjust.heading = kPi / 2.0;
-  adjust.scale = 2.0;
-  const Similarity3 map_from_adjusted = AdjustStage(map_from_stage, adjust);
-  EXPECT_TRUE((map_from_adjusted * Eigen::Vector3d(0, 0, -1))
-                  .isApprox(map_from_stage * Eigen::Vector3d(-1, 0, 0), 1e-9));
-}
-
 }  // namespace
 }  // namespace lararium::stage
