@@ -131,6 +131,7 @@ DescriptorForest BuildForest(std::span<const Descriptor> descriptors,
     return forest;
   }
   std::vector<TreeBuilder> builders;
+  builders.reserve(options.trees);
   for (int t = 0; t < options.trees; ++t) {
     builders.emplace_back(descriptors, options.leaf_size, options.seed, t);
   }

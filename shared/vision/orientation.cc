@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace lararium::vision {
 namespace {
@@ -19,8 +20,8 @@ OrientationHistogram Histogram(const cv::Mat& image, const Extremum& e, Orientat
     memory.gradients.Fill(image, y, window.x_begin, window.x_end);
     const float weight = memory.weights_y[y - window.y_begin];
     for (int i = 0; i < window.x_end - window.x_begin; ++i) {
-      const int bin =
-          static_cast<int>(memory.gradients.angle[i] * (kOrientationBins / kTwoPi) + 0.5f);
+      const float turns = memory.gradients.angle[i] / kTwoPi;
+      const int bin = static_cast<int>(std::lround(turns * kOrientationBins));
       sums[bin] += weight * memory.weights_x[i] * memory.gradients.magnitude[i];
     }
   }

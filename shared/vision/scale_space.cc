@@ -22,8 +22,8 @@ void EverySecondPixel(const cv::Mat& image, cv::Mat& half) {
   for (int y = 0; y < half.rows; ++y) {
     const float* from = image.ptr<float>(2 * y);
     float* to = half.ptr<float>(y);
-    for (int x = 0; x < half.cols; ++x) {
-      to[x] = from[2 * x];
+    for (int x = 0; x < half.cols; ++x, from += 2) {
+      to[x] = *from;
     }
   }
 }

@@ -15,8 +15,9 @@ constexpr int kAngles = 8;  // for each cell
 // One more cell on every side, and one more angle, catch the outer shares of
 // the trilinear interpolation.
 constexpr int kPaddedCells = kCells + 2;
-constexpr int kPaddedAngles = kAngles + 1;
-using PaddedHistogram = std::array<float, kPaddedCells * kPaddedCells * kPaddedAngles>;
+constexpr size_t kCellStride = kAngles + 1;
+constexpr size_t kRowStride = kPaddedCells * kCellStride;
+using PaddedHistogram = std::array<float, kPaddedCells * kRowStride>;
 
 // Part of a row in which both |a + b t| < limit hold.
 std::pair<float, float> Overlap(float a, float b, float limit, std::pair<float, float> range) {
@@ -36,7 +37,7 @@ void AddSample(float u, float v, float angle_bin, float weight, PaddedHistogram&
   const float fu = u - static_cast<float>(iu);
   const float fv = v - static_cast<float>(iv);
   const float fa = angle_bin - static_cast<float>(ia);
-  float* cell = &histogram[(iv * kPaddedCells + iu) * kPaddedAngles + (ia & (kAngles - 1))];
+  float* cell = &histogram[iv * kRowStride + iu * kCellStride + (ia & (kAngles - 1))];
   const float below = weight * (1.0f - fv);
   const float above = weight * fv;
   const auto add = [fa](float* bin, float share) {
@@ -44,9 +45,9 @@ void AddSample(float u, float v, float angle_bin, float weight, PaddedHistogram&
     bin[1] += share * fa;
   };
   add(cell, below * (1.0f - fu));
-  add(cell + kPaddedAngles, below * fu);
-  add(cell + kPaddedCells * kPaddedAngles, above * (1.0f - fu));
-  add(cell + (kPaddedCells + 1) * kPaddedAngles, above * fu);
+  add(cell + kCellStride, below * fu);
+  add(cell + kRowStride, above * (1.0f - fu));
+  add(cell + kRowStride + kCellStride, above * fu);
 }
 
 PaddedHistogram Accumulate(const cv::Mat& image,
@@ -108,7 +109,7 @@ Descriptor Quantised(const PaddedHistogram& histogram) {
   size_t k = 0;
   for (int v = 1; v <= kCells; ++v) {
     for (int u = 1; u <= kCells; ++u) {
-      const float* cell = &histogram[(v * kPaddedCells + u) * kPaddedAngles];
+      const float* cell = &histogram[v * kRowStride + u * kCellStride];
       for (int a = 0; a < kAngles; ++a) {
         values[k++] = cell[a] + (a == 0 ? cell[kAngles] : 0.0f);
       }
