@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of packages.txt that this machine lacks.
+# Installs the Debian packages of packages.txt that this machine lacks: those for
+# everybody, and those for the purposes that are named (check, full).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-mapfile -t wanted < <(sed 's/#.*//' packages.txt | awk 'NF {print $1}')
+mapfile -t wanted < <(sed 's/#.*//' packages.txt |
+  awk -v purposes=" $* " 'NF == 1 || (NF == 2 && index(purposes, " " $2 " ")) {print $1}')
 missing=()
 for package in "${wanted[@]}"; do
   # shellcheck disable=SC2016  # the format is dpkg-query's, not the shell's

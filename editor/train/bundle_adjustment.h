@@ -35,7 +35,7 @@ bool ReprojectionResidual(const geometry::CameraModel& fixed,
 
 struct BundleOptions {
   int max_iterations = 30;
-  double loss_scale_px = 1.0;  // of Cauchy's loss
+  double loss_scale_px = 1.5;  // of Cauchy's loss
   double function_tolerance = 1e-6;
   bool refine_intrinsics = false;
   // Of AdjustAll: enough of the most observed points take part that each image

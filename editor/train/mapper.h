@@ -18,7 +18,7 @@ namespace lararium::train {
 struct MapperOptions {
   bool refine_intrinsics = false;
   TriangulationOptions triangulation;  // while the map grows
-  double final_max_error_px = 2.0;     // of the finished map's observations
+  double final_max_error_px = 2.5;     // of the finished map's observations
   ResectionOptions resection;
   double min_initial_angle = 0.035;  // radians (2 degrees), median over the initial pair's points
   size_t min_initial_points = 40;

@@ -154,6 +154,8 @@ class Trainer {
 
   Status Extract() {
     vision::FeatureOptions options;
+    // Faint features too: many views average out what each alone is unsure of.
+    options.contrast_threshold = 0.02f;
     options.max_features = options_.max_features;
     std::vector<Status> failures(images_.size());
     constexpr size_t kBatch = 8;
