@@ -129,6 +129,42 @@ def track(sample: Sample, report: Report) -> None:
                 not any(t for t, c, i in zip(tracked, covered, truth) if c and i["visible_fraction"] == 0.0))
 
 
+def rotation(q: list[float]) -> np.ndarray:
+    """Rotation matrix of a unit quaternion w, x, y, z."""
+    w, x, y, z = q
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def project(camera: dict[str, Any], points: np.ndarray) -> np.ndarray:
+    """Pixels of points, NaN where they are not in view."""
+    pose = camera["world_to_camera"]
+    fx, fy, cx, cy = camera["K"]
+    x, y, z = (points @ np.array(pose["R"]).reshape(3, 3).T + np.array(pose["t"])).T
+    pixels = np.stack([fx * x / z + cx, fy * y / z + cy], 1)
+    seen = (z > 0.5) & (pixels >= 0).all(1) & (pixels < [camera["width"], camera["height"]]).all(1)
+    pixels[~seen] = np.nan
+    return pixels
+
+
+def stage_registration(sample: Sample, report: Report) -> None:
+    """What stands on the stage lies where it should in the picture, and does not swim."""
+    with zipfile.ZipFile(sample.show) as archive:
+        place = json.loads(archive.read("manifest.json"))["places"][0]["map_from_stage"]
+    # The picks put the stage's axes at the world's: right, up, and towards the viewer.
+    floor = np.array([[x, y, 0.0] for x in np.arange(-1.0, 1.6, 0.25) for y in (-0.3, 0.3, 0.8)])
+    on_stage = np.stack([floor[:, 0], floor[:, 2], -floor[:, 1]], 1)
+    in_map = place["scale"] * on_stage @ rotation(place["rotation"]).T + place["translation"]
+    truth = json.loads((sample.data / "handheld" / "ground_truth.json").read_text())["images"]
+    found = json.loads((sample.work / "handheld_poses.json").read_text())["images"]
+    offsets = np.array([project(f, in_map) - project(t, floor) for f, t in zip(found, truth)])
+    size = np.linalg.norm(offsets, axis=2)
+    report.figure("stage: mean offset of points on its floor, px", float(np.nanmean(size)), 1.5, False)
+    swim = np.linalg.norm(np.diff(offsets, axis=0), axis=2)
+    report.figure("stage: swimming from frame to frame, mean, px", float(np.nanmean(swim)), 0.15, False)
+
+
 def frames(path: Path) -> list[np.ndarray]:
     """All frames of a video."""
     video = cv2.VideoCapture(str(path))
@@ -208,7 +244,7 @@ def main() -> int:
     report = Report()
     try:
         sample = Sample(args)
-        for step in (make_show, track, look, determinism, damaged_bundles, hostile_scripts):
+        for step in (make_show, track, stage_registration, look, determinism, damaged_bundles, hostile_scripts):
             step(sample, report)
     except Failure as failure:
         print(failure, file=sys.stderr)
