@@ -24,26 +24,42 @@ class Mapper {
         pairs_(pairs),
         options_(options),
         progress_(progress),
-        log_(log) {}
+        log_(log),
+        first_camera_(reconstruction.camera()) {}
 
   std::optional<InitialPair> Run() {
     constexpr size_t kMaxStarts = 20;
+    constexpr int kMaxMaps = 3;
     const std::vector<size_t> starts = RankInitialPairs();
-    for (size_t i = 0; i < std::min(kMaxStarts, starts.size()); ++i) {
-      if (progress_.Cancelled()) {
-        return std::nullopt;
+    int maps = 0;
+    for (size_t i = 0; i < std::min(kMaxStarts, starts.size()) && maps < kMaxMaps; ++i) {
+      const VerifiedPair& pair = pairs_[starts[i]];
+      if (BestCovers(pair.images)) {
+        continue;
       }
-      if (!StartFromBestPose(pairs_[starts[i]])) {
+      if (!StartFromBestPose(pair)) {
         continue;
       }
       Grow();
-      if (reconstruction_.LocatedImages().size() >= 3 || reconstruction_.image_count() == 2) {
-        Finish();
-        return progress_.Cancelled() ? std::nullopt : std::optional(anchors_);
+      Finish();
+      if (progress_.Cancelled()) {
+        return std::nullopt;
+      }
+      if (!Sound()) {
+        continue;
+      }
+      ++maps;
+      KeepIfBest();
+      if (2 * best_->LocatedImages().size() > best_->image_count()) {
+        break;
       }
     }
     Forget();
-    return std::nullopt;
+    if (!best_) {
+      return std::nullopt;
+    }
+    reconstruction_ = std::move(*best_);
+    return best_anchors_;
   }
 
  private:
@@ -68,9 +84,30 @@ class Mapper {
     return order;
   }
 
+  bool BestCovers(const ImagePair& images) const {
+    return best_ && best_->Located(images.a) && best_->Located(images.b);
+  }
+
+  // Whether what grew is a map, not a pair with a few stray points.
+  bool Sound() const {
+    return reconstruction_.LocatedImages().size() >=
+               std::min<size_t>(3, reconstruction_.image_count()) &&
+           reconstruction_.PointCount() >= options_.min_initial_points;
+  }
+
+  void KeepIfBest() {
+    if (!best_ || reconstruction_.LocatedImages().size() > best_->LocatedImages().size()) {
+      best_ = reconstruction_;
+      best_anchors_ = anchors_;
+    }
+  }
+
   void Forget() {
     for (const uint32_t image : reconstruction_.LocatedImages()) {
       reconstruction_.Unlocate(image);
+    }
+    if (reconstruction_.camera() != first_camera_) {
+      reconstruction_.SetCamera(first_camera_);
     }
   }
 
@@ -380,7 +417,10 @@ class Mapper {
   MapperOptions options_;
   Progress& progress_;
   Log& log_;
+  geometry::CameraModel first_camera_;
   InitialPair anchors_ = {0, 0};
+  std::optional<Reconstruction> best_;
+  InitialPair best_anchors_ = {0, 0};
   size_t last_global_ = 0;
 };
 

@@ -27,8 +27,8 @@ struct MapperOptions {
 // The two images that a map started from.
 using InitialPair = std::array<uint32_t, 2>;
 
-// Locates as many images as it can, from scratch. nullopt when no pair can
-// start a map, or when cancelled.
+// Locates as many images as it can, from scratch: the largest of the maps that
+// the best pairs grow into. nullopt when no pair can start a map, or when cancelled.
 std::optional<InitialPair> MapIncrementally(Reconstruction& reconstruction,
                                             std::span<const VerifiedPair> pairs,
                                             const MapperOptions& options,

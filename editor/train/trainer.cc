@@ -259,6 +259,7 @@ class Trainer {
     if (!anchors) {
       return WhyNoMap(mapper.min_initial_angle);
     }
+    LARARIUM_RETURN_IF_ERROR(CheckShare());
     if (!options_.intrinsics) {
       report_.focal_deviation_px = FocalDeviation(*reconstruction_, (*anchors)[0]);
     }
@@ -283,7 +284,22 @@ class Trainer {
     }
     return Status::Error(
         kPlace, "no two images fix enough points to start a map (best " + a + " and " + b + ")",
-        "film textured, unmoving things, with neighbouring images that overlap");
+        "film textured things that do not move, from a camera that does");
+  }
+
+  // A scrap of the images is no map of the place.
+  Status CheckShare() const {
+    const std::vector<uint32_t> located = reconstruction_->LocatedImages();
+    if (5 * located.size() >= images_.size()) {
+      return Status();
+    }
+    return Status::Error(kPlace,
+                         "only " + std::to_string(located.size()) + " of " +
+                             std::to_string(images_.size()) + " images fit one map (" +
+                             images_[located.front()].name + " to " + images_[located.back()].name +
+                             ")",
+                         "film things that do not move, from a camera that does: slowly, sideways, "
+                         "with neighbouring images that overlap");
   }
 
   // The first image's camera becomes the frame, the median depth the unit.

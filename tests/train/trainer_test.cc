@@ -200,6 +200,16 @@ TEST(Trainer, RefusesImagesWithoutOverlapAndSaysSo) {
   EXPECT_THAT(result.message(), HasSubstr("more slowly"));
 }
 
+TEST(Trainer, RefusesMovingThingsBeforeAStandingCamera) {
+  std::vector<cv::Mat> images;
+  for (int i = 0; i < 6; ++i) {
+    images.push_back(Render(0.0, 0.0));
+    Texture(2)(cv::Rect(100, 100, 40, 40))
+        .copyTo(images.back()(cv::Rect(20 + 15 * i, 100, 40, 40)));
+  }
+  EXPECT_FALSE(TrainOn(images, KnownCamera()).ok());
+}
+
 TEST(Trainer, RefusesASingleFrame) {
   EXPECT_THAT(TrainOn({Render(0, 0)}, KnownCamera()).message(), HasSubstr("fewer than two frames"));
 }
