@@ -51,6 +51,6 @@ function(lararium_test name)
   target_compile_definitions(${name} PRIVATE
     LARARIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" LARARIUM_DATA_DIR="${LARARIUM_DATA_DIR}")
   string(REGEX REPLACE "_(data_|gl_|ui_|slow_)?test$" "" room ${name})
-  gtest_discover_tests(${name} TEST_PREFIX "${room}/" DISCOVERY_TIMEOUT 60
+  gtest_discover_tests(${name} NO_PRETTY_VALUES TEST_PREFIX "${room}/" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
 endfunction()
