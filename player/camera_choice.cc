@@ -1,24 +1,11 @@
 #include "player/camera_choice.h"
 
-#include <cmath>
-
 #include "shared/core/json.h"
 
 namespace lararium::player {
 namespace {
 
 using geometry::CameraModel;
-
-CameraModel CameraFromNumbers(const std::vector<double>& n, int width, int height) {
-  CameraModel camera{width, height, n[0], n[1], n[2], n[3]};
-  if (n.size() == 8) {
-    camera.k1 = n[4];
-    camera.k2 = n[5];
-    camera.p1 = n[6];
-    camera.p2 = n[7];
-  }
-  return camera;
-}
 
 // {"schema": 1, "camera": {"width", "height", "K": [fx, fy, cx, cy],
 // "k1_k2_p1_p2": [...]}}
@@ -38,26 +25,7 @@ Result<CameraModel> LoadDeviceCamera(const std::filesystem::path& file) {
                               camera.Numbers("k1_k2_p1_p2", 4));
     numbers.insert(numbers.end(), distortion.begin(), distortion.end());
   }
-  return CameraFromNumbers(numbers, static_cast<int>(width), static_cast<int>(height));
-}
-
-// The camera for images of another size of the same aspect.
-Result<CameraModel> ForSize(const CameraModel& camera,
-                            int width,
-                            int height,
-                            const std::string& origin) {
-  if (camera.width == width && camera.height == height) {
-    return camera;
-  }
-  const double wanted = static_cast<double>(camera.width) * height / camera.height;
-  if (std::abs(wanted - width) > 1.0) {
-    return Status::Error(origin,
-                         "was made for images of " + std::to_string(camera.width) + "x" +
-                             std::to_string(camera.height) + ", these are " +
-                             std::to_string(width) + "x" + std::to_string(height),
-                         "give --intrinsics for this camera");
-  }
-  return camera.Resized(width, height);
+  return CameraModel::FromNumbers(numbers, static_cast<int>(width), static_cast<int>(height));
 }
 
 }  // namespace
@@ -66,21 +34,24 @@ Result<CameraChoice> ChooseCamera(const PlayOptions& options,
                                   const CameraModel& trained,
                                   int width,
                                   int height) {
-  CameraChoice choice;
+  CameraChoice choice{{}, "the bundle"};
+  Result<CameraModel> camera = trained;
   if (!options.intrinsics.empty()) {
-    choice = {CameraFromNumbers(options.intrinsics, width, height), "--intrinsics"};
-  } else {
-    CameraModel calibrated = trained;
-    choice.origin = "the bundle";
-    if (!options.device.empty()) {
-      LARARIUM_ASSIGN_OR_RETURN(calibrated, LoadDeviceCamera(options.device));
-      choice.origin = options.device.string();
-    }
-    LARARIUM_ASSIGN_OR_RETURN(choice.camera, ForSize(calibrated, width, height, choice.origin));
+    choice.origin = "--intrinsics";
+    camera = CameraModel::FromNumbers(options.intrinsics, width, height);
+  } else if (!options.device.empty()) {
+    choice.origin = options.device.string();
+    camera = LoadDeviceCamera(options.device);
   }
-  if (const Status valid = choice.camera.Validate(); !valid.ok()) {
-    return valid.At(choice.origin);
+  if (camera.ok()) {
+    camera = camera->ForImages(width, height);
   }
+  if (!camera.ok()) {
+    // What the device file says wrong names the file already.
+    const bool named = camera.message().starts_with(choice.origin);
+    return named ? camera.status() : camera.status().At(choice.origin);
+  }
+  choice.camera = *camera;
   return choice;
 }
 

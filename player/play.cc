@@ -92,9 +92,10 @@ Status Performance::Prepare() {
 
   LARARIUM_ASSIGN_OR_RETURN(screen_, Screen::Open(options_, show_->content().title));
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(show_->content()));
-  LARARIUM_ASSIGN_OR_RETURN(target_,
-                            render::RenderTarget::Create(source_->width(), source_->height()));
-  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_));
+  // Videos have even sides.
+  LARARIUM_ASSIGN_OR_RETURN(
+      target_, render::RenderTarget::Create(source_->width() & ~1, source_->height() & ~1));
+  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, *target_));
   statistics_.gpu = render::GraphicsDeviceName();
   return Status();
 }

@@ -2,12 +2,14 @@
 
 namespace lararium::player {
 
-Result<Recorder> Recorder::Create(const PlayOptions& options, const capture::FrameSource& source) {
+Result<Recorder> Recorder::Create(const PlayOptions& options,
+                                  const capture::FrameSource& source,
+                                  const render::RenderTarget& target) {
   Recorder recorder(options, source);
   if (!options.record.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(
-        recorder.video_, capture::VideoWriter::Create(options.record, source.width(),
-                                                      source.height(), source.frames_per_second()));
+        recorder.video_, capture::VideoWriter::Create(options.record, target.width(),
+                                                      target.height(), source.frames_per_second()));
   }
   return recorder;
 }

@@ -20,7 +20,9 @@ namespace lararium::player {
 class Recorder {
  public:
   // Opens what the options ask for. source and options must outlive it.
-  static Result<Recorder> Create(const PlayOptions& options, const capture::FrameSource& source);
+  static Result<Recorder> Create(const PlayOptions& options,
+                                 const capture::FrameSource& source,
+                                 const render::RenderTarget& target);
 
   // The frame that target shows.
   Status Add(const vision::TrackedFrame& tracked, const render::RenderTarget& target);

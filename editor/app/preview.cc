@@ -59,18 +59,18 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPa
                                                                  Log& log) {
   std::unique_ptr<Worker> worker(new Worker);
   LARARIUM_ASSIGN_OR_RETURN(worker->source_, OpenSource(paths, source));
-  const int width = worker->source_->width();
-  const int height = worker->source_->height();
   LARARIUM_ASSIGN_OR_RETURN(
       const geometry::CameraModel camera,
-      CameraForSize(content.database->camera, width, height, paths.Resolve(source.path).string()));
+      content.database->camera.ForImages(worker->source_->width(), worker->source_->height()));
   LARARIUM_ASSIGN_OR_RETURN(worker->poses_,
                             vision::CreateSiftTracker(content.database, camera, {}));
   LARARIUM_ASSIGN_OR_RETURN(worker->show_, show::Show::Create(std::move(content), {}, log));
   LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(worker->renderer_,
                             show::ShowRenderer::Create(worker->show_->content()));
-  LARARIUM_ASSIGN_OR_RETURN(worker->target_, render::RenderTarget::Create(width, height));
+  LARARIUM_ASSIGN_OR_RETURN(
+      worker->target_,
+      render::RenderTarget::Create(worker->source_->width(), worker->source_->height()));
   return worker;
 }
 

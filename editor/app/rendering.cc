@@ -18,9 +18,9 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, capture::OpenVideo(job.video));
   LARARIUM_ASSIGN_OR_RETURN(
       const geometry::CameraModel camera,
-      job.intrinsics.empty() ? CameraForSize(job.content.database->camera, source->width(),
-                                             source->height(), job.video.string())
-                             : MakeIntrinsics(job.intrinsics, source->width(), source->height()));
+      job.intrinsics.empty()
+          ? job.content.database->camera.ForImages(source->width(), source->height())
+          : geometry::CameraModel::FromNumbers(job.intrinsics, source->width(), source->height()));
   LARARIUM_ASSIGN_OR_RETURN(const auto poses,
                             vision::CreateSiftTracker(job.content.database, camera, {}));
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(std::move(job.content), {}, log));

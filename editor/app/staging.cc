@@ -148,21 +148,4 @@ Result<std::unique_ptr<capture::FrameSource>> OpenSource(const ProjectPaths& pat
                        "train it from a video or a folder of images");
 }
 
-Result<geometry::CameraModel> CameraForSize(const geometry::CameraModel& camera,
-                                            int width,
-                                            int height,
-                                            const std::string& place) {
-  constexpr double kTolerance = 0.01;
-  const double ratio =
-      (static_cast<double>(width) * camera.height) / (static_cast<double>(height) * camera.width);
-  if (std::abs(ratio - 1.0) > kTolerance) {
-    return Status::Error(place,
-                         "its images are " + std::to_string(width) + " x " +
-                             std::to_string(height) + ", those of the training " +
-                             std::to_string(camera.width) + " x " + std::to_string(camera.height),
-                         "use a recording of the same camera and format");
-  }
-  return camera.Resized(width, height);
-}
-
 }  // namespace lararium::app

@@ -57,11 +57,4 @@ Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
 Result<std::unique_ptr<capture::FrameSource>> OpenSource(const ProjectPaths& paths,
                                                          const SourceDocument& source);
 
-// The camera of images of another size, if they are the same images scaled: an
-// error where the sides are in another ratio.
-Result<geometry::CameraModel> CameraForSize(const geometry::CameraModel& camera,
-                                            int width,
-                                            int height,
-                                            const std::string& place);
-
 }  // namespace lararium::app

@@ -83,8 +83,8 @@ Status GiveIntrinsics(const std::vector<double>& numbers,
     return Status();
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, place.training));
-  LARARIUM_ASSIGN_OR_RETURN(place.intrinsics,
-                            MakeIntrinsics(numbers, source->width(), source->height()));
+  LARARIUM_ASSIGN_OR_RETURN(place.intrinsics, geometry::CameraModel::FromNumbers(
+                                                  numbers, source->width(), source->height()));
   return Status();
 }
 

@@ -9,29 +9,6 @@
 
 namespace lararium::app {
 
-Result<geometry::CameraModel> MakeIntrinsics(const std::vector<double>& numbers,
-                                             int width,
-                                             int height) {
-  CHECK(numbers.size() == 4 || numbers.size() == 8);
-  geometry::CameraModel camera;
-  camera.width = width;
-  camera.height = height;
-  camera.fx = numbers[0];
-  camera.fy = numbers[1];
-  camera.cx = numbers[2];
-  camera.cy = numbers[3];
-  if (numbers.size() == 8) {
-    camera.k1 = numbers[4];
-    camera.k2 = numbers[5];
-    camera.p1 = numbers[6];
-    camera.p2 = numbers[7];
-  }
-  if (const Status status = camera.Validate(); !status.ok()) {
-    return status.At("intrinsics");
-  }
-  return camera;
-}
-
 Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
                                       const PlaceDocument& place,
                                       Progress& progress,

@@ -15,11 +15,6 @@
 
 namespace lararium::app {
 
-// fx, fy, cx, cy[, k1, k2, p1, p2] of images of a size. numbers: 4 or 8 of them.
-Result<geometry::CameraModel> MakeIntrinsics(const std::vector<double>& numbers,
-                                             int width,
-                                             int height);
-
 // Trains from place.training and writes the scene database, atomically. A
 // failed or cancelled training leaves an earlier one as it was.
 Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,

@@ -105,7 +105,8 @@ void StartTraining(app::Workspace& workspace, const DialogFields& fields) {
       workspace.Tell(app::Message::Level::kError, source.message());
       return;
     }
-    const auto camera = app::MakeIntrinsics(numbers, (*source)->width(), (*source)->height());
+    const auto camera =
+        geometry::CameraModel::FromNumbers(numbers, (*source)->width(), (*source)->height());
     if (!camera.ok()) {
       workspace.Tell(app::Message::Level::kError, camera.message());
       return;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace lararium::geometry {
 namespace {
@@ -29,6 +30,23 @@ Eigen::Vector2d Distort(const CameraModel& c, const Eigen::Vector2d& p, Eigen::M
 constexpr std::string_view kPlace = "camera intrinsics";
 
 }  // namespace
+
+Result<CameraModel> CameraModel::FromNumbers(std::span<const double> numbers,
+                                             int width,
+                                             int height) {
+  if (numbers.size() != 4 && numbers.size() != 8) {
+    return Status::Error(kPlace, "must be 4 or 8 numbers", "give fx, fy, cx, cy[, k1, k2, p1, p2]");
+  }
+  CameraModel camera{width, height, numbers[0], numbers[1], numbers[2], numbers[3]};
+  if (numbers.size() == 8) {
+    camera.k1 = numbers[4];
+    camera.k2 = numbers[5];
+    camera.p1 = numbers[6];
+    camera.p2 = numbers[7];
+  }
+  LARARIUM_RETURN_IF_ERROR(camera.Validate());
+  return camera;
+}
 
 Status CameraModel::Validate() const {
   if (width < 16 || height < 16 || width > 16384 || height > 16384) {
@@ -102,6 +120,18 @@ CameraModel CameraModel::Resized(int new_width, int new_height) const {
   resized.cx = sx * (cx + 0.5) - 0.5;
   resized.cy = sy * (cy + 0.5) - 0.5;
   return resized;
+}
+
+Result<CameraModel> CameraModel::ForImages(int new_width, int new_height) const {
+  const double wanted_width = static_cast<double>(width) * new_height / height;
+  if (std::abs(wanted_width - new_width) > 1.0) {
+    const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
+    return Status::Error(
+        kPlace,
+        "are for images of " + size(width, height) + ", these are " + size(new_width, new_height),
+        "use the same camera and format, or give its intrinsics");
+  }
+  return Resized(new_width, new_height);
 }
 
 CameraModel CameraModel::DisplayPinhole() const {

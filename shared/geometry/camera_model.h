@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 
 #include "shared/core/status.h"
 
@@ -22,6 +23,9 @@ struct CameraModel {
   double k2 = 0.0;
   double p1 = 0.0;
   double p2 = 0.0;
+
+  // From fx, fy, cx, cy[, k1, k2, p1, p2], as people type them; checked.
+  static Result<CameraModel> FromNumbers(std::span<const double> numbers, int width, int height);
 
   // Says which field is impossible: sizes, focal lengths, non-finite numbers, or
   // a distortion that folds the image over itself.
@@ -41,6 +45,10 @@ struct CameraModel {
 
   // The same camera for the image resized to width x height, c' = s (c + 0.5) - 0.5.
   CameraModel Resized(int new_width, int new_height) const;
+
+  // The same, where the proportions agree to a pixel; otherwise an error that
+  // names both sizes.
+  Result<CameraModel> ForImages(int new_width, int new_height) const;
 
   // The undistorted pinhole of the same size whose whole image is covered by
   // this camera's: the largest field of view without blank corners.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,21 @@ TEST(CameraModel, ResizingKeepsRays) {
   const Eigen::Vector2d half_pixel =
       0.5 * (pixel + Eigen::Vector2d(0.5, 0.5)) - Eigen::Vector2d(0.5, 0.5);
   EXPECT_LT((half.PlaneFromPixel(half_pixel) - kBarrel.PlaneFromPixel(pixel)).norm(), 1e-9);
+}
+
+TEST(CameraModel, ScalesToImagesOfTheSameProportionsOnly) {
+  EXPECT_NEAR(kBarrel.ForImages(320, 240)->fx, 0.5 * kBarrel.fx, 1e-12);
+  EXPECT_NE(kBarrel.ForImages(1280, 720).message().find("640x480"), std::string::npos);
+}
+
+TEST(CameraModel, IsReadFromFourOrEightNumbers) {
+  const std::array<double, 8> numbers = {420, 430, 322, 236, -0.28, 0.07, 0.001, -0.0008};
+  const CameraModel camera = CameraModel::FromNumbers(numbers, 640, 480).value();
+  EXPECT_EQ(camera.fy, 430);
+  EXPECT_EQ(camera.p2, -0.0008);
+  EXPECT_FALSE(CameraModel::FromNumbers(std::span(numbers).first(4), 640, 480)->HasDistortion());
+  EXPECT_FALSE(CameraModel::FromNumbers(std::span(numbers).first(5), 640, 480).ok());
+  EXPECT_FALSE(CameraModel::FromNumbers(std::array<double, 4>{}, 640, 480).ok());
 }
 
 TEST(CameraModel, DisplayPinholeHasNoBlankCornersAndWastesLittle) {
