@@ -87,9 +87,11 @@ class [[nodiscard]] Result {
 
 // LARARIUM_ASSIGN_OR_RETURN(auto image, LoadImage(path)): declares image, or
 // returns the Status of a failed Result.
+// NOLINTBEGIN(bugprone-macro-parentheses): a declaration takes none
 #define LARARIUM_ASSIGN_OR_RETURN(declaration, expression) \
   auto LARARIUM_CONCAT(result_, __LINE__) = (expression);  \
   if (!LARARIUM_CONCAT(result_, __LINE__).ok()) {          \
     return LARARIUM_CONCAT(result_, __LINE__).status();    \
   }                                                        \
   declaration = std::move(LARARIUM_CONCAT(result_, __LINE__)).value()
+// NOLINTEND(bugprone-macro-parentheses)
