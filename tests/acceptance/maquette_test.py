@@ -218,7 +218,8 @@ def hostile_scripts(sample: Sample, report: Report) -> None:
     drama = sample.project / "drama.lua"
     original = drama.read_text()
     for name, script in (("endless loop", "while true do end"),
-                         ("endless allocation", "local block, all = ('x'):rep(60000), {} while true do all[#all + 1] = block .. #all end")):
+                         ("endless allocation", "local block, all = ('x'):rep(60000), {} while true do "
+                          "for _ = 1, 12 do all[#all + 1] = block .. #all end wait(0) end")):
         drama.write_text(original.replace("function main()", f"function main()\n  start(function() {script} end)"))
         show, stats = sample.work / "hostile.larshow", sample.work / "hostile_stats.json"
         sample.editor("export", "--out", show)
