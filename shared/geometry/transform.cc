@@ -42,7 +42,7 @@ Result<Similarity3> EstimateSimilarity(std::span<const Eigen::Vector3d> points_i
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d singular = svd.singularValues();
+  const Eigen::Vector3d& singular = svd.singularValues();
   if (!(singular[1] > 1e-12 * singular[0]) || !(singular[0] > 0.0)) {
     return Status::Error("similarity", "the points lie on a line", "choose points off that line");
   }

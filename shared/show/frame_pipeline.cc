@@ -49,9 +49,9 @@ Result<bool> LockStep::Next(StagedFrame& staged) {
 
 RealtimePipeline::RealtimePipeline(FrameStages stages)
     : stages_(stages),
-      capture_thread_([this](std::stop_token stop) { Capture(std::move(stop)); }),
-      track_thread_([this](std::stop_token stop) { Track(std::move(stop)); }),
-      simulate_thread_([this](std::stop_token stop) { Simulate(std::move(stop)); }) {}
+      capture_thread_([this](const std::stop_token& stop) { Capture(stop); }),
+      track_thread_([this](const std::stop_token& stop) { Track(stop); }),
+      simulate_thread_([this](const std::stop_token& stop) { Simulate(stop); }) {}
 
 RealtimePipeline::~RealtimePipeline() { Stop(); }
 
@@ -76,7 +76,7 @@ std::unique_ptr<StagedFrame> RealtimePipeline::Take(std::chrono::milliseconds ti
   return staged_.TakeFor(timeout).value_or(nullptr);
 }
 
-void RealtimePipeline::Capture(std::stop_token stop) {
+void RealtimePipeline::Capture(const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   FrameClock clock;
   while (!stop.stop_requested()) {
@@ -98,14 +98,14 @@ void RealtimePipeline::Capture(std::stop_token stop) {
   captured_.Close();
 }
 
-void RealtimePipeline::Track(std::stop_token stop) {
+void RealtimePipeline::Track(const std::stop_token& stop) {
   while (std::optional<CapturedFrame> captured = captured_.Take(stop)) {
     located_.Put({TimedTrack(stages_, captured->frame), captured->arrival});
   }
   located_.Close();
 }
 
-void RealtimePipeline::Simulate(std::stop_token stop) {
+void RealtimePipeline::Simulate(const std::stop_token& stop) {
   FrameClock clock;
   while (std::optional<LocatedFrame> located = located_.Take(stop)) {
     std::unique_ptr<StagedFrame> staged = drawn_.TryTake().value_or(nullptr);

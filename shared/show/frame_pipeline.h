@@ -87,9 +87,9 @@ class RealtimePipeline {
     std::chrono::steady_clock::time_point arrival;
   };
 
-  void Capture(std::stop_token stop);
-  void Track(std::stop_token stop);
-  void Simulate(std::stop_token stop);
+  void Capture(const std::stop_token& stop);
+  void Track(const std::stop_token& stop);
+  void Simulate(const std::stop_token& stop);
 
   FrameStages stages_;
   Mailbox<CapturedFrame> captured_;
