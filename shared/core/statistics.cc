@@ -12,16 +12,6 @@ constexpr double kBinRatio = 1.01;
 
 }  // namespace
 
-double Quantile(std::vector<double> values, double q) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  const auto last = static_cast<double>(values.size() - 1);
-  const auto rank = static_cast<size_t>(std::lround(std::clamp(q, 0.0, 1.0) * last));
-  std::nth_element(values.begin(), values.begin() + static_cast<ptrdiff_t>(rank), values.end());
-  return values[rank];
-}
-
 double ThreadCpuMilliseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -6,14 +6,10 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "shared/core/json.h"
 
 namespace lararium {
-
-// The q-quantile (0..1) by the nearest rank; 0 of nothing.
-double Quantile(std::vector<double> values, double q);
 
 // Processor time that the calling thread has used, in milliseconds.
 double ThreadCpuMilliseconds();
