@@ -3,6 +3,7 @@
 // What training knows about a place: the .larscene file.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
@@ -24,7 +25,9 @@ struct Keyframe {
   std::string name;          // as FrameSource::FrameName
   uint32_t session = 0;
   geometry::Rigid3 camera_from_map;
-  cv::Mat grey;  // CV_8UC1 of the full size, stored as JPEG
+  cv::Mat grey;  // CV_8UC1 of the full size, stored as JPEG; empty where the budget left it out
+  // Linear R, G, B of its image over the map's photometric reference (SceneDatabase::colours).
+  std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};
 };
 
 // One sight of a point, at a raw pixel of a keyframe.
@@ -45,9 +48,13 @@ struct SceneDatabase {
   std::vector<Eigen::Vector3f> normals;      // unit, mean direction towards its viewers
   std::vector<uint32_t> observation_counts;  // in all training images
   std::vector<uint32_t> session_masks;       // bit s: seen in session s
-  std::vector<uint32_t> descriptor_begin;    // [points + 1]: ranges in descriptors
-  std::vector<Descriptor> descriptors;       // several views of each point
-  std::vector<uint32_t> descriptor_point;    // [descriptors]: its point
+  // The photometric reference: what a point looks like to an image of gain 1, as
+  // linear R, G, B of 0..1 (sRGB decoded). Negative where no image shows it well.
+  // Empty in maps that were trained without colour.
+  std::vector<Eigen::Vector3f> colours;
+  std::vector<uint32_t> descriptor_begin;  // [points + 1]: ranges in descriptors
+  std::vector<Descriptor> descriptors;     // several views of each point
+  std::vector<uint32_t> descriptor_point;  // [descriptors]: its point
 
   std::vector<Keyframe> keyframes;
   std::vector<Observation> observations;  // sorted by keyframe, then point

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -34,9 +36,15 @@ struct TrackedFrame {
   geometry::Frame frame;
   geometry::CameraModel camera;
   std::optional<geometry::Rigid3> camera_from_map;  // set exactly when tracking
+  uint32_t map = 0;  // of the tracker's maps: the one that the pose lies in
   TrackState state = TrackState::kSearching;
   TrackReason reason = TrackReason::kNone;
-  float confidence = 0.0f;  // 0..1
+  bool followed = false;  // from the frame before; otherwise found without a prior
+  // The probability that the pose puts what is visible within 1 pixel of its
+  // place, on average over the image. 0 without a pose.
+  float confidence = 0.0f;
+  // Of (w, v) in the pose (exp(w) R, exp(w) t + v); map units.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int features = 0;
   int matches = 0;
   int inliers = 0;
