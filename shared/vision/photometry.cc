@@ -1,0 +1,80 @@
+#include "shared/vision/photometry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shared/core/check.h"
+
+namespace lararium::vision {
+namespace {
+
+constexpr uint8_t kClipped = 250;  // brightest pixel of a sample, sRGB
+
+// Linear values between which the weight rises, and falls again.
+constexpr float kBlack = 0.004f;
+constexpr float kShadow = 0.02f;
+constexpr float kHighlight = 0.55f;
+constexpr float kWhite = 0.85f;
+
+std::array<float, 256> MakeLinearTable() {
+  std::array<float, 256> table;
+  for (size_t i = 0; i < table.size(); ++i) {
+    const double v = static_cast<double>(i) / 255.0;
+    table[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+  }
+  return table;
+}
+
+const std::array<float, 256>& LinearTable() {
+  static const std::array<float, 256> kTable = MakeLinearTable();
+  return kTable;
+}
+
+float Weight(float linear, uint8_t brightest) {
+  if (brightest >= kClipped) {
+    return 0.0f;
+  }
+  const float rise = (linear - kBlack) / (kShadow - kBlack);
+  const float fall = (kWhite - linear) / (kWhite - kHighlight);
+  return std::clamp(std::min(rise, fall), 0.0f, 1.0f);
+}
+
+}  // namespace
+
+float LinearFromSrgb(uint8_t encoded) { return LinearTable()[encoded]; }
+
+std::optional<LinearColour> SampleLinear(const cv::Mat& bgr, float x, float y) {
+  DCHECK(bgr.type() == CV_8UC3);
+  constexpr int kRadius = kSampleSize / 2;
+  constexpr float kFarthest = 1e6f;  // no image is so large; casts stay defined
+  if (!(std::abs(x) < kFarthest && std::abs(y) < kFarthest)) {
+    return std::nullopt;
+  }
+  const int left = static_cast<int>(std::lround(x)) - kRadius;
+  const int top = static_cast<int>(std::lround(y)) - kRadius;
+  if (left < 0 || top < 0 || left + kSampleSize > bgr.cols || top + kSampleSize > bgr.rows) {
+    return std::nullopt;
+  }
+  const std::array<float, 256>& linear = LinearTable();
+  std::array<float, 3> sums = {};
+  std::array<uint8_t, 3> brightest = {};
+  for (int row = top; row < top + kSampleSize; ++row) {
+    const uint8_t* pixel = bgr.ptr<uint8_t>(row) + 3 * left;
+    for (int i = 0; i < 3 * kSampleSize; i += 3) {
+      for (int c = 0; c < 3; ++c) {
+        sums[c] += linear[pixel[i + c]];
+        brightest[c] = std::max(brightest[c], pixel[i + c]);
+      }
+    }
+  }
+  LinearColour colour;
+  for (int c = 0; c < 3; ++c) {
+    const int bgr_channel = 2 - c;
+    colour.rgb[c] = sums[bgr_channel] / static_cast<float>(kSampleSize * kSampleSize);
+    colour.weight[c] = Weight(colour.rgb[c], brightest[bgr_channel]);
+  }
+  return colour;
+}
+
+}  // namespace lararium::vision
