@@ -17,7 +17,8 @@ namespace lararium::train {
 struct TrainingImage {
   int64_t frame_index = -1;
   std::string name;
-  cv::Mat grey;
+  cv::Mat bgr;   // CV_8UC3, as geometry::Frame
+  cv::Mat grey;  // CV_8UC1, the same image
   vision::Features features;
 };
 

@@ -51,7 +51,9 @@ class FrameReader {
 
 struct SurveyedFrame {
   int64_t index = -1;
-  cv::Mat grey;  // only while all frames may become keyframes
+  // Only while all frames may become keyframes.
+  cv::Mat bgr;
+  cv::Mat grey;
 };
 
 class Trainer {
@@ -103,13 +105,15 @@ class Trainer {
         return CancelledStatus();
       }
       motions_.push_back(meter.Measure(frame->grey));
-      frames.push_back({frame->index, frame->grey.clone()});
+      frames.push_back({frame->index, frame->bgr.clone(), frame->grey.clone()});
       if (frames.size() == max_keyframes + 1) {
         for (SurveyedFrame& surveyed : frames) {
+          surveyed.bgr.release();
           surveyed.grey.release();
         }
       }
       if (frames.size() > max_keyframes) {
+        frames.back().bgr.release();
         frames.back().grey.release();
       }
       if (expected > 0) {
@@ -124,7 +128,8 @@ class Trainer {
       frame_indices_.push_back(frame.index);
     }
     for (const size_t i : ChooseKeyframes(motions_, max_keyframes)) {
-      images_.push_back({frames[i].index, source_.FrameName(frames[i].index), frames[i].grey, {}});
+      images_.push_back({frames[i].index, source_.FrameName(frames[i].index), frames[i].bgr,
+                         frames[i].grey, {}});
     }
     report_.frames = static_cast<int>(frames.size());
     report_.keyframes = static_cast<int>(images_.size());
@@ -141,6 +146,7 @@ class Trainer {
                                "check the file");
         }
         if (frame->index == image.frame_index) {
+          image.bgr = frame->bgr.clone();
           image.grey = frame->grey.clone();
         }
       } while (image.grey.empty());
