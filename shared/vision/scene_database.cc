@@ -23,6 +23,10 @@ constexpr int kJpegQuality = 95;
 // A place's bounds, in map units, far beyond any that training makes.
 constexpr double kMaxCoordinate = 1e9;
 
+// Far beyond what any camera's exposure spans.
+constexpr float kMaxColour = 1e4f;
+constexpr float kMaxGain = 1e4f;
+
 bool Plausible(double value) { return std::abs(value) < kMaxCoordinate; }  // false for NaN
 
 template <typename Vector>
@@ -51,6 +55,14 @@ Status ValidatePoints(const SceneDatabase& db) {
     }
     if (!(std::abs(db.normals[i].squaredNorm() - 1.0f) < 1e-3f)) {
       return Broken("a normal does not have unit length");
+    }
+  }
+  if (!db.colours.empty() && db.colours.size() != count) {
+    return Broken("the colours are not one for each point");
+  }
+  for (const Eigen::Vector3f& colour : db.colours) {
+    if (!(colour.array().abs() <= kMaxColour).all()) {
+      return Broken("a point's colour is impossible");
     }
   }
   return Status();
@@ -90,8 +102,14 @@ Status ValidateKeyframes(const SceneDatabase& db) {
     if (keyframe.name.size() > kMaxNameBytes) {
       return Broken("a keyframe's name is too long");
     }
-    if (keyframe.grey.type() != CV_8UC1 || keyframe.grey.cols != db.camera.width ||
-        keyframe.grey.rows != db.camera.height) {
+    for (const float gain : keyframe.gain) {
+      if (!(gain >= 1.0f / kMaxGain && gain <= kMaxGain)) {
+        return Broken("a keyframe's gain is impossible");
+      }
+    }
+    if (!keyframe.grey.empty() &&
+        (keyframe.grey.type() != CV_8UC1 || keyframe.grey.cols != db.camera.width ||
+         keyframe.grey.rows != db.camera.height)) {
       return Broken("a keyframe's image does not have the camera's size");
     }
   }
@@ -162,8 +180,12 @@ Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const s
   }
 }
 
+// Empty without an image.
 std::vector<uint8_t> EncodeGrey(const cv::Mat& grey) {
   std::vector<uint8_t> jpeg;
+  if (grey.empty()) {
+    return jpeg;
+  }
   CHECK(cv::imencode(".jpg", grey, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}));
   return jpeg;
 }
@@ -249,6 +271,12 @@ Status ReadKeyframes(const fb::Scene& scene, const std::string& place, SceneData
     keyframe.camera_from_map.rotation =
         Eigen::Quaterniond(pose.qw(), pose.qx(), pose.qy(), pose.qz());
     keyframe.camera_from_map.translation = {pose.tx(), pose.ty(), pose.tz()};
+    if (const fb::Gain* gain = source.gain(); gain != nullptr) {
+      keyframe.gain = {gain->r(), gain->g(), gain->b()};
+    }
+    if (source.grey_jpeg()->size() == 0) {
+      return;
+    }
     auto grey = DecodeGrey({source.grey_jpeg()->data(), source.grey_jpeg()->size()}, size, place);
     if (grey) {
       keyframe.grey = *grey;
@@ -293,8 +321,9 @@ flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<fb::Keyframe>>> Writ
     const auto name = builder.CreateString(keyframe.name);
     const auto jpeg = builder.CreateVector(images[i]);
     const fb::Pose pose = PoseTo(keyframe.camera_from_map);
-    keyframes.push_back(
-        fb::CreateKeyframe(builder, keyframe.frame_index, name, keyframe.session, &pose, jpeg));
+    const fb::Gain gain(keyframe.gain[0], keyframe.gain[1], keyframe.gain[2]);
+    keyframes.push_back(fb::CreateKeyframe(builder, keyframe.frame_index, name, keyframe.session,
+                                           &pose, jpeg, &gain));
   }
   return builder.CreateVector(keyframes);
 }
@@ -360,6 +389,9 @@ Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
   db.normals = VectorsFrom(*scene.normals());
   db.observation_counts = NumbersFrom(*scene.observation_counts());
   db.session_masks = NumbersFrom(*scene.session_masks());
+  if (scene.colours() != nullptr) {
+    db.colours = VectorsFrom(*scene.colours());
+  }
   LARARIUM_RETURN_IF_ERROR(ReadDescriptors(scene, place, db));
   ReadForest(scene, db.forest);
   for (const fb::Observation* o : *scene.observations()) {
@@ -393,10 +425,14 @@ std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db) {
   const auto roots = builder.CreateVector(db.forest.roots);
   const auto nodes = builder.CreateVectorOfStructs(NodesTo(db.forest.nodes));
   const auto order = builder.CreateVector(db.forest.order);
+  flatbuffers::Offset<flatbuffers::Vector<const fb::Vector3*>> colours;
+  if (!db.colours.empty()) {
+    colours = builder.CreateVectorOfStructs(VectorsTo(db.colours));
+  }
   fb::FinishSceneBuffer(
       builder, fb::CreateScene(builder, kVersion, &camera, db.mean_reprojection_error_px, points,
                                normals, counts, sessions, descriptor_begin, descriptors, keyframes,
-                               observations, roots, nodes, order));
+                               observations, roots, nodes, order, colours));
   const auto* begin = reinterpret_cast<const std::byte*>(builder.GetBufferPointer());
   return {begin, begin + builder.GetSize()};
 }

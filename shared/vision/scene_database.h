@@ -26,7 +26,8 @@ struct Keyframe {
   uint32_t session = 0;
   geometry::Rigid3 camera_from_map;
   cv::Mat grey;  // CV_8UC1 of the full size, stored as JPEG; empty where the budget left it out
-  // Linear R, G, B of its image over the map's photometric reference (SceneDatabase::colours).
+  // Linear R, G, B of its image over the map's photometric reference
+  // (SceneDatabase::colours); positive.
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};
 };
 
@@ -48,9 +49,10 @@ struct SceneDatabase {
   std::vector<Eigen::Vector3f> normals;      // unit, mean direction towards its viewers
   std::vector<uint32_t> observation_counts;  // in all training images
   std::vector<uint32_t> session_masks;       // bit s: seen in session s
-  // The photometric reference: what a point looks like to an image of gain 1, as
-  // linear R, G, B of 0..1 (sRGB decoded). Negative where no image shows it well.
-  // Empty in maps that were trained without colour.
+  // The photometric reference: what SampleLinear (photometry.h) gives at a point in
+  // an image of gain 1, as linear R, G, B; beyond 1 where such an image would clip.
+  // A channel is negative where no image shows it well. Empty in maps that were
+  // trained without colour.
   std::vector<Eigen::Vector3f> colours;
   std::vector<uint32_t> descriptor_begin;  // [points + 1]: ranges in descriptors
   std::vector<Descriptor> descriptors;     // several views of each point

@@ -7,6 +7,7 @@
 
 #include "shared/core/file.h"
 #include "shared/core/random.h"
+#include "shared/vision/scene_database_generated.h"
 #include "tests/support/synthetic_world.h"
 #include "tests/support/test_files.h"
 
@@ -16,7 +17,19 @@ namespace {
 SceneDatabase SmallDatabase() {
   test::SyntheticWorld world = test::MakeSyntheticWorld({.points = 40, .cameras = 2});
   world.camera = world.camera.Resized(64, 48);
-  return test::MakeSceneDatabase(world);
+  SceneDatabase database = test::MakeSceneDatabase(world);
+  Random random(7);
+  for (size_t i = 0; i < database.points.size(); ++i) {
+    database.colours.emplace_back(random.Uniform(0, 1), random.Uniform(0, 1), -1.0f);
+  }
+  database.keyframes[1].gain = {0.5f, 1.25f, 2.0f};
+  return database;
+}
+
+// Makes a table's vtable say that it has no such field.
+void ForgetField(flatbuffers::Table* table, flatbuffers::voffset_t field) {
+  auto* vtable = const_cast<uint8_t*>(table->GetVTable());
+  flatbuffers::WriteScalar<flatbuffers::voffset_t>(vtable + field, 0);
 }
 
 void ExpectSame(const SceneDatabase& a, const SceneDatabase& b) {
@@ -26,6 +39,7 @@ void ExpectSame(const SceneDatabase& a, const SceneDatabase& b) {
   EXPECT_EQ(a.normals, b.normals);
   EXPECT_EQ(a.observation_counts, b.observation_counts);
   EXPECT_EQ(a.session_masks, b.session_masks);
+  EXPECT_EQ(a.colours, b.colours);
   EXPECT_EQ(a.descriptor_begin, b.descriptor_begin);
   EXPECT_EQ(a.descriptors, b.descriptors);
   EXPECT_EQ(a.descriptor_point, b.descriptor_point);
@@ -38,6 +52,11 @@ void ExpectSame(const SceneDatabase& a, const SceneDatabase& b) {
     EXPECT_EQ(a.keyframes[i].frame_index, b.keyframes[i].frame_index);
     EXPECT_EQ(a.keyframes[i].camera_from_map.translation,
               b.keyframes[i].camera_from_map.translation);
+    EXPECT_EQ(a.keyframes[i].gain, b.keyframes[i].gain);
+    ASSERT_EQ(a.keyframes[i].grey.size(), b.keyframes[i].grey.size());
+    if (a.keyframes[i].grey.empty()) {
+      continue;
+    }
     EXPECT_LT(cv::norm(a.keyframes[i].grey, b.keyframes[i].grey, cv::NORM_INF), 3.0);
   }
   ASSERT_EQ(a.observations.size(), b.observations.size());
@@ -55,6 +74,31 @@ TEST(SceneDatabase, SurvivesTheRoundTrip) {
   const auto loaded = LoadSceneDatabase(folder / "a.larscene");
   ASSERT_TRUE(loaded.ok()) << loaded.message();
   ExpectSame(database, *loaded);
+}
+
+TEST(SceneDatabase, KeyframesMayHaveNoImage) {
+  SceneDatabase database = SmallDatabase();
+  database.keyframes[1].grey = cv::Mat();
+  const auto parsed = ParseSceneDatabase(SerializeSceneDatabase(database), "bare");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  ExpectSame(database, *parsed);
+}
+
+// What version 0.1 wrote: fields that came later are absent.
+TEST(SceneDatabase, ReadsFilesWithoutColour) {
+  SceneDatabase database = SmallDatabase();
+  database.colours.clear();
+  database.keyframes[1].gain = {1.0f, 1.0f, 1.0f};
+  std::vector<std::byte> bytes = SerializeSceneDatabase(database);
+  auto* scene = flatbuffers::GetMutableRoot<flatbuffers::Table>(bytes.data());
+  using Keyframes = flatbuffers::Vector<flatbuffers::Offset<flatbuffers::Table>>;
+  auto* keyframes = scene->GetPointer<Keyframes*>(fb::Scene::VT_KEYFRAMES);
+  for (flatbuffers::uoffset_t i = 0; i < keyframes->size(); ++i) {
+    ForgetField(keyframes->GetMutableObject(i), fb::Keyframe::VT_GAIN);
+  }
+  const auto parsed = ParseSceneDatabase(bytes, "old");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  ExpectSame(database, *parsed);
 }
 
 TEST(SceneDatabase, GivesTheSameBytesForTheSameContent) {
@@ -145,7 +189,14 @@ TEST(SceneDatabase, SaysWhatIsBroken) {
   refuses("forest", [](SceneDatabase& db) { db.forest.roots.clear(); });
   refuses("pose",
           [](SceneDatabase& db) { db.keyframes[0].camera_from_map.rotation.coeffs() *= 1.1; });
-  refuses("keyframe image", [](SceneDatabase& db) { db.keyframes[1].grey = cv::Mat(); });
+  refuses("keyframe image", [](SceneDatabase& db) {
+    db.keyframes[1].grey = cv::Mat(48, 63, CV_8UC1, cv::Scalar(0));
+  });
+  refuses("colours", [](SceneDatabase& db) { db.colours.pop_back(); });
+  refuses("colour", [](SceneDatabase& db) { db.colours[3].y() = kNan; });
+  refuses("bright colour", [](SceneDatabase& db) { db.colours[3].y() = 1e30f; });
+  refuses("gain", [](SceneDatabase& db) { db.keyframes[1].gain[2] = 0.0f; });
+  refuses("no gain", [](SceneDatabase& db) { db.keyframes[1].gain[0] = kNan; });
   refuses("session", [](SceneDatabase& db) { db.keyframes[1].session = 32; });
   refuses("observed point", [](SceneDatabase& db) { db.observations[0].point = 40; });
   refuses("observed keyframe", [](SceneDatabase& db) { db.observations.back().keyframe = 2; });
