@@ -84,8 +84,11 @@ Status Performance::Prepare() {
   log_.info("camera intrinsics from {}", choice.origin);
   vision::TrackerOptions tracking;
   tracking.seed = options_.seed;
+  tracking.threads = options_.threads;
+  tracking.background = options_.pace == Pace::kFast ? vision::BackgroundWork::kJoined
+                                                     : vision::BackgroundWork::kFree;
   LARARIUM_ASSIGN_OR_RETURN(poses_,
-                            vision::CreateSiftTracker(content.database, choice.camera, tracking));
+                            vision::CreateTracker({content.database}, choice.camera, tracking));
   drama::DramaOptions drama;
   drama.seed = options_.seed;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));

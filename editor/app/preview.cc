@@ -62,8 +62,7 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPa
   LARARIUM_ASSIGN_OR_RETURN(
       const geometry::CameraModel camera,
       content.database->camera.ForImages(worker->source_->width(), worker->source_->height()));
-  LARARIUM_ASSIGN_OR_RETURN(worker->poses_,
-                            vision::CreateSiftTracker(content.database, camera, {}));
+  LARARIUM_ASSIGN_OR_RETURN(worker->poses_, vision::CreateTracker({content.database}, camera, {}));
   LARARIUM_ASSIGN_OR_RETURN(worker->show_, show::Show::Create(std::move(content), {}, log));
   LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(worker->renderer_,

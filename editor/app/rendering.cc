@@ -22,7 +22,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
           ? job.content.database->camera.ForImages(source->width(), source->height())
           : geometry::CameraModel::FromNumbers(job.intrinsics, source->width(), source->height()));
   LARARIUM_ASSIGN_OR_RETURN(const auto poses,
-                            vision::CreateSiftTracker(job.content.database, camera, {}));
+                            vision::CreateTracker({job.content.database}, camera, {}));
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(std::move(job.content), {}, log));
 
   LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());

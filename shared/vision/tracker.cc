@@ -92,6 +92,9 @@ class SiftTracker final : public PoseSource {
 
 Status TrackerOptions::Validate() const {
   constexpr std::string_view kPlace = "tracker options";
+  if (threads < 0 || threads > 1024) {
+    return Status::Error(kPlace, "threads must lie between 0 and 1024");
+  }
   if (feature_budget < 50 || feature_budget > 100000) {
     return Status::Error(kPlace, "feature_budget must lie between 50 and 100000");
   }
@@ -113,17 +116,24 @@ Status TrackerOptions::Validate() const {
   return Status();
 }
 
-Result<std::unique_ptr<PoseSource>> CreateSiftTracker(std::shared_ptr<const SceneDatabase> database,
-                                                      const CameraModel& camera,
-                                                      const TrackerOptions& options) {
-  CHECK(database != nullptr);
+Result<std::unique_ptr<PoseSource>> CreateTracker(
+    std::vector<std::shared_ptr<const SceneDatabase>> maps,
+    const CameraModel& camera,
+    const TrackerOptions& options) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
   LARARIUM_RETURN_IF_ERROR(camera.Validate());
-  if (database->points.size() < static_cast<size_t>(options.min_inliers)) {
-    return Status::Error("scene database", "has too few points to track", "train the place again");
+  if (maps.empty()) {
+    return Status::Error("tracker", "has no map", "train a place first");
+  }
+  for (const auto& map : maps) {
+    CHECK(map != nullptr);
+    if (map->points.size() < static_cast<size_t>(options.min_inliers)) {
+      return Status::Error("scene database", "has too few points to track",
+                           "train the place again");
+    }
   }
   return std::unique_ptr<PoseSource>(
-      std::make_unique<SiftTracker>(std::move(database), camera, options));
+      std::make_unique<SiftTracker>(std::move(maps.front()), camera, options));
 }
 
 }  // namespace lararium::vision

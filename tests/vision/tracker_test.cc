@@ -123,7 +123,7 @@ class SiftTracker : public testing::Test {
   SiftTracker() : poster_(Poster()), map_(MapOfPoster(poster_)) {}
 
   std::unique_ptr<PoseSource> Create() {
-    auto tracker = CreateSiftTracker(map_, kCamera, {});
+    auto tracker = CreateTracker({map_}, kCamera, {});
     EXPECT_TRUE(tracker.ok());
     return *std::move(tracker);
   }
@@ -205,17 +205,17 @@ TEST_F(SiftTracker, TakesImagesOfAnotherSize) {
 }
 
 TEST_F(SiftTracker, RefusesWhatItCannotUse) {
-  EXPECT_FALSE(CreateSiftTracker(map_, CameraModel(), {}).ok());
-  EXPECT_FALSE(CreateSiftTracker(std::make_shared<SceneDatabase>(), kCamera, {}).ok());
+  EXPECT_FALSE(CreateTracker({map_}, CameraModel(), {}).ok());
+  EXPECT_FALSE(CreateTracker({std::make_shared<SceneDatabase>()}, kCamera, {}).ok());
   TrackerOptions options;
   options.hypotheses = 0;
-  EXPECT_FALSE(CreateSiftTracker(map_, kCamera, options).ok());
+  EXPECT_FALSE(CreateTracker({map_}, kCamera, options).ok());
   options = {};
   options.ratio = 0.0f;
-  EXPECT_FALSE(CreateSiftTracker(map_, kCamera, options).ok());
+  EXPECT_FALSE(CreateTracker({map_}, kCamera, options).ok());
   options = {};
   options.min_inliers = 3;
-  EXPECT_FALSE(CreateSiftTracker(map_, kCamera, options).ok());
+  EXPECT_FALSE(CreateTracker({map_}, kCamera, options).ok());
 }
 
 }  // namespace
