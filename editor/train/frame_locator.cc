@@ -1,6 +1,7 @@
 #include "editor/train/frame_locator.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "editor/train/matching.h"
 #include "editor/train/resection.h"
@@ -11,7 +12,34 @@ namespace {
 
 constexpr size_t kKeyframes = 4;  // that a frame is matched with
 
+double Median(std::vector<double> values) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
+
+LocatedView DescribeImage(const Reconstruction& reconstruction, uint32_t image) {
+  LocatedView view;
+  if (!reconstruction.Located(image)) {
+    return view;
+  }
+  view.camera_from_map = reconstruction.camera_from_map(image);
+  std::vector<double> errors;
+  for (const uint32_t element : reconstruction.ElementsOf(image)) {
+    if (reconstruction.Observed(element)) {
+      const Eigen::Vector3d& point = reconstruction.Point(reconstruction.TrackOf(element));
+      errors.push_back(std::sqrt(reconstruction.SquaredErrorPx(element, point)));
+    }
+  }
+  view.observations = static_cast<int>(errors.size());
+  view.median_error_px = Median(std::move(errors));
+  return view;
+}
 
 FrameLocator::FrameLocator(const Reconstruction& reconstruction,
                            std::span<const TrainingImage> images)
@@ -30,15 +58,16 @@ FrameLocator::FrameLocator(const Reconstruction& reconstruction,
   }
 }
 
-std::optional<geometry::Rigid3> FrameLocator::Locate(const cv::Mat& grey,
-                                                     int64_t frame_index) const {
+LocatedView FrameLocator::Locate(const cv::Mat& grey, int64_t frame_index) const {
+  LocatedView view;
   vision::FeatureOptions options;
   options.first_octave = 0;
   options.max_features = 1500;
   const Result<vision::Features> features = vision::ExtractFeatures(grey, options);
   if (!features.ok()) {
-    return std::nullopt;
+    return view;
   }
+  view.features = static_cast<int>(features->size());
   const auto after =
       std::lower_bound(views_.begin(), views_.end(), frame_index,
                        [](const View& view, int64_t index) { return view.frame_index < index; });
@@ -64,7 +93,18 @@ std::optional<geometry::Rigid3> FrameLocator::Locate(const cv::Mat& grey,
   }
   const std::optional<Resection> resection =
       LocateImage(reconstruction_.camera(), pixels, points, ResectionOptions());
-  return resection ? std::optional(resection->camera_from_map) : std::nullopt;
+  if (!resection) {
+    return view;
+  }
+  view.camera_from_map = resection->camera_from_map;
+  view.observations = static_cast<int>(resection->inliers.size());
+  std::vector<double> errors;
+  for (const uint32_t i : resection->inliers) {
+    const auto projected = reconstruction_.camera().Project(resection->camera_from_map * points[i]);
+    errors.push_back(projected ? (*projected - pixels[i]).norm() : 0.0);
+  }
+  view.median_error_px = Median(std::move(errors));
+  return view;
 }
 
 }  // namespace lararium::train

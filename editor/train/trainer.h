@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "editor/train/keyframes.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/log.h"
 #include "shared/core/progress.h"
@@ -44,11 +45,24 @@ struct LocatedFrame {
   bool keyframe = false;  // it shaped the map; otherwise it was located in the finished map
 };
 
+// What training found out about one frame of the source.
+struct FrameReport {
+  int64_t frame_index = -1;
+  std::string name;
+  bool keyframe = false;
+  std::optional<geometry::Rigid3> camera_from_map;  // where it was located
+  int features = 0;
+  int observations = 0;          // of points of the map, before the budget thins these out
+  double median_error_px = 0.0;  // of the observations, reprojection
+  FrameMotion motion;            // since the frame before, and sharpness
+};
+
 struct TrainReport {
-  int frames = 0;                      // that the source had
-  int keyframes = 0;                   // that were chosen for the map
-  std::vector<LocatedFrame> located;   // in the order of the source
-  std::vector<std::string> unlocated;  // names of frames without a pose
+  int frames = 0;                          // that the source had
+  int keyframes = 0;                       // that were chosen for the map
+  std::vector<LocatedFrame> located;       // in the order of the source
+  std::vector<std::string> unlocated;      // names of frames without a pose
+  std::vector<FrameReport> frame_reports;  // of all frames, in the order of the source
   int points = 0;
   int observations = 0;
   double mean_reprojection_error_px = 0.0;

@@ -141,6 +141,29 @@ TEST(Trainer, BuildsAValidDatabaseOfAPlace) {
   }
 }
 
+TEST(Trainer, ReportsOnEveryFrame) {
+  TrainOptions options = KnownCamera();
+  options.max_keyframes = 5;
+  const Result<TrainResult> result = TrainOn(WalkPast(8), options);
+  ASSERT_TRUE(result.ok()) << result.message();
+  ASSERT_EQ(result->report.frame_reports.size(), 8u);
+  int keyframes = 0;
+  for (size_t i = 0; i < 8; ++i) {
+    const FrameReport& frame = result->report.frame_reports[i];
+    EXPECT_EQ(frame.frame_index, static_cast<int64_t>(i));
+    EXPECT_TRUE(frame.camera_from_map.has_value());
+    EXPECT_GT(frame.features, 150);
+    EXPECT_GT(frame.observations, 50);
+    EXPECT_LT(frame.observations, frame.features);
+    EXPECT_GT(frame.median_error_px, 0.0);
+    EXPECT_LT(frame.median_error_px, 1.0);
+    EXPECT_GT(frame.motion.sharpness, 0.0);
+    EXPECT_EQ(frame.motion.shift > 0.0, i > 0);
+    keyframes += frame.keyframe ? 1 : 0;
+  }
+  EXPECT_EQ(keyframes, result->report.keyframes);
+}
+
 TEST(Trainer, GivesTheSameBytesTwice) {
   const Result<TrainResult> first = TrainOn(WalkPast(6), KnownCamera());
   const Result<TrainResult> second = TrainOn(WalkPast(6), KnownCamera());

@@ -1,0 +1,193 @@
+#include "editor/train/image_mapping.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "editor/train/pair_selection.h"
+#include "editor/train/survey.h"
+#include "editor/train/tracks.h"
+
+namespace lararium::train {
+namespace {
+
+using vision::Features;
+
+constexpr std::string_view kPlace = "training";
+
+Status CancelledStatus() { return Status::Error(kPlace, "cancelled"); }
+
+Status WhyNoMap(std::span<const TrainingImage> images,
+                std::span<const VerifiedPair> pairs,
+                double min_angle) {
+  const auto widest = std::max_element(
+      pairs.begin(), pairs.end(),
+      [](const VerifiedPair& a, const VerifiedPair& b) { return a.median_angle < b.median_angle; });
+  const std::string a = images[widest->images.a].name;
+  const std::string b = images[widest->images.b].name;
+  if (widest->median_angle < min_angle) {
+    return Status::Error(
+        kPlace,
+        "too little parallax: from " + images.front().name + " to " + images.back().name +
+            " the camera turned or stood still (most between " + a + " and " + b + ")",
+        "film while walking sideways past the place; do not pan on the spot");
+  }
+  return Status::Error(
+      kPlace, "no two images fix enough points to start a map (best " + a + " and " + b + ")",
+      "film textured things that do not move, from a camera that does");
+}
+
+// A scrap of the images is no map of the place.
+Status CheckShare(std::span<const TrainingImage> images, const Reconstruction& reconstruction) {
+  const std::vector<uint32_t> located = reconstruction.LocatedImages();
+  if (5 * located.size() >= images.size()) {
+    return Status();
+  }
+  return Status::Error(kPlace,
+                       "only " + std::to_string(located.size()) + " of " +
+                           std::to_string(images.size()) + " images fit one map (" +
+                           images[located.front()].name + " to " + images[located.back()].name +
+                           ")",
+                       "film things that do not move, from a camera that does: slowly, sideways, "
+                       "with neighbouring images that overlap");
+}
+
+// The first image's camera becomes the frame, the median depth the unit.
+void Normalise(Reconstruction& reconstruction) {
+  const std::vector<uint32_t> located = reconstruction.LocatedImages();
+  std::vector<double> depths;
+  for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
+    for (uint32_t element = reconstruction.tracks().begin[track];
+         element < reconstruction.tracks().begin[track + 1]; ++element) {
+      if (reconstruction.Observed(element)) {
+        depths.push_back((reconstruction.camera_from_map(reconstruction.ImageOf(element)) *
+                          reconstruction.Point(track))
+                             .z());
+      }
+    }
+  }
+  const auto middle = depths.begin() + static_cast<ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  const geometry::Rigid3 first = reconstruction.camera_from_map(located.front());
+  reconstruction.Transform({1.0 / *middle, first.rotation, first.translation / *middle});
+}
+
+// Says which stretches of images have no pose, and why.
+void WarnOfGaps(std::span<const TrainingImage> images,
+                std::span<const VerifiedPair> pairs,
+                const Reconstruction& reconstruction,
+                Log& log) {
+  std::vector<bool> linked(images.size(), false);
+  for (const VerifiedPair& pair : pairs) {
+    linked[pair.images.a] = linked[pair.images.a] || reconstruction.Located(pair.images.b);
+    linked[pair.images.b] = linked[pair.images.b] || reconstruction.Located(pair.images.a);
+  }
+  for (uint32_t begin = 0; begin < images.size(); ++begin) {
+    uint32_t end = begin;
+    size_t most_features = 0;
+    bool any_linked = false;
+    while (end < images.size() && !reconstruction.Located(end)) {
+      most_features = std::max(most_features, images[end].features.size());
+      any_linked = any_linked || linked[end];
+      ++end;
+    }
+    if (end == begin) {
+      continue;
+    }
+    const char* reason =
+        most_features < kFewFeatures
+            ? "too few features; film textured things in good light, without motion blur"
+        : any_linked ? "their matches fix no pose; film this part again, more slowly"
+                     : "they do not overlap with the rest of the map; move more slowly between";
+    log.warn("no pose for {} to {}: {}", images[begin].name, images[end - 1].name, reason);
+    begin = end;
+  }
+}
+
+VerifiedPairs Verify(std::span<const Features> features,
+                     std::span<const ImagePair> candidates,
+                     const cv::Size& size,
+                     const ImageMappingOptions& options,
+                     const VerificationOptions& verification,
+                     Progress& progress) {
+  if (options.intrinsics) {
+    return {VerifyPairs(features, candidates, *options.intrinsics, verification, progress),
+            *options.intrinsics};
+  }
+  return VerifyPairsUncalibrated(features, candidates, size.width, size.height,
+                                 options.focal_prior_px, verification, progress);
+}
+
+}  // namespace
+
+Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
+                                  const ImageMappingOptions& options,
+                                  Progress& progress,
+                                  Log& log) {
+  std::vector<Features> features;  // moved here and back, so that spans see them
+  for (TrainingImage& image : images) {
+    features.push_back(std::move(image.features));
+  }
+  PairOptions pair_options;
+  pair_options.seed = options.seed;
+  const std::vector<ImagePair> candidates = SelectPairs(features, pair_options);
+  VerificationOptions verification;
+  verification.trusted_gap = images.size() <= pair_options.exhaustive_up_to
+                                 ? pair_options.exhaustive_up_to
+                                 : pair_options.neighbours;
+  VerifiedPairs verified =
+      Verify(features, candidates, images.front().grey.size(), options, verification, progress);
+  for (size_t i = 0; i < images.size(); ++i) {
+    images[i].features = std::move(features[i]);
+  }
+  if (progress.Cancelled()) {
+    return CancelledStatus();
+  }
+  if (!options.intrinsics) {
+    log.info("starting with a focal length of {:.0f} pixels", verified.camera.fx);
+  }
+  log.info("{} of {} image pairs show the same things", verified.pairs.size(), candidates.size());
+  if (verified.pairs.empty()) {
+    return Status::Error(kPlace,
+                         "no two images show the same things (" + images.front().name + " to " +
+                             images.back().name + ")",
+                         "move more slowly, so that neighbouring images overlap by two thirds");
+  }
+  return verified;
+}
+
+Result<ImageMap> MapImages(std::span<const TrainingImage> images,
+                           const VerifiedPairs& verified,
+                           const ImageMappingOptions& options,
+                           Progress& progress,
+                           Log& log) {
+  std::vector<uint32_t> feature_counts;
+  std::vector<std::vector<Eigen::Vector2d>> pixels;
+  for (const TrainingImage& image : images) {
+    feature_counts.push_back(static_cast<uint32_t>(image.features.size()));
+    std::vector<Eigen::Vector2d>& of_image = pixels.emplace_back();
+    for (const vision::Keypoint& keypoint : image.features.keypoints) {
+      of_image.emplace_back(keypoint.x, keypoint.y);
+    }
+  }
+  ImageMap map;
+  map.reconstruction = std::make_unique<Reconstruction>(
+      verified.camera, std::move(pixels), BuildTracks(feature_counts, verified.pairs));
+  MapperOptions mapper;
+  mapper.refine_intrinsics = !options.intrinsics;
+  const std::optional<InitialPair> anchors =
+      MapIncrementally(*map.reconstruction, verified.pairs, mapper, progress, log);
+  if (progress.Cancelled()) {
+    return CancelledStatus();
+  }
+  if (!anchors) {
+    return WhyNoMap(images, verified.pairs, mapper.min_initial_angle);
+  }
+  map.anchors = *anchors;
+  LARARIUM_RETURN_IF_ERROR(CheckShare(images, *map.reconstruction));
+  Normalise(*map.reconstruction);
+  WarnOfGaps(images, verified.pairs, *map.reconstruction, log);
+  return map;
+}
+
+}  // namespace lararium::train
