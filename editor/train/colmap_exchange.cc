@@ -1,0 +1,623 @@
+#include "editor/train/colmap_exchange.h"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <set>
+
+#include "editor/train/database_builder.h"
+#include "shared/capture/frame_source.h"
+#include "shared/core/file.h"
+#include "shared/core/parallel.h"
+
+namespace lararium::train {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::CameraModel;
+
+constexpr std::string_view kImport = "import from COLMAP";
+
+// ------------------------------------------------------------------- export
+
+// sRGB byte of a linear value (IEC 61966-2-1); 0 where it is unknown.
+uint8_t SrgbFromLinear(float linear) {
+  const double v = std::clamp(static_cast<double>(linear), 0.0, 1.0);
+  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+  return static_cast<uint8_t>(std::lround(255.0 * encoded));
+}
+
+// A relative path without blanks (COLMAP's text reader ends names there) that
+// stays inside its folder and ends like an image.
+std::string FileNameOf(const vision::Keyframe& keyframe) {
+  std::string name = keyframe.name;
+  for (char& c : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_' ||
+                       c == '-' || c == '/' || static_cast<signed char>(c) < 0;
+    c = plain ? c : '_';
+  }
+  const fs::path path = fs::path(name).lexically_normal();
+  if (path.empty() || path.is_absolute() || *path.begin() == ".." || !path.has_filename()) {
+    name = capture::NumberedFrameName(keyframe.frame_index);
+  }
+  static const std::set<std::string> kExtensions = {".png", ".jpg", ".jpeg",
+                                                    ".bmp", ".tif", ".tiff"};
+  return kExtensions.contains(fs::path(name).extension().string()) ? name : name + ".png";
+}
+
+// Of each keyframe, unique: frames of two sessions often share a name.
+std::vector<std::string> FileNames(const vision::SceneDatabase& database) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const vision::Keyframe& keyframe : database.keyframes) {
+    const std::string wanted = FileNameOf(keyframe);
+    std::string name = wanted;
+    for (int attempt = 0; !taken.insert(name).second; ++attempt) {
+      name = "session" + std::to_string(keyframe.session) +
+             (attempt > 0 ? "-" + std::to_string(attempt) : "") + "/" + wanted;
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+// Mean error of each point, as COLMAP's ERROR; sights from behind do not count.
+void FillErrors(const vision::SceneDatabase& database, ColmapModel& model) {
+  std::vector<double> sums(database.points.size(), 0.0);
+  std::vector<int> counts(database.points.size(), 0);
+  for (const vision::Observation& o : database.observations) {
+    const auto pixel = database.camera.Project(database.keyframes[o.keyframe].camera_from_map *
+                                               database.points[o.point].cast<double>());
+    if (pixel) {
+      sums[o.point] += (*pixel - Eigen::Vector2d(o.x, o.y)).norm();
+      ++counts[o.point];
+    }
+  }
+  for (size_t i = 0; i < sums.size(); ++i) {
+    model.points[i].error = counts[i] > 0 ? sums[i] / counts[i] : -1.0;
+  }
+}
+
+// A folder that is removed with all in it unless it was moved away.
+class HalfWrittenFolder {
+ public:
+  static Result<HalfWrittenFolder> Beside(const fs::path& folder) {
+    std::string name = folder.string() + ".XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) {
+      return Status::Error(folder.string(), "cannot make a folder beside it",
+                           "name a folder below one that exists and may be written to");
+    }
+    return HalfWrittenFolder(name);
+  }
+  HalfWrittenFolder(HalfWrittenFolder&& other) noexcept : path_(std::move(other.path_)) {
+    other.path_.clear();
+  }
+  HalfWrittenFolder& operator=(HalfWrittenFolder&&) = delete;
+  ~HalfWrittenFolder() {
+    if (!path_.empty()) {
+      std::error_code ignored;
+      fs::remove_all(path_, ignored);
+    }
+  }
+
+  const fs::path& path() const { return path_; }
+
+  Status MoveTo(const fs::path& folder) {
+    std::error_code error;
+    fs::permissions(path_, fs::perms(0755), error);
+    fs::rename(path_, folder, error);
+    if (error) {
+      return Status::Error(folder.string(), "cannot be put in place: " + error.message(),
+                           "name a folder that does not exist yet");
+    }
+    path_.clear();
+    return Status();
+  }
+
+ private:
+  explicit HalfWrittenFolder(fs::path path) : path_(std::move(path)) {}
+  fs::path path_;
+};
+
+Status WriteImage(const fs::path& file, const cv::Mat& grey) {
+  std::vector<uint8_t> bytes;
+  try {
+    if (cv::imencode(file.extension().string(), grey, bytes, {cv::IMWRITE_JPEG_QUALITY, 95})) {
+      std::error_code error;
+      fs::create_directories(file.parent_path(), error);
+      return WriteFileAtomically(file, std::as_bytes(std::span(bytes)));
+    }
+  } catch (const cv::Exception&) {
+    // Falls through: the caller learns which image.
+  }
+  return Status::Error(file.string(), "cannot be encoded as an image");
+}
+
+// ------------------------------------------------------------------- import
+
+// An image of the model on its way into the database.
+struct Import {
+  const ColmapImage* image = nullptr;
+  int64_t frame_index = -1;
+  const CameraModel* own_camera = nullptr;  // set where it must be resampled
+};
+
+bool ProjectAlike(const CameraModel& a, const CameraModel& b) {
+  if (a.width != b.width || a.height != b.height) {
+    return false;
+  }
+  constexpr int kSteps = 8;
+  constexpr double kMaxShiftPx = 0.01;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      const Eigen::Vector2d pixel((a.width - 1.0) * i / kSteps, (a.height - 1.0) * j / kSteps);
+      if (!((a.PixelFromPlane(b.PlaneFromPixel(pixel)) - pixel).norm() < kMaxShiftPx)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// The image that camera to would have taken in place of camera from.
+cv::Mat Resample(const cv::Mat& image, const CameraModel& from, const CameraModel& to) {
+  cv::Mat places(to.height, to.width, CV_32FC2);
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      const Eigen::Vector2d place = from.PixelFromPlane(to.PlaneFromPixel(Eigen::Vector2d(x, y)));
+      places.at<cv::Vec2f>(y, x) = {static_cast<float>(place.x()), static_cast<float>(place.y())};
+    }
+  }
+  cv::Mat resampled;
+  cv::remap(image, resampled, places, cv::noArray(), cv::INTER_CUBIC);
+  return resampled;
+}
+
+Result<cv::Mat> ReadImage(const fs::path& file, const ColmapCamera& camera) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    return Status::Error(file.string(), "does not exist",
+                         "name the folder of the model's images with --images");
+  }
+  cv::Mat bgr;
+  try {
+    bgr = cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    bgr.release();
+  }
+  if (bgr.empty()) {
+    return Status::Error(file.string(), "cannot be read as an image", "replace it");
+  }
+  const auto size = [](auto width, auto height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  if (static_cast<uint64_t>(bgr.cols) != camera.width ||
+      static_cast<uint64_t>(bgr.rows) != camera.height) {
+    return Status::Error(file.string(),
+                         "is " + size(bgr.cols, bgr.rows) + ", its camera in the model " +
+                             size(camera.width, camera.height),
+                         "name the images that the model was made of");
+  }
+  return bgr;
+}
+
+// The features of an image by place, for the nearest one.
+class FeatureGrid {
+ public:
+  FeatureGrid(const vision::Features& features, double radius_px)
+      : features_(features), radius_(radius_px) {
+    for (uint32_t i = 0; i < features.size(); ++i) {
+      const vision::Keypoint& keypoint = features.keypoints[i];
+      order_.emplace_back(Cell(keypoint.x, keypoint.y), i);
+    }
+    std::sort(order_.begin(), order_.end());
+  }
+
+  // The nearest within the radius; of equals (one place, several orientations) the first.
+  std::optional<uint32_t> Nearest(const Eigen::Vector2d& pixel) const {
+    std::optional<uint32_t> nearest;
+    double best = radius_ * radius_;
+    const auto [row, column] = Cell(pixel.x(), pixel.y());
+    for (int64_t r = row - 1; r <= row + 1; ++r) {
+      const std::pair<CellIndex, uint32_t> first = {{r, column - 1}, 0};
+      for (auto at = std::lower_bound(order_.begin(), order_.end(), first);
+           at != order_.end() && at->first <= CellIndex(r, column + 1); ++at) {
+        const vision::Keypoint& keypoint = features_.keypoints[at->second];
+        const double distance = (Eigen::Vector2d(keypoint.x, keypoint.y) - pixel).squaredNorm();
+        if (distance < best || (distance == best && nearest && at->second < *nearest)) {
+          best = distance;
+          nearest = at->second;
+        }
+      }
+    }
+    return nearest;
+  }
+
+ private:
+  using CellIndex = std::pair<int64_t, int64_t>;  // row, column
+
+  CellIndex Cell(double x, double y) const {
+    return {static_cast<int64_t>(std::floor(y / radius_)),
+            static_cast<int64_t>(std::floor(x / radius_))};
+  }
+
+  const vision::Features& features_;
+  double radius_;
+  std::vector<std::pair<CellIndex, uint32_t>> order_;
+};
+
+class Importer {
+ public:
+  Importer(const ColmapModel& model,
+           const fs::path& image_folder,
+           const ColmapImportOptions& options,
+           Progress& progress,
+           Log& log)
+      : model_(model), folder_(image_folder), options_(options), progress_(progress), log_(log) {}
+
+  Result<vision::SceneDatabase> Run() {
+    LARARIUM_RETURN_IF_ERROR(ChooseCamera());
+    LARARIUM_RETURN_IF_ERROR(OrderImages());
+    LARARIUM_RETURN_IF_ERROR(ReadImages());
+    LARARIUM_ASSIGN_OR_RETURN(const Reconstruction reconstruction, Tie());
+    DatabaseOptions options;
+    options.max_points = options_.max_points;
+    options.seed = options_.seed;
+    vision::SceneDatabase database = BuildDatabase(reconstruction, images_, options);
+    LARARIUM_RETURN_IF_ERROR(database.Validate());
+    return database;
+  }
+
+ private:
+  // The camera of most images, the first of equals.
+  Status ChooseCamera() {
+    std::map<uint32_t, size_t> uses;
+    for (const ColmapImage& image : model_.images) {
+      ++uses[image.camera];
+    }
+    if (uses.size() < 1 || model_.images.size() < 2) {
+      return Status::Error(kImport, "the model has fewer than two images",
+                           "reconstruct the place from more images");
+    }
+    size_t most = 0;
+    for (const ColmapCamera& camera : model_.cameras) {
+      if (!uses.contains(camera.id)) {
+        continue;
+      }
+      LARARIUM_ASSIGN_OR_RETURN(const CameraModel ours, CameraFromColmap(camera));
+      cameras_.emplace(camera.id, ours);
+      if (uses[camera.id] > most) {
+        most = uses[camera.id];
+        camera_ = ours;
+      }
+    }
+    return Status();
+  }
+
+  Status OrderImages() {
+    std::map<std::string, int64_t> index_of_name;
+    if (auto source = capture::OpenImageFolder(folder_); source.ok()) {
+      const int64_t count = (*source)->frame_count().value_or(0);
+      for (int64_t i = 0; i < count; ++i) {
+        index_of_name[(*source)->FrameName(i)] = i;
+      }
+    }
+    bool all_known = true;
+    for (const ColmapImage& image : model_.images) {
+      const fs::path path(image.name);
+      if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end()) {
+        return Status::Error(kImport,
+                             "the image name \"" + image.name + "\" leads out of the image folder",
+                             "write the model again with relative names");
+      }
+      Import import{.image = &image};
+      const CameraModel& own = cameras_.at(image.camera);
+      if (!ProjectAlike(own, camera_)) {
+        import.own_camera = &own;
+      }
+      const auto known = index_of_name.find(image.name);
+      all_known = all_known && known != index_of_name.end();
+      import.frame_index = known != index_of_name.end() ? known->second : -1;
+      imports_.push_back(import);
+    }
+    std::sort(imports_.begin(), imports_.end(), [&](const Import& a, const Import& b) {
+      return all_known ? a.frame_index < b.frame_index : a.image->name < b.image->name;
+    });
+    for (size_t i = 0; i < imports_.size(); ++i) {
+      if (i > 0 && imports_[i].image->name == imports_[i - 1].image->name) {
+        return Status::Error(
+            kImport, "two images of the model are named \"" + imports_[i].image->name + "\"",
+            "write the model again with COLMAP");
+      }
+      imports_[i].frame_index = all_known ? imports_[i].frame_index : static_cast<int64_t>(i);
+    }
+    const auto resampled = std::count_if(imports_.begin(), imports_.end(),
+                                         [](const Import& i) { return i.own_camera != nullptr; });
+    if (resampled > 0) {
+      log_.warn("{} of {} images are resampled to one camera: {}x{}, focal length {:.1f} px",
+                resampled, imports_.size(), camera_.width, camera_.height, camera_.Focal());
+    }
+    return Status();
+  }
+
+  // Images and their features, a few at a time.
+  Status ReadImages() {
+    images_.resize(imports_.size());
+    std::vector<Status> problems(imports_.size());
+    constexpr size_t kBatch = 8;
+    for (size_t begin = 0; begin < imports_.size(); begin += kBatch) {
+      if (progress_.Cancelled()) {
+        return Status::Error(kImport, "cancelled");
+      }
+      progress_.Report("features",
+                       static_cast<double>(begin) / static_cast<double>(imports_.size()));
+      ParallelFor(std::min(kBatch, imports_.size() - begin), [&](size_t offset) {
+        problems[begin + offset] = ReadOne(imports_[begin + offset], images_[begin + offset]);
+      });
+      for (size_t i = begin; i < std::min(begin + kBatch, imports_.size()); ++i) {
+        LARARIUM_RETURN_IF_ERROR(problems[i]);
+      }
+    }
+    return Status();
+  }
+
+  Status ReadOne(const Import& import, TrainingImage& image) const {
+    const fs::path file = folder_ / import.image->name;
+    const auto camera =
+        std::find_if(model_.cameras.begin(), model_.cameras.end(),
+                     [&](const ColmapCamera& c) { return c.id == import.image->camera; });
+    image.frame_index = import.frame_index;
+    image.name = import.image->name;
+    LARARIUM_ASSIGN_OR_RETURN(image.bgr, ReadImage(file, *camera));
+    if (import.own_camera != nullptr) {
+      image.bgr = Resample(image.bgr, *import.own_camera, camera_);
+    }
+    cv::cvtColor(image.bgr, image.grey, cv::COLOR_BGR2GRAY);
+    vision::FeatureOptions options;
+    options.contrast_threshold = 0.02f;  // as training does
+    options.max_features = options_.max_features;
+    auto features = vision::ExtractFeatures(image.grey, options);
+    if (!features.ok()) {
+      return features.status().At(file.string());
+    }
+    image.features = std::move(features).value();
+    return Status();
+  }
+
+  // Our pixel of a feature of the model.
+  Eigen::Vector2d PixelOf(const Import& import, const ColmapFeature& feature) const {
+    const Eigen::Vector2d pixel(feature.x - 0.5, feature.y - 0.5);
+    return import.own_camera == nullptr
+               ? pixel
+               : camera_.PixelFromPlane(import.own_camera->PlaneFromPixel(pixel));
+  }
+
+  // For each point of the model, our features that show it, in order of images. A
+  // feature shows one point; where the model has several that near, the nearest.
+  Tracks FindTracks() const {
+    struct Tie {
+      double distance;
+      uint32_t feature;
+      uint64_t point;
+    };
+    std::vector<std::vector<Tie>> ties(imports_.size());
+    ParallelFor(imports_.size(), [&](size_t i) {
+      const FeatureGrid grid(images_[i].features, options_.radius_px);
+      std::vector<Tie>& of_image = ties[i];
+      for (const ColmapFeature& feature : imports_[i].image->features) {
+        if (feature.point == ColmapFeature::kNoPoint) {
+          continue;
+        }
+        const Eigen::Vector2d pixel = PixelOf(imports_[i], feature);
+        if (const auto nearest = grid.Nearest(pixel)) {
+          const vision::Keypoint& keypoint = images_[i].features.keypoints[*nearest];
+          of_image.push_back(
+              {(Eigen::Vector2d(keypoint.x, keypoint.y) - pixel).norm(), *nearest, feature.point});
+        }
+      }
+      std::sort(of_image.begin(), of_image.end(), [](const Tie& a, const Tie& b) {
+        return std::tie(a.distance, a.feature, a.point) < std::tie(b.distance, b.feature, b.point);
+      });
+      std::set<uint32_t> features;
+      std::set<uint64_t> points;
+      std::erase_if(of_image, [&](const Tie& tie) {
+        if (features.contains(tie.feature) || points.contains(tie.point)) {
+          return true;
+        }
+        features.insert(tie.feature);
+        points.insert(tie.point);
+        return false;
+      });
+    });
+    std::map<uint64_t, std::vector<TrackElement>> sights;
+    for (uint32_t i = 0; i < ties.size(); ++i) {
+      for (const Tie& tie : ties[i]) {
+        sights[tie.point].push_back({i, tie.feature});
+      }
+    }
+    Tracks tracks;
+    for (const ColmapPoint& point : model_.points) {
+      if (const auto found = sights.find(point.id); found != sights.end()) {
+        tracks.elements.insert(tracks.elements.end(), found->second.begin(), found->second.end());
+      }
+      tracks.begin.push_back(static_cast<uint32_t>(tracks.elements.size()));
+    }
+    return tracks;
+  }
+
+  // The model's poses and points, with our features as their sights.
+  Result<Reconstruction> Tie() {
+    progress_.Report("points", 0.0);
+    std::vector<std::vector<Eigen::Vector2d>> pixels(images_.size());
+    for (size_t i = 0; i < images_.size(); ++i) {
+      for (const vision::Keypoint& keypoint : images_[i].features.keypoints) {
+        pixels[i].emplace_back(keypoint.x, keypoint.y);
+      }
+    }
+    Reconstruction reconstruction(camera_, std::move(pixels), FindTracks());
+    for (uint32_t i = 0; i < imports_.size(); ++i) {
+      reconstruction.Locate(i, imports_[i].image->camera_from_map);
+    }
+    // The model vouches for its points: narrow angles are as good as it found them.
+    TriangulationOptions triangulation;
+    triangulation.min_angle = 1e-4;
+    for (uint32_t track = 0; track < model_.points.size(); ++track) {
+      if (reconstruction.Triangulate(track, triangulation)) {
+        reconstruction.MovePoint(track, model_.points[track].position);
+        reconstruction.Complete(track, triangulation.max_error_px);
+        reconstruction.Filter(track, triangulation);
+      }
+    }
+    const size_t found = reconstruction.PointCount();
+    log_.info("{} of the model's {} points were found again in its images", found,
+              model_.points.size());
+    constexpr size_t kMinPoints = 30;  // fewer locate no image
+    if (found < kMinPoints) {
+      return Status::Error(kImport,
+                           "only " + std::to_string(found) + " of the model's " +
+                               std::to_string(model_.points.size()) +
+                               " points were found again in the images of " + folder_.string(),
+                           "name the images that the model was made of");
+    }
+    return reconstruction;
+  }
+
+  const ColmapModel& model_;
+  const fs::path& folder_;
+  ColmapImportOptions options_;
+  Progress& progress_;
+  Log& log_;
+  CameraModel camera_;
+  std::map<uint32_t, CameraModel> cameras_;  // by id
+  std::vector<Import> imports_;
+  std::vector<TrainingImage> images_;  // of the same index
+};
+
+}  // namespace
+
+ColmapModel ColmapFromDatabase(const vision::SceneDatabase& database) {
+  ColmapModel model;
+  model.cameras.push_back(ColmapFromCamera(database.camera, 1));
+  const std::vector<std::string> names = FileNames(database);
+  for (size_t i = 0; i < database.keyframes.size(); ++i) {
+    ColmapImage& image = model.images.emplace_back();
+    image.id = static_cast<uint32_t>(i + 1);
+    image.camera = 1;
+    image.camera_from_map = database.keyframes[i].camera_from_map;
+    image.camera_from_map.rotation.normalize();
+    image.name = names[i];
+  }
+  const bool has_colours = database.colours.size() == database.points.size();
+  for (size_t i = 0; i < database.points.size(); ++i) {
+    ColmapPoint& point = model.points.emplace_back();
+    point.id = i + 1;
+    point.position = database.points[i].cast<double>();
+    for (int c = 0; c < 3 && has_colours; ++c) {
+      point.colour[c] = SrgbFromLinear(database.colours[i][c]);
+    }
+  }
+  for (const vision::Observation& o : database.observations) {
+    std::vector<ColmapFeature>& features = model.images[o.keyframe].features;
+    model.points[o.point].sights.push_back(
+        {o.keyframe + 1, static_cast<uint32_t>(features.size())});
+    features.push_back({o.x + 0.5, o.y + 0.5, uint64_t{o.point} + 1});
+  }
+  FillErrors(database, model);
+  return model;
+}
+
+Status ExportColmap(const vision::SceneDatabase& database,
+                    const fs::path& folder,
+                    ColmapFormat format,
+                    bool with_images) {
+  LARARIUM_RETURN_IF_ERROR(database.Validate());
+  const ColmapModel model = ColmapFromDatabase(database);
+  LARARIUM_RETURN_IF_ERROR(model.Validate());
+  std::error_code ignored;
+  if (fs::exists(folder, ignored) && !fs::is_empty(folder, ignored)) {
+    return Status::Error(folder.string(), "exists already",
+                         "name a new folder, or remove this one");
+  }
+  const fs::path plain = folder.has_filename() ? folder : folder.parent_path();
+  LARARIUM_ASSIGN_OR_RETURN(HalfWrittenFolder half, HalfWrittenFolder::Beside(plain));
+  const ColmapFiles files = SerializeColmapModel(model, format);
+  const std::string extension = format == ColmapFormat::kText ? ".txt" : ".bin";
+  const auto write = [&](const char* stem, const std::string& content) {
+    return WriteFileAtomically(half.path() / (stem + extension), std::string_view(content));
+  };
+  LARARIUM_RETURN_IF_ERROR(write("cameras", files.cameras));
+  LARARIUM_RETURN_IF_ERROR(write("images", files.images));
+  LARARIUM_RETURN_IF_ERROR(write("points3D", files.points));
+  for (size_t i = 0; i < model.images.size() && with_images; ++i) {
+    if (!database.keyframes[i].grey.empty()) {
+      LARARIUM_RETURN_IF_ERROR(
+          WriteImage(half.path() / "images" / model.images[i].name, database.keyframes[i].grey));
+    }
+  }
+  return half.MoveTo(plain);
+}
+
+Status ColmapImportOptions::Validate() const {
+  if (!(radius_px > 0.0 && radius_px <= 10.0)) {
+    return Status::Error(kImport, "radius_px must lie above 0 and up to 10");
+  }
+  if (max_features < 100 || max_features > 50'000) {
+    return Status::Error(kImport, "max_features must lie between 100 and 50000");
+  }
+  if (max_points < 100 || max_points > 10'000'000) {
+    return Status::Error(kImport, "max_points must lie between 100 and 10000000");
+  }
+  return Status();
+}
+
+Result<ColmapFolders> FindColmapFolders(const fs::path& model, const fs::path& images) {
+  std::error_code ignored;
+  ColmapFolders folders;
+  for (const fs::path& candidate : {model, model / "sparse" / "0", model / "sparse"}) {
+    if (folders.model.empty() && (fs::exists(candidate / "cameras.bin", ignored) ||
+                                  fs::exists(candidate / "cameras.txt", ignored))) {
+      folders.model = candidate;
+    }
+  }
+  if (folders.model.empty()) {
+    return Status::Error(model.string(), "has no cameras.bin or cameras.txt",
+                         "name the folder of a COLMAP model, such as sparse/0");
+  }
+  folders.images = images;
+  const fs::path base = fs::absolute(folders.model, ignored).lexically_normal();
+  for (fs::path at = base; folders.images.empty() && at != at.root_path(); at = at.parent_path()) {
+    if (fs::is_directory(at / "images", ignored)) {
+      folders.images = at / "images";
+    }
+    // Projects keep models two folders deep at most.
+    if (at == base.parent_path().parent_path()) {
+      break;
+    }
+  }
+  if (!fs::is_directory(folders.images, ignored)) {
+    return Status::Error(
+        images.empty() ? model.string() : images.string(),
+        images.empty() ? "has no folder images in or beside it" : "is not a folder",
+        "name the folder of the model's images with --images");
+  }
+  return folders;
+}
+
+Result<vision::SceneDatabase> ImportColmap(const fs::path& model,
+                                           const fs::path& images,
+                                           const ColmapImportOptions& options,
+                                           Progress& progress,
+                                           Log& log) {
+  LARARIUM_RETURN_IF_ERROR(options.Validate());
+  LARARIUM_ASSIGN_OR_RETURN(const ColmapFolders folders, FindColmapFolders(model, images));
+  LARARIUM_ASSIGN_OR_RETURN(const ColmapModel parsed, LoadColmapModel(folders.model));
+  return Importer(parsed, folders.images, options, progress, log).Run();
+}
+
+}  // namespace lararium::train

@@ -1,0 +1,312 @@
+#include "editor/train/colmap_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/train/colmap_binary.h"
+#include "editor/train/colmap_text.h"
+#include "shared/core/file.h"
+
+namespace lararium::train {
+namespace {
+
+using geometry::CameraModel;
+
+constexpr std::string_view kRemedy = "write the model again with COLMAP";
+
+struct ModelFacts {
+  std::string_view name;
+  size_t parameters;
+};
+
+constexpr std::array<ModelFacts, kColmapCameraModels> kModelFacts = {{
+    {"SIMPLE_PINHOLE", 3},
+    {"PINHOLE", 4},
+    {"SIMPLE_RADIAL", 4},
+    {"RADIAL", 5},
+    {"OPENCV", 8},
+    {"OPENCV_FISHEYE", 8},
+    {"FULL_OPENCV", 12},
+    {"FOV", 5},
+    {"SIMPLE_RADIAL_FISHEYE", 4},
+    {"RADIAL_FISHEYE", 5},
+    {"THIN_PRISM_FISHEYE", 12},
+}};
+
+std::string Called(std::string_view kind, uint64_t id) {
+  return std::string(kind) + " " + std::to_string(id);
+}
+
+// Our maps bound coordinates alike.
+bool Plausible(double value) { return std::abs(value) < 1e9; }  // false for NaN
+
+bool Plausible(const Eigen::Vector3d& v) {
+  return Plausible(v.x()) && Plausible(v.y()) && Plausible(v.z());
+}
+
+template <typename T>
+const T* Find(const std::vector<T>& sorted, uint64_t id) {
+  const auto found = std::lower_bound(sorted.begin(), sorted.end(), id,
+                                      [](const T& item, uint64_t key) { return item.id < key; });
+  return found != sorted.end() && found->id == id ? &*found : nullptr;
+}
+
+template <typename T>
+Status CheckIds(const std::vector<T>& items, std::string_view kind) {
+  for (size_t i = 1; i < items.size(); ++i) {
+    if (items[i].id == items[i - 1].id) {
+      return Status::Error(Called(kind, items[i].id), "appears twice", kRemedy);
+    }
+    if (items[i].id < items[i - 1].id) {
+      return Status::Error(Called(kind, items[i].id), "is not in order of ids", kRemedy);
+    }
+  }
+  return Status();
+}
+
+Status CheckCamera(const ColmapCamera& camera) {
+  const auto index = static_cast<int32_t>(camera.model);
+  const std::string place = Called("camera", camera.id);
+  if (index < 0 || index >= kColmapCameraModels) {
+    return Status::Error(place, "has an unknown model", kRemedy);
+  }
+  if (camera.parameters.size() != ParameterCount(camera.model)) {
+    return Status::Error(place, "has the wrong number of parameters", kRemedy);
+  }
+  if (!std::all_of(camera.parameters.begin(), camera.parameters.end(),
+                   [](double p) { return std::isfinite(p); })) {
+    return Status::Error(place, "has a parameter that is no finite number", kRemedy);
+  }
+  return Status();
+}
+
+Status CheckImage(const ColmapModel& model, const ColmapImage& image) {
+  const std::string place = Called("image", image.id);
+  if (Find(model.cameras, image.camera) == nullptr) {
+    return Status::Error(place, "names " + Called("camera", image.camera) + ", which is missing",
+                         kRemedy);
+  }
+  if (!(std::abs(image.camera_from_map.rotation.squaredNorm() - 1.0) < 1e-9) ||
+      !Plausible(image.camera_from_map.translation)) {
+    return Status::Error(place, "has a pose that is no rigid motion", kRemedy);
+  }
+  const bool has_control = std::any_of(image.name.begin(), image.name.end(),
+                                       [](char c) { return static_cast<unsigned char>(c) < ' '; });
+  if (image.name.empty() || image.name.size() > 4096 || has_control) {
+    return Status::Error(place, "has no usable name", kRemedy);
+  }
+  for (const ColmapFeature& feature : image.features) {
+    if (!Plausible(feature.x) || !Plausible(feature.y)) {
+      return Status::Error(place, "has a feature at an impossible place", kRemedy);
+    }
+    if (feature.point != ColmapFeature::kNoPoint && Find(model.points, feature.point) == nullptr) {
+      return Status::Error(place, "shows " + Called("point", feature.point) + ", which is missing",
+                           kRemedy);
+    }
+  }
+  return Status();
+}
+
+Status CheckPoint(const ColmapModel& model, const ColmapPoint& point) {
+  const std::string place = Called("point", point.id);
+  if (point.id == ColmapFeature::kNoPoint) {
+    return Status::Error(place, "has the number that stands for no point", kRemedy);
+  }
+  if (!Plausible(point.position)) {
+    return Status::Error(place, "lies at an impossible place", kRemedy);
+  }
+  if (!std::isfinite(point.error)) {
+    return Status::Error(place, "has an error that is no finite number", kRemedy);
+  }
+  for (const ColmapSight& sight : point.sights) {
+    const ColmapImage* image = Find(model.images, sight.image);
+    if (image == nullptr || sight.feature >= image->features.size() ||
+        image->features[sight.feature].point != point.id) {
+      return Status::Error(place,
+                           "is not what feature " + std::to_string(sight.feature) + " of " +
+                               Called("image", sight.image) + " shows",
+                           kRemedy);
+    }
+  }
+  return Status();
+}
+
+// With every sight found in its image: none is missing, none counts twice.
+Status CheckSightsAreAll(const ColmapModel& model) {
+  std::vector<ColmapSight> sights;
+  for (const ColmapPoint& point : model.points) {
+    sights.insert(sights.end(), point.sights.begin(), point.sights.end());
+  }
+  const auto key = [](const ColmapSight& s) { return uint64_t{s.image} << 32 | s.feature; };
+  std::sort(sights.begin(), sights.end(),
+            [&](const ColmapSight& a, const ColmapSight& b) { return key(a) < key(b); });
+  for (size_t i = 1; i < sights.size(); ++i) {
+    if (key(sights[i]) == key(sights[i - 1])) {
+      return Status::Error(Called("image", sights[i].image),
+                           "has a feature that a point counts twice", kRemedy);
+    }
+  }
+  size_t next = 0;
+  for (const ColmapImage& image : model.images) {
+    for (size_t f = 0; f < image.features.size(); ++f) {
+      if (image.features[f].point == ColmapFeature::kNoPoint) {
+        continue;
+      }
+      if (next == sights.size() || sights[next].image != image.id || sights[next].feature != f) {
+        return Status::Error(
+            Called("point", image.features[f].point),
+            "does not know of feature " + std::to_string(f) + " of " + Called("image", image.id),
+            kRemedy);
+      }
+      ++next;
+    }
+  }
+  return Status();
+}
+
+void SortById(ColmapModel& model) {
+  const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
+  std::stable_sort(model.cameras.begin(), model.cameras.end(), by_id);
+  std::stable_sort(model.images.begin(), model.images.end(), by_id);
+  std::stable_sort(model.points.begin(), model.points.end(), by_id);
+}
+
+// What rounding left of unit length; anything else is no rotation and stays.
+void NormaliseRotations(ColmapModel& model) {
+  for (ColmapImage& image : model.images) {
+    Eigen::Quaterniond& rotation = image.camera_from_map.rotation;
+    if (std::abs(rotation.squaredNorm() - 1.0) < 1e-3) {
+      rotation.normalize();
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view Name(ColmapCameraModel model) {
+  return kModelFacts[static_cast<size_t>(model)].name;
+}
+
+size_t ParameterCount(ColmapCameraModel model) {
+  return kModelFacts[static_cast<size_t>(model)].parameters;
+}
+
+Status ColmapModel::Validate() const {
+  LARARIUM_RETURN_IF_ERROR(CheckIds(cameras, "camera"));
+  LARARIUM_RETURN_IF_ERROR(CheckIds(images, "image"));
+  LARARIUM_RETURN_IF_ERROR(CheckIds(points, "point"));
+  for (const ColmapCamera& camera : cameras) {
+    LARARIUM_RETURN_IF_ERROR(CheckCamera(camera));
+  }
+  for (const ColmapImage& image : images) {
+    LARARIUM_RETURN_IF_ERROR(CheckImage(*this, image));
+  }
+  for (const ColmapPoint& point : points) {
+    LARARIUM_RETURN_IF_ERROR(CheckPoint(*this, point));
+  }
+  return CheckSightsAreAll(*this);
+}
+
+Result<CameraModel> CameraFromColmap(const ColmapCamera& camera) {
+  const std::string place = Called("camera", camera.id);
+  constexpr uint64_t kMaxSide = 16384;
+  if (camera.width > kMaxSide || camera.height > kMaxSide) {
+    return Status::Error(place, "has images of an impossible size", kRemedy);
+  }
+  const std::vector<double>& p = camera.parameters;
+  CameraModel ours;
+  ours.width = static_cast<int>(camera.width);
+  ours.height = static_cast<int>(camera.height);
+  size_t center = 1;  // where cx stands
+  switch (camera.model) {
+    case ColmapCameraModel::kSimplePinhole:
+    case ColmapCameraModel::kSimpleRadial:
+    case ColmapCameraModel::kRadial:
+      ours.fx = ours.fy = p[0];
+      break;
+    case ColmapCameraModel::kPinhole:
+    case ColmapCameraModel::kOpenCv:
+      ours.fx = p[0];
+      ours.fy = p[1];
+      center = 2;
+      break;
+    default:
+      return Status::Error(
+          place,
+          "has the model " + std::string(Name(camera.model)) +
+              ", which Lararium does not track with",
+          "run `colmap image_undistorter`, and import its sparse model and images");
+  }
+  ours.cx = p[center] - 0.5;
+  ours.cy = p[center + 1] - 0.5;
+  const size_t distortion = center + 2;
+  ours.k1 = p.size() > distortion ? p[distortion] : 0.0;
+  ours.k2 = p.size() > distortion + 1 ? p[distortion + 1] : 0.0;
+  ours.p1 = p.size() > distortion + 2 ? p[distortion + 2] : 0.0;
+  ours.p2 = p.size() > distortion + 3 ? p[distortion + 3] : 0.0;
+  if (const Status status = ours.Validate(); !status.ok()) {
+    return status.At(place);
+  }
+  return ours;
+}
+
+ColmapCamera ColmapFromCamera(const CameraModel& camera, uint32_t id) {
+  ColmapCamera colmap;
+  colmap.id = id;
+  colmap.width = static_cast<uint64_t>(camera.width);
+  colmap.height = static_cast<uint64_t>(camera.height);
+  const double cx = camera.cx + 0.5;
+  const double cy = camera.cy + 0.5;
+  if (!camera.HasDistortion()) {
+    colmap.model = ColmapCameraModel::kPinhole;
+    colmap.parameters = {camera.fx, camera.fy, cx, cy};
+  } else if (camera.fx == camera.fy && camera.p1 == 0.0 && camera.p2 == 0.0) {
+    colmap.model = ColmapCameraModel::kRadial;
+    colmap.parameters = {camera.fx, cx, cy, camera.k1, camera.k2};
+  } else {
+    colmap.model = ColmapCameraModel::kOpenCv;
+    colmap.parameters = {camera.fx, camera.fy, cx, cy, camera.k1, camera.k2, camera.p1, camera.p2};
+  }
+  return colmap;
+}
+
+Result<ColmapModel> ParseColmapModel(const ColmapFiles& files,
+                                     ColmapFormat format,
+                                     const std::string& place) {
+  ColmapModel model;
+  const Status parsed = format == ColmapFormat::kText ? ParseColmapText(files, place, model)
+                                                      : ParseColmapBinary(files, place, model);
+  LARARIUM_RETURN_IF_ERROR(parsed);
+  SortById(model);
+  NormaliseRotations(model);
+  if (const Status status = model.Validate(); !status.ok()) {
+    return status.At(place);
+  }
+  return model;
+}
+
+ColmapFiles SerializeColmapModel(const ColmapModel& model, ColmapFormat format) {
+  return format == ColmapFormat::kText ? SerializeColmapText(model) : SerializeColmapBinary(model);
+}
+
+Result<ColmapModel> LoadColmapModel(const std::filesystem::path& folder) {
+  const auto file = [&](std::string_view stem, ColmapFormat format) {
+    return folder / (std::string(stem) + (format == ColmapFormat::kText ? ".txt" : ".bin"));
+  };
+  std::error_code ignored;
+  ColmapFormat format = ColmapFormat::kBinary;
+  if (!std::filesystem::exists(file("cameras", format), ignored)) {
+    format = ColmapFormat::kText;
+  }
+  if (!std::filesystem::exists(file("cameras", format), ignored)) {
+    return Status::Error(folder.string(), "has no cameras.bin or cameras.txt",
+                         "name the folder of a COLMAP model, such as sparse/0");
+  }
+  ColmapFiles files;
+  LARARIUM_ASSIGN_OR_RETURN(files.cameras, ReadText(file("cameras", format)));
+  LARARIUM_ASSIGN_OR_RETURN(files.images, ReadText(file("images", format)));
+  LARARIUM_ASSIGN_OR_RETURN(files.points, ReadText(file("points3D", format)));
+  return ParseColmapModel(files, format, folder.string());
+}
+
+}  // namespace lararium::train

@@ -1,0 +1,295 @@
+#include "editor/train/colmap_text.h"
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace lararium::train {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+std::string_view Trimmed(std::string_view text) {
+  const size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) {
+    return {};
+  }
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+class LineReader {
+ public:
+  LineReader(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
+
+  // The next line, blank or not; nullopt at the end.
+  std::optional<std::string_view> Next() {
+    if (at_ >= text_.size()) {
+      return std::nullopt;
+    }
+    const size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view line = text_.substr(at_, end - at_);
+    at_ = end + 1;
+    ++number_;
+    return Trimmed(line);
+  }
+
+  // The next that is neither blank nor a comment.
+  std::optional<std::string_view> NextRecord() {
+    while (const std::optional<std::string_view> line = Next()) {
+      if (!line->empty() && line->front() != '#') {
+        return line;
+      }
+    }
+    return std::nullopt;
+  }
+
+  Status Problem(std::string_view what) const {
+    return Status::Error(file_ + ":" + std::to_string(number_), what,
+                         "write the model again with COLMAP");
+  }
+
+ private:
+  std::string_view text_;
+  std::string file_;
+  size_t at_ = 0;
+  size_t number_ = 0;
+};
+
+// Takes fields from the front of a line; remembers when one was missing or no number.
+class FieldReader {
+ public:
+  explicit FieldReader(std::string_view line) : rest_(Trimmed(line)) {}
+
+  bool failed() const { return failed_; }
+  bool at_end() const { return rest_.empty(); }
+
+  std::string_view TakeWord() {
+    const size_t end = std::min(rest_.find_first_of(kBlanks), rest_.size());
+    const std::string_view word = rest_.substr(0, end);
+    rest_ = Trimmed(rest_.substr(end));
+    failed_ = failed_ || word.empty();
+    return word;
+  }
+
+  template <typename T>
+  T Take() {
+    const std::string_view word = TakeWord();
+    T value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    failed_ = failed_ || error != std::errc() || end != word.data() + word.size();
+    return value;
+  }
+
+  // -1 stands for none.
+  uint64_t TakePoint() {
+    const std::string_view before = rest_;
+    if (TakeWord() == "-1") {
+      return ColmapFeature::kNoPoint;
+    }
+    rest_ = before;
+    return Take<uint64_t>();
+  }
+
+  // All that is left: names may hold blanks.
+  std::string TakeRest() {
+    failed_ = failed_ || rest_.empty();
+    return std::string(std::exchange(rest_, {}));
+  }
+
+ private:
+  std::string_view rest_;
+  bool failed_ = false;
+};
+
+std::optional<ColmapCameraModel> ModelOf(std::string_view name) {
+  for (int i = 0; i < kColmapCameraModels; ++i) {
+    if (Name(static_cast<ColmapCameraModel>(i)) == name) {
+      return static_cast<ColmapCameraModel>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+Status ParseCameras(std::string_view text, const std::string& file, ColmapModel& model) {
+  LineReader lines(text, file);
+  while (const auto line = lines.NextRecord()) {
+    FieldReader fields(*line);
+    ColmapCamera camera;
+    camera.id = fields.Take<uint32_t>();
+    const std::string name(fields.TakeWord());
+    const std::optional<ColmapCameraModel> kind = ModelOf(name);
+    if (!kind) {
+      return lines.Problem("has the unknown camera model \"" + name.substr(0, 64) + "\"");
+    }
+    camera.model = *kind;
+    camera.width = fields.Take<uint64_t>();
+    camera.height = fields.Take<uint64_t>();
+    for (size_t i = 0; i < ParameterCount(*kind); ++i) {
+      camera.parameters.push_back(fields.Take<double>());
+    }
+    if (fields.failed() || !fields.at_end()) {
+      return lines.Problem("is not CAMERA_ID, MODEL, WIDTH, HEIGHT and the parameters of " + name);
+    }
+    model.cameras.push_back(std::move(camera));
+  }
+  return Status();
+}
+
+Status ParseFeatures(const LineReader& lines, std::string_view line, ColmapImage& image) {
+  FieldReader fields(line);
+  while (!fields.at_end() && !fields.failed()) {
+    ColmapFeature& feature = image.features.emplace_back();
+    feature.x = fields.Take<double>();
+    feature.y = fields.Take<double>();
+    feature.point = fields.TakePoint();
+  }
+  return fields.failed() ? lines.Problem("is not X, Y and POINT3D_ID for each feature") : Status();
+}
+
+Status ParseImages(std::string_view text, const std::string& file, ColmapModel& model) {
+  LineReader lines(text, file);
+  while (const auto line = lines.NextRecord()) {
+    FieldReader fields(*line);
+    ColmapImage image;
+    image.id = fields.Take<uint32_t>();
+    Eigen::Quaterniond& rotation = image.camera_from_map.rotation;
+    rotation.w() = fields.Take<double>();
+    rotation.x() = fields.Take<double>();
+    rotation.y() = fields.Take<double>();
+    rotation.z() = fields.Take<double>();
+    for (double& t : image.camera_from_map.translation) {
+      t = fields.Take<double>();
+    }
+    image.camera = fields.Take<uint32_t>();
+    image.name = fields.TakeRest();
+    if (fields.failed()) {
+      return lines.Problem(
+          "is not IMAGE_ID, a quaternion (4), a translation (3), CAMERA_ID and NAME");
+    }
+    // The line after an image holds its features, and is blank where it has none.
+    if (const auto features = lines.Next()) {
+      LARARIUM_RETURN_IF_ERROR(ParseFeatures(lines, *features, image));
+    }
+    model.images.push_back(std::move(image));
+  }
+  return Status();
+}
+
+Status ParsePoints(std::string_view text, const std::string& file, ColmapModel& model) {
+  LineReader lines(text, file);
+  while (const auto line = lines.NextRecord()) {
+    FieldReader fields(*line);
+    ColmapPoint point;
+    point.id = fields.Take<uint64_t>();
+    for (double& x : point.position) {
+      x = fields.Take<double>();
+    }
+    for (uint8_t& channel : point.colour) {
+      channel = fields.Take<uint8_t>();
+    }
+    point.error = fields.Take<double>();
+    while (!fields.at_end() && !fields.failed()) {
+      ColmapSight& sight = point.sights.emplace_back();
+      sight.image = fields.Take<uint32_t>();
+      sight.feature = fields.Take<uint32_t>();
+    }
+    if (fields.failed()) {
+      return lines.Problem(
+          "is not POINT3D_ID, X, Y, Z, R, G, B, ERROR, and IMAGE_ID and POINT2D_IDX for each "
+          "sight");
+    }
+    model.points.push_back(std::move(point));
+  }
+  return Status();
+}
+
+// Appends a number in the fewest digits that read back the same.
+template <typename T>
+void Put(std::string& text, T value) {
+  char digits[32];
+  const auto [end, error] = std::to_chars(digits, digits + sizeof(digits), value);
+  text.append(digits, end);
+}
+
+template <typename T>
+void PutField(std::string& text, T value) {
+  text += ' ';
+  Put(text, value);
+}
+
+void PutFeatures(std::string& text, const ColmapImage& image) {
+  bool first = true;
+  for (const ColmapFeature& feature : image.features) {
+    if (!std::exchange(first, false)) {
+      text += ' ';
+    }
+    Put(text, feature.x);
+    PutField(text, feature.y);
+    if (feature.point == ColmapFeature::kNoPoint) {
+      text += " -1";
+    } else {
+      PutField(text, feature.point);
+    }
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+Status ParseColmapText(const ColmapFiles& files, const std::string& place, ColmapModel& model) {
+  LARARIUM_RETURN_IF_ERROR(ParseCameras(files.cameras, place + "/cameras.txt", model));
+  LARARIUM_RETURN_IF_ERROR(ParseImages(files.images, place + "/images.txt", model));
+  return ParsePoints(files.points, place + "/points3D.txt", model);
+}
+
+ColmapFiles SerializeColmapText(const ColmapModel& model) {
+  ColmapFiles files;
+  files.cameras = "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n";
+  for (const ColmapCamera& camera : model.cameras) {
+    Put(files.cameras, camera.id);
+    files.cameras += ' ';
+    files.cameras += Name(camera.model);
+    PutField(files.cameras, camera.width);
+    PutField(files.cameras, camera.height);
+    for (const double parameter : camera.parameters) {
+      PutField(files.cameras, parameter);
+    }
+    files.cameras += '\n';
+  }
+  files.images =
+      "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
+      "# POINTS2D[] as X, Y, POINT3D_ID\n";
+  for (const ColmapImage& image : model.images) {
+    Put(files.images, image.id);
+    const Eigen::Quaterniond& q = image.camera_from_map.rotation;
+    for (const double component : {q.w(), q.x(), q.y(), q.z()}) {
+      PutField(files.images, component);
+    }
+    for (const double t : image.camera_from_map.translation) {
+      PutField(files.images, t);
+    }
+    PutField(files.images, image.camera);
+    files.images += ' ' + image.name + '\n';
+    PutFeatures(files.images, image);
+  }
+  files.points = "# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as IMAGE_ID, POINT2D_IDX\n";
+  for (const ColmapPoint& point : model.points) {
+    Put(files.points, point.id);
+    for (const double x : point.position) {
+      PutField(files.points, x);
+    }
+    for (const uint8_t channel : point.colour) {
+      PutField(files.points, static_cast<unsigned>(channel));
+    }
+    PutField(files.points, point.error);
+    for (const ColmapSight& sight : point.sights) {
+      PutField(files.points, sight.image);
+      PutField(files.points, sight.feature);
+    }
+    files.points += '\n';
+  }
+  return files;
+}
+
+}  // namespace lararium::train
