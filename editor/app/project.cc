@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "editor/train/april_tags.h"
 #include "shared/core/file.h"
 
 namespace lararium::app {
@@ -108,7 +109,7 @@ Result<CameraModel> ParseIntrinsics(const JsonView& view) {
 }
 
 Result<stage::Pick> ParsePick(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"frame_index", "frame", "pixel"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"frame_index", "frame", "pixel", "session"}));
   stage::Pick pick;
   LARARIUM_ASSIGN_OR_RETURN(pick.frame_index, view.Integer("frame_index", 0, int64_t{1} << 40));
   LARARIUM_ASSIGN_OR_RETURN(pick.frame, view.Text("frame"));
@@ -117,6 +118,10 @@ Result<stage::Pick> ParsePick(const JsonView& view) {
     return view.Problem("\"pixel\" lies outside of any image");
   }
   pick.pixel = {pixel[0], pixel[1]};
+  if (view.Has("session")) {
+    LARARIUM_ASSIGN_OR_RETURN(const int64_t session, view.Integer("session", 0, kMaxAddedSessions));
+    pick.session = static_cast<uint32_t>(session);
+  }
   return pick;
 }
 
@@ -143,6 +148,30 @@ Result<stage::StagePicks> ParsePicks(const JsonView& view) {
   }
   LARARIUM_ASSIGN_OR_RETURN(picks.length_m, view.Number("length_m", 1e-6, kMaxLength));
   return picks;
+}
+
+Result<SessionDocument> ParseSession(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"source", "intrinsics"}));
+  SessionDocument session;
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView source, view.Field("source"));
+  LARARIUM_ASSIGN_OR_RETURN(session.source, ParseSource(source));
+  if (view.Has("intrinsics")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("intrinsics"));
+    LARARIUM_ASSIGN_OR_RETURN(session.intrinsics, ParseIntrinsics(field));
+  }
+  return session;
+}
+
+Result<TagsDocument> ParseTags(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"family", "size_m"}));
+  TagsDocument tags;
+  LARARIUM_ASSIGN_OR_RETURN(tags.family, view.Text("family"));
+  const std::span<const std::string_view> families = train::TagFamilies();
+  if (std::find(families.begin(), families.end(), tags.family) == families.end()) {
+    return view.Problem("\"family\" is none that is known", train::TagFamilyRemedy());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(tags.size_m, view.Number("size_m", 1e-4, 1e3));
+  return tags;
 }
 
 Result<OccluderDocument> ParseOccluder(const JsonView& view) {
@@ -176,6 +205,18 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("intrinsics"));
     LARARIUM_ASSIGN_OR_RETURN(place.intrinsics, ParseIntrinsics(field));
   }
+  if (view.Has("added")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("added"));
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(kMaxAddedSessions));
+    for (const JsonView& entry : list) {
+      LARARIUM_ASSIGN_OR_RETURN(SessionDocument session, ParseSession(entry));
+      place.added.push_back(std::move(session));
+    }
+  }
+  if (view.Has("tags")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("tags"));
+    LARARIUM_ASSIGN_OR_RETURN(place.tags, ParseTags(field));
+  }
   if (view.Has("probe")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("probe"));
     LARARIUM_ASSIGN_OR_RETURN(place.probe, ParseProbe(field));
@@ -184,8 +225,9 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
 }
 
 Result<PlaceDocument> ParsePlace(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "training", "preview", "intrinsics", "picks",
-                                              "adjust", "camera_nudge", "occluders", "probe"}));
+  LARARIUM_RETURN_IF_ERROR(
+      CheckFields(view, {"name", "training", "preview", "intrinsics", "added", "tags", "picks",
+                         "adjust", "camera_nudge", "occluders", "probe"}));
   PlaceDocument place;
   LARARIUM_ASSIGN_OR_RETURN(place.name, ParsePlainName(view, "name"));
   LARARIUM_RETURN_IF_ERROR(ParseOptionalFields(view, place));
@@ -272,6 +314,16 @@ Json FormatPlace(const PlaceDocument& place) {
   if (place.intrinsics) {
     json["intrinsics"] = FormatIntrinsics(*place.intrinsics);
   }
+  for (const SessionDocument& session : place.added) {
+    Json entry = {{"source", FormatSource(session.source)}};
+    if (session.intrinsics) {
+      entry["intrinsics"] = FormatIntrinsics(*session.intrinsics);
+    }
+    json["added"].push_back(std::move(entry));
+  }
+  if (place.tags) {
+    json["tags"] = {{"family", place.tags->family}, {"size_m", place.tags->size_m}};
+  }
   for (const OccluderDocument& occluder : place.occluders) {
     Json entry = {{"name", occluder.name}, {"file", occluder.file}};
     FormatSimilarity(occluder.stage_from_mesh, entry);
@@ -302,6 +354,9 @@ Json FormatPicks(const stage::StagePicks& picks) {
       list.push_back({{"frame_index", pick.frame_index},
                       {"frame", pick.frame},
                       {"pixel", Json::array({pick.pixel.x(), pick.pixel.y()})}});
+      if (pick.session != 0) {
+        list.back()["session"] = pick.session;
+      }
     }
     json[key] = std::move(list);
   }
@@ -447,7 +502,11 @@ std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDoc
   expect(paths.Drama(), "write a drama, or take lua/template for a start");
   for (const PlaceDocument& place : document.places) {
     expect(paths.Scene(place.name), "train the place \"" + place.name + "\"");
-    for (const SourceDocument& source : {place.training, place.preview}) {
+    std::vector<SourceDocument> sources = {place.training, place.preview};
+    for (const SessionDocument& session : place.added) {
+      sources.push_back(session.source);
+    }
+    for (const SourceDocument& source : sources) {
       if (!source.empty()) {
         expect(paths.Resolve(source.path), "put the recording of \"" + place.name + "\" back");
       }

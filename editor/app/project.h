@@ -36,6 +36,19 @@ struct OccluderDocument {
   geometry::Similarity3 stage_from_mesh;
 };
 
+// A recording of the place in other light, merged into the map of the first.
+struct SessionDocument {
+  SourceDocument source;
+  std::optional<geometry::CameraModel> intrinsics;  // none: training estimates them
+};
+
+// AprilTags of one size in the training images, which give the map its metres.
+// They are looked for in the map at hand, so that training again keeps the scale.
+struct TagsDocument {
+  std::string family = "tag36h11";  // one of train::TagFamilies()
+  double size_m = 0.0;              // see train::TagOptions
+};
+
 // An equirectangular image of the light on the stage.
 struct ProbeDocument {
   std::string file;
@@ -46,11 +59,18 @@ struct ProbeDocument {
 // Picks with the names of their anchors set and nothing picked.
 stage::StagePicks EmptyPicks();
 
+// A map holds at most 32 sessions.
+inline constexpr size_t kMaxAddedSessions = 31;
+
 struct PlaceDocument {
   std::string name;
   SourceDocument training;
   SourceDocument preview;  // what the editor's camera view plays; none: the training
   std::optional<geometry::CameraModel> intrinsics;  // none: training estimates them
+  // Recorded after the first, in their order: entry i is session i + 1 of the map,
+  // the training recording is session 0.
+  std::vector<SessionDocument> added;
+  std::optional<TagsDocument> tags;  // none: the picks' known length gives the metres
   stage::StagePicks picks = EmptyPicks();
   // By hand, on top of the picks: the stage that they give from the stage itself.
   geometry::Similarity3 picked_from_stage;

@@ -45,11 +45,11 @@ Status Problem(const Anchor& anchor, std::string_view problem, std::string_view 
 std::vector<Sight> FindSights(const Anchor& anchor, const SceneDatabase& database) {
   std::vector<Sight> sights;
   for (const Pick& pick : anchor.picks) {
-    const auto found = std::find_if(database.keyframes.begin(), database.keyframes.end(),
-                                    [&](const Keyframe& keyframe) {
-                                      return keyframe.frame_index == pick.frame_index &&
-                                             (pick.frame.empty() || pick.frame == keyframe.name);
-                                    });
+    const auto found = std::find_if(
+        database.keyframes.begin(), database.keyframes.end(), [&](const Keyframe& keyframe) {
+          return keyframe.session == pick.session && keyframe.frame_index == pick.frame_index &&
+                 (pick.frame.empty() || pick.frame == keyframe.name);
+        });
     if (found != database.keyframes.end() && database.camera.Contains(pick.pixel)) {
       sights.push_back({static_cast<uint32_t>(found - database.keyframes.begin()), pick.pixel});
     }

@@ -19,6 +19,7 @@ struct Pick {
   int64_t frame_index = -1;  // in the video or folder
   std::string frame;         // name of the image; empty: the index alone decides
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // raw (distorted)
+  uint32_t session = 0;                             // the recording that the frame is of
 };
 
 // One point of the place. With picks in two or more keyframes it is
