@@ -17,7 +17,7 @@ constexpr size_t kNeighbours = 8;    // of a query: usually more than one point'
 constexpr size_t kSearchJobs = 8;    // each with its own searcher
 constexpr size_t kLeastMatches = 6;  // below, three that agree mean nothing
 constexpr double kGuidedRadiusPx = 3.0;
-constexpr double kLargestErrorPx = 5.0;  // expected at the corners, of a pose worth showing
+constexpr double kLargestErrorPx = 3.0;  // expected, of a pose worth showing
 
 // Relative uncertainty of where a feature shows a point. Measured on sequences
 // with true poses: it grows with the feature's scale and with the distance of
@@ -83,15 +83,17 @@ void Localizer::Judge(const CameraModel& camera, Location& location) {
   if (location.inliers < options_.min_inliers) {
     return;
   }
-  const double error = ExpectedError(camera);
+  const PoseEvidence evidence{
+      .covariance = refined_.covariance, .depths = Depths(), .inliers = location.inliers};
+  const double error = std::sqrt(ComputeRegistrationVariance(camera, evidence).Sum());
   if (!(error < kLargestErrorPx)) {
     return;
   }
   location.camera_from_map = refined_.camera_from_map;
+  location.covariance = refined_.covariance;
   location.reason = TrackReason::kNone;
   location.expected_error_px = error;
-  const double enough = 1.0 - std::exp(-0.5 * location.inliers / options_.min_inliers);
-  location.confidence = static_cast<float>(enough / (1.0 + error));
+  location.confidence = static_cast<float>(PoseConfidence(camera, evidence));
 }
 
 template <typename M>
@@ -207,27 +209,15 @@ std::optional<Rigid3> Localizer::FindPose(const CameraModel& camera) {
   return Rigid3::FromMatrix(pose.leftCols<3>(), pose.col(3));
 }
 
-double Localizer::ExpectedError(const CameraModel& camera) {
+// Quartiles of the inliers' distances.
+std::array<double, 3> Localizer::Depths() {
   depths_.clear();
   for (const uint32_t i : refined_.inliers) {
     depths_.push_back((refined_.camera_from_map * pose_matches_[i].point).z());
   }
-  std::nth_element(depths_.begin(), depths_.begin() + depths_.size() / 2, depths_.end());
-  const double depth = depths_[depths_.size() / 2];
-  double largest = 0.0;
-  for (const double x : {0.0, camera.width - 1.0}) {
-    for (const double y : {0.0, camera.height - 1.0}) {
-      PoseMatch corner;
-      corner.plane = camera.PlaneFromPixel({x, y});
-      corner.point = refined_.camera_from_map.Inverse() * (depth * corner.plane.homogeneous());
-      Eigen::Vector2d residual;
-      Matrix26d jacobian;
-      PlaneResidual(refined_.camera_from_map, corner, residual, &jacobian);
-      const Eigen::Matrix2d covariance = jacobian * refined_.covariance * jacobian.transpose();
-      largest = std::max(largest, covariance.trace());
-    }
-  }
-  return camera.Focal() * std::sqrt(largest);
+  std::sort(depths_.begin(), depths_.end());
+  return {depths_[depths_.size() / 4], depths_[depths_.size() / 2],
+          depths_[depths_.size() * 3 / 4]};
 }
 
 }  // namespace lararium::vision

@@ -4,6 +4,7 @@
 // forest, preemptive RANSAC with P3P, refinement, guided matching, refinement.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/preemptive_ransac.h"
 #include "shared/geometry/transform.h"
+#include "shared/vision/confidence.h"
 #include "shared/vision/descriptor_forest.h"
 #include "shared/vision/features.h"
 #include "shared/vision/guided_matcher.h"
@@ -34,9 +36,12 @@ struct Location {
   TrackReason reason = TrackReason::kNone;  // why there is no pose
   int matches = 0;                          // found without a prior
   int inliers = 0;                          // of guided matching
-  // One sigma of where the pose puts things, at the worst corner of the image.
+  // Of (w, v) in the pose (exp(w) R, exp(w) t + v); map units.
+  Matrix6d covariance = Matrix6d::Zero();
+  // One sigma of where the pose puts things, root mean square over the image.
   double expected_error_px = 0.0;
-  float confidence = 0.0f;  // 0..1
+  // The probability that this error is below a pixel; 0 without a pose.
+  float confidence = 0.0f;
 };
 
 class Localizer {
@@ -62,7 +67,7 @@ class Localizer {
   template <typename M>
   void FillPoseMatches(const Features& features, const std::vector<M>& matches);
   std::optional<geometry::Rigid3> FindPose(const geometry::CameraModel& camera);
-  double ExpectedError(const geometry::CameraModel& camera);
+  std::array<double, 3> Depths();
   void Judge(const geometry::CameraModel& camera, Location& location);
 
   const SceneDatabase& database_;

@@ -1,0 +1,128 @@
+#include "shared/vision/confidence.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace lararium::vision {
+namespace {
+
+using geometry::CameraModel;
+
+// The continued fraction of the incomplete beta function by Lentz's method
+// (Abramowitz & Stegun, "Handbook of Mathematical Functions", 26.5.8). Converges
+// fast for x < (a + 1) / (a + b + 2).
+double BetaFraction(double a, double b, double x) {
+  constexpr double kTiny = 1e-300;
+  constexpr int kMostTerms = 500;
+  const auto away_from_zero = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
+  double c = 1.0;
+  double d = 1.0 / away_from_zero(1.0 - (a + b) * x / (a + 1.0));
+  double fraction = d;
+  for (int m = 1; m <= kMostTerms; ++m) {
+    const double even = m * (b - m) * x / ((a + 2 * m - 1.0) * (a + 2 * m));
+    d = 1.0 / away_from_zero(1.0 + even * d);
+    c = away_from_zero(1.0 + even / c);
+    fraction *= d * c;
+    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1.0));
+    d = 1.0 / away_from_zero(1.0 + odd * d);
+    c = away_from_zero(1.0 + odd / c);
+    fraction *= d * c;
+    if (std::abs(d * c - 1.0) < 1e-14) {
+      break;
+    }
+  }
+  return fraction;
+}
+
+// The mean over the image of J' J in square pixels, J the derivative of a place's
+// projection by (w, v).
+Matrix6d MeanSquareOfMotion(const CameraModel& camera, const std::array<double, 3>& depths) {
+  constexpr int kColumns = 5;
+  constexpr int kRows = 4;
+  Matrix6d sum = Matrix6d::Zero();
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const Eigen::Vector2d pixel((column + 0.5) * camera.width / kColumns - 0.5,
+                                  (row + 0.5) * camera.height / kRows - 0.5);
+      PoseMatch place;
+      place.plane = camera.PlaneFromPixel(pixel);
+      for (const double depth : depths) {
+        place.point = depth * place.plane.homogeneous();
+        Eigen::Vector2d residual;
+        Matrix26d jacobian;
+        if (PlaneResidual(geometry::Rigid3(), place, residual, &jacobian)) {
+          sum.noalias() += jacobian.transpose() * jacobian;
+        }
+      }
+    }
+  }
+  const double focal = camera.Focal();
+  return sum * (focal * focal / (kColumns * kRows * static_cast<double>(depths.size())));
+}
+
+}  // namespace
+
+double RegularisedBeta(double a, double b, double x) {
+  if (x <= 0.0) {
+    return 0.0;
+  }
+  if (x >= 1.0) {
+    return 1.0;
+  }
+  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
+                                a * std::log(x) + b * std::log1p(-x));
+  return x < (a + 1.0) / (a + b + 2.0) ? front * BetaFraction(a, b, x) / a
+                                       : 1.0 - front * BetaFraction(b, a, 1.0 - x) / b;
+}
+
+double RegistrationVariance::Sum() const {
+  double sum = 0.0;
+  for (const double part : parts) {
+    sum += part;
+  }
+  return sum;
+}
+
+RegistrationVariance ComputeRegistrationVariance(const CameraModel& camera,
+                                                 const PoseEvidence& evidence) {
+  // The error's square is d' M d with d of this covariance: in the axes in which
+  // covariance and M are both diagonal, a sum of squares.
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> covariance(evidence.covariance);
+  const Matrix6d root =
+      covariance.eigenvectors() *
+      covariance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal().toDenseMatrix();
+  const Matrix6d turned = root.transpose() * MeanSquareOfMotion(camera, evidence.depths) * root;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> parts(turned, Eigen::EigenvaluesOnly);
+  RegistrationVariance variance;
+  for (int i = 0; i < 6; ++i) {
+    variance.parts[i] = std::max(parts.eigenvalues()[5 - i], 0.0);
+  }
+  return variance;
+}
+
+// The sum of squares is taken for a multiple g of a chi-square distribution of h
+// degrees of freedom with the same mean and variance (Satterthwaite, "An
+// approximate distribution of estimates of variance components", Biometrics
+// 1946). As the covariance is itself an estimate, with the fewer degrees of
+// freedom the fewer inliers, the quotient follows Fisher's F distribution.
+double PoseConfidence(const CameraModel& camera, const PoseEvidence& evidence, double limit_px) {
+  if (evidence.inliers < 4 || !evidence.covariance.allFinite()) {
+    return 0.0;
+  }
+  const RegistrationVariance variance = ComputeRegistrationVariance(camera, evidence);
+  const double sum = variance.Sum();
+  if (!(sum > 0.0)) {
+    return 1.0;
+  }
+  double squares = 0.0;
+  for (const double part : variance.parts) {
+    squares += part * part;
+  }
+  const double h = sum * sum / squares;
+  const double freedom = 2.0 * evidence.inliers - 6.0;
+  const double f = limit_px * limit_px / sum;
+  return RegularisedBeta(0.5 * h, 0.5 * freedom, h * f / (h * f + freedom));
+}
+
+}  // namespace lararium::vision
