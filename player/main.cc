@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <variant>
 
+#include "player/benchmark.h"
 #include "player/info.h"
 #include "player/options.h"
 #include "player/play.h"
@@ -38,6 +39,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", log.message().c_str());
     return 1;
   }
-  return play != nullptr ? Report(Play(*play, start, **log), **log)
-                         : Report(PrintInfo(std::get<InfoOptions>(command)), **log);
+  if (play == nullptr) {
+    return Report(PrintInfo(std::get<InfoOptions>(command)), **log);
+  }
+  return play->benchmark.empty() ? Report(Play(*play, start, **log), **log)
+                                 : Report(Benchmark(*play, **log), **log);
 }

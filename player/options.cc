@@ -40,6 +40,17 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("--threads", play.threads, "Worker threads")->check(CLI::Range(0, kLargestCount));
   app.add_option("--seed", play.seed, "Of all randomness");
 
+  CLI::Option* benchmark =
+      app.add_option("--benchmark", play.benchmark,
+                     "Measure the tracker on sequences with ground truth: a folder with "
+                     "ground_truth.json, or a folder of such folders")
+          ->check(CLI::ExistingDirectory);
+  app.add_option("--foreign", play.foreign,
+                 "Images or a video of another place, which must not be tracked")
+      ->check(CLI::ExistingPath)
+      ->needs(benchmark);
+  app.add_flag("--first-pose", play.first_pose, "Find every frame anew")->needs(benchmark);
+
   app.add_option("--poses-out", play.poses_out, "Write the poses here (poses.json)");
   app.add_option("--stats-out", play.stats_out, "Write times and counts here (stats.json)");
   app.add_option("--record", play.record, "Write the composite here (.mp4)");
@@ -65,6 +76,9 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     }
     if (numbers != 0 && numbers != 4 && numbers != 8) {
       throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
+    }
+    if (!play.benchmark.empty() && (play.camera || !play.video.empty() || !play.images.empty())) {
+      throw CLI::ValidationError("--benchmark", "takes its images from its own folder");
     }
     if (play.headless && play.monitor >= 0) {
       throw CLI::ValidationError("--monitor", "cannot go with --headless");

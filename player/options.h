@@ -32,6 +32,11 @@ struct PlayOptions {
   int threads = 0;     // 0: as many as cores
   uint64_t seed = 1;
 
+  // Instead of playing: measure the tracker on the sequences there.
+  std::filesystem::path benchmark;
+  std::vector<std::filesystem::path> foreign;  // images of other places
+  bool first_pose = false;                     // find every frame anew
+
   std::filesystem::path poses_out;
   std::filesystem::path stats_out;
   std::filesystem::path record;

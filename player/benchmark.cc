@@ -1,0 +1,272 @@
+#include "player/benchmark.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "player/benchmark_evaluation.h"
+#include "player/benchmark_report.h"
+#include "player/benchmark_sequence.h"
+#include "shared/bundle/bundle.h"
+#include "shared/core/json.h"
+#include "shared/core/parallel.h"
+#include "shared/vision/poses_file.h"
+#include "shared/vision/scene_database.h"
+#include "shared/vision/tracker.h"
+
+namespace lararium::player {
+namespace {
+
+using geometry::CameraModel;
+using geometry::Frame;
+using Maps = std::vector<std::shared_ptr<const vision::SceneDatabase>>;
+
+// Frames that are decoded before any of them is tracked.
+constexpr size_t kBatch = 64;
+
+// Processor time that all threads of the program have used, in milliseconds.
+double ProcessCpuMilliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+Result<Maps> LoadMaps(const PlayOptions& options) {
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
+  Maps maps;
+  for (const bundle::PlaceEntry& place : bundle.manifest().places) {
+    if (!options.place.empty() && place.name != options.place) {
+      continue;
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const auto scene, bundle.member(place.scene));
+    LARARIUM_ASSIGN_OR_RETURN(
+        vision::SceneDatabase map,
+        vision::ParseSceneDatabase(scene, bundle.place() + ": " + place.scene));
+    maps.push_back(std::make_shared<const vision::SceneDatabase>(std::move(map)));
+  }
+  if (maps.empty()) {
+    return Status::Error(bundle.place(), "has no place \"" + options.place + "\"");
+  }
+  return maps;
+}
+
+// A camera like the map's for images of any size and proportions.
+CameraModel CameraLike(const CameraModel& trained, int width, int height) {
+  if (const Result<CameraModel> same = trained.ForImages(width, height); same.ok()) {
+    return *same;
+  }
+  CameraModel camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = camera.fy =
+      trained.Focal() * std::max(width, height) / std::max(trained.width, trained.height);
+  camera.cx = 0.5 * (width - 1);
+  camera.cy = 0.5 * (height - 1);
+  return camera;
+}
+
+// The middle of an image, resized.
+cv::Mat CutTo(const cv::Mat& image, const cv::Size& size) {
+  const double scale = std::min(image.cols / static_cast<double>(size.width),
+                                image.rows / static_cast<double>(size.height));
+  const cv::Size part(static_cast<int>(scale * size.width), static_cast<int>(scale * size.height));
+  const cv::Point corner((image.cols - part.width) / 2, (image.rows - part.height) / 2);
+  cv::Mat cut;
+  cv::resize(image(cv::Rect(corner, part)), cut, size, 0.0, 0.0, cv::INTER_AREA);
+  return cut;
+}
+
+class BenchmarkRun {
+ public:
+  BenchmarkRun(const PlayOptions& options, Maps maps, Log& log)
+      : options_(options), maps_(std::move(maps)), log_(log) {}
+
+  Result<SequenceReport> Sequence(const BenchmarkSequence& sequence) const;
+  Result<ForeignReport> Foreign(const std::filesystem::path& path,
+                                const BenchmarkSequence& home) const;
+
+ private:
+  Result<std::unique_ptr<vision::PoseSource>> MakeTracker(const CameraModel& camera) const {
+    vision::TrackerOptions tracking;
+    tracking.seed = options_.seed;
+    tracking.threads = options_.threads;
+    tracking.follow = !options_.first_pose;
+    return vision::CreateTracker(maps_, camera, tracking);
+  }
+  bool Enough(size_t frames) const {
+    return options_.frames > 0 && frames >= static_cast<size_t>(options_.frames);
+  }
+  // The next frames, none at the end.
+  Result<std::vector<Frame>> NextBatch(capture::FrameSource& source, size_t before) const;
+  Status SavePoses(const BenchmarkSequence& sequence,
+                   const std::vector<vision::PoseRecord>& poses) const;
+  Status ShowForeign(const std::filesystem::path& path, ForeignReport& report) const;
+  Status CutToForeign(const std::filesystem::path& path,
+                      const BenchmarkSequence& home,
+                      ForeignReport& report) const;
+
+  const PlayOptions& options_;
+  Maps maps_;
+  Log& log_;
+};
+
+Result<std::vector<Frame>> BenchmarkRun::NextBatch(capture::FrameSource& source,
+                                                   size_t before) const {
+  std::vector<Frame> batch;
+  while (batch.size() < kBatch && !Enough(before + batch.size())) {
+    LARARIUM_ASSIGN_OR_RETURN(std::optional<Frame> frame, source.Next());
+    if (!frame) {
+      break;
+    }
+    batch.push_back(std::move(*frame));
+  }
+  return batch;
+}
+
+Status BenchmarkRun::SavePoses(const BenchmarkSequence& sequence,
+                               const std::vector<vision::PoseRecord>& poses) const {
+  if (options_.poses_out.empty()) {
+    return Status();
+  }
+  std::error_code error;
+  std::filesystem::create_directories(options_.poses_out, error);
+  return vision::SavePoses(options_.poses_out / (sequence.name + ".json"), poses);
+}
+
+Result<SequenceReport> BenchmarkRun::Sequence(const BenchmarkSequence& sequence) const {
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSequence(sequence));
+  LARARIUM_ASSIGN_OR_RETURN(const CameraModel camera, sequence.images.front().camera.ForImages(
+                                                          source->width(), source->height()));
+  LARARIUM_ASSIGN_OR_RETURN(const auto tracker, MakeTracker(camera));
+  std::vector<FrameAnswer> answers;
+  std::vector<vision::PoseRecord> poses;
+  while (true) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<Frame> batch, NextBatch(*source, answers.size()));
+    if (batch.empty()) {
+      break;
+    }
+    if (answers.empty() && options_.first_pose) {
+      tracker->Track(batch.front());  // buffers find their sizes outside the times
+    }
+    for (const Frame& frame : batch) {
+      const auto start = std::chrono::steady_clock::now();
+      const double start_cpu = ProcessCpuMilliseconds();
+      const vision::TrackedFrame tracked = tracker->Track(frame);
+      const double cpu = ProcessCpuMilliseconds() - start_cpu;
+      const std::chrono::duration<double, std::milli> wall =
+          std::chrono::steady_clock::now() - start;
+      const std::string name = source->FrameName(frame.index);
+      answers.push_back({.truth = sequence.Find(name),
+                         .time = frame.capture_time,
+                         .camera_from_map = tracked.camera_from_map,
+                         .map = tracked.map,
+                         .followed = tracked.followed,
+                         .confidence = tracked.confidence,
+                         .covariance = tracked.covariance,
+                         .gain = {tracked.gain[0], tracked.gain[1], tracked.gain[2]},
+                         .wall_ms = wall.count(),
+                         .cpu_ms = cpu});
+      poses.push_back(
+          {name, tracked.camera, tracked.camera_from_map, tracked.camera_from_map.has_value()});
+    }
+  }
+  log_.info("{}: {} frames", sequence.name, answers.size());
+  LARARIUM_RETURN_IF_ERROR(SavePoses(sequence, poses));
+  return SequenceReport{sequence.name, Evaluate(sequence, answers)};
+}
+
+Status BenchmarkRun::ShowForeign(const std::filesystem::path& path, ForeignReport& report) const {
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenForeign(path));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const auto tracker,
+      MakeTracker(CameraLike(maps_.front()->camera, source->width(), source->height())));
+  while (!Enough(report.frames)) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::optional<Frame> frame, source->Next());
+    if (!frame) {
+      break;
+    }
+    ++report.frames;
+    if (tracker->Track(*frame).camera_from_map) {
+      report.accepted.push_back(source->FrameName(frame->index));
+    }
+  }
+  return Status();
+}
+
+// Images of the place and of the other take turns, so that the tracker has a
+// fresh pose, and its prediction, whenever the other place comes.
+Status BenchmarkRun::CutToForeign(const std::filesystem::path& path,
+                                  const BenchmarkSequence& home,
+                                  ForeignReport& report) const {
+  LARARIUM_ASSIGN_OR_RETURN(const auto foreign, OpenForeign(path));
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSequence(home));
+  LARARIUM_ASSIGN_OR_RETURN(const CameraModel camera, home.images.front().camera.ForImages(
+                                                          source->width(), source->height()));
+  LARARIUM_ASSIGN_OR_RETURN(const auto tracker, MakeTracker(camera));
+  LARARIUM_ASSIGN_OR_RETURN(std::optional<Frame> place, source->Next());
+  bool waits = false;  // for the pose after a cut
+  while (place && !Enough(report.cuts)) {
+    const bool tracked = tracker->Track(*place).camera_from_map.has_value();
+    report.back_after_cut += waits && tracked;
+    LARARIUM_ASSIGN_OR_RETURN(const std::optional<Frame> other, foreign->Next());
+    if (!other) {
+      break;
+    }
+    Frame cut = *place;  // its index and time: a camera that is turned away
+    cut.bgr = CutTo(other->bgr, place->bgr.size());
+    cv::cvtColor(cut.bgr, cut.grey, cv::COLOR_BGR2GRAY);
+    if (tracker->Track(cut).camera_from_map) {
+      report.accepted_after_cut.push_back(foreign->FrameName(other->index));
+    }
+    ++report.cuts;
+    waits = true;
+    LARARIUM_ASSIGN_OR_RETURN(place, source->Next());
+    if (!place) {
+      LARARIUM_RETURN_IF_ERROR(source->Seek(0));
+      LARARIUM_ASSIGN_OR_RETURN(place, source->Next());
+    }
+  }
+  return Status();
+}
+
+Result<ForeignReport> BenchmarkRun::Foreign(const std::filesystem::path& path,
+                                            const BenchmarkSequence& home) const {
+  ForeignReport report;
+  report.name = std::filesystem::absolute(path / "x").lexically_normal().parent_path().filename();
+  LARARIUM_RETURN_IF_ERROR(ShowForeign(path, report));
+  LARARIUM_RETURN_IF_ERROR(CutToForeign(path, home, report));
+  log_.info("{}: {} images of another place", report.name, report.frames);
+  return report;
+}
+
+}  // namespace
+
+Status Benchmark(const PlayOptions& options, Log& log) {
+  std::optional<ThreadLimit> limit;
+  if (options.threads > 0) {
+    limit.emplace(options.threads);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto sequences, LoadBenchmarkSequences(options.benchmark));
+  LARARIUM_ASSIGN_OR_RETURN(Maps maps, LoadMaps(options));
+  const BenchmarkRun run(options, std::move(maps), log);
+  BenchmarkReport report;
+  report.show = options.show.filename().string();
+  report.mode = options.first_pose ? "every frame found anew" : "following";
+  report.smoothing = "off";
+  report.threads = options.threads;
+  for (const BenchmarkSequence& sequence : sequences) {
+    LARARIUM_ASSIGN_OR_RETURN(report.sequences.emplace_back(), run.Sequence(sequence));
+  }
+  for (const std::filesystem::path& path : options.foreign) {
+    LARARIUM_ASSIGN_OR_RETURN(report.foreign.emplace_back(), run.Foreign(path, sequences.front()));
+  }
+  PrintBenchmark(report, stdout);
+  return options.stats_out.empty() ? Status() : SaveJson(options.stats_out, report.ToJson());
+}
+
+}  // namespace lararium::player
