@@ -28,31 +28,44 @@ Result<CameraModel> LoadDeviceCamera(const std::filesystem::path& file) {
   return CameraModel::FromNumbers(numbers, static_cast<int>(width), static_cast<int>(height));
 }
 
+Result<CameraChoice> ChooseTrained(std::span<const TrainedCamera> trained, int width, int height) {
+  Status problem;
+  for (const TrainedCamera& candidate : trained) {
+    const std::string origin = "the bundle's place \"" + candidate.place + "\"";
+    const Result<CameraModel> camera = candidate.camera.ForImages(width, height);
+    if (camera.ok()) {
+      return CameraChoice{*camera, origin};
+    }
+    if (problem.ok()) {
+      problem = camera.status().At(origin);
+    }
+  }
+  return problem;
+}
+
 }  // namespace
 
 Result<CameraChoice> ChooseCamera(const PlayOptions& options,
-                                  const CameraModel& trained,
+                                  std::span<const TrainedCamera> trained,
                                   int width,
                                   int height) {
-  CameraChoice choice{{}, "the bundle"};
-  Result<CameraModel> camera = trained;
-  if (!options.intrinsics.empty()) {
-    choice.origin = "--intrinsics";
-    camera = CameraModel::FromNumbers(options.intrinsics, width, height);
-  } else if (!options.device.empty()) {
-    choice.origin = options.device.string();
-    camera = LoadDeviceCamera(options.device);
+  if (options.intrinsics.empty() && options.device.empty()) {
+    return ChooseTrained(trained, width, height);
   }
+  const bool by_option = !options.intrinsics.empty();
+  const std::string origin = by_option ? "--intrinsics" : options.device.string();
+  Result<CameraModel> camera = by_option
+                                   ? CameraModel::FromNumbers(options.intrinsics, width, height)
+                                   : LoadDeviceCamera(options.device);
   if (camera.ok()) {
     camera = camera->ForImages(width, height);
   }
   if (!camera.ok()) {
     // What the device file says wrong names the file already.
-    const bool named = camera.message().starts_with(choice.origin);
-    return named ? camera.status() : camera.status().At(choice.origin);
+    const bool named = camera.message().starts_with(origin);
+    return named ? camera.status() : camera.status().At(origin);
   }
-  choice.camera = *camera;
-  return choice;
+  return CameraChoice{*camera, origin};
 }
 
 }  // namespace lararium::player

@@ -42,6 +42,14 @@ Result<show::ShowContent> LoadContent(const PlayOptions& options) {
   return show::LoadShowContent(bundle, options.place);
 }
 
+std::vector<TrainedCamera> TrainedCameras(const show::ShowContent& content) {
+  std::vector<TrainedCamera> cameras;
+  for (const show::ShowPlace& place : content.places) {
+    cameras.push_back({place.stage.name, place.map->camera});
+  }
+  return cameras;
+}
+
 // One run of a show: all that lives from its first frame to its last.
 class Performance {
  public:
@@ -80,7 +88,7 @@ Status Performance::Prepare() {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_));
   LARARIUM_ASSIGN_OR_RETURN(
       const CameraChoice choice,
-      ChooseCamera(options_, content.database->camera, source_->width(), source_->height()));
+      ChooseCamera(options_, TrainedCameras(content), source_->width(), source_->height()));
   log_.info("camera intrinsics from {}", choice.origin);
   vision::TrackerOptions tracking;
   tracking.seed = options_.seed;
@@ -88,7 +96,7 @@ Status Performance::Prepare() {
   tracking.background = options_.pace == Pace::kFast ? vision::BackgroundWork::kJoined
                                                      : vision::BackgroundWork::kFree;
   LARARIUM_ASSIGN_OR_RETURN(poses_,
-                            vision::CreateTracker({content.database}, choice.camera, tracking));
+                            vision::CreateTracker(show::Maps(content), choice.camera, tracking));
   drama::DramaOptions drama;
   drama.seed = options_.seed;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));

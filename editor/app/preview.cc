@@ -59,10 +59,10 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPa
                                                                  Log& log) {
   std::unique_ptr<Worker> worker(new Worker);
   LARARIUM_ASSIGN_OR_RETURN(worker->source_, OpenSource(paths, source));
-  LARARIUM_ASSIGN_OR_RETURN(
-      const geometry::CameraModel camera,
-      content.database->camera.ForImages(worker->source_->width(), worker->source_->height()));
-  LARARIUM_ASSIGN_OR_RETURN(worker->poses_, vision::CreateTracker({content.database}, camera, {}));
+  LARARIUM_ASSIGN_OR_RETURN(const geometry::CameraModel camera,
+                            content.places.front().map->camera.ForImages(
+                                worker->source_->width(), worker->source_->height()));
+  LARARIUM_ASSIGN_OR_RETURN(worker->poses_, vision::CreateTracker(show::Maps(content), camera, {}));
   LARARIUM_ASSIGN_OR_RETURN(worker->show_, show::Show::Create(std::move(content), {}, log));
   LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(worker->renderer_,
@@ -112,8 +112,8 @@ PreviewPicture Preview::Worker::Describe() const {
 Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const PreviewRequest& request) {
   if (request.place != nullptr && request.place != place_) {
     place_ = request.place;
-    show_->SetPlace(*place_);
-    renderer_->SetPlace(*place_);
+    show_->SetPlace(0, *place_);
+    renderer_->SetPlace(0, *place_);
   }
   LARARIUM_RETURN_IF_ERROR(Track(request.frame));
   if (!tracked_) {

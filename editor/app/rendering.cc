@@ -19,10 +19,10 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   LARARIUM_ASSIGN_OR_RETURN(
       const geometry::CameraModel camera,
       job.intrinsics.empty()
-          ? job.content.database->camera.ForImages(source->width(), source->height())
+          ? job.content.places.front().map->camera.ForImages(source->width(), source->height())
           : geometry::CameraModel::FromNumbers(job.intrinsics, source->width(), source->height()));
   LARARIUM_ASSIGN_OR_RETURN(const auto poses,
-                            vision::CreateTracker({job.content.database}, camera, {}));
+                            vision::CreateTracker(show::Maps(job.content), camera, {}));
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(std::move(job.content), {}, log));
 
   LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());

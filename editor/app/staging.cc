@@ -107,8 +107,8 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const Similarity3& map_from_picked) {
   show::ShowContent content;
   content.title = document.title;
-  content.database = std::move(database);
-  LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, place, map_from_picked));
+  LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StagePlace(paths, place, map_from_picked));
+  content.places.push_back({std::move(staged), std::move(database)});
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
     content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});

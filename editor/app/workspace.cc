@@ -229,7 +229,7 @@ void Workspace::ReloadPreview() {
       preview_stale_ = true;
       return;
     }
-    loaded_.staged = std::make_shared<const stage::Place>(content->place);
+    loaded_.staged = std::make_shared<const stage::Place>(content->places.front().stage);
     const SourceDocument& source = place()->preview.empty() ? place()->training : place()->preview;
     preview_ = std::make_unique<Preview>(paths_, source, std::move(*content), log_);
     requested_frame_ = -1;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "shared/core/check.h"
+
 namespace lararium::show {
 namespace {
 
@@ -16,6 +18,7 @@ constexpr double kSeekAheadSeconds = 2.0;
 Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
                                            const drama::DramaOptions& options,
                                            Log& log) {
+  CHECK(!content.places.empty());
   std::unique_ptr<Show> show(new Show(std::move(content)));
   for (const CastMember& member : show->content_.cast) {
     LARARIUM_ASSIGN_OR_RETURN(const stage::ActorId id, show->stage_.Add(member.name, member.human));
@@ -55,6 +58,24 @@ void Show::AdvanceTo(double time) {
   }
 }
 
+void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
+  staged.camera_from_stage.reset();
+  if (tracked.camera_from_map) {
+    CHECK(tracked.map < content_.places.size());
+    if (tracked.map != place_) {
+      gain_filter_.Reset();
+    }
+    place_ = tracked.map;
+    staged.camera_from_stage =
+        stage::CameraFromStage(content_.places[place_].stage, *tracked.camera_from_map);
+    staged.gain = gain_filter_.Update(tracked.gain, tracked.frame.capture_time);
+  } else {
+    gain_filter_.Reset();
+  }
+  staged.place = place_;
+  staged.tracked = std::move(tracked);
+}
+
 void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged) {
   time = std::clamp(time, 0.0, drama::Drama::kMaxTime);
   AdvanceTo(time);
@@ -63,11 +84,7 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
                      drawn_);
 
   staged.time = time;
-  staged.camera_from_stage.reset();
-  if (tracked.camera_from_map) {
-    staged.camera_from_stage = stage::CameraFromStage(content_.place, *tracked.camera_from_map);
-  }
-  staged.tracked = std::move(tracked);
+  Locate(std::move(tracked), staged);
   staged.actors.clear();
   staged.skin.clear();
   for (uint32_t cast = 0; cast < actor_ids_.size(); ++cast) {

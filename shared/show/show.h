@@ -1,8 +1,9 @@
 #pragma once
 
-// One running drama on one place: brings the stage to the moment of a tracked
-// frame and hands out what is to be drawn over it.
+// One running drama: brings the stage to the moment of a tracked frame, puts it
+// where that frame's place has it, and hands out what is to be drawn over it.
 
+#include <array>
 #include <chrono>
 #include <glm/mat4x4.hpp>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "shared/core/status.h"
 #include "shared/drama/drama.h"
 #include "shared/geometry/transform.h"
+#include "shared/show/gain_filter.h"
 #include "shared/show/show_content.h"
 #include "shared/stage/stage.h"
 #include "shared/vision/tracked_frame.h"
@@ -31,7 +33,11 @@ struct StagedActor {
 // to frame, so that steady play allocates nothing here.
 struct StagedFrame {
   vision::TrackedFrame tracked;
+  // Index into ShowContent::places: where the pose lies; without a pose, where the
+  // last one lay.
+  uint32_t place = 0;
   std::optional<geometry::Rigid3> camera_from_stage;  // rigid, metric; set when tracking
+  std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};     // of tracked, steadied by GainFilter
   double time = 0.0;                                  // of the drama, seconds
   std::chrono::steady_clock::time_point arrival;      // when the image was there
   std::vector<StagedActor> actors;
@@ -49,12 +55,16 @@ class Show {
   const ShowContent& content() const { return content_; }
   const drama::Drama& drama() const { return *drama_; }
 
-  // For interactive staging: another transform, nudge, light or occluders.
-  void SetPlace(stage::Place place) { content_.place = std::move(place); }
+  // For interactive staging: another transform, nudge, light or occluders of
+  // places[index].
+  void SetPlace(size_t index, stage::Place place) {
+    content_.places[index].stage = std::move(place);
+  }
 
   // Brings the drama to time (seconds, at least 0) and fills staged. The drama
   // runs in ticks of 1/120 s; what lies between two ticks is interpolated. Going
-  // back, or far ahead, seeks.
+  // back, or far ahead, seeks. The drama does not depend on the place: it runs on
+  // while frames go from one to another, or to none.
   void StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged);
 
  private:
@@ -62,12 +72,16 @@ class Show {
 
   void AdvanceTo(double time);
   void TickOnce();
+  // Fills what of staged depends on where the camera is.
+  void Locate(vision::TrackedFrame tracked, StagedFrame& staged);
 
   ShowContent content_;
   stage::Stage stage_;
   std::vector<stage::ActorId> actor_ids_;  // of each cast member
   std::vector<stage::Poser> posers_;       // of each cast member
   std::unique_ptr<drama::Drama> drama_;
+  uint32_t place_ = 0;  // of the last pose
+  GainFilter gain_filter_;
   int64_t tick_ = 0;               // that current_ shows
   stage::StageSnapshot previous_;  // one tick before
   stage::StageSnapshot current_;

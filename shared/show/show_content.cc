@@ -1,6 +1,7 @@
 #include "shared/show/show_content.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "shared/stage/mesh_file.h"
@@ -8,10 +9,12 @@
 namespace lararium::show {
 namespace {
 
-Result<const bundle::PlaceEntry*> FindPlace(const bundle::Bundle& bundle, std::string_view name) {
-  const std::vector<bundle::PlaceEntry>& places = bundle.manifest().places;
+// Those of the bundle's places that are wanted.
+Result<std::span<const bundle::PlaceEntry>> ChoosePlaces(const bundle::Bundle& bundle,
+                                                         std::string_view name) {
+  const std::span<const bundle::PlaceEntry> places = bundle.manifest().places;
   if (name.empty()) {
-    return &places.front();
+    return places;
   }
   const auto found = std::find_if(places.begin(), places.end(),
                                   [name](const auto& place) { return place.name == name; });
@@ -19,10 +22,10 @@ Result<const bundle::PlaceEntry*> FindPlace(const bundle::Bundle& bundle, std::s
     return Status::Error(bundle.place(), "has no place \"" + std::string(name) + "\"",
                          "choose one that lararium-player info lists");
   }
-  return &*found;
+  return places.subspan(static_cast<size_t>(found - places.begin()), 1);
 }
 
-Result<stage::Place> LoadPlace(const bundle::Bundle& bundle, const bundle::PlaceEntry& entry) {
+Result<stage::Place> LoadStage(const bundle::Bundle& bundle, const bundle::PlaceEntry& entry) {
   stage::Place place;
   place.name = entry.name;
   place.map_from_stage = entry.map_from_stage;
@@ -37,20 +40,36 @@ Result<stage::Place> LoadPlace(const bundle::Bundle& bundle, const bundle::Place
   return place;
 }
 
+Result<ShowPlace> LoadPlace(const bundle::Bundle& bundle, const bundle::PlaceEntry& entry) {
+  ShowPlace place;
+  LARARIUM_ASSIGN_OR_RETURN(const auto scene, bundle.member(entry.scene));
+  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase map,
+                            vision::ParseSceneDatabase(scene, bundle.place() + ": " + entry.scene));
+  place.map = std::make_shared<const vision::SceneDatabase>(std::move(map));
+  LARARIUM_ASSIGN_OR_RETURN(place.stage, LoadStage(bundle, entry));
+  return place;
+}
+
 }  // namespace
+
+std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(const ShowContent& content) {
+  std::vector<std::shared_ptr<const vision::SceneDatabase>> maps;
+  for (const ShowPlace& place : content.places) {
+    maps.push_back(place.map);
+  }
+  return maps;
+}
 
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle, std::string_view place) {
   const bundle::ShowManifest& manifest = bundle.manifest();
-  LARARIUM_ASSIGN_OR_RETURN(const bundle::PlaceEntry* entry, FindPlace(bundle, place));
+  LARARIUM_ASSIGN_OR_RETURN(const auto entries, ChoosePlaces(bundle, place));
 
   ShowContent content;
   content.title = manifest.title;
-  LARARIUM_ASSIGN_OR_RETURN(const auto scene, bundle.member(entry->scene));
-  LARARIUM_ASSIGN_OR_RETURN(
-      vision::SceneDatabase database,
-      vision::ParseSceneDatabase(scene, bundle.place() + ": " + entry->scene));
-  content.database = std::make_shared<const vision::SceneDatabase>(std::move(database));
-  LARARIUM_ASSIGN_OR_RETURN(content.place, LoadPlace(bundle, *entry));
+  for (const bundle::PlaceEntry& entry : entries) {
+    LARARIUM_ASSIGN_OR_RETURN(ShowPlace loaded, LoadPlace(bundle, entry));
+    content.places.push_back(std::move(loaded));
+  }
 
   for (const bundle::CastEntry& member : manifest.cast) {
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.human));

@@ -1,6 +1,6 @@
 #pragma once
 
-// All that one show needs at one place, ready to run.
+// All that one show needs at its places, ready to run.
 
 #include <memory>
 #include <string>
@@ -20,17 +20,25 @@ struct CastMember {
   std::shared_ptr<const human::Human> human;
 };
 
+// A trained place and how the drama is staged there.
+struct ShowPlace {
+  stage::Place stage;
+  std::shared_ptr<const vision::SceneDatabase> map;
+};
+
 struct ShowContent {
   std::string title;
-  std::shared_ptr<const vision::SceneDatabase> database;
-  stage::Place place;
+  std::vector<ShowPlace> places;  // at least one
   std::vector<CastMember> cast;
   std::string drama;       // Lua source
   std::string drama_file;  // what messages call it
 };
 
-// The content of a bundle at the named place, or at its first one. Every member
-// is checked by its own reader.
+// What the tracker is created with: TrackedFrame::map is then an index into places.
+std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(const ShowContent& content);
+
+// The content of a bundle at all of its places, or only at the named one. Every
+// member is checked by its own reader.
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle, std::string_view place = {});
 
 }  // namespace lararium::show

@@ -15,20 +15,24 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
   for (const CastMember& member : content.cast) {
     show->cast_.push_back(show->renderer_->AddHuman(*member.human));
   }
-  show->SetPlace(content.place);
+  show->places_.resize(content.places.size());
+  for (size_t i = 0; i < content.places.size(); ++i) {
+    show->SetPlace(i, content.places[i].stage);
+  }
   return show;
 }
 
-void ShowRenderer::SetPlace(const stage::Place& place) {
-  for (const render::SceneOccluder& occluder : occluders_) {
+void ShowRenderer::SetPlace(size_t index, const stage::Place& place) {
+  PlaceScene& scene = places_[index];
+  for (const render::SceneOccluder& occluder : scene.occluders) {
     renderer_->RemoveMesh(occluder.mesh);
   }
-  occluders_.clear();
+  scene.occluders.clear();
   for (const stage::Occluder& occluder : place.occluders) {
-    occluders_.push_back(
+    scene.occluders.push_back(
         {renderer_->AddMesh(occluder.mesh), geometry::ToGlm(occluder.stage_from_mesh)});
   }
-  light_ = place.light;
+  scene.light = place.light;
 }
 
 Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget& target) {
@@ -38,15 +42,16 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
                        std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count)});
   }
   const vision::TrackedFrame& tracked = staged.tracked;
+  const PlaceScene& place = places_[staged.place];
   render::RenderScene scene;
   scene.background = tracked.frame.bgr;
   scene.camera = tracked.camera;
   scene.display = tracked.camera.DisplayPinhole();
   scene.camera_from_stage = staged.camera_from_stage;
-  scene.occluders = occluders_;
+  scene.occluders = place.occluders;
   scene.humans = humans_;
-  scene.light = light_;
-  scene.gain = {tracked.gain[0], tracked.gain[1], tracked.gain[2]};
+  scene.light = place.light;
+  scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
   return renderer_->Draw(scene, target);
 }
 

@@ -14,29 +14,30 @@ namespace lararium::show {
 
 class ShowRenderer {
  public:
-  // Uploads the cast and the place's occluders.
+  // Uploads the cast and the occluders of all places.
   static Result<std::unique_ptr<ShowRenderer>> Create(const ShowContent& content,
                                                       const render::RendererOptions& options = {});
 
-  // Other occluders or light, while a designer stages.
-  void SetPlace(const stage::Place& place);
+  // Other occluders or light of places[index], while a designer stages.
+  void SetPlace(size_t index, const stage::Place& place);
 
-  // Fills the target with the composite: image, occluders, people.
+  // Fills the target with the composite: image, the occluders of the frame's
+  // place, people in its light.
   Status Draw(const StagedFrame& staged, const render::RenderTarget& target);
 
-  // For overlays that draw what was uploaded here.
-  const render::Renderer& renderer() const { return *renderer_; }
-  const std::vector<render::SceneOccluder>& occluders() const { return occluders_; }
-
  private:
+  struct PlaceScene {
+    std::vector<render::SceneOccluder> occluders;
+    light::ShRgb light = {};
+  };
+
   explicit ShowRenderer(std::unique_ptr<render::Renderer> renderer)
       : renderer_(std::move(renderer)) {}
 
   std::unique_ptr<render::Renderer> renderer_;
   std::vector<render::HumanHandle> cast_;
-  std::vector<render::SceneOccluder> occluders_;
+  std::vector<PlaceScene> places_;
   std::vector<render::SceneHuman> humans_;  // of the frame being drawn
-  light::ShRgb light_ = {};
 };
 
 }  // namespace lararium::show

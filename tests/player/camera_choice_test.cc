@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "shared/core/file.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::player {
 namespace {
 
-constexpr geometry::CameraModel kTrained{640, 480, 560, 560, 319.5, 239.5};
+const std::vector<TrainedCamera> kTrained = {{"bar", {640, 480, 560, 560, 319.5, 239.5}},
+                                            {"yard", {540, 960, 700, 700, 269.5, 479.5}}};
 
 class CameraChoiceTest : public ::testing::Test {
  protected:
@@ -26,8 +29,14 @@ class CameraChoiceTest : public ::testing::Test {
 
 TEST_F(CameraChoiceTest, TheBundleIsTheLastResort) {
   const CameraChoice choice = ChooseCamera(options_, kTrained, 640, 480).value();
-  EXPECT_EQ(choice.camera, kTrained);
-  EXPECT_EQ(choice.origin, "the bundle");
+  EXPECT_EQ(choice.camera, kTrained[0].camera);
+  EXPECT_EQ(choice.origin, "the bundle's place \"bar\"");
+}
+
+TEST_F(CameraChoiceTest, OfTheBundleTheFirstPlaceThatFitsIsTaken) {
+  const CameraChoice choice = ChooseCamera(options_, kTrained, 270, 480).value();
+  EXPECT_NEAR(choice.camera.fx, 350.0, 1e-9);
+  EXPECT_EQ(choice.origin, "the bundle's place \"yard\"");
 }
 
 TEST_F(CameraChoiceTest, TheDeviceFileGoesBeforeTheBundleAndTheOptionBeforeBoth) {
@@ -45,6 +54,7 @@ TEST_F(CameraChoiceTest, TheDeviceFileGoesBeforeTheBundleAndTheOptionBeforeBoth)
 
 TEST_F(CameraChoiceTest, ScalesToAnotherSizeOfTheSameAspectOnly) {
   EXPECT_NEAR(ChooseCamera(options_, kTrained, 320, 240)->camera.fx, 280.0, 1e-9);
+  EXPECT_NE(Error(1280, 720).find("place \"bar\""), std::string::npos);
   EXPECT_NE(Error(1280, 720).find("640x480"), std::string::npos);
 }
 

@@ -24,13 +24,21 @@ human::Human OneJoint() {
   return human;
 }
 
+stage::Place Place(const char* name, double map_units_per_metre, float light) {
+  stage::Place place;
+  place.name = name;
+  place.map_from_stage.scale = map_units_per_metre;
+  place.light[0] = glm::vec3(light);
+  return place;
+}
+
 }  // namespace
 
 show::ShowContent SmallContent() {
   show::ShowContent content;
   content.title = "small";
   content.cast = {{"one", std::make_shared<const human::Human>(OneJoint())}};
-  content.place.map_from_stage.scale = 2.0;
+  content.places = {{Place("bar", 2.0, 1.0f), nullptr}, {Place("yard", 0.5, 3.0f), nullptr}};
   content.drama_file = "drama.lua";
   content.drama = R"(
     track{actor = "one", clips = {
