@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "editor/train/photometric_reference.h"
 #include "shared/core/check.h"
 
 namespace lararium::train {
@@ -105,6 +106,7 @@ class Builder {
       database_.mean_reprojection_error_px =
           error_sum / static_cast<double>(database_.observations.size());
     }
+    FillPhotometry(database_, bgr_);
     vision::ForestOptions forest;
     forest.seed = options_.seed;
     database_.forest = vision::BuildForest(database_.descriptors, forest);
@@ -122,6 +124,7 @@ class Builder {
       keyframe.session = options_.session;
       keyframe.camera_from_map = reconstruction_.camera_from_map(image);
       keyframe.grey = images_[image].grey;
+      bgr_.push_back(images_[image].bgr);
     }
   }
 
@@ -168,6 +171,7 @@ class Builder {
   DatabaseOptions options_;
   vision::SceneDatabase database_;
   std::vector<uint32_t> keyframe_of_image_;  // [image]
+  std::vector<cv::Mat> bgr_;                 // [keyframe]
 };
 
 }  // namespace
