@@ -28,8 +28,10 @@ double Gain(double cutoff_hz, double interval) {
 
 class SmoothedPoses final : public PoseSource {
  public:
-  SmoothedPoses(std::unique_ptr<PoseSource> poses, PoseSmoother smoother)
-      : poses_(std::move(poses)), smoother_(std::move(smoother)) {}
+  SmoothedPoses(std::unique_ptr<PoseSource> poses,
+                const PoseSmootherOptions& options,
+                std::vector<std::vector<Eigen::Vector3d>> landmarks)
+      : poses_(std::move(poses)), smoother_(options, std::move(landmarks)) {}
 
   TrackedFrame Track(const geometry::Frame& frame) override {
     TrackedFrame tracked = poses_->Track(frame);
@@ -174,8 +176,8 @@ std::unique_ptr<PoseSource> Smooth(std::unique_ptr<PoseSource> poses,
       chosen.push_back(map->points[i].cast<double>());
     }
   }
-  return std::make_unique<SmoothedPoses>(
-      std::move(poses), PoseSmoother(PoseSmootherOptions::Of(smoothing), std::move(landmarks)));
+  return std::make_unique<SmoothedPoses>(std::move(poses), PoseSmootherOptions::Of(smoothing),
+                                         std::move(landmarks));
 }
 
 }  // namespace lararium::vision
