@@ -6,6 +6,7 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "shared/bundle/bundle.h"
 #include "shared/core/json.h"
 #include "shared/core/parallel.h"
+#include "shared/vision/pose_smoother.h"
 #include "shared/vision/poses_file.h"
 #include "shared/vision/scene_database.h"
 #include "shared/vision/tracker.h"
@@ -81,6 +83,18 @@ cv::Mat CutTo(const cv::Mat& image, const cv::Size& size) {
   return cut;
 }
 
+std::string SmoothingName(vision::Smoothing smoothing) {
+  switch (smoothing) {
+    case vision::Smoothing::kOff:
+      return "off";
+    case vision::Smoothing::kSoft:
+      return "soft";
+    case vision::Smoothing::kStrong:
+      return "strong";
+  }
+  return "";
+}
+
 class BenchmarkRun {
  public:
   BenchmarkRun(const PlayOptions& options, Maps maps, Log& log)
@@ -96,7 +110,8 @@ class BenchmarkRun {
     tracking.seed = options_.seed;
     tracking.threads = options_.threads;
     tracking.follow = !options_.first_pose;
-    return vision::CreateTracker(maps_, camera, tracking);
+    LARARIUM_ASSIGN_OR_RETURN(auto tracker, vision::CreateTracker(maps_, camera, tracking));
+    return vision::Smooth(std::move(tracker), maps_, options_.smoothing);
   }
   bool Enough(size_t frames) const {
     return options_.frames > 0 && frames >= static_cast<size_t>(options_.frames);
@@ -257,7 +272,7 @@ Status Benchmark(const PlayOptions& options, Log& log) {
   BenchmarkReport report;
   report.show = options.show.filename().string();
   report.mode = options.first_pose ? "every frame found anew" : "following";
-  report.smoothing = "off";
+  report.smoothing = SmoothingName(options.smoothing);
   report.threads = options.threads;
   for (const BenchmarkSequence& sequence : sequences) {
     LARARIUM_ASSIGN_OR_RETURN(report.sequences.emplace_back(), run.Sequence(sequence));

@@ -1,6 +1,7 @@
 #include "player/options.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 namespace lararium::player {
 namespace {
@@ -8,9 +9,15 @@ namespace {
 constexpr int kUsageError = 2;
 constexpr int kLargestCount = 1'000'000'000;
 
+std::map<std::string, vision::Smoothing> SmoothingNames() {
+  return {{"off", vision::Smoothing::kOff},
+          {"soft", vision::Smoothing::kSoft},
+          {"strong", vision::Smoothing::kStrong}};
+}
+
 void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
-  app.add_option("--place", play.place, "Place of the bundle; its first one otherwise");
+  app.add_option("--place", play.place, "Only this place of the bundle; all otherwise");
 
   CLI::Option_group* source = app.add_option_group("source", "Where images come from");
   source->add_option("--camera", play.camera, "Number of a camera (0 unless told otherwise)");
@@ -39,6 +46,11 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
       ->check(CLI::Range(0, kLargestCount));
   app.add_option("--threads", play.threads, "Worker threads")->check(CLI::Range(0, kLargestCount));
   app.add_option("--seed", play.seed, "Of all randomness");
+
+  app.add_option("--smoothing", play.smoothing,
+                 "off; soft: corrections after re-localisation come gently; strong: a low-pass "
+                 "as well, which lags a little")
+      ->transform(CLI::Transformer(SmoothingNames()));
 
   CLI::Option* benchmark =
       app.add_option("--benchmark", play.benchmark,

@@ -9,13 +9,15 @@
 #include <variant>
 #include <vector>
 
+#include "shared/vision/pose_smoother.h"
+
 namespace lararium::player {
 
 enum class Pace { kRealtime, kFast };
 
 struct PlayOptions {
   std::filesystem::path show;
-  std::string place;  // empty: the bundle's first
+  std::string place;  // empty: all of the bundle
 
   // Where images come from; at most one is set. None: camera 0.
   std::optional<int> camera;
@@ -31,6 +33,7 @@ struct PlayOptions {
   int64_t frames = 0;  // 0: all
   int threads = 0;     // 0: as many as cores
   uint64_t seed = 1;
+  vision::Smoothing smoothing = vision::Smoothing::kSoft;
 
   // Instead of playing: measure the tracker on the sequences there.
   std::filesystem::path benchmark;
