@@ -82,30 +82,37 @@ Status Problem(std::string_view problem, std::string_view remedy) {
 struct TagView {
   int id = 0;
   uint32_t keyframe = 0;
+  std::string family;
   std::array<Vector2d, 4> pixels;
 };
 
-// The library's detectors share one family: its table of codes may be large, and
-// is only read while they detect.
+// The library's detectors share the families: their tables of codes may be large,
+// and are only read while they detect.
 class TagDetector {
  public:
-  explicit TagDetector(const FamilyEntry& entry) : family_(entry.create(), entry.destroy) {
+  explicit TagDetector(std::span<const FamilyEntry> entries) {
+    for (const FamilyEntry& entry : entries) {
+      families_.emplace_back(entry.create(), entry.destroy);
+    }
     for (size_t i = 0; i < kDetectors; ++i) {
       detectors_.emplace_back(apriltag_detector_create(), apriltag_detector_destroy);
       apriltag_detector_t& detector = *detectors_.back();
       detector.nthreads = 1;  // keyframes are shared out among threads, not their rows
       detector.quad_decimate = 1.0f;
       detector.refine_edges = true;
-      apriltag_detector_add_family_bits(&detector, family_.get(), entry.mended_bits);
+      for (size_t f = 0; f < entries.size(); ++f) {
+        apriltag_detector_add_family_bits(&detector, families_[f].get(), entries[f].mended_bits);
+      }
     }
   }
 
-  // In the order of the keyframes, then of the ids.
-  std::vector<TagView> Detect(const SceneDatabase& database) const {
-    std::vector<std::vector<TagView>> found(database.keyframes.size());
+  // In every step-th keyframe. In the order of the keyframes, then of the ids.
+  std::vector<TagView> Detect(const SceneDatabase& database, size_t step = 1) const {
+    std::vector<std::vector<TagView>> found((database.keyframes.size() + step - 1) / step);
     ParallelFor(kDetectors, [&](size_t d) {
-      for (size_t k = d; k < found.size(); k += kDetectors) {
-        found[k] = DetectIn(*detectors_[d], database.keyframes[k].grey, static_cast<uint32_t>(k));
+      for (size_t i = d; i < found.size(); i += kDetectors) {
+        const size_t k = i * step;
+        found[i] = DetectIn(*detectors_[d], database.keyframes[k].grey, static_cast<uint32_t>(k));
       }
     });
     std::vector<TagView> views;
@@ -132,7 +139,7 @@ class TagDetector {
       if (detection->decision_margin < kMinDecisionMargin) {
         continue;
       }
-      TagView view{detection->id, keyframe, {}};
+      TagView view{detection->id, keyframe, detection->family->name, {}};
       for (size_t c = 0; c < 4; ++c) {
         // The library's pixel (0, 0) is the corner of the first pixel.
         view.pixels[c] = {detection->p[c][0] - 0.5, detection->p[c][1] - 0.5};
@@ -145,7 +152,7 @@ class TagDetector {
     return views;
   }
 
-  std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family_;
+  std::vector<std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>> families_;
   std::vector<std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)>> detectors_;
 };
 
@@ -399,12 +406,15 @@ Status NothingFound(const SceneDatabase& database, const TagOptions& options) {
   if (!any_image) {
     return Problem("the map holds no images of its keyframes", "train the place again");
   }
-  for (const FamilyEntry& entry : kFamilies) {
-    if (entry.name != options.family && !TagDetector(entry).Detect(database).empty()) {
-      return Problem("no tag of the family " + options.family + " is seen, but there are some of " +
-                         std::string(entry.name),
-                     "name that family");
-    }
+  constexpr size_t kSamples = 16;  // keyframes that are looked at again
+  std::vector<FamilyEntry> others(kFamilies.begin(), kFamilies.end());
+  std::erase_if(others, [&](const FamilyEntry& entry) { return entry.name == options.family; });
+  const std::vector<TagView> strangers =
+      TagDetector(others).Detect(database, database.keyframes.size() / kSamples + 1);
+  if (!strangers.empty()) {
+    return Problem("no tag of the family " + options.family + " is seen, but there are some of " +
+                       strangers.front().family,
+                   "name that family");
   }
   return Problem("no tag of the family " + options.family + " is seen in any keyframe",
                  "film one flat, with its white margin, larger than 30 pixels");
@@ -435,7 +445,7 @@ Status TagOptions::Validate() const {
 Result<TagScale> MeasureTagScale(const SceneDatabase& database, const TagOptions& options) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
   std::map<int, std::vector<TagView>> views_of;
-  for (const TagView& view : TagDetector(*FindFamily(options.family)).Detect(database)) {
+  for (const TagView& view : TagDetector({FindFamily(options.family), 1}).Detect(database)) {
     views_of[view.id].push_back(view);
   }
   if (views_of.empty()) {

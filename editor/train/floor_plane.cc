@@ -1,0 +1,425 @@
+#include "editor/train/floor_plane.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "shared/core/random.h"
+
+namespace lararium::train {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using vision::Keyframe;
+using vision::SceneDatabase;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kMaxFromCameraUp = 35.0 * kDegree;
+constexpr double kMaxBetweenLevels = 3.0 * kDegree;  // level surfaces are parallel up to this
+// Lengths are relative to the median distance of points from the cameras.
+constexpr double kPatch = 0.015;      // points in a cube of this size count once
+constexpr double kTolerance = 0.008;  // of a level surface
+constexpr double kNeighbours = 0.2;   // RANSAC picks its three points this close together
+constexpr double kBlock = 0.15;       // points err together within a cube of this size
+constexpr int kHypotheses = 400;
+constexpr size_t kMinPatches = 40;    // of a level surface
+constexpr double kMinShare = 0.2;     // of the largest level surface's area
+constexpr double kMinContrast = 3.0;  // of a surface's density to what is above and below it
+
+struct Plane {
+  Vector3d normal;
+  double offset = 0.0;
+
+  double Height(const Vector3d& x) const { return normal.dot(x) - offset; }
+};
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// ------------------------------------------------------------ what is given
+
+struct Scene {
+  std::vector<Vector3d> centers;  // of the cameras
+  Vector3d up;                    // roughly
+  double distance = 0.0;          // median, of points from the cameras
+  std::vector<Vector3d> patches;  // the mean of the points in each cube
+};
+
+// Cameras are held upright: their x axes are level. Where they all look the same
+// way, that leaves a circle of directions; the mean of their upward axes decides.
+Vector3d UpOfCameras(std::span<const Keyframe> keyframes) {
+  Matrix3d level = Matrix3d::Zero();
+  Vector3d mean_up = Vector3d::Zero();
+  for (const Keyframe& keyframe : keyframes) {
+    const Matrix3d map_from_camera =
+        keyframe.camera_from_map.rotation.toRotationMatrix().transpose();
+    level += map_from_camera.col(0) * map_from_camera.col(0).transpose();
+    mean_up -= map_from_camera.col(1);
+  }
+  mean_up.normalize();
+  level /= static_cast<double>(keyframes.size());
+  constexpr double kMeanWeight = 0.05;
+  level -= kMeanWeight * mean_up * mean_up.transpose();
+  const Vector3d up = Eigen::SelfAdjointEigenSolver<Matrix3d>(level).eigenvectors().col(0);
+  return up.dot(mean_up) >= 0.0 ? up : Vector3d(-up);
+}
+
+// The middle of what the keyframes see, from the first 1000 points at even steps.
+double MedianDistance(const SceneDatabase& database, std::span<const Vector3d> centers) {
+  std::vector<double> distances;
+  const size_t step = database.points.size() / 1000 + 1;
+  for (size_t i = 0; i < database.points.size(); i += step) {
+    for (const Vector3d& center : centers) {
+      distances.push_back((database.points[i].cast<double>() - center).norm());
+    }
+  }
+  return Median(std::move(distances));
+}
+
+std::tuple<int64_t, int64_t, int64_t> Cube(const Vector3d& x, double size) {
+  const Vector3d cell = (x / size).array().floor();
+  return {static_cast<int64_t>(cell.x()), static_cast<int64_t>(cell.y()),
+          static_cast<int64_t>(cell.z())};
+}
+
+std::vector<Vector3d> MakePatches(const SceneDatabase& database, double size) {
+  std::map<std::tuple<int64_t, int64_t, int64_t>, std::pair<Vector3d, int>> cubes;
+  for (const Eigen::Vector3f& point : database.points) {
+    auto& [sum, count] =
+        cubes.try_emplace(Cube(point.cast<double>(), size), Vector3d::Zero(), 0).first->second;
+    sum += point.cast<double>();
+    ++count;
+  }
+  std::vector<Vector3d> patches;
+  for (const auto& [cube, content] : cubes) {
+    patches.push_back(content.first / content.second);
+  }
+  return patches;
+}
+
+Scene DescribeScene(const SceneDatabase& database) {
+  Scene scene;
+  for (const Keyframe& keyframe : database.keyframes) {
+    scene.centers.push_back(keyframe.camera_from_map.Center());
+  }
+  scene.up = UpOfCameras(database.keyframes);
+  // Not less: cubes are counted in integers.
+  scene.distance = std::max(MedianDistance(database, scene.centers), 1e-6);
+  scene.patches = MakePatches(database, kPatch * scene.distance);
+  return scene;
+}
+
+// ------------------------------------------------------------ the level direction
+
+std::optional<Plane> LeastSquaresPlane(std::span<const Vector3d> points, const Vector3d& up) {
+  if (points.size() < 3) {
+    return std::nullopt;
+  }
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& point : points) {
+    mean += point;
+  }
+  mean /= static_cast<double>(points.size());
+  Matrix3d scatter = Matrix3d::Zero();
+  for (const Vector3d& point : points) {
+    scatter += (point - mean) * (point - mean).transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(scatter);
+  if (!(solver.eigenvalues()[1] > 4.0 * solver.eigenvalues()[0])) {
+    return std::nullopt;  // a line or a cloud
+  }
+  const Vector3d normal = solver.eigenvectors().col(0);
+  const Vector3d upwards = normal.dot(up) >= 0.0 ? normal : Vector3d(-normal);
+  return Plane{upwards, upwards.dot(mean)};
+}
+
+std::vector<Vector3d> PointsNear(const Plane& plane,
+                                 double tolerance,
+                                 std::span<const Vector3d> points) {
+  std::vector<Vector3d> near;
+  for (const Vector3d& point : points) {
+    if (std::abs(plane.Height(point)) <= tolerance) {
+      near.push_back(point);
+    }
+  }
+  return near;
+}
+
+bool IsLevel(const Plane& plane, const Vector3d& up) {
+  return plane.normal.dot(up) >= std::cos(kMaxFromCameraUp);
+}
+
+// All but a few of the cameras look down on it: poses may be wrong.
+bool CamerasAbove(const Plane& plane, std::span<const Vector3d> centers) {
+  const auto above = std::count_if(centers.begin(), centers.end(),
+                                   [&](const Vector3d& c) { return plane.Height(c) > 0.0; });
+  return static_cast<double>(above) >= 0.95 * static_cast<double>(centers.size());
+}
+
+// Through three points close together, and what lies about it there.
+std::optional<Plane> LocalPlane(const Scene& scene, Random& random) {
+  const std::vector<Vector3d>& patches = scene.patches;
+  const auto draw = [&](const std::vector<Vector3d>& from) {
+    return from[random.Below(static_cast<uint32_t>(from.size()))];
+  };
+  const Vector3d seed = draw(patches);
+  const double radius = kNeighbours * scene.distance;
+  std::vector<Vector3d> around;
+  for (const Vector3d& patch : patches) {
+    if ((patch - seed).squaredNorm() < radius * radius) {
+      around.push_back(patch);
+    }
+  }
+  const Vector3d a = draw(around);
+  const Vector3d b = draw(around);
+  const Vector3d cross = (a - seed).cross(b - seed);
+  if (!(cross.norm() > 0.05 * radius * radius)) {
+    return std::nullopt;
+  }
+  const Vector3d normal = cross.normalized() * (cross.dot(scene.up) >= 0.0 ? 1.0 : -1.0);
+  const Plane rough{normal, normal.dot(seed)};
+  return LeastSquaresPlane(PointsNear(rough, kTolerance * scene.distance, around), scene.up);
+}
+
+// The largest level surface that the cameras look down on, by RANSAC with local
+// optimisation (Chum, Matas & Kittler, "Locally Optimized RANSAC", DAGM 2003).
+std::optional<Plane> LargestLevelPlane(const Scene& scene, uint64_t seed) {
+  Random random(seed);
+  const double tolerance = kTolerance * scene.distance;
+  std::optional<Plane> best;
+  size_t best_support = 0;
+  for (int i = 0; i < kHypotheses; ++i) {
+    std::optional<Plane> plane = LocalPlane(scene, random);
+    for (int round = 0; round < 4 && plane && IsLevel(*plane, scene.up); ++round) {
+      const std::vector<Vector3d> support = PointsNear(*plane, tolerance, scene.patches);
+      if (support.size() > best_support && CamerasAbove(*plane, scene.centers)) {
+        best = plane;
+        best_support = support.size();
+      } else if (2 * support.size() < best_support) {
+        break;  // refining will not make up for that
+      }
+      plane = LeastSquaresPlane(support, scene.up);
+    }
+  }
+  return best_support >= kMinPatches ? best : std::nullopt;
+}
+
+// ------------------------------------------------------------ the lowest level
+
+// Sorted heights within [from, to).
+size_t CountBetween(std::span<const double> sorted, double from, double to) {
+  return static_cast<size_t>(std::lower_bound(sorted.begin(), sorted.end(), to) -
+                             std::lower_bound(sorted.begin(), sorted.end(), from));
+}
+
+// The height, above the given plane, of the lowest level that is peopled like a
+// surface; nullopt where not even the given one is.
+std::optional<double> LowestLevel(const Plane& largest, const Scene& scene) {
+  const double tolerance = kTolerance * scene.distance;
+  std::vector<double> heights;
+  for (const Vector3d& patch : scene.patches) {
+    heights.push_back(largest.Height(patch));
+  }
+  std::sort(heights.begin(), heights.end());
+  const size_t most = CountBetween(heights, -tolerance, tolerance);
+  const double wanted =
+      std::max(static_cast<double>(kMinPatches), kMinShare * static_cast<double>(most));
+  for (const double height : heights) {
+    if (height > 0.0) {
+      break;
+    }
+    const size_t here = CountBetween(heights, height, height + 2.0 * tolerance);
+    // Walls and clutter people all heights alike; a surface stands out from them.
+    const size_t below = CountBetween(heights, height - 4.0 * tolerance, height);
+    const size_t above = CountBetween(heights, height + 2.0 * tolerance, height + 6.0 * tolerance);
+    const double background = 0.5 * static_cast<double>(std::max(below, above));
+    if (static_cast<double>(here) >= wanted &&
+        static_cast<double>(here) >= kMinContrast * background) {
+      return height + tolerance;
+    }
+  }
+  return std::nullopt;
+}
+
+// ------------------------------------------------------------ the final fit
+
+// Points by their place on a plane and their height above it.
+struct Heights {
+  Vector3d origin;
+  Matrix3d axes;  // columns: along the plane, along the plane, normal
+  std::vector<Vector3d> points;
+
+  Heights(const Plane& plane, std::span<const Vector3d> near) {
+    origin = Vector3d::Zero();
+    for (const Vector3d& point : near) {
+      origin += point / static_cast<double>(near.size());
+    }
+    axes.col(2) = plane.normal;
+    axes.col(0) = plane.normal.unitOrthogonal();
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+    for (const Vector3d& point : near) {
+      points.push_back(axes.transpose() * (point - origin));
+    }
+  }
+};
+
+struct Fit {
+  Vector3d slope = Vector3d::Zero();  // height = slope . (u, v, 1)
+  double spread = 0.0;
+  std::vector<double> weights;
+
+  double Residual(const Vector3d& point) const {
+    return point.z() - slope.dot(Vector3d(point.x(), point.y(), 1.0));
+  }
+};
+
+// Iteratively reweighted least squares with Tukey's biweight; the scale is the
+// median absolute residual. Sharper than usual (4.685): what stands on the floor
+// lies on one side.
+Fit FitRobustly(const Heights& heights) {
+  constexpr double kTukey = 3.0;
+  constexpr int kRounds = 20;
+  Fit fit;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> residuals;
+    for (const Vector3d& point : heights.points) {
+      residuals.push_back(std::abs(fit.Residual(point)));
+    }
+    fit.spread = std::max(1.4826 * Median(residuals), 1e-12);
+    Matrix3d normal = Matrix3d::Zero();
+    Vector3d right = Vector3d::Zero();
+    fit.weights.assign(heights.points.size(), 0.0);
+    for (size_t i = 0; i < heights.points.size(); ++i) {
+      const double ratio = residuals[i] / (kTukey * fit.spread);
+      const double weight = ratio < 1.0 ? std::pow(1.0 - ratio * ratio, 2) : 0.0;
+      const Vector3d row(heights.points[i].x(), heights.points[i].y(), 1.0);
+      fit.weights[i] = weight;
+      normal += weight * row * row.transpose();
+      right += weight * heights.points[i].z() * row;
+    }
+    fit.slope = normal.ldlt().solve(right);
+  }
+  return fit;
+}
+
+// Of the slope about its worst axis: the sandwich estimate over blocks of points
+// (Liang & Zeger, "Longitudinal data analysis using generalized linear models",
+// Biometrika 1986).
+double SlopeDeviation(const Heights& heights, const Fit& fit, double block) {
+  Matrix3d normal = Matrix3d::Zero();
+  std::map<std::pair<int64_t, int64_t>, Vector3d> scores;
+  for (size_t i = 0; i < heights.points.size(); ++i) {
+    const Vector3d& point = heights.points[i];
+    const Vector3d row(point.x(), point.y(), 1.0);
+    normal += fit.weights[i] * row * row.transpose();
+    const std::pair<int64_t, int64_t> at(static_cast<int64_t>(std::floor(point.x() / block)),
+                                         static_cast<int64_t>(std::floor(point.y() / block)));
+    scores.try_emplace(at, Vector3d::Zero()).first->second +=
+        fit.weights[i] * fit.Residual(point) * row;
+  }
+  Matrix3d meat = Matrix3d::Zero();
+  for (const auto& [at, score] : scores) {
+    meat += score * score.transpose();
+  }
+  const Matrix3d bread = normal.inverse();
+  const Matrix3d covariance = bread * meat * bread;
+  const Eigen::Matrix2d slopes = covariance.topLeftCorner<2, 2>();
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(slopes).eigenvalues()[1]);
+}
+
+// Without what lies at the foot of walls and things: columns of the plane in
+// which something stands, and their neighbours.
+std::vector<Vector3d> WithoutFeet(const Plane& level,
+                                  std::span<const Vector3d> near,
+                                  const Scene& scene) {
+  const double tolerance = kTolerance * scene.distance;
+  const double size = 2.0 * kPatch * scene.distance;
+  const Vector3d u = level.normal.unitOrthogonal();
+  const Vector3d v = level.normal.cross(u);
+  const auto column = [&](const Vector3d& x) {
+    return std::pair(static_cast<int64_t>(std::floor(u.dot(x) / size)),
+                     static_cast<int64_t>(std::floor(v.dot(x) / size)));
+  };
+  std::set<std::pair<int64_t, int64_t>> taken;
+  for (const Vector3d& patch : scene.patches) {
+    const double height = level.Height(patch);
+    if (height > 3.0 * tolerance && height < 12.0 * tolerance) {
+      const auto [column_u, column_v] = column(patch);
+      for (int64_t around = 0; around < 9; ++around) {
+        taken.emplace(column_u + around % 3 - 1, column_v + around / 3 - 1);
+      }
+    }
+  }
+  std::vector<Vector3d> free;
+  for (const Vector3d& point : near) {
+    if (!taken.contains(column(point))) {
+      free.push_back(point);
+    }
+  }
+  return free;
+}
+
+// nullopt when the points about the level are no surface by themselves.
+std::optional<FloorPlane> FitFloor(const Plane& level, const Scene& scene) {
+  const double tolerance = kTolerance * scene.distance;
+  std::vector<Vector3d> near = PointsNear(level, 2.0 * tolerance, scene.patches);
+  if (near.size() < kMinPatches) {
+    return std::nullopt;
+  }
+  if (std::vector<Vector3d> free = WithoutFeet(level, near, scene); free.size() >= kMinPatches) {
+    near = std::move(free);
+  }
+  const Heights heights(level, near);
+  const Fit fit = FitRobustly(heights);
+  const double tilt = std::atan(fit.slope.head<2>().norm());
+  if (!(tilt < kMaxBetweenLevels)) {
+    return std::nullopt;
+  }
+  FloorPlane floor;
+  floor.normal = (heights.axes * Vector3d(-fit.slope.x(), -fit.slope.y(), 1.0)).normalized();
+  floor.center = heights.origin + fit.slope.z() * heights.axes.col(2);
+  floor.offset = floor.normal.dot(floor.center);
+  floor.spread = fit.spread;
+  floor.tilt_deviation = SlopeDeviation(heights, fit, kBlock * scene.distance);
+  return floor;
+}
+
+}  // namespace
+
+std::optional<FloorPlane> FindFloor(const SceneDatabase& database, uint64_t seed) {
+  if (database.points.empty() || database.keyframes.empty()) {
+    return std::nullopt;
+  }
+  const Scene scene = DescribeScene(database);
+  const std::optional<Plane> largest =
+      scene.patches.size() >= kMinPatches ? LargestLevelPlane(scene, seed) : std::nullopt;
+  if (!largest) {
+    return std::nullopt;
+  }
+  const std::optional<double> height = LowestLevel(*largest, scene);
+  if (!height) {
+    return std::nullopt;
+  }
+  std::optional<FloorPlane> floor = FitFloor({largest->normal, largest->offset + *height}, scene);
+  if (floor) {
+    floor->points = static_cast<int>(
+        std::count_if(database.points.begin(), database.points.end(), [&](const auto& point) {
+          return std::abs(floor->Height(point.template cast<double>())) <= 3.0 * floor->spread;
+        }));
+  }
+  return floor;
+}
+
+}  // namespace lararium::train
