@@ -1,0 +1,594 @@
+#include "editor/train/capture_analysis.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "shared/core/parallel.h"
+
+namespace lararium::train {
+namespace {
+
+using geometry::Rigid3;
+using vision::Observation;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+std::string Fixed(double value, int decimals) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::fixed, decimals);
+  return {text.data(), end.ptr};
+}
+
+template <typename T>
+T Median(std::vector<T> values) {
+  if (values.empty()) {
+    return T{};
+  }
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// ------------------------------------------------------------ histograms
+
+// Counts of values in bins that end below edges[i]; one more bin takes the rest.
+Histogram Bin(std::span<const double> values,
+              std::span<const double> edges,
+              std::vector<std::string> labels) {
+  Histogram histogram{std::move(labels), std::vector<size_t>(edges.size() + 1, 0)};
+  for (const double value : values) {
+    const auto bin = std::upper_bound(edges.begin(), edges.end(), value) - edges.begin();
+    ++histogram.counts[static_cast<size_t>(bin)];
+  }
+  return histogram;
+}
+
+Histogram BinErrors(const vision::SceneDatabase& database) {
+  std::vector<double> errors;
+  for (const Observation& o : database.observations) {
+    const auto pixel = database.camera.Project(database.keyframes[o.keyframe].camera_from_map *
+                                               database.points[o.point].cast<double>());
+    if (pixel) {
+      errors.push_back((*pixel - Eigen::Vector2d(o.x, o.y)).norm());
+    }
+  }
+  const std::vector<double> edges = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0};
+  return Bin(errors, edges,
+             {"0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.8", "1.0", "1.5", "2.0", "3.0", "more"});
+}
+
+Histogram BinTracks(const vision::SceneDatabase& database) {
+  const std::vector<double> lengths(database.observation_counts.begin(),
+                                    database.observation_counts.end());
+  const std::vector<double> edges = {3, 4, 5, 7, 11, 21, 41, 81};
+  return Bin(lengths, edges, {"2", "3", "4", "5-6", "7-10", "11-20", "21-40", "41-80", "more"});
+}
+
+// The widest angle at each point between the rays to two of the keyframes that
+// saw it; of very many, evenly chosen ones.
+std::vector<float> PointParallax(const vision::SceneDatabase& database) {
+  constexpr size_t kMaxViews = 24;
+  std::vector<std::vector<uint32_t>> viewers(database.points.size());
+  for (const Observation& o : database.observations) {
+    viewers[o.point].push_back(o.keyframe);
+  }
+  std::vector<Eigen::Vector3d> centers;
+  for (const vision::Keyframe& keyframe : database.keyframes) {
+    centers.push_back(keyframe.camera_from_map.Center());
+  }
+  std::vector<float> parallax(database.points.size(), 0.0f);
+  ParallelFor(parallax.size(), [&](size_t i) {
+    const Eigen::Vector3d point = database.points[i].cast<double>();
+    const size_t count = viewers[i].size();
+    const size_t used = std::min(count, kMaxViews);
+    std::array<Eigen::Vector3d, kMaxViews> rays;
+    for (size_t v = 0; v < used; ++v) {
+      const size_t viewer = used < 2 ? 0 : v * (count - 1) / (used - 1);
+      rays[v] = (centers[viewers[i][viewer]] - point).stableNormalized();
+    }
+    double cosine = 1.0;
+    for (size_t a = 0; a < used; ++a) {
+      for (size_t b = a + 1; b < used; ++b) {
+        cosine = std::min(cosine, rays[a].dot(rays[b]));
+      }
+    }
+    parallax[i] = static_cast<float>(std::acos(std::clamp(cosine, -1.0, 1.0)));
+  });
+  return parallax;
+}
+
+Histogram BinParallax(std::span<const float> parallax) {
+  std::vector<double> degrees;
+  for (const float angle : parallax) {
+    degrees.push_back(angle / kDegree);
+  }
+  const std::vector<double> edges = {1, 2, 4, 8, 16, 32, 64};
+  return Bin(degrees, edges, {"0-1", "1-2", "2-4", "4-8", "8-16", "16-32", "32-64", "more"});
+}
+
+// ------------------------------------------------------------ the plan
+
+PlanView MakePlan(const vision::SceneDatabase& database) {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  Eigen::Vector3d ahead = Eigen::Vector3d::Zero();
+  for (const vision::Keyframe& keyframe : database.keyframes) {
+    const Eigen::Quaterniond map_from_camera = keyframe.camera_from_map.rotation.conjugate();
+    up -= map_from_camera * Eigen::Vector3d::UnitY();
+    ahead += map_from_camera * Eigen::Vector3d::UnitZ();
+  }
+  PlanView plan;
+  constexpr double kClear = 0.1;  // of the mean of unit vectors; less has no direction
+  const double count = static_cast<double>(std::max<size_t>(1, database.keyframes.size()));
+  if (up.norm() > kClear * count) {
+    plan.up = up.normalized();
+  }
+  ahead -= plan.up * plan.up.dot(ahead);
+  if (ahead.norm() < kClear * count) {  // a walk all around: any direction will do
+    ahead = plan.up.unitOrthogonal();
+  }
+  plan.ahead = ahead.normalized();
+  plan.right = plan.ahead.cross(plan.up).normalized();
+  return plan;
+}
+
+// ------------------------------------------------------------ standing places
+
+struct Square {
+  Eigen::Vector2d min;
+  Eigen::Vector2d max;
+};
+
+Square Bounds(std::span<const Eigen::Vector2d> points, double margin) {
+  Square square{points.front(), points.front()};
+  for (const Eigen::Vector2d& point : points) {
+    square.min = square.min.cwiseMin(point);
+    square.max = square.max.cwiseMax(point);
+  }
+  square.min.array() -= margin;
+  square.max.array() += margin;
+  return square;
+}
+
+ViewpointPrediction Better(const ViewpointPrediction& a, const ViewpointPrediction& b) {
+  const auto rank = [](const ViewpointPrediction& p) { return static_cast<int>(QualityOf(p)); };
+  return rank(a) != rank(b) ? (rank(a) < rank(b) ? a : b) : (a.error_px <= b.error_px ? a : b);
+}
+
+// The keyframe's camera moved by offset, map coordinates.
+Rigid3 Displaced(const Rigid3& camera_from_map, const Eigen::Vector3d& offset) {
+  return {camera_from_map.rotation,
+          camera_from_map.translation - camera_from_map.rotation * offset};
+}
+
+void FillPlaces(const vision::SceneDatabase& database,
+                const ViewpointPredictor& predictor,
+                CaptureAnalysis& analysis) {
+  if (database.keyframes.empty() || !(predictor.median_depth() > 0.0)) {
+    return;
+  }
+  std::vector<Eigen::Vector2d> path;
+  for (const vision::Keyframe& keyframe : database.keyframes) {
+    path.push_back(analysis.plan(keyframe.camera_from_map.Center()));
+  }
+  const double margin = 0.35 * predictor.median_depth();
+  const Square square = Bounds(path, margin);
+  const Eigen::Vector2d extent = square.max - square.min;
+  constexpr double kCellsAlong = 28.0;
+  analysis.cell = extent.maxCoeff() / kCellsAlong;
+  for (double y = square.min.y() + 0.5 * analysis.cell; y < square.max.y(); y += analysis.cell) {
+    for (double x = square.min.x() + 0.5 * analysis.cell; x < square.max.x(); x += analysis.cell) {
+      const Eigen::Vector2d center(x, y);
+      for (const Eigen::Vector2d& at : path) {
+        if ((at - center).norm() < margin) {
+          analysis.places.push_back({center, {}});
+          break;
+        }
+      }
+    }
+  }
+  ParallelFor(analysis.places.size(), [&](size_t i) {
+    StandingPlace& place = analysis.places[i];
+    std::vector<std::pair<double, size_t>> nearest;
+    for (size_t k = 0; k < path.size(); ++k) {
+      nearest.emplace_back((path[k] - place.center).norm(), k);
+    }
+    constexpr size_t kGazes = 3;
+    const size_t count = std::min(kGazes, nearest.size());
+    std::partial_sort(nearest.begin(), nearest.begin() + static_cast<ptrdiff_t>(count),
+                      nearest.end());
+    place.prediction.error_px = std::numeric_limits<double>::infinity();
+    for (size_t n = 0; n < count; ++n) {
+      const size_t k = nearest[n].second;
+      const Eigen::Vector2d step = place.center - path[k];
+      const Eigen::Vector3d offset =
+          step.x() * analysis.plan.right + step.y() * analysis.plan.ahead;
+      place.prediction =
+          Better(place.prediction,
+                 predictor.Predict(Displaced(database.keyframes[k].camera_from_map, offset)));
+    }
+  });
+}
+
+// ------------------------------------------------------------ weak frames
+
+constexpr int kFewFeatures = 150;     // an image with fewer is rarely located
+constexpr int kFewObservations = 60;  // a located frame with fewer hangs loosely
+constexpr double kBlurred = 0.35;     // of the sharpness of the frames around
+constexpr double kFastMotion = 0.06;  // of the image diagonal from frame to frame
+
+// Median sharpness of the frames around each.
+std::vector<double> SharpnessAround(std::span<const FrameReport> frames) {
+  constexpr size_t kReach = 20;
+  std::vector<double> around;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const size_t begin = i - std::min(i, kReach);
+    const size_t end = std::min(frames.size(), i + kReach + 1);
+    std::vector<double> values;
+    for (size_t j = begin; j < end; ++j) {
+      values.push_back(frames[j].motion.sharpness);
+    }
+    around.push_back(Median(std::move(values)));
+  }
+  return around;
+}
+
+std::optional<WeakReason> WhyWeak(const FrameReport& frame, double sharpness_around) {
+  const bool blurred = frame.motion.sharpness < kBlurred * sharpness_around;
+  const bool few = frame.features < kFewFeatures;
+  if (frame.camera_from_map) {
+    if (frame.observations >= kFewObservations) {
+      return std::nullopt;
+    }
+    return blurred ? WeakReason::kBlur : few ? WeakReason::kFewFeatures : WeakReason::kFewPoints;
+  }
+  if (blurred) {
+    return WeakReason::kBlur;
+  }
+  if (few) {
+    return WeakReason::kFewFeatures;
+  }
+  return frame.motion.shift > kFastMotion ? WeakReason::kFastMotion : WeakReason::kNotLocated;
+}
+
+std::vector<WeakFrames> FindWeakFrames(std::span<const FrameReport> frames) {
+  const std::vector<double> around = SharpnessAround(frames);
+  std::vector<WeakFrames> weak;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const std::optional<WeakReason> reason = WhyWeak(frames[i], around[i]);
+    if (!reason) {
+      continue;
+    }
+    const bool located = frames[i].camera_from_map.has_value();
+    if (!weak.empty() && weak.back().last + 1 == i && weak.back().reason == *reason &&
+        weak.back().located == located) {
+      weak.back().last = i;
+    } else {
+      weak.push_back({i, i, *reason, located});
+    }
+  }
+  return weak;
+}
+
+// ------------------------------------------------------------ advice
+
+// A keyframe that shapes the advice.
+struct Stop {
+  std::string name;
+  Eigen::Vector2d place;
+  size_t keyframe = 0;
+};
+
+class Adviser {
+ public:
+  Adviser(const TrainReport& report,
+          const vision::SceneDatabase& database,
+          const ViewpointPredictor& predictor,
+          std::optional<double> metres_per_unit,
+          const CaptureAnalysis& analysis)
+      : report_(report),
+        database_(database),
+        predictor_(predictor),
+        metres_per_unit_(metres_per_unit),
+        analysis_(analysis) {
+    for (size_t k = 0; k < database.keyframes.size(); ++k) {
+      const vision::Keyframe& keyframe = database.keyframes[k];
+      stops_.push_back({keyframe.name, analysis.plan(keyframe.camera_from_map.Center()), k});
+    }
+  }
+
+  std::vector<std::string> Advise() {
+    AdviseOnGaps();
+    AdviseOnParallax();
+    AdviseOnSteps();
+    AdviseOnCamera();
+    AdviseOnExposure();
+    if (advice_.empty()) {
+      advice_.push_back(
+          "Nothing is missing: every stretch was located, and visitors near the path will be "
+          "located well.");
+    }
+    return std::move(advice_);
+  }
+
+ private:
+  std::string Distance(double units) const {
+    if (metres_per_unit_) {
+      return "about " + Fixed(units * *metres_per_unit_, 1) + " m";
+    }
+    const double share = units / predictor_.median_depth();
+    return share < 0.95 ? "about " + Fixed(100.0 * share, 0) + " % of the distance to what is seen"
+                        : "about as far as what is seen is away";
+  }
+
+  static std::string Frames(const std::string& first, const std::string& last) {
+    return first == last ? "frame " + first : "frames " + first + " to " + last;
+  }
+
+  // " (at the left end)" where a stretch lies at an end of the walk.
+  std::string Where(size_t first, size_t last) const {
+    Eigen::Vector2d low = stops_.front().place;
+    Eigen::Vector2d high = low;
+    for (const Stop& stop : stops_) {
+      low = low.cwiseMin(stop.place);
+      high = high.cwiseMax(stop.place);
+    }
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (size_t i = first; i <= last; ++i) {
+      middle += stops_[i].place / static_cast<double>(last - first + 1);
+    }
+    const Eigen::Vector2d extent = high - low;
+    const int axis = extent.x() >= extent.y() ? 0 : 1;
+    if (!(extent[axis] > 0.0) || last - first + 1 == stops_.size()) {
+      return "";
+    }
+    const double share = (middle[axis] - low[axis]) / extent[axis];
+    if (share > 0.25 && share < 0.75) {
+      return "";
+    }
+    static constexpr std::array<std::array<const char*, 2>, 2> kEnds = {
+        {{"left", "right"}, {"near", "far"}}};
+    return std::string(" (at the ") + kEnds[axis][share > 0.5 ? 1 : 0] + " end of the plan)";
+  }
+
+  // Calls say(first, last) for runs of at least min_run stops that are bad.
+  void ForRuns(const std::vector<bool>& bad,
+               size_t min_run,
+               const std::function<void(size_t, size_t)>& say) const {
+    for (size_t i = 0; i < bad.size(); ++i) {
+      size_t end = i;
+      while (end < bad.size() && bad[end]) {
+        ++end;
+      }
+      if (end - i >= min_run) {
+        say(i, end - 1);
+      }
+      i = std::max(i, end);
+    }
+  }
+
+  void AdviseOnGaps() {
+    constexpr size_t kShortest = 3;
+    size_t shorter = 0;
+    for (const WeakFrames& weak : analysis_.weak) {
+      if (weak.located) {
+        continue;
+      }
+      if (weak.last - weak.first + 1 < kShortest) {
+        ++shorter;
+        continue;
+      }
+      const auto& frames = report_.frame_reports;
+      advice_.push_back("The " + Frames(frames[weak.first].name, frames[weak.last].name) +
+                        " could not be located (" + std::string(Title(weak.reason)) +
+                        "): " + std::string(Remedy(weak.reason)) + ".");
+    }
+    if (shorter > 0) {
+      advice_.push_back(std::to_string(shorter) +
+                        (shorter == 1 ? " short stretch" : " short stretches") +
+                        " of one or two frames could not be located; the frames around make up "
+                        "for them. Move more slowly there if you film again.");
+    }
+  }
+
+  // Stretches whose points are seen from nearly one direction.
+  void AdviseOnParallax() {
+    constexpr double kNarrow = 5.0 * kDegree;
+    constexpr double kWanted = 15.0 * kDegree;
+    std::vector<std::vector<float>> angles(stops_.size());
+    for (const Observation& o : database_.observations) {
+      angles[o.keyframe].push_back(analysis_.point_parallax[o.point]);
+    }
+    std::vector<double> medians;
+    std::vector<bool> narrow;
+    for (std::vector<float>& of_stop : angles) {
+      medians.push_back(Median(std::move(of_stop)));
+      narrow.push_back(medians.back() < kNarrow);
+    }
+    ForRuns(narrow, 2, [&](size_t first, size_t last) {
+      const double angle =
+          Median(std::vector<double>(medians.begin() + static_cast<ptrdiff_t>(first),
+                                     medians.begin() + static_cast<ptrdiff_t>(last) + 1));
+      advice_.push_back("What " + Frames(stops_[first].name, stops_[last].name) + " show" +
+                        Where(first, last) + " was seen from one side only (directions differ by " +
+                        Fixed(angle / kDegree, 1) + " degrees): walk past it sideways by " +
+                        Distance(2.0 * std::tan(0.5 * kWanted) * predictor_.median_depth()) + ".");
+    });
+  }
+
+  // What happens to a visitor who leaves the path a little.
+  void AdviseOnSteps() {
+    const double step = 0.25 * predictor_.median_depth();
+    if (!(step > 0.0)) {
+      return;
+    }
+    struct Way {
+      const char* words;
+      const char* remedy;
+      Eigen::Vector3d offset;  // plan axes: right, ahead
+      double turn;             // radians, to the right
+    };
+    const double turn = 30.0 * kDegree;
+    const std::array<Way, 6> ways = {{
+        {"steps to the left", "walk the same way again further left", {-step, 0, 0}, 0.0},
+        {"steps to the right", "walk the same way again further right", {step, 0, 0}, 0.0},
+        {"goes nearer", "walk the same way again from nearer", {0, step, 0}, 0.0},
+        {"steps back", "walk the same way again from further back", {0, -step, 0}, 0.0},
+        {"turns to the left", "film what lies to the left too, walking past it", {0, 0, 0}, -turn},
+        {"turns to the right", "film what lies to the right too, walking past it", {0, 0, 0}, turn},
+    }};
+    constexpr size_t kMaxStops = 60;
+    const size_t stride = (stops_.size() + kMaxStops - 1) / kMaxStops;
+    for (const Way& way : ways) {
+      std::vector<size_t> looked_at;
+      for (size_t i = 0; i < stops_.size(); i += stride) {
+        looked_at.push_back(i);
+      }
+      std::vector<ViewpointPrediction> predictions(looked_at.size());
+      ParallelFor(looked_at.size(), [&](size_t i) {
+        predictions[i] = predictor_.Predict(AfterStep(looked_at[i], way.offset, way.turn));
+      });
+      std::vector<bool> bad;
+      for (const ViewpointPrediction& prediction : predictions) {
+        bad.push_back(QualityOf(prediction) >= ViewpointQuality::kPoor);
+      }
+      ForRuns(bad, std::max<size_t>(2, looked_at.size() / 10), [&](size_t first, size_t last) {
+        std::vector<double> matches;
+        for (size_t i = first; i <= last; ++i) {
+          matches.push_back(predictions[i].matches);
+        }
+        const size_t from = looked_at[first];
+        const size_t to = looked_at[last];
+        advice_.push_back("A visitor at " + Frames(stops_[from].name, stops_[to].name) +
+                          Where(from, to) + " who " + way.words +
+                          (way.turn == 0.0 ? " by " + Distance(step) : " by 30 degrees") +
+                          " will be located poorly (about " + Fixed(Median(matches), 0) +
+                          " points found again): " + way.remedy + ".");
+      });
+    }
+  }
+
+  Rigid3 AfterStep(size_t stop, const Eigen::Vector3d& offset, double turn) const {
+    const Rigid3& pose = database_.keyframes[stops_[stop].keyframe].camera_from_map;
+    // Left and near as the camera itself sees them, along the floor.
+    const Eigen::Vector3d axis = pose.rotation.conjugate() * Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d up = analysis_.plan.up;
+    const Eigen::Vector3d right = (axis - up * up.dot(axis)).stableNormalized();
+    const Eigen::Vector3d ahead = up.cross(right);
+    Rigid3 moved = Displaced(pose, right * offset.x() + ahead * offset.y());
+    if (turn != 0.0) {
+      const Eigen::Vector3d center = moved.Center();
+      // Turning the camera to the right turns the map to the left about its y axis.
+      moved.rotation =
+          (Eigen::AngleAxisd(-turn, Eigen::Vector3d::UnitY()) * moved.rotation).normalized();
+      moved.translation = -(moved.rotation * center);
+    }
+    return moved;
+  }
+
+  void AdviseOnCamera() {
+    constexpr double kUncertain = 0.01;
+    const double focal = report_.camera.Focal();
+    if (report_.intrinsics_estimated && report_.focal_deviation_px > kUncertain * focal) {
+      advice_.push_back("The focal length is known to " +
+                        Fixed(100.0 * report_.focal_deviation_px / focal, 1) +
+                        " % only: film the place from nearer and farther as well, or give the "
+                        "intrinsics.");
+    }
+    constexpr size_t kFewKeyframes = 10;
+    if (database_.keyframes.size() < kFewKeyframes) {
+      advice_.push_back("Only " + std::to_string(database_.keyframes.size()) +
+                        " images shape the map: film a longer walk, so that visitors find it from "
+                        "more places.");
+    }
+  }
+
+  // Exposure that changes while filming costs matches.
+  void AdviseOnExposure() {
+    std::vector<std::array<float, 2>> range(32, {0.0f, 0.0f});  // stops, by session
+    std::vector<bool> used(32, false);
+    for (const vision::Keyframe& keyframe : database_.keyframes) {
+      const float stops = std::log2(std::max(1e-6f, keyframe.gain[1]));
+      auto& [low, high] = range[keyframe.session % 32];
+      low = used[keyframe.session % 32] ? std::min(low, stops) : stops;
+      high = used[keyframe.session % 32] ? std::max(high, stops) : stops;
+      used[keyframe.session % 32] = true;
+    }
+    constexpr float kMuch = 2.0f;
+    for (size_t session = 0; session < range.size(); ++session) {
+      const float spread = range[session][1] - range[session][0];
+      if (spread > kMuch) {
+        advice_.push_back("Exposure changed by " + Fixed(spread, 1) +
+                          " stops while filming session " + std::to_string(session) +
+                          ": lock it, and keep bright windows out of the image.");
+      }
+    }
+  }
+
+  const TrainReport& report_;
+  const vision::SceneDatabase& database_;
+  const ViewpointPredictor& predictor_;
+  std::optional<double> metres_per_unit_;
+  const CaptureAnalysis& analysis_;
+  std::vector<Stop> stops_;
+  std::vector<std::string> advice_;
+};
+
+}  // namespace
+
+std::string_view Title(WeakReason reason) {
+  switch (reason) {
+    case WeakReason::kFewFeatures:
+      return "few features";
+    case WeakReason::kBlur:
+      return "blurred";
+    case WeakReason::kFastMotion:
+      return "fast motion";
+    case WeakReason::kNotLocated:
+      return "does not fit the map";
+    case WeakReason::kFewPoints:
+      return "few points of the map in view";
+  }
+  return "";
+}
+
+std::string_view Remedy(WeakReason reason) {
+  switch (reason) {
+    case WeakReason::kFewFeatures:
+      return "turn on more light, and keep things with texture in view";
+    case WeakReason::kBlur:
+      return "film this part again, more slowly or in better light, with the focus fixed";
+    case WeakReason::kFastMotion:
+      return "film this part again, more slowly";
+    case WeakReason::kNotLocated:
+      return "film this part again so that it overlaps with the rest by two thirds, and keep "
+             "people out of the way";
+    case WeakReason::kFewPoints:
+      return "stay longer here, and walk past what is seen";
+  }
+  return "";
+}
+
+CaptureAnalysis AnalyseCapture(const TrainReport& report,
+                               const vision::SceneDatabase& database,
+                               std::optional<double> metres_per_unit) {
+  CaptureAnalysis analysis;
+  analysis.plan = MakePlan(database);
+  analysis.reprojection = BinErrors(database);
+  analysis.track_lengths = BinTracks(database);
+  analysis.point_parallax = PointParallax(database);
+  analysis.parallax = BinParallax(analysis.point_parallax);
+  const ViewpointPredictor predictor(database);
+  analysis.noise_px = predictor.noise_px();
+  analysis.median_depth = predictor.median_depth();
+  FillPlaces(database, predictor, analysis);
+  analysis.weak = FindWeakFrames(report.frame_reports);
+  analysis.advice = Adviser(report, database, predictor, metres_per_unit, analysis).Advise();
+  return analysis;
+}
+
+}  // namespace lararium::train
