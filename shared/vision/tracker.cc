@@ -1,15 +1,24 @@
 #include "shared/vision/tracker.h"
 
+#include <array>
+#include <condition_variable>
+#include <limits>
+#include <mutex>
 #include <opencv2/core.hpp>
+#include <thread>
 
 #include "shared/core/check.h"
+#include "shared/vision/follower.h"
 #include "shared/vision/level_of_detail.h"
-#include "shared/vision/localizer.h"
+#include "shared/vision/map_locator.h"
+#include "shared/vision/motion_model.h"
+#include "shared/vision/rotation_estimator.h"
 
 namespace lararium::vision {
 namespace {
 
 using geometry::CameraModel;
+using geometry::Rigid3;
 
 constexpr double kDarkMean = 8.0;  // grey level of 0..255 below which nothing shows
 
@@ -22,15 +31,139 @@ LocalizerOptions LocalizerOptionsOf(const TrackerOptions& options) {
           .seed = options.seed};
 }
 
-class SiftTracker final : public PoseSource {
+constexpr int64_t kLongestGap = 8;      // frames without a pose after which prediction is vain
+constexpr double kLeapPx = 30.0;        // between frames: the view changed
+constexpr double kFewAgree = 0.5;       // share of the patches
+constexpr double kTwoMeaningsPx = 3.0;  // poses farther apart than this contradict each other
+
+// Mean distance between where two poses put what lies at a depth, pixels.
+double DistancePx(const CameraModel& camera, const Rigid3& a, const Rigid3& b, double depth) {
+  constexpr int kSteps = 4;
+  const Rigid3 b_from_a = b * a.Inverse();
+  double sum = 0.0;
+  for (int row = 0; row < kSteps; ++row) {
+    for (int column = 0; column < kSteps; ++column) {
+      const Eigen::Vector2d pixel((column + 0.5) / kSteps * camera.width,
+                                  (row + 0.5) / kSteps * camera.height);
+      const Eigen::Vector2d plane = camera.PlaneFromPixel(pixel);
+      const Eigen::Vector3d moved = b_from_a * (depth * plane.homogeneous());
+      if (moved.z() <= 0.0) {
+        return std::numeric_limits<double>::infinity();
+      }
+      sum += camera.Focal() * (moved.hnormalized() - plane).norm();
+    }
+  }
+  return sum / (kSteps * kSteps);
+}
+
+// Finds images without a prior.
+class Finder {
  public:
-  SiftTracker(std::shared_ptr<const SceneDatabase> database,
-              const CameraModel& camera,
-              const TrackerOptions& options)
-      : database_(std::move(database)),
-        camera_(camera),
-        localizer_(*database_, LocalizerOptionsOf(options)),
-        detail_(options.feature_budget) {}
+  Finder(std::span<const std::shared_ptr<const SceneDatabase>> maps, const TrackerOptions& options)
+      : locator_(maps, LocalizerOptionsOf(options)), detail_(options.feature_budget) {}
+
+  // The level of detail may save work but never cost a pose: where it fails, the
+  // finest level has the last word on the same frame.
+  Located Find(const cv::Mat& grey, const CameraModel& camera) {
+    const bool finest = detail_.finest();
+    Located located = Locate(grey, camera, detail_.options());
+    detail_.Observe(features_.size());
+    if (!located.location.camera_from_map && !finest) {
+      located = Locate(grey, camera, detail_.finest_options());
+    }
+    return located;
+  }
+
+  // Of the last image.
+  int features() const { return static_cast<int>(features_.size()); }
+
+ private:
+  Located Locate(const cv::Mat& grey, const CameraModel& camera, const FeatureOptions& options) {
+    CHECK(extractor_.Extract(grey, options, features_).ok());
+    return locator_.Locate(features_, camera);
+  }
+
+  MapLocator locator_;
+  FeatureExtractor extractor_;
+  Features features_;
+  LevelOfDetail detail_;
+};
+
+// Finds a frame beside the others, in a thread of its own or in the caller's when
+// the answer is wanted.
+class BackgroundFinder {
+ public:
+  BackgroundFinder(std::span<const std::shared_ptr<const SceneDatabase>> maps,
+                   const TrackerOptions& options)
+      : finder_(maps, options) {
+    if (options.threads != 1) {
+      thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+    }
+  }
+
+  // !busy(). The pixels are shared, never copied.
+  void Begin(const cv::Mat& grey, const CameraModel& camera) {
+    const std::lock_guard lock(mutex_);
+    grey_ = grey;
+    camera_ = camera;
+    located_.reset();
+    busy_ = true;
+    changed_.notify_all();
+  }
+  bool busy() const { return busy_; }
+
+  // busy(). The answer; nullopt where it is not ready and wait is false.
+  std::optional<Located> Take(bool wait) {
+    std::unique_lock lock(mutex_);
+    if (!thread_.joinable()) {
+      located_ = finder_.Find(grey_, camera_);
+    } else if (wait) {
+      changed_.wait(lock, [this] { return located_.has_value(); });
+    }
+    if (located_) {
+      busy_ = false;
+      grey_.release();
+    }
+    return located_;
+  }
+
+ private:
+  void Work(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (changed_.wait(lock, stop, [this] { return busy_ && !located_; })) {
+      const cv::Mat grey = grey_;
+      const CameraModel camera = camera_;
+      lock.unlock();
+      const Located located = finder_.Find(grey, camera);
+      lock.lock();
+      located_ = located;
+      changed_.notify_all();
+    }
+  }
+
+  Finder finder_;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  cv::Mat grey_;
+  CameraModel camera_;
+  std::optional<Located> located_;
+  bool busy_ = false;    // changed by the caller only
+  std::jthread thread_;  // last: stops before what it uses goes
+};
+
+class Tracker final : public PoseSource {
+ public:
+  Tracker(std::vector<std::shared_ptr<const SceneDatabase>> maps,
+          const CameraModel& camera,
+          const TrackerOptions& options)
+      : options_(options), camera_(camera), maps_(std::move(maps)), finder_(maps_, options) {
+    if (options.follow) {
+      for (const auto& map : maps_) {
+        followers_.push_back(std::make_unique<Follower>(std::make_shared<const FollowMap>(map)));
+      }
+      background_ = std::make_unique<BackgroundFinder>(maps_, options);
+    }
+  }
 
   TrackedFrame Track(const geometry::Frame& frame) override {
     TrackedFrame tracked;
@@ -40,8 +173,13 @@ class SiftTracker final : public PoseSource {
       tracked.reason = TrackReason::kTooFewFeatures;
     } else if (cv::mean(frame.grey)[0] < kDarkMean) {
       tracked.reason = TrackReason::kTooDark;
+    } else if (options_.follow) {
+      FollowOrFind(tracked);
     } else {
-      LocateWithDetail(tracked);
+      Find(tracked);
+    }
+    if (!tracked.camera_from_map) {
+      motion_.Forget();
     }
     had_pose_ = had_pose_ || tracked.camera_from_map.has_value();
     tracked.state = tracked.camera_from_map ? TrackState::kTracking
@@ -57,35 +195,193 @@ class SiftTracker final : public PoseSource {
     return same ? camera_ : camera_.Resized(frame.grey.cols, frame.grey.rows);
   }
 
-  // The level of detail may save work but never cost a pose: where it fails, the
-  // finest level has the last word on the same frame.
-  void LocateWithDetail(TrackedFrame& tracked) {
-    const bool finest = detail_.finest();
-    Locate(detail_.options(), tracked);
-    detail_.Observe(static_cast<size_t>(tracked.features));
-    if (!tracked.camera_from_map && !finest) {
-      Locate(detail_.finest_options(), tracked);
+  void FollowOrFind(TrackedFrame& tracked) {
+    const cv::Mat& grey = tracked.frame.grey;
+    // One level more than the follower's coarsest, to see how the camera turned.
+    pyramid_.Build(grey, CoarsestLevel(grey.cols) + 2);
+    if (!Follow(tracked)) {
+      Find(tracked);
+      if (tracked.camera_from_map) {
+        Anchor(tracked);
+      }
+    }
+    pyramid_.level(pyramid_.levels() - 1).copyTo(small_before_);
+    if (tracked.camera_from_map) {
+      motion_.Add(static_cast<double>(tracked.frame.index), *tracked.camera_from_map);
+      CheckInBackground(tracked);
     }
   }
 
-  void Locate(const FeatureOptions& options, TrackedFrame& tracked) {
-    CHECK(extractor_.Extract(tracked.frame.grey, options, features_).ok());
-    const Location location = localizer_.Locate(features_, tracked.camera);
+  bool Follow(TrackedFrame& tracked) {
+    const auto index = static_cast<double>(tracked.frame.index);
+    if (!motion_.has_pose() || index <= motion_.last_time() ||
+        index > motion_.last_time() + kLongestGap) {
+      return false;
+    }
+    const double frames = index - motion_.last_time();
+    const Rigid3 before = motion_.last_pose();
+    const Rigid3 motion = motion_.Motion(frames);
+    std::array<Rigid3, 2> predictions = {motion * before};
+    size_t count = 1;
+    if (const auto turn = EstimateTurn(tracked.camera, motion.rotation)) {
+      predictions[count++] = Rigid3{*turn, motion.translation} * before;
+    }
+    const FollowedPose followed = followers_[map_]->Follow(
+        pyramid_, tracked.camera, std::span(predictions.data(), count), &before, frames);
+    if (!followed.honest) {
+      return false;
+    }
+    Report(followed, tracked);
+    tracked.followed = true;
+    if (share_ < kFewAgree &&
+        DistancePx(tracked.camera, before, followed.camera_from_map, depth_) > kLeapPx) {
+      // The patches were chosen for another view.
+      Refine(tracked);
+    }
+    return true;
+  }
+
+  std::optional<Eigen::Quaterniond> EstimateTurn(const CameraModel& camera,
+                                                 const Eigen::Quaterniond& start) const {
+    const cv::Mat& small = pyramid_.level(pyramid_.levels() - 1);
+    if (small_before_.size() != small.size()) {
+      return std::nullopt;
+    }
+    const CameraModel small_camera = camera.Resized(small.cols, small.rows);
+    const auto expected = EstimateRotation(small_before_, small, small_camera, start);
+    const auto still =
+        EstimateRotation(small_before_, small, small_camera, Eigen::Quaterniond::Identity());
+    if (expected && still) {
+      return (expected->noise <= still->noise ? *expected : *still).now_from_before;
+    }
+    return expected ? std::optional(expected->now_from_before)
+           : still  ? std::optional(still->now_from_before)
+                    : std::nullopt;
+  }
+
+  void Find(TrackedFrame& tracked) {
+    const Located located = finder_.Find(tracked.frame.grey, tracked.camera);
+    const Location& location = located.location;
+    tracked.map = located.map;
     tracked.camera_from_map = location.camera_from_map;
     tracked.reason = location.reason;
     tracked.confidence = location.confidence;
-    tracked.features = static_cast<int>(features_.size());
+    tracked.covariance = location.covariance;
+    tracked.features = finder_.features();
     tracked.matches = location.matches;
     tracked.inliers = location.inliers;
   }
 
-  std::shared_ptr<const SceneDatabase> database_;
+  // A pose found without a prior becomes the start of following, and as exact.
+  void Anchor(TrackedFrame& tracked) {
+    map_ = tracked.map;
+    motion_.Forget();
+    Refine(tracked);
+  }
+
+  // Chooses patches for the pose and aligns them.
+  void Refine(TrackedFrame& tracked) {
+    const Rigid3 rough = *tracked.camera_from_map;
+    Follower& follower = *followers_[map_];
+    follower.Start(tracked.camera, rough);
+    const FollowedPose followed =
+        follower.Follow(pyramid_, tracked.camera, std::span(&rough, 1), nullptr, 1.0);
+    if (followed.honest && DistancePx(tracked.camera, rough, followed.camera_from_map,
+                                      followed.evidence.depths[1]) < kTwoMeaningsPx) {
+      Report(followed, tracked);
+    }
+  }
+
+  void Report(const FollowedPose& followed, TrackedFrame& tracked) {
+    tracked.map = map_;
+    tracked.camera_from_map = followed.camera_from_map;
+    tracked.reason = TrackReason::kNone;
+    tracked.covariance = followed.evidence.covariance;
+    tracked.confidence = static_cast<float>(PoseConfidence(tracked.camera, followed.evidence));
+    tracked.features = followed.expected;
+    tracked.matches = followed.expected;
+    tracked.inliers = followed.agreeing;
+    share_ = followed.share();
+    depth_ = followed.evidence.depths[1];
+  }
+
+  // Now and then a frame is also found without a prior. Where that contradicts what
+  // was followed, patches decide which of the two is right.
+  void CheckInBackground(TrackedFrame& tracked) {
+    constexpr int64_t kJoinAfter = 6;  // frames
+    constexpr int64_t kCalmInterval = 150;
+    constexpr int64_t kDoubtInterval = 30;
+    constexpr double kCalmShare = 0.5;
+    const int64_t index = tracked.frame.index;
+    if (background_->busy()) {
+      const bool due = index >= checked_index_ + kJoinAfter || index < checked_index_;
+      if (options_.background == BackgroundWork::kJoined && !due) {
+        return;
+      }
+      const auto located = background_->Take(due && options_.background == BackgroundWork::kJoined);
+      if (located) {
+        Compare(*located, tracked);
+      }
+      return;
+    }
+    const int64_t interval = share_ < kCalmShare ? kDoubtInterval : kCalmInterval;
+    if (!tracked.followed) {
+      checked_index_ = index;  // this very frame was
+    } else if (index >= checked_index_ + interval || index < checked_index_) {
+      checked_index_ = index;
+      checked_pose_ = *tracked.camera_from_map;
+      checked_map_ = map_;
+      background_->Begin(tracked.frame.grey, tracked.camera);
+    }
+  }
+
+  void Compare(const Located& located, TrackedFrame& tracked) {
+    if (!located.location.camera_from_map || !tracked.followed) {
+      return;
+    }
+    const Rigid3& found = *located.location.camera_from_map;
+    if (located.map == checked_map_ &&
+        DistancePx(tracked.camera, checked_pose_, found, depth_) <
+            kTwoMeaningsPx + 4.0 * located.location.expected_error_px) {
+      return;
+    }
+    if (checked_map_ != map_) {
+      return;  // following began anew since
+    }
+    const Rigid3 ours = *tracked.camera_from_map;
+    const double our_share = share_;
+    const Rigid3 theirs = ours * checked_pose_.Inverse() * found;
+    Follower& follower = *followers_[located.map];
+    follower.Start(tracked.camera, theirs);
+    const FollowedPose followed =
+        follower.Follow(pyramid_, tracked.camera, std::span(&theirs, 1), nullptr, 1.0);
+    if (followed.honest && followed.share() > our_share) {
+      map_ = located.map;
+      Report(followed, tracked);
+      motion_.Forget();
+      motion_.Add(static_cast<double>(tracked.frame.index), followed.camera_from_map);
+    } else if (located.map == map_) {
+      follower.Start(tracked.camera, ours);
+    }
+  }
+
+  TrackerOptions options_;
   CameraModel camera_;
-  FeatureExtractor extractor_;
-  Features features_;
-  Localizer localizer_;
-  LevelOfDetail detail_;
+  std::vector<std::shared_ptr<const SceneDatabase>> maps_;
+  Finder finder_;
+  std::vector<std::unique_ptr<Follower>> followers_;  // of the maps
+  ImagePyramid pyramid_;
+  cv::Mat small_before_;
+  MotionModel motion_;
+  uint32_t map_ = 0;
+  double share_ = 0.0;  // of the patches that agree
+  double depth_ = 1.0;  // of what is visible
   bool had_pose_ = false;
+
+  int64_t checked_index_ = 0;
+  Rigid3 checked_pose_;
+  uint32_t checked_map_ = 0;
+  std::unique_ptr<BackgroundFinder> background_;
 };
 
 }  // namespace
@@ -132,8 +428,7 @@ Result<std::unique_ptr<PoseSource>> CreateTracker(
                            "train the place again");
     }
   }
-  return std::unique_ptr<PoseSource>(
-      std::make_unique<SiftTracker>(std::move(maps.front()), camera, options));
+  return std::unique_ptr<PoseSource>(std::make_unique<Tracker>(std::move(maps), camera, options));
 }
 
 }  // namespace lararium::vision

@@ -118,9 +118,9 @@ double CornerError(const Rigid3& estimate, const Rigid3& truth) {
   return largest;
 }
 
-class SiftTracker : public testing::Test {
+class Tracker : public testing::Test {
  protected:
-  SiftTracker() : poster_(Poster()), map_(MapOfPoster(poster_)) {}
+  Tracker() : poster_(Poster()), map_(MapOfPoster(poster_)) {}
 
   std::unique_ptr<PoseSource> Create() {
     auto tracker = CreateTracker({map_}, kCamera, {});
@@ -132,7 +132,7 @@ class SiftTracker : public testing::Test {
   std::shared_ptr<const SceneDatabase> map_;
 };
 
-TEST_F(SiftTracker, RegistersAPosterToAFractionOfAPixel) {
+TEST_F(Tracker, RegistersAPosterToAFractionOfAPixel) {
   const auto tracker = Create();
   int64_t index = 0;
   for (const Rigid3& truth :
@@ -146,7 +146,7 @@ TEST_F(SiftTracker, RegistersAPosterToAFractionOfAPixel) {
   }
 }
 
-TEST_F(SiftTracker, SearchesLosesAndRecoversInOneFrame) {
+TEST_F(Tracker, SearchesLosesAndRecoversInOneFrame) {
   const auto tracker = Create();
   const Rigid3 pose = PoseAt(0.1, 0.0, 1.5);
   Frame covered;
@@ -165,7 +165,7 @@ TEST_F(SiftTracker, SearchesLosesAndRecoversInOneFrame) {
   EXPECT_EQ(tracker->Track(Photograph(poster_, pose, 3)).state, TrackState::kTracking);
 }
 
-TEST_F(SiftTracker, SaysThatItIsTooDark) {
+TEST_F(Tracker, SaysThatItIsTooDark) {
   const auto tracker = Create();
   Frame dark;
   dark.grey = cv::Mat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(2));
@@ -173,7 +173,7 @@ TEST_F(SiftTracker, SaysThatItIsTooDark) {
   EXPECT_EQ(tracker->Track(dark).reason, TrackReason::kTooDark);
 }
 
-TEST_F(SiftTracker, FindsNoPoseOfAnotherPlace) {
+TEST_F(Tracker, FindsNoPoseOfAnotherPlace) {
   const auto tracker = Create();
   Random random(9);
   Frame other;
@@ -192,7 +192,7 @@ TEST_F(SiftTracker, FindsNoPoseOfAnotherPlace) {
               tracked.reason == TrackReason::kNoConsistentPose);
 }
 
-TEST_F(SiftTracker, TakesImagesOfAnotherSize) {
+TEST_F(Tracker, TakesImagesOfAnotherSize) {
   const auto tracker = Create();
   const Rigid3 truth = PoseAt(0.2, 0.1, 1.5);
   Frame frame = Photograph(poster_, truth, 0);
@@ -204,7 +204,7 @@ TEST_F(SiftTracker, TakesImagesOfAnotherSize) {
   EXPECT_LT(CornerError(*tracked.camera_from_map, truth), 0.35);
 }
 
-TEST_F(SiftTracker, RefusesWhatItCannotUse) {
+TEST_F(Tracker, RefusesWhatItCannotUse) {
   EXPECT_FALSE(CreateTracker({map_}, CameraModel(), {}).ok());
   EXPECT_FALSE(CreateTracker({std::make_shared<SceneDatabase>()}, kCamera, {}).ok());
   TrackerOptions options;

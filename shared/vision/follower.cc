@@ -1,0 +1,592 @@
+#include "shared/vision/follower.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lararium::vision {
+namespace {
+
+using geometry::CameraModel;
+using geometry::Rigid3;
+
+constexpr uint32_t kUsed = 0xffffffff;
+constexpr double kBorderPx = 6.0;  // a patch's centre keeps from the image's border
+
+// What makes a patch a match.
+constexpr float kLeastCorrelation = 0.7f;
+constexpr double kNoiseInflation = 2.0;  // variance: pixels' noise is not independent
+constexpr double kModelErrorPx = 0.03;   // of warp and interpolation, on the level at hand
+constexpr double kLeastScale = 0.4;
+
+// What makes a pose honest.
+constexpr int kLeastAgreeing = 20;
+constexpr double kLeastShare = 0.15;
+constexpr int kLeastCells = 6;  // of kSpreadColumns x kSpreadRows
+constexpr int kSpreadColumns = 6;
+constexpr int kSpreadRows = 5;
+constexpr double kLargestErrorPx = 3.0;
+
+constexpr int kMostFailures = 4;
+constexpr uint32_t kRestFailed = 20;    // frames until a point may be chosen again
+constexpr uint32_t kRestUseless = 300;  // one without a usable patch
+constexpr uint32_t kAimInterval = 8;    // frames between looks for a better keyframe
+
+// A number of 0..1 that depends on both and looks random.
+float Hash(uint32_t a, uint32_t b) {
+  uint32_t h = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu;
+  h ^= h >> 15;
+  h *= 0xc2b2ae35u;
+  h ^= h >> 13;
+  return static_cast<float>(h >> 8) * 0x1p-24f;
+}
+
+// Raw pixels from the plane z = 1, to first order.
+Eigen::Matrix2d PixelFromPlaneSlope(const CameraModel& camera, const Eigen::Vector2d& plane) {
+  Eigen::Matrix2d slope = Eigen::Vector2d(camera.fx, camera.fy).asDiagonal();
+  if (camera.HasDistortion()) {
+    constexpr double kStep = 1e-4;
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(i);
+      slope.col(i) = (camera.PixelFromPlane(plane + step) - camera.PixelFromPlane(plane - step)) /
+                     (2.0 * kStep);
+    }
+  }
+  return slope;
+}
+
+bool InsideBy(const CameraModel& camera, const Eigen::Vector2d& pixel, double border) {
+  return pixel.x() >= border && pixel.y() >= border && pixel.x() <= camera.width - 1 - border &&
+         pixel.y() <= camera.height - 1 - border;
+}
+
+Rigid3 ExpMotion(const Vector6d& motion) {
+  return {geometry::RotationFromVector(motion.head<3>()), motion.tail<3>()};
+}
+
+int Coarsest(const ImagePyramid& image) {
+  return std::min(image.levels() - 1, CoarsestLevel(image.level(0).cols));
+}
+
+int CellIn(const CameraModel& camera, const Eigen::Vector2d& pixel, int columns, int rows) {
+  const int column =
+      std::clamp(static_cast<int>(pixel.x() * columns / camera.width), 0, columns - 1);
+  const int row = std::clamp(static_cast<int>(pixel.y() * rows / camera.height), 0, rows - 1);
+  return row * columns + column;
+}
+
+}  // namespace
+
+Follower::Follower(std::shared_ptr<const FollowMap> map)
+    : map_(std::move(map)), not_before_(map_->database().points.size(), 0) {
+  slots_.reserve(kMostSlots);
+  sights_.reserve(2 * kMostSlots);
+  matches_.reserve(2 * kMostSlots);
+  pose_.squares.reserve(2 * kMostSlots);
+  seen_.reserve(kMostSlots);
+  depths_.reserve(kMostSlots);
+}
+
+// --- Choosing patches
+
+// How unlike the view of a point is to that of a keyframe: the angle between the
+// lines of sight, and the ratio of the distances. A little chance spreads points
+// over keyframes that are about as good, so that their errors average out.
+float Follower::Unlike(uint32_t keyframe, uint32_t point, const Rigid3& camera_from_map) const {
+  const SceneDatabase& db = map_->database();
+  const Eigen::Vector3d p = db.points[point].cast<double>();
+  const Eigen::Vector3d to_camera = camera_from_map.Center() - p;
+  const Eigen::Vector3d to_keyframe = db.keyframes[keyframe].camera_from_map.Center() - p;
+  const double near = to_camera.norm();
+  const double near_key = to_keyframe.norm();
+  const double sine = to_camera.cross(to_keyframe).norm();
+  const double angle = std::atan2(sine, to_camera.dot(to_keyframe));
+  const double zoom = std::log(near_key / near);
+  // A keyframe from farther away shows less detail: twice as bad as one from nearer.
+  const double scale = zoom > 0.0 ? 0.6 * zoom : -0.3 * zoom;
+  return static_cast<float>(angle + scale) + 0.03f * Hash(keyframe, point);
+}
+
+// Chooses the keyframe of a slot; false where none serves.
+bool Follower::AimSlot(Slot& slot, const Rigid3& camera_from_map) {
+  constexpr float kMostUnlike = 0.8f;
+  uint32_t best = kUsed;
+  float least = kMostUnlike;
+  for (const uint32_t keyframe : map_->KeyframesOf(slot.point)) {
+    const float unlike = Unlike(keyframe, slot.point, camera_from_map);
+    if (unlike < least) {
+      least = unlike;
+      best = keyframe;
+    }
+  }
+  if (best == kUsed) {
+    return false;
+  }
+  slot.choice = least;
+  if (best == slot.keyframe && slot.tangent.squaredNorm() > 0.0) {
+    return true;
+  }
+  const SceneDatabase& db = map_->database();
+  const Eigen::Vector3d p = db.keyframes[best].camera_from_map * slot.point_in_map;
+  if (p.z() <= 0.0) {
+    return false;
+  }
+  slot.keyframe = best;
+  slot.key_plane = p.hnormalized();
+  slot.key_pixel = db.camera.PixelFromPlane(slot.key_plane);
+  slot.tangent = map_->PlaneAt(best, slot.point);
+  slot.plane_from_key_pixel = PixelFromPlaneSlope(db.camera, slot.key_plane).inverse();
+  return InsideBy(db.camera, slot.key_pixel, kBorderPx);
+}
+
+void Follower::RankKeyframes(const Rigid3& camera_from_map) {
+  const SceneDatabase& db = map_->database();
+  std::array<double, kNearKeyframes> scores;
+  near_count_ = 0;
+  const Eigen::Vector3d centre = camera_from_map.Center();
+  const Eigen::Vector3d axis = camera_from_map.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  for (uint32_t k = 0; k < db.keyframes.size(); ++k) {
+    const double depth = map_->median_depth(k);
+    if (depth <= 0.0 || map_->pyramid(k).levels() == 0) {
+      continue;
+    }
+    const Rigid3& pose = db.keyframes[k].camera_from_map;
+    const Eigen::Vector3d key_axis = pose.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+    const double score = (pose.Center() - centre).norm() / depth +
+                         std::acos(std::clamp(axis.dot(key_axis), -1.0, 1.0));
+    size_t place = near_count_ < kNearKeyframes ? near_count_++ : kNearKeyframes;
+    if (place == kNearKeyframes) {
+      if (score >= scores[kNearKeyframes - 1]) {
+        continue;
+      }
+      place = kNearKeyframes - 1;
+    }
+    while (place > 0 && scores[place - 1] > score) {
+      scores[place] = scores[place - 1];
+      near_[place] = near_[place - 1];
+      --place;
+    }
+    scores[place] = score;
+    near_[place] = k;
+  }
+}
+
+void Follower::CountCells(const CameraModel& camera, const Rigid3& camera_from_map) {
+  cell_counts_.fill(0);
+  for (const Slot& slot : slots_) {
+    const auto pixel = camera.Project(camera_from_map * slot.point_in_map);
+    if (pixel && camera.Contains(*pixel)) {
+      ++cell_counts_[static_cast<size_t>(CellIn(camera, *pixel, kColumns, kRows))];
+    }
+  }
+}
+
+// Adds at most one point of the keyframe to each cell that holds fewer than quota.
+void Follower::AddFrom(uint32_t keyframe,
+                       const CameraModel& camera,
+                       const Rigid3& camera_from_map,
+                       int quota) {
+  struct Candidate {
+    uint32_t point = kUsed;
+    float merit = -std::numeric_limits<float>::infinity();
+  };
+  std::array<Candidate, kCells> best;
+  const SceneDatabase& db = map_->database();
+  const Eigen::Matrix3f rotation = camera_from_map.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = camera_from_map.translation.cast<float>();
+  const auto fx = static_cast<float>(camera.fx);
+  const auto fy = static_cast<float>(camera.fy);
+  const auto cx = static_cast<float>(camera.cx);
+  const auto cy = static_cast<float>(camera.cy);
+  for (const Observation& o : map_->ObservationsIn(keyframe)) {
+    if (not_before_[o.point] > now_) {
+      continue;
+    }
+    const Eigen::Vector3f p = rotation * db.points[o.point] + translation;
+    if (p.z() <= 0.0f) {
+      continue;
+    }
+    Eigen::Vector2d pixel(fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy);
+    if (camera.HasDistortion()) {
+      pixel = camera.PixelFromPlane(p.hnormalized().cast<double>());
+    }
+    if (!InsideBy(camera, pixel, kBorderPx)) {
+      continue;
+    }
+    const auto cell = static_cast<size_t>(CellIn(camera, pixel, kColumns, kRows));
+    if (cell_counts_[cell] >= quota) {
+      continue;
+    }
+    // Seen often, hence well known; of fine structure.
+    const float merit = std::log2(static_cast<float>(db.observation_counts[o.point])) -
+                        std::log2(std::max(o.scale, 1.0f));
+    if (merit > best[cell].merit) {
+      best[cell] = {o.point, merit};
+    }
+  }
+  for (size_t cell = 0; cell < kCells && slots_.size() < kMostSlots; ++cell) {
+    if (best[cell].point == kUsed) {
+      continue;
+    }
+    Slot slot;
+    slot.point = best[cell].point;
+    slot.point_in_map = db.points[slot.point].cast<double>();
+    View view;
+    PatchTemplate patch;
+    if (!AimSlot(slot, camera_from_map) || !ViewSlot(camera, camera_from_map, slot, view) ||
+        !SampleSlot(slot, view, 0, patch)) {
+      not_before_[slot.point] = now_ + kRestUseless;
+      continue;
+    }
+    not_before_[slot.point] = kUsed;
+    slots_.push_back(slot);
+    ++cell_counts_[cell];
+  }
+}
+
+void Follower::RemoveSlot(size_t index, uint32_t rest) {
+  not_before_[slots_[index].point] = now_ + rest;
+  slots_[index] = slots_.back();
+  slots_.pop_back();
+}
+
+void Follower::Start(const CameraModel& camera, const Rigid3& camera_from_map) {
+  while (!slots_.empty()) {
+    RemoveSlot(slots_.size() - 1, 0);
+  }
+  has_motion_ = false;
+  has_motion_before_ = false;
+  RankKeyframes(camera_from_map);
+  CountCells(camera, camera_from_map);
+  for (int quota = 1; quota <= 3; ++quota) {
+    for (size_t i = 0; i < near_count_; ++i) {
+      AddFrom(near_[i], camera, camera_from_map, quota);
+    }
+  }
+}
+
+// --- Where and how a patch is seen
+
+bool Follower::ViewSlot(const CameraModel& camera,
+                        const Rigid3& camera_from_map,
+                        const Slot& slot,
+                        View& view) const {
+  const Eigen::Vector3d p = camera_from_map * slot.point_in_map;
+  if (p.z() <= 1e-9) {
+    return false;
+  }
+  const Eigen::Vector2d plane = p.hnormalized();
+  view.pixel = camera.PixelFromPlane(plane);
+  if (!InsideBy(camera, view.pixel, kBorderPx)) {
+    return false;
+  }
+  // The tangent plane maps the keyframe's plane z = 1 to the camera's by the
+  // homography R + t n^T.
+  const Rigid3 camera_from_key =
+      camera_from_map * map_->database().keyframes[slot.keyframe].camera_from_map.Inverse();
+  const Eigen::Matrix3d homography = camera_from_key.rotation.toRotationMatrix() +
+                                     camera_from_key.translation * slot.tangent.transpose();
+  const double z = homography.row(2).dot(slot.key_plane.homogeneous());
+  if (z <= 1e-9) {
+    return false;
+  }
+  const Eigen::Matrix2d plane_slope =
+      (homography.topLeftCorner<2, 2>() - plane * homography.bottomLeftCorner<1, 2>()) / z;
+  const Eigen::Matrix2d pixel_from_key =
+      PixelFromPlaneSlope(camera, plane) * plane_slope * slot.plane_from_key_pixel;
+  // Turned over, seen from its edge, or much larger than in the keyframe.
+  const double area = pixel_from_key.determinant();
+  if (!(area > 0.05 && area < 8.0)) {
+    return false;
+  }
+  view.key_from_pixel = pixel_from_key.inverse();
+  view.blur.setZero();
+  if (has_motion_) {
+    // From half the exposure before to half of it after.
+    const Eigen::Vector3d moved = exposure_ * p;
+    if (moved.z() > 1e-9) {
+      view.blur = shutter_ * (camera.PixelFromPlane(moved.hnormalized()) - view.pixel);
+    }
+  }
+  return true;
+}
+
+bool Follower::SampleSlot(const Slot& slot,
+                          const View& view,
+                          int level,
+                          PatchTemplate& patch) const {
+  const ImagePyramid& pyramid = map_->pyramid(slot.keyframe);
+  // The keyframe's level whose pixels are about as large.
+  const double size = std::sqrt(view.key_from_pixel.determinant()) * (1 << level);
+  const int key_level =
+      std::clamp(static_cast<int>(std::lround(std::log2(size))), 0, pyramid.levels() - 1);
+  const double shrink = 1.0 / (1 << key_level);
+  PatchWarp warp;
+  warp.centre = LevelFromPixel(slot.key_pixel, key_level).cast<float>();
+  warp.source_from_patch = (shrink * (1 << level) * view.key_from_pixel).cast<float>();
+  // Less than a pixel of blur hardly changes what is seen.
+  if (view.blur.squaredNorm() > std::pow(1 << level, 2)) {
+    warp.blur = (shrink * view.key_from_pixel * view.blur).cast<float>();
+  }
+  return patch.Sample(pyramid.level(key_level), warp);
+}
+
+// --- Finding the pose
+
+void Follower::AddMatch(const CameraModel& camera, uint32_t slot, int level, const PatchFit& fit) {
+  const double size = 1 << level;
+  const Eigen::Vector2d pixel = PixelFromLevel(Eigen::Vector2d(fit.centre.cast<double>()), level);
+  const Eigen::Matrix2d information =
+      fit.information.cast<double>() / (kNoiseInflation * size * size);
+  // Inverse of (information^-1 + error^2), which stands edges.
+  const double error2 = std::pow(kModelErrorPx * size, 2);
+  const Eigen::Matrix2d softened =
+      information * (Eigen::Matrix2d::Identity() + error2 * information).inverse();
+  Eigen::Matrix2d symmetric = 0.5 * (softened + softened.transpose());
+  symmetric.diagonal().array() += 1e-9;
+  PatchMatch& match = matches_.emplace_back();
+  match.point = slots_[slot].point_in_map;
+  match.plane = camera.PlaneFromPixel(pixel);
+  match.whitening = symmetric.llt().matrixU();
+  match.whitening.col(0) *= camera.fx;
+  match.whitening.col(1) *= camera.fy;
+}
+
+bool Follower::RunLevel(const ImagePyramid& image,
+                        const CameraModel& camera,
+                        int level,
+                        int stride,
+                        Rigid3& camera_from_map,
+                        int& expected) {
+  sights_.clear();
+  matches_.clear();
+  expected = 0;
+  PatchTemplate patch;
+  const PatchSearch search{.iterations = 10,
+                           .largest_shift = level == 0 ? 2.0f : 3.5f,
+                           .converged = level == 0 ? 0.01f : 0.05f};
+  for (auto i = static_cast<uint32_t>(now_ % static_cast<uint32_t>(stride)); i < slots_.size();
+       i += static_cast<uint32_t>(stride)) {
+    View view;
+    Sight sight;
+    sight.slot = i;
+    if (!ViewSlot(camera, camera_from_map, slots_[i], view) ||
+        !SampleSlot(slots_[i], view, level, patch)) {
+      continue;
+    }
+    ++expected;
+    const Eigen::Vector2f start = LevelFromPixel(view.pixel, level).cast<float>();
+    if (!AlignPatch(image.level(level), patch, start, search, sight.fit) ||
+        sight.fit.correlation < kLeastCorrelation) {
+      continue;
+    }
+    sights_.push_back(sight);
+    AddMatch(camera, i, level, sight.fit);
+  }
+  if (!EstimatePatchPose(matches_, camera_from_map, kLeastScale, pose_)) {
+    return false;
+  }
+  camera_from_map = pose_.camera_from_map;
+  return true;
+}
+
+bool Follower::SearchLevel(const ImagePyramid& image,
+                           const CameraModel& camera,
+                           int level,
+                           int stride,
+                           Rigid3& camera_from_map) {
+  constexpr int kReach = 5;
+  matches_.clear();
+  PatchTemplate patch;
+  for (auto i = uint32_t{0}; i < slots_.size(); i += static_cast<uint32_t>(stride)) {
+    View view;
+    if (!ViewSlot(camera, camera_from_map, slots_[i], view) ||
+        !SampleSlot(slots_[i], view, level, patch)) {
+      continue;
+    }
+    const Eigen::Vector2f centre = LevelFromPixel(view.pixel, level).cast<float>();
+    float highest = kLeastCorrelation;
+    Eigen::Vector2f best = centre;
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+      for (int dx = -kReach; dx <= kReach; ++dx) {
+        const Eigen::Vector2f place = centre + Eigen::Vector2f(dx, dy);
+        const float correlation = CorrelatePatch(image.level(level), patch, place);
+        if (correlation > highest) {
+          highest = correlation;
+          best = place;
+        }
+      }
+    }
+    PatchFit fit;
+    if (highest > kLeastCorrelation &&
+        AlignPatch(image.level(level), patch, best, {.largest_shift = 1.5f}, fit)) {
+      AddMatch(camera, i, level, fit);
+    }
+  }
+  if (!EstimatePatchPose(matches_, camera_from_map, kLeastScale, pose_)) {
+    return false;
+  }
+  camera_from_map = pose_.camera_from_map;
+  return true;
+}
+
+// The prediction at which the patches look most alike on the coarsest level.
+Rigid3 Follower::BestPrediction(const ImagePyramid& image,
+                                const CameraModel& camera,
+                                std::span<const Rigid3> predictions) {
+  if (predictions.size() == 1) {
+    return predictions[0];
+  }
+  const int level = Coarsest(image);
+  constexpr uint32_t kSample = 40;
+  const auto stride = std::max(uint32_t{1}, static_cast<uint32_t>(slots_.size()) / kSample);
+  size_t best = 0;
+  float highest = -1.0f;
+  for (size_t candidate = 0; candidate < predictions.size(); ++candidate) {
+    float sum = 0.0f;
+    SetMotion(predictions[candidate]);
+    for (uint32_t i = 0; i < slots_.size(); i += stride) {
+      View view;
+      PatchTemplate patch;
+      if (ViewSlot(camera, predictions[candidate], slots_[i], view) &&
+          SampleSlot(slots_[i], view, level, patch)) {
+        sum += std::max(0.0f, CorrelatePatch(image.level(level), patch,
+                                             LevelFromPixel(view.pixel, level).cast<float>()));
+      }
+    }
+    if (sum > highest) {
+      highest = sum;
+      best = candidate;
+    }
+  }
+  return predictions[best];
+}
+
+// The motion during a frame's time around this frame, from the motions since the
+// frame before and before that.
+void Follower::SetMotion(const Rigid3& camera_from_map) {
+  if (!has_motion_) {
+    return;
+  }
+  const Rigid3 since = camera_from_map * before_.Inverse();
+  motion_.head<3>() = geometry::VectorFromRotation(since.rotation) / frames_;
+  motion_.tail<3>() = since.translation / frames_;
+  const Vector6d now =
+      has_motion_before_ ? Vector6d(1.5 * motion_ - 0.5 * motion_before_) : motion_;
+  exposure_ = ExpMotion(now);
+}
+
+FollowedPose Follower::Follow(const ImagePyramid& image,
+                              const CameraModel& camera,
+                              std::span<const Rigid3> predictions,
+                              const Rigid3* before,
+                              double frames) {
+  FollowedPose result;
+  ++now_;
+  has_motion_ = before != nullptr;
+  if (before != nullptr) {
+    before_ = *before;
+    frames_ = frames;
+  }
+  Rigid3 pose = BestPrediction(image, camera, predictions);
+  const int coarsest = Coarsest(image);
+  for (int level = coarsest; level >= 0; --level) {
+    SetMotion(pose);
+    const int wanted = level == coarsest ? 60 : level == 0 ? 1000 : 100;
+    const int stride = std::max(1, static_cast<int>(slots_.size()) / wanted);
+    Rigid3 moved = pose;
+    bool found = RunLevel(image, camera, level, stride, moved, result.expected);
+    if (level == coarsest && (!found || 3 * pose_.inliers < result.expected)) {
+      Rigid3 searched = pose;
+      const int inliers = found ? pose_.inliers : 0;
+      if (SearchLevel(image, camera, level, stride, searched) && pose_.inliers > inliers) {
+        moved = searched;
+        found = true;
+      }
+    }
+    if (found) {
+      pose = moved;
+    } else if (level == 0) {
+      return result;
+    }
+  }
+  result.camera_from_map = pose;
+  result.evidence.covariance = pose_.covariance;
+  result.agreeing = pose_.inliers;
+  Judge(camera, result);
+  if (result.honest) {
+    Settle(camera, result);
+  }
+  return result;
+}
+
+void Follower::Judge(const CameraModel& camera, FollowedPose& pose) {
+  std::array<bool, kSpreadColumns * kSpreadRows> covered{};
+  int cells = 0;
+  depths_.clear();
+  for (size_t i = 0; i < sights_.size(); ++i) {
+    if (pose_.squares[i] >= kInlierSquare) {
+      continue;
+    }
+    const Eigen::Vector2d pixel = sights_[i].fit.centre.cast<double>();
+    bool& cell = covered[static_cast<size_t>(CellIn(camera, pixel, kSpreadColumns, kSpreadRows))];
+    cells += cell ? 0 : 1;
+    cell = true;
+    depths_.push_back((pose.camera_from_map * matches_[i].point).z());
+  }
+  if (depths_.empty()) {
+    return;
+  }
+  std::sort(depths_.begin(), depths_.end());
+  for (size_t i = 0; i < pose.evidence.depths.size(); ++i) {
+    pose.evidence.depths[i] = depths_[(2 * i + 1) * depths_.size() / 6];
+  }
+  pose.evidence.inliers = pose.agreeing;
+  const double variance = ComputeRegistrationVariance(camera, pose.evidence).Sum();
+  pose.expected_error_px = std::sqrt(variance);
+  pose.honest = pose.agreeing >= kLeastAgreeing && pose.share() >= kLeastShare &&
+                cells >= kLeastCells && pose.expected_error_px < kLargestErrorPx;
+}
+
+// Takes note of who agreed, lets go of who did not, and looks for others.
+void Follower::Settle(const CameraModel& camera, const FollowedPose& pose) {
+  SetMotion(pose.camera_from_map);
+  has_motion_before_ = has_motion_;
+  motion_before_ = motion_;
+  seen_.clear();
+  for (Slot& slot : slots_) {
+    ++slot.failures;
+  }
+  for (size_t i = 0; i < sights_.size(); ++i) {
+    if (pose_.squares[i] < kInlierSquare) {
+      Slot& slot = slots_[sights_[i].slot];
+      slot.failures = 0;
+      slot.proven = true;
+      seen_.push_back({slot.point, sights_[i].fit.centre});
+    }
+  }
+  for (size_t i = slots_.size(); i-- > 0;) {
+    Slot& slot = slots_[i];
+    const auto pixel = camera.Project(pose.camera_from_map * slot.point_in_map);
+    if (!pixel || !camera.Contains(*pixel)) {
+      RemoveSlot(i, 0);
+    } else if (slot.failures >= kMostFailures) {
+      RemoveSlot(i, kRestFailed);
+    } else if ((slot.point + now_) % kAimInterval == 0 && !AimSlot(slot, pose.camera_from_map)) {
+      RemoveSlot(i, kRestFailed);
+    }
+  }
+  CountCells(camera, pose.camera_from_map);
+  if (next_near_ >= near_count_) {
+    RankKeyframes(pose.camera_from_map);
+    next_near_ = 0;
+  }
+  if (near_count_ > 0 && slots_.size() < kMostSlots) {
+    AddFrom(near_[next_near_++], camera, pose.camera_from_map,
+            slots_.size() < kMostSlots / 2 ? 2 : 1);
+  }
+}
+
+}  // namespace lararium::vision

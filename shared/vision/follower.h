@@ -1,0 +1,163 @@
+#pragma once
+
+// Follows a place from frame to frame without detecting features: patches of map
+// points, warped from the keyframes that saw them most alike, are aligned with the
+// image from coarse to fine. The keyframes never change, so nothing drifts.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "shared/geometry/camera_model.h"
+#include "shared/geometry/transform.h"
+#include "shared/vision/confidence.h"
+#include "shared/vision/follow_map.h"
+#include "shared/vision/image_pyramid.h"
+#include "shared/vision/patch.h"
+#include "shared/vision/patch_pose.h"
+
+namespace lararium::vision {
+
+// A pose that patches agree on.
+struct FollowedPose {
+  bool honest = false;  // enough of what should be seen is seen, all over the image
+  geometry::Rigid3 camera_from_map;
+  PoseEvidence evidence;
+  int expected = 0;  // patches that should be seen
+  int agreeing = 0;  // that are seen where the pose puts them
+  // One sigma of where the pose puts what is visible, root mean square over the image.
+  double expected_error_px = 0.0;
+  double share() const { return expected > 0 ? static_cast<double>(agreeing) / expected : 0.0; }
+};
+
+// A map point that was seen where the pose puts it.
+struct SeenPoint {
+  uint32_t point = 0;
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
+};
+
+// Allocates nothing between constructions, however long it runs.
+class Follower {
+ public:
+  explicit Follower(std::shared_ptr<const FollowMap> map);
+
+  // Chooses patches anew for a pose that was found without a prior. camera: of the
+  // images to come.
+  void Start(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_map);
+
+  // Finds the pose of an image near one of the predictions. before: the pose of the
+  // image before, frames ago; nullptr where none is known. Changes which patches are
+  // looked for next only if the pose is honest.
+  FollowedPose Follow(const ImagePyramid& image,
+                      const geometry::CameraModel& camera,
+                      std::span<const geometry::Rigid3> predictions,
+                      const geometry::Rigid3* before,
+                      double frames);
+
+  // Of the last honest pose.
+  std::span<const SeenPoint> seen() const { return seen_; }
+
+ private:
+  // A patch that is looked for in every frame.
+  struct Slot {
+    uint32_t point = 0;
+    uint32_t keyframe = 0;
+    Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
+    Eigen::Vector2d key_plane = Eigen::Vector2d::Zero();  // of the point, on z = 1
+    Eigen::Vector2d key_pixel = Eigen::Vector2d::Zero();  // raw
+    Eigen::Vector3d tangent = Eigen::Vector3d::Zero();    // FollowMap::PlaneAt
+    Eigen::Matrix2d plane_from_key_pixel = Eigen::Matrix2d::Zero();
+    float choice = 0.0f;  // how unlike its keyframe the view was when it was chosen
+    int failures = 0;     // in a row
+    bool proven = false;  // agreed at least once
+  };
+
+  struct Sight {  // of a slot, in one frame and level
+    uint32_t slot = 0;
+    PatchFit fit;
+  };
+
+  // Where a slot is expected, and how its patch lies in its keyframe.
+  struct View {
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d key_from_pixel = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d blur = Eigen::Vector2d::Zero();  // pixels
+  };
+
+  bool ViewSlot(const geometry::CameraModel& camera,
+                const geometry::Rigid3& camera_from_map,
+                const Slot& slot,
+                View& view) const;
+  bool SampleSlot(const Slot& slot, const View& view, int level, PatchTemplate& patch) const;
+  // Aligns every stride-th slot on a level and moves the pose. Counts in expected
+  // what should be seen.
+  bool RunLevel(const ImagePyramid& image,
+                const geometry::CameraModel& camera,
+                int level,
+                int stride,
+                geometry::Rigid3& camera_from_map,
+                int& expected);
+  // Looks for whole pixels around, on the coarsest level, where alignment failed.
+  bool SearchLevel(const ImagePyramid& image,
+                   const geometry::CameraModel& camera,
+                   int level,
+                   int stride,
+                   geometry::Rigid3& camera_from_map);
+  void AddMatch(const geometry::CameraModel& camera, uint32_t slot, int level, const PatchFit& fit);
+  geometry::Rigid3 BestPrediction(const ImagePyramid& image,
+                                  const geometry::CameraModel& camera,
+                                  std::span<const geometry::Rigid3> predictions);
+  void SetMotion(const geometry::Rigid3& camera_from_map);
+
+  void Judge(const geometry::CameraModel& camera, FollowedPose& pose);
+  void Settle(const geometry::CameraModel& camera, const FollowedPose& pose);
+
+  // Choosing patches.
+  float Unlike(uint32_t keyframe, uint32_t point, const geometry::Rigid3& camera_from_map) const;
+  bool AimSlot(Slot& slot, const geometry::Rigid3& camera_from_map);
+  void RankKeyframes(const geometry::Rigid3& camera_from_map);
+  void AddFrom(uint32_t keyframe,
+               const geometry::CameraModel& camera,
+               const geometry::Rigid3& camera_from_map,
+               int quota);
+  void CountCells(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_map);
+  void RemoveSlot(size_t index, uint32_t rest);
+
+  static constexpr int kColumns = 20;
+  static constexpr int kRows = 15;
+  static constexpr int kCells = kColumns * kRows;
+  static constexpr size_t kMostSlots = 300;
+  static constexpr size_t kNearKeyframes = 6;
+
+  std::shared_ptr<const FollowMap> map_;
+  uint32_t now_ = 0;  // counts frames
+  std::vector<Slot> slots_;
+  std::vector<uint32_t> not_before_;  // [points]: now_ from which it may be chosen; kUsed: is
+  std::array<uint8_t, kCells> cell_counts_{};
+  std::array<uint32_t, kNearKeyframes> near_{};
+  size_t near_count_ = 0;
+  size_t next_near_ = 0;
+
+  // Of the exposure: the motion of the camera during one frame, and the part of the
+  // frame's time for which the shutter is open.
+  bool has_motion_ = false;
+  geometry::Rigid3 before_;
+  double frames_ = 1.0;
+  Eigen::Matrix<double, 6, 1> motion_ = Eigen::Matrix<double, 6, 1>::Zero();  // of this frame
+  Eigen::Matrix<double, 6, 1> motion_before_ = Eigen::Matrix<double, 6, 1>::Zero();
+  bool has_motion_before_ = false;
+  geometry::Rigid3 exposure_;  // camera at the end of a whole frame's exposure from its start
+  double shutter_ = 0.5;
+
+  // Working memory.
+  std::vector<Sight> sights_;
+  std::vector<PatchMatch> matches_;
+  PatchPose pose_;
+  std::vector<SeenPoint> seen_;
+  std::vector<double> depths_;
+};
+
+}  // namespace lararium::vision

@@ -1,0 +1,236 @@
+#include "shared/vision/patch.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace lararium::vision {
+namespace {
+
+constexpr int kBordered = kPatchSize + 2;
+constexpr float kLeastVariance = 4.0f;  // grey levels^2, of a patch that shows something
+constexpr float kLeastNoise2 = 1.0f;    // grey levels^2: rounding, compression
+constexpr int kMostBlurSamples = 12;
+
+float Bilinear(const uint8_t* base, size_t step, float x, float y) {
+  const int column = static_cast<int>(x);
+  const int row = static_cast<int>(y);
+  const float fx = x - static_cast<float>(column);
+  const float fy = y - static_cast<float>(row);
+  const uint8_t* p = base + static_cast<size_t>(row) * step + column;
+  const float top = p[0] + fx * (p[1] - p[0]);
+  const float bottom = p[step] + fx * (p[step + 1] - p[step]);
+  return top + fy * (bottom - top);
+}
+
+// Adds the warped samples, shifted by shift, to out.
+void AddSamples(const cv::Mat& source,
+                const PatchWarp& warp,
+                const Eigen::Vector2f& shift,
+                std::array<float, kBordered * kBordered>& out) {
+  constexpr float kFirst = -0.5f * (kBordered - 1);
+  const Eigen::Vector2f column_step = warp.source_from_patch.col(0);
+  for (int row = 0; row < kBordered; ++row) {
+    const Eigen::Vector2f begin =
+        warp.centre + shift +
+        warp.source_from_patch * Eigen::Vector2f(kFirst, kFirst + static_cast<float>(row));
+    for (int column = 0; column < kBordered; ++column) {
+      const float c = static_cast<float>(column);
+      out[static_cast<size_t>(row * kBordered + column)] +=
+          Bilinear(source.data, source.step, begin.x() + c * column_step.x(),
+                   begin.y() + c * column_step.y());
+    }
+  }
+}
+
+// All samples and their right and lower neighbours lie inside.
+bool Inside(const cv::Mat& source, const PatchWarp& warp) {
+  const Eigen::Array2f reach =
+      0.5f * (kBordered - 1) * warp.source_from_patch.cwiseAbs().rowwise().sum().array() +
+      0.5f * warp.blur.array().abs();
+  const Eigen::Array2f low = warp.centre.array() - reach;
+  const Eigen::Array2f high = warp.centre.array() + reach;
+  return low.x() >= 0.0f && low.y() >= 0.0f && high.x() < static_cast<float>(source.cols - 1) &&
+         high.y() < static_cast<float>(source.rows - 1);
+}
+
+float Sum(const std::array<float, kPatchArea>& a) {
+  std::array<float, kPatchSize> lanes{};
+  for (int i = 0; i < kPatchArea; ++i) {
+    lanes[static_cast<size_t>(i % kPatchSize)] += a[static_cast<size_t>(i)];
+  }
+  float sum = 0.0f;
+  for (const float lane : lanes) {
+    sum += lane;
+  }
+  return sum;
+}
+
+float Dot(const std::array<float, kPatchArea>& a, const std::array<float, kPatchArea>& b) {
+  std::array<float, kPatchArea> products;
+  for (size_t i = 0; i < kPatchArea; ++i) {
+    products[i] = a[i] * b[i];
+  }
+  return Sum(products);
+}
+
+// Takes out of derivative what lies along 1 and along values (of mean 0).
+void Eliminate(const std::array<float, kPatchArea>& values,
+               float energy,
+               std::array<float, kPatchArea>& derivative) {
+  const float mean = Sum(derivative) / kPatchArea;
+  const float along = Dot(derivative, values) / energy;
+  for (size_t i = 0; i < kPatchArea; ++i) {
+    derivative[i] -= mean + along * values[i];
+  }
+}
+
+// Sums over the patch that alignment needs, of the image at a place.
+struct Products {
+  float sum = 0.0f;
+  float squares = 0.0f;
+  float values = 0.0f;  // times template values
+  float dx = 0.0f;      // times template derivatives
+  float dy = 0.0f;
+};
+
+bool Fits(const cv::Mat& image, const Eigen::Vector2f& centre) {
+  return centre.x() >= kPatchHalf && centre.y() >= kPatchHalf &&
+         centre.x() + kPatchHalf < static_cast<float>(image.cols - 1) &&
+         centre.y() + kPatchHalf < static_cast<float>(image.rows - 1);
+}
+
+Products Multiply(const cv::Mat& image, const PatchTemplate& patch, const Eigen::Vector2f& centre) {
+  const float left = centre.x() - kPatchHalf;
+  const float top = centre.y() - kPatchHalf;
+  const int column = static_cast<int>(left);
+  const int row = static_cast<int>(top);
+  const float fx = left - static_cast<float>(column);
+  const float fy = top - static_cast<float>(row);
+  const float w00 = (1.0f - fx) * (1.0f - fy);
+  const float w01 = fx * (1.0f - fy);
+  const float w10 = (1.0f - fx) * fy;
+  const float w11 = fx * fy;
+  const uint8_t* upper = image.ptr<uint8_t>(row) + column;
+  // One accumulator for each column: sums in vector registers.
+  std::array<float, kPatchSize> sum{};
+  std::array<float, kPatchSize> squares{};
+  std::array<float, kPatchSize> values{};
+  std::array<float, kPatchSize> dx{};
+  std::array<float, kPatchSize> dy{};
+  for (size_t r = 0; r < kPatchSize; ++r) {
+    const uint8_t* lower = upper + image.step;
+    for (size_t c = 0; c < kPatchSize; ++c) {
+      const float v = w00 * upper[c] + w01 * upper[c + 1] + w10 * lower[c] + w11 * lower[c + 1];
+      const size_t i = r * kPatchSize + c;
+      sum[c] += v;
+      squares[c] += v * v;
+      values[c] += v * patch.values[i];
+      dx[c] += v * patch.dx[i];
+      dy[c] += v * patch.dy[i];
+    }
+    upper = lower;
+  }
+  Products products;
+  for (size_t c = 0; c < kPatchSize; ++c) {
+    products.sum += sum[c];
+    products.squares += squares[c];
+    products.values += values[c];
+    products.dx += dx[c];
+    products.dy += dy[c];
+  }
+  return products;
+}
+
+// Sum of squares about the mean.
+float Energy(const Products& p) { return std::max(p.squares - p.sum * p.sum / kPatchArea, 1e-3f); }
+
+}  // namespace
+
+bool PatchTemplate::Sample(const cv::Mat& source, const PatchWarp& warp) {
+  if (!Inside(source, warp)) {
+    return false;
+  }
+  std::array<float, kBordered * kBordered> samples{};
+  const float length = warp.blur.norm();
+  // Samples no farther apart than a pixel of the source.
+  const int count = std::clamp(static_cast<int>(std::ceil(length)), 1, kMostBlurSamples);
+  for (int i = 0; i < count; ++i) {
+    const float place = (static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 0.5f;
+    AddSamples(source, warp, place * warp.blur, samples);
+  }
+  const float share = 1.0f / static_cast<float>(count);
+  for (size_t r = 0; r < kPatchSize; ++r) {
+    for (size_t c = 0; c < kPatchSize; ++c) {
+      const size_t s = (r + 1) * kBordered + c + 1;
+      const size_t i = r * kPatchSize + c;
+      values[i] = share * samples[s];
+      dx[i] = 0.5f * share * (samples[s + 1] - samples[s - 1]);
+      dy[i] = 0.5f * share * (samples[s + kBordered] - samples[s - kBordered]);
+    }
+  }
+  const float mean = Sum(values) / kPatchArea;
+  for (float& value : values) {
+    value -= mean;
+  }
+  energy = Dot(values, values);
+  if (energy < kLeastVariance * kPatchArea) {
+    return false;
+  }
+  Eliminate(values, energy, dx);
+  Eliminate(values, energy, dy);
+  const float xx = Dot(dx, dx);
+  const float xy = Dot(dx, dy);
+  const float yy = Dot(dy, dy);
+  gradients << xx, xy, xy, yy;
+  // Along an edge nothing tells the place: the damping keeps it where it was.
+  constexpr float kDamping = 0.01f;
+  Eigen::Matrix2f damped = gradients;
+  damped.diagonal().array() += kDamping * (xx + yy) + 1.0f;
+  step = damped.inverse();
+  return true;
+}
+
+bool AlignPatch(const cv::Mat& image,
+                const PatchTemplate& patch,
+                const Eigen::Vector2f& start,
+                const PatchSearch& search,
+                PatchFit& fit) {
+  fit.centre = start;
+  for (int iteration = 0; iteration < search.iterations; ++iteration) {
+    if (!Fits(image, fit.centre)) {
+      return false;
+    }
+    const Products products = Multiply(image, patch, fit.centre);
+    fit.gain = products.values / patch.energy;
+    if (fit.gain <= 0.02f) {
+      return false;
+    }
+    const float energy = Energy(products);
+    const float explained = fit.gain * fit.gain * patch.energy;
+    fit.correlation = std::sqrt(std::min(explained / energy, 1.0f));
+    fit.noise2 = std::max((energy - explained) / (kPatchArea - 4), kLeastNoise2);
+    const Eigen::Vector2f shift = patch.step * Eigen::Vector2f(products.dx, products.dy) / fit.gain;
+    fit.centre -= shift;
+    if ((fit.centre - start).squaredNorm() > search.largest_shift * search.largest_shift) {
+      return false;
+    }
+    if (shift.squaredNorm() < search.converged * search.converged) {
+      break;
+    }
+  }
+  fit.information = (fit.gain * fit.gain / fit.noise2) * patch.gradients;
+  return true;
+}
+
+float CorrelatePatch(const cv::Mat& image,
+                     const PatchTemplate& patch,
+                     const Eigen::Vector2f& centre) {
+  if (!Fits(image, centre)) {
+    return -1.0f;
+  }
+  const Products products = Multiply(image, patch, centre);
+  return products.values / std::sqrt(patch.energy * Energy(products));
+}
+
+}  // namespace lararium::vision

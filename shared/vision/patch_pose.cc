@@ -1,0 +1,106 @@
+#include "shared/vision/patch_pose.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lararium::vision {
+namespace {
+
+using geometry::Rigid3;
+
+constexpr int kIterations = 10;
+constexpr double kTukey2 = 4.685 * 4.685;  // 95 % efficiency for normal noise
+constexpr size_t kSampleMost = 512;        // squares looked at for the median
+
+// Square of the whitened residual; infinite behind the camera.
+double Square(const Rigid3& pose, const PatchMatch& match) {
+  Eigen::Vector2d residual;
+  if (!PlaneResidual(pose, {match.point, match.plane}, residual, nullptr)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return (match.whitening * residual).squaredNorm();
+}
+
+// Standard deviation along one axis: the median square of a two-dimensional normal
+// distribution is 2 ln 2 sigma^2.
+double ScaleOf(std::span<const double> squares) {
+  std::array<double, kSampleMost> sample{};
+  const size_t stride = (squares.size() + kSampleMost - 1) / kSampleMost;
+  size_t count = 0;
+  for (size_t i = 0; i < squares.size(); i += stride) {
+    sample[count++] = squares[i];
+  }
+  const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(sample.begin(), middle, sample.begin() + static_cast<std::ptrdiff_t>(count));
+  return std::sqrt(*middle / (2.0 * std::log(2.0)));
+}
+
+}  // namespace
+
+bool EstimatePatchPose(std::span<const PatchMatch> matches,
+                       const Rigid3& start,
+                       double least_scale,
+                       PatchPose& pose) {
+  pose.camera_from_map = start;
+  pose.squares.resize(matches.size());
+  pose.inliers = 0;
+  pose.covariance.setZero();
+  if (matches.size() < 4) {
+    return false;
+  }
+  Matrix6d information;
+  for (int iteration = 0;; ++iteration) {
+    for (size_t i = 0; i < matches.size(); ++i) {
+      pose.squares[i] = Square(pose.camera_from_map, matches[i]);
+    }
+    pose.scale = std::max(ScaleOf(pose.squares), least_scale);
+    if (!std::isfinite(pose.scale)) {
+      return false;
+    }
+    const double limit = kTukey2 * pose.scale * pose.scale;
+    information.setZero();
+    Vector6d right = Vector6d::Zero();
+    for (size_t i = 0; i < matches.size(); ++i) {
+      if (pose.squares[i] >= limit) {
+        continue;
+      }
+      Eigen::Vector2d residual;
+      Matrix26d jacobian;
+      PlaneResidual(pose.camera_from_map, {matches[i].point, matches[i].plane}, residual,
+                    &jacobian);
+      const double root = 1.0 - pose.squares[i] / limit;
+      const Matrix26d whitened = root * matches[i].whitening * jacobian;
+      information.noalias() += whitened.transpose() * whitened;
+      right.noalias() -= whitened.transpose() * (root * matches[i].whitening * residual);
+    }
+    Matrix6d damped = information;
+    damped.diagonal() *= 1.0 + 1e-9;
+    const Vector6d step = damped.ldlt().solve(right);
+    if (!step.allFinite()) {
+      return false;
+    }
+    // Less than a thousandth of a standard deviation.
+    const bool converged = right.dot(step) < 1e-6 * pose.scale * pose.scale;
+    if (converged || iteration >= kIterations) {
+      break;
+    }
+    pose.camera_from_map = Moved(pose.camera_from_map, step);
+  }
+  const double scale2 = pose.scale * pose.scale;
+  for (double& square : pose.squares) {
+    square /= scale2;
+    pose.inliers += square < kInlierSquare ? 1 : 0;
+  }
+  const Matrix6d inverse = information.inverse();
+  if (!inverse.allFinite()) {
+    return false;
+  }
+  pose.covariance = scale2 * inverse;
+  return true;
+}
+
+}  // namespace lararium::vision
