@@ -60,10 +60,6 @@ Twist TwistBetween(const Rigid3& from, const Rigid3& to) {
   return twist;
 }
 
-Rigid3 Moved(const Rigid3& pose, const Twist& twist) {
-  return Rigid3{geometry::RotationFromVector(twist.head<3>()), twist.tail<3>()} * pose;
-}
-
 std::optional<double> PictureShift(const geometry::CameraModel& camera,
                                    std::span<const Eigen::Vector3d> landmarks,
                                    const Rigid3& from,

@@ -24,6 +24,7 @@
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
 #include "shared/vision/scene_database.h"
+#include "shared/vision/pose_refinement.h"
 #include "shared/vision/tracked_frame.h"
 
 namespace lararium::vision {
@@ -51,7 +52,6 @@ struct PoseSmootherOptions {
 // target = (exp(w) R, exp(w) t + v), as (w, v).
 using Twist = Eigen::Matrix<double, 6, 1>;
 Twist TwistBetween(const geometry::Rigid3& from, const geometry::Rigid3& to);
-geometry::Rigid3 Moved(const geometry::Rigid3& pose, const Twist& twist);
 
 // The most that the picture of the landmarks moves between two poses, in pixels,
 // over those that the first one sees; nullopt where it sees none.
