@@ -18,7 +18,7 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths, const PlaceD
   LARARIUM_ASSIGN_OR_RETURN(content.scene, ReadBytes(file));
   LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database,
                             vision::ParseSceneDatabase(content.scene, file.string()));
-  const ResolvedPicks picks = ResolvePicks(place, database);
+  const ResolvedPicks picks = ResolvePicks(place, database, MeasureMap(place, database));
   LARARIUM_RETURN_IF_ERROR(picks.problem);
   LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, place, picks.map_from_picked));
   return content;

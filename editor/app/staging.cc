@@ -39,7 +39,22 @@ bool AnythingPicked(const stage::StagePicks& picks) {
 
 }  // namespace
 
-Similarity3 GuessStage(const vision::SceneDatabase& database) {
+MapMeasures MeasureMap(const PlaceDocument& place, const vision::SceneDatabase& database) {
+  MapMeasures measures;
+  measures.floor = train::FindFloor(database);
+  if (place.tags) {
+    Result<train::TagScale> tags =
+        train::MeasureTagScale(database, {place.tags->family, place.tags->size_m});
+    if (tags.ok()) {
+      measures.tags = std::move(*tags);
+    } else {
+      measures.tag_problem = tags.status().At(place.name);
+    }
+  }
+  return measures;
+}
+
+Similarity3 GuessStage(const vision::SceneDatabase& database, const MapMeasures& measures) {
   if (database.points.empty() || database.keyframes.empty()) {
     return {};
   }
@@ -57,25 +72,37 @@ Similarity3 GuessStage(const vision::SceneDatabase& database) {
   }
   center /= static_cast<double>(database.keyframes.size());
   std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-  const double scale = std::max(distances[distances.size() / 2], 1e-9) / kTypicalDistance;
-  const Vector3d y = up.norm() > 1e-9 ? up.normalized() : Vector3d(-Vector3d::UnitY());
+  const double guessed_scale = std::max(distances[distances.size() / 2], 1e-9) / kTypicalDistance;
+  const double scale = measures.tags ? 1.0 / measures.tags->metres_per_unit : guessed_scale;
+  Vector3d y = up.norm() > 1e-9 ? up.normalized() : Vector3d(-Vector3d::UnitY());
+  double ground = (center - middle).dot(y) - kEyeHeight * scale;  // above the middle
+  if (measures.floor) {
+    y = measures.floor->normal;
+    ground = -measures.floor->Height(middle);
+  }
   const Vector3d away = center - middle;  // towards the viewers: +Z
   Vector3d z = away - away.dot(y) * y;
   z = z.norm() > 1e-9 ? z.normalized() : y.unitOrthogonal();
   Eigen::Matrix3d rotation;
   rotation << y.cross(z), y, z;
-  const double eye_level = away.dot(y);
-  return {scale, Eigen::Quaterniond(rotation).normalized(),
-          middle + (eye_level - kEyeHeight * scale) * y};
+  return {scale, Eigen::Quaterniond(rotation).normalized(), middle + ground * y};
 }
 
-ResolvedPicks ResolvePicks(const PlaceDocument& place, const vision::SceneDatabase& database) {
+ResolvedPicks ResolvePicks(const PlaceDocument& place,
+                           const vision::SceneDatabase& database,
+                           const MapMeasures& measures) {
   ResolvedPicks resolved;
-  resolved.map_from_picked = GuessStage(database);
+  resolved.map_from_picked = GuessStage(database, measures);
+  resolved.problem = measures.tag_problem;
   if (!AnythingPicked(place.picks)) {
     return resolved;
   }
-  Result<stage::StageSolution> solution = stage::SolveStage(place.picks, database);
+  std::optional<double> map_units_per_metre;
+  if (measures.tags) {
+    map_units_per_metre = 1.0 / measures.tags->metres_per_unit;
+  }
+  Result<stage::StageSolution> solution =
+      stage::SolveStage(place.picks, database, map_units_per_metre);
   if (!solution) {
     resolved.problem = solution.status().At("picks of " + place.name);
     return resolved;
@@ -83,6 +110,20 @@ ResolvedPicks ResolvePicks(const PlaceDocument& place, const vision::SceneDataba
   resolved.map_from_picked = solution->map_from_stage;
   resolved.solution = std::move(*solution);
   return resolved;
+}
+
+Similarity3 LayOnFloor(const Similarity3& map_from_picked,
+                       const Similarity3& picked_from_stage,
+                       const train::FloorPlane& floor) {
+  const Vector3d normal = map_from_picked.rotation.conjugate() * floor.normal;
+  const Vector3d up = picked_from_stage.rotation * Vector3d::UnitY();
+  const double height =
+      floor.Height(map_from_picked * picked_from_stage.translation) / map_from_picked.scale;
+  Similarity3 laid = picked_from_stage;
+  laid.rotation =
+      (Eigen::Quaterniond::FromTwoVectors(up, normal) * picked_from_stage.rotation).normalized();
+  laid.translation -= height * normal;
+  return laid;
 }
 
 Result<stage::Place> StagePlace(const ProjectPaths& paths,
@@ -127,7 +168,7 @@ Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
   }
   LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database,
                             vision::LoadSceneDatabase(paths.Scene(place->name)));
-  const ResolvedPicks picks = ResolvePicks(*place, database);
+  const ResolvedPicks picks = ResolvePicks(*place, database, MeasureMap(*place, database));
   LARARIUM_RETURN_IF_ERROR(picks.problem);
   return AssembleShow(paths, document, *place,
                       std::make_shared<const vision::SceneDatabase>(std::move(database)),

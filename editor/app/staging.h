@@ -9,6 +9,8 @@
 #include <string>
 
 #include "editor/app/project.h"
+#include "editor/train/april_tags.h"
+#include "editor/train/floor_plane.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
@@ -19,20 +21,40 @@
 
 namespace lararium::app {
 
-// A stage for a map without picks, to begin with: the cameras' mean up is +Y, the
-// origin lies under the middle of the points, and the points' median distance
-// from the cameras is three metres.
-geometry::Similarity3 GuessStage(const vision::SceneDatabase& database);
+// What a map says by itself about its ground and its metres.
+struct MapMeasures {
+  std::optional<train::FloorPlane> floor;
+  std::optional<train::TagScale> tags;  // of the tags that the place names
+  Status tag_problem;                   // why they give no scale
+};
+
+// Takes seconds where tags are looked for, milliseconds otherwise.
+MapMeasures MeasureMap(const PlaceDocument& place, const vision::SceneDatabase& database);
+
+// A stage for a map without picks, to begin with. Its ground is the floor, the
+// origin on it under the middle of the points, its metres those of the tags.
+// Without a floor, the cameras' mean up is +Y and their mean height 1.6 m; without
+// tags, the points' median distance from the cameras is three metres.
+geometry::Similarity3 GuessStage(const vision::SceneDatabase& database,
+                                 const MapMeasures& measures);
 
 // Where the picks (before the adjustment by hand) put the stage.
 struct ResolvedPicks {
   geometry::Similarity3 map_from_picked;
   std::optional<stage::StageSolution> solution;  // none where nothing was picked, or not enough
-  Status problem;                                // why the picks give no stage
+  Status problem;                                // why the picks or the tags give no stage
 };
 
 // Falls back to the guess where the picks give nothing.
-ResolvedPicks ResolvePicks(const PlaceDocument& place, const vision::SceneDatabase& database);
+ResolvedPicks ResolvePicks(const PlaceDocument& place,
+                           const vision::SceneDatabase& database,
+                           const MapMeasures& measures);
+
+// The adjustment by hand that lays the stage on the floor: turned as little as
+// makes it level, then moved along the floor's normal until its origin lies on it.
+geometry::Similarity3 LayOnFloor(const geometry::Similarity3& map_from_picked,
+                                 const geometry::Similarity3& picked_from_stage,
+                                 const train::FloorPlane& floor);
 
 // Picks, adjustment, nudge, occluders and light of a place. picks are resolved
 // already. Fails where something was not baked.

@@ -21,6 +21,10 @@ std::string FileStamp(const std::filesystem::path& file) {
   return error ? "none" : std::to_string(time.time_since_epoch().count());
 }
 
+std::string TagsKey(const PlaceDocument& place) {
+  return place.tags ? place.tags->family + " " + std::to_string(place.tags->size_m) : "";
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log) {
@@ -140,14 +144,53 @@ void Workspace::ResolvePicksAgain() {
   if (place() == nullptr || loaded_.database == nullptr) {
     return;
   }
+  measures_stale_ |= TagsKey(*place()) != tags_key_;
   const std::string key = FormatPicks(place()->picks).dump();
   if (key != picks_key_) {
     picks_key_ = key;
-    loaded_.picks = ResolvePicks(*place(), *loaded_.database);
+    loaded_.picks = ResolvePicks(*place(), *loaded_.database, loaded_.measures);
     if (!loaded_.picks.problem.ok()) {
       Tell(Message::Level::kWarning, loaded_.picks.problem.message());
     }
   }
+}
+
+void Workspace::MeasureAgain() {
+  measures_stale_ = false;
+  if (place() == nullptr || loaded_.database == nullptr) {
+    return;
+  }
+  const auto measures = std::make_shared<MapMeasures>();
+  const auto work = [measures, place = *place(), database = loaded_.database](Progress& progress) {
+    progress.Report("looking for the floor and for tags", 0.0);
+    *measures = MeasureMap(place, *database);
+    return Status();
+  };
+  const auto done = [this, measures, database = loaded_.database](const Status&, bool cancelled) {
+    if (!cancelled && database == loaded_.database) {
+      loaded_.measures = std::move(*measures);
+      loaded_.measured = true;
+      picks_key_.clear();
+      ResolvePicksAgain();
+      place_changed_ = true;
+    }
+  };
+  if (tasks_.Start(kMeasuring, work, done)) {
+    tags_key_ = TagsKey(*place());
+    loaded_.measured = false;
+  } else {
+    measures_stale_ = true;  // once the measuring at work has ended
+  }
+}
+
+void Workspace::LayStageOnFloor() {
+  if (!loaded_.measures.floor) {
+    return;
+  }
+  EditPlace("lay the stage on the floor", [&](PlaceDocument& place) {
+    place.picked_from_stage =
+        LayOnFloor(loaded_.picks.map_from_picked, place.picked_from_stage, *loaded_.measures.floor);
+  });
 }
 
 void Workspace::ReloadMap() {
@@ -159,17 +202,24 @@ void Workspace::ReloadMap() {
   }
   using Database = std::shared_ptr<const vision::SceneDatabase>;
   const auto loaded = std::make_shared<Database>();
-  const auto work = [=](Progress& progress) {
+  const auto measures = std::make_shared<MapMeasures>();
+  const auto work = [=, place = *place()](Progress& progress) {
     progress.Report("reading the map", 0.0);
     LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
+    progress.Report("looking for the floor and for tags", 0.5);
+    *measures = MeasureMap(place, database);
     *loaded = std::make_shared<const vision::SceneDatabase>(std::move(database));
     return Status();
   };
-  const auto done = [this, loaded, name = place_name_](const Status& status, bool cancelled) {
+  const auto done = [this, loaded, measures, name = place_name_, key = TagsKey(*place())](
+                        const Status& status, bool cancelled) {
     if (!status.ok()) {
       Report(status, cancelled, "");
     } else if (name == place_name_) {
       loaded_.database = *loaded;
+      loaded_.measures = std::move(*measures);
+      loaded_.measured = true;
+      tags_key_ = key;
       picks_key_.clear();
       ResolvePicksAgain();
       preview_key_.clear();
@@ -304,6 +354,9 @@ void Workspace::Update(double seconds) {
     since_files_checked_ = 0.0;
     preview_stale_ = true;
   }
+  if (measures_stale_) {
+    MeasureAgain();
+  }
   if (preview_stale_) {
     ReloadPreview();
   }
@@ -324,6 +377,10 @@ void Workspace::Update(double seconds) {
   }
 }
 
+const train::TrainReport* Workspace::last_training() const {
+  return trained_place_ == place_name_ ? training_.get() : nullptr;
+}
+
 void Workspace::Train() {
   if (place() == nullptr) {
     return;
@@ -332,7 +389,7 @@ void Workspace::Train() {
   const bool started = tasks_.Start(
       kTraining,
       [report, paths = paths_, place = *place(), &log = log_](Progress& progress) {
-        LARARIUM_ASSIGN_OR_RETURN(*report, TrainPlace(paths, place, progress, log));
+        LARARIUM_ASSIGN_OR_RETURN(*report, TrainPlace(paths, place, {}, progress, log));
         return Status();
       },
       [this, report, name = place_name_](const Status& status, bool cancelled) {
@@ -340,6 +397,10 @@ void Workspace::Train() {
                name + ": " + std::to_string(report->located.size()) + " of " +
                    std::to_string(report->frames) + " images located, " +
                    std::to_string(report->points) + " points.");
+        if (status.ok() && !cancelled) {
+          training_ = report;
+          trained_place_ = name;
+        }
         map_stale_ |= status.ok() && name == place_name_;
       });
   if (!started) {

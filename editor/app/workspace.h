@@ -17,6 +17,7 @@
 #include "editor/app/preview.h"
 #include "editor/app/project.h"
 #include "editor/app/staging.h"
+#include "editor/train/trainer.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 #include "shared/stage/place.h"
@@ -33,6 +34,8 @@ struct Message {
 // What of the place is loaded. Replaced as a whole.
 struct LoadedPlace {
   std::shared_ptr<const vision::SceneDatabase> database;  // nullptr: not trained
+  MapMeasures measures;
+  bool measured = false;  // measures are of this map and of the tags that the place names
   ResolvedPicks picks;
   // As staged for the preview; occluder meshes for drawing. nullptr before that.
   std::shared_ptr<const stage::Place> staged;
@@ -44,6 +47,7 @@ class Workspace {
   static constexpr const char* kBaking = "Baking";
   static constexpr const char* kExporting = "Exporting";
   static constexpr const char* kOpening = "Opening";
+  static constexpr const char* kMeasuring = "Measuring";
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
@@ -64,13 +68,17 @@ class Workspace {
   void EditPlace(const std::string& name,
                  const std::function<void(PlaceDocument&)>& change,
                  std::string_view gesture = {});
+  // The stage laid on the floor that was found in the map; nothing without one.
+  void LayStageOnFloor();
   void EndGesture() { commands_.EndGesture(); }
   void Undo();
   void Redo();
   void Save();
 
   // Long work; progress in tasks(), outcome in messages().
-  void Train();  // the place at hand, from its training recording
+  void Train();  // the place at hand, from its recordings
+  // Of the last training in this window; nullptr before one, or of another place.
+  const train::TrainReport* last_training() const;
   void Bake();
   void Export(const std::filesystem::path& out);
   TaskList& tasks() { return tasks_; }
@@ -101,6 +109,8 @@ class Workspace {
 
   void OnDocumentChanged();
   void ResolvePicksAgain();
+  // Looks for the floor and the tags, in the background.
+  void MeasureAgain();
   // What the preview is made of; it opens anew when this changes.
   std::string PreviewKey() const;
   void ReloadMap();
@@ -116,6 +126,10 @@ class Workspace {
   std::string place_name_;
   LoadedPlace loaded_;
   std::string picks_key_;
+  std::string tags_key_;  // what was measured last
+  bool measures_stale_ = false;
+  std::string trained_place_;
+  std::shared_ptr<const train::TrainReport> training_;
   std::string preview_key_;
   bool map_stale_ = false;
   bool preview_stale_ = false;

@@ -42,31 +42,88 @@ Status Problem(const Anchor& anchor, std::string_view problem, std::string_view 
   return Status::Error("stage: '" + anchor.name + "'", problem, remedy);
 }
 
+std::optional<Sight> FindSight(const Pick& pick, const SceneDatabase& database) {
+  const auto found = std::find_if(
+      database.keyframes.begin(), database.keyframes.end(), [&](const Keyframe& keyframe) {
+        return keyframe.session == pick.session && keyframe.frame_index == pick.frame_index &&
+               (pick.frame.empty() || pick.frame == keyframe.name);
+      });
+  if (found == database.keyframes.end() || !database.camera.Contains(pick.pixel)) {
+    return std::nullopt;
+  }
+  return Sight{static_cast<uint32_t>(found - database.keyframes.begin()), pick.pixel};
+}
+
 std::vector<Sight> FindSights(const Anchor& anchor, const SceneDatabase& database) {
   std::vector<Sight> sights;
   for (const Pick& pick : anchor.picks) {
-    const auto found = std::find_if(
-        database.keyframes.begin(), database.keyframes.end(), [&](const Keyframe& keyframe) {
-          return keyframe.session == pick.session && keyframe.frame_index == pick.frame_index &&
-                 (pick.frame.empty() || pick.frame == keyframe.name);
-        });
-    if (found != database.keyframes.end() && database.camera.Contains(pick.pixel)) {
-      sights.push_back({static_cast<uint32_t>(found - database.keyframes.begin()), pick.pixel});
+    if (const std::optional<Sight> sight = FindSight(pick, database)) {
+      sights.push_back(*sight);
     }
   }
   return sights;
 }
 
+std::string FrameName(const Pick& pick) {
+  const std::string frame = pick.frame.empty() ? std::to_string(pick.frame_index) : pick.frame;
+  return pick.session == 0 ? frame : frame + " of session " + std::to_string(pick.session);
+}
+
+std::vector<std::string> FramesLeftOut(const Anchor& anchor, const SceneDatabase& database) {
+  std::vector<std::string> frames;
+  for (const Pick& pick : anchor.picks) {
+    if (!FindSight(pick, database)) {
+      frames.push_back(FrameName(pick));
+    }
+  }
+  return frames;
+}
+
+// "no pick lies in a keyframe of this map", and where they lie.
+std::string NoSight(const Anchor& anchor, const SceneDatabase& database) {
+  std::string text = "no pick lies in a keyframe of this map";
+  const std::vector<std::string> frames = FramesLeftOut(anchor, database);
+  constexpr size_t kMaxNamed = 4;
+  for (size_t i = 0; i < std::min(frames.size(), kMaxNamed); ++i) {
+    text += (i == 0 ? " (they lie in " : ", ") + frames[i];
+  }
+  text += frames.size() > kMaxNamed ? ", ..." : "";
+  return frames.empty() ? text : text + ")";
+}
+
+// Where a keyframe sees points of the map. One that shaped the map has observed
+// them; one that was located afterwards sees those that face it.
+std::vector<std::pair<Eigen::Vector2d, uint32_t>> SeenPoints(uint32_t keyframe,
+                                                             const SceneDatabase& database) {
+  std::vector<std::pair<Eigen::Vector2d, uint32_t>> seen;  // pixel, point
+  const auto begin = std::lower_bound(
+      database.observations.begin(), database.observations.end(), keyframe,
+      [](const vision::Observation& o, uint32_t wanted) { return o.keyframe < wanted; });
+  for (auto o = begin; o != database.observations.end() && o->keyframe == keyframe; ++o) {
+    seen.emplace_back(Eigen::Vector2d(o->x, o->y), o->point);
+  }
+  const geometry::Rigid3& camera_from_map = database.keyframes[keyframe].camera_from_map;
+  const Eigen::Vector3d center = camera_from_map.Center();
+  if (!seen.empty()) {
+    return seen;
+  }
+  for (uint32_t p = 0; p < database.normals.size(); ++p) {
+    const Eigen::Vector3d point = database.points[p].cast<double>();
+    const auto pixel = database.camera.Project(camera_from_map * point);
+    if (pixel && database.normals[p].cast<double>().dot(center - point) > 0.0) {
+      seen.emplace_back(*pixel, p);
+    }
+  }
+  return seen;
+}
+
 // Points of the map that are seen around a pixel of a keyframe, nearest first.
 std::vector<Eigen::Vector3d> PointsAround(const Sight& sight, const SceneDatabase& database) {
-  const auto begin = std::lower_bound(
-      database.observations.begin(), database.observations.end(), sight.keyframe,
-      [](const vision::Observation& o, uint32_t keyframe) { return o.keyframe < keyframe; });
   std::vector<std::pair<double, uint32_t>> near;  // distance in pixels, point
-  for (auto o = begin; o != database.observations.end() && o->keyframe == sight.keyframe; ++o) {
-    const double distance = (Eigen::Vector2d(o->x, o->y) - sight.pixel).norm();
+  for (const auto& [pixel, point] : SeenPoints(sight.keyframe, database)) {
+    const double distance = (pixel - sight.pixel).norm();
     if (distance <= kPlaneRadius * database.camera.width) {
-      near.emplace_back(distance, o->point);
+      near.emplace_back(distance, point);
     }
   }
   std::sort(near.begin(), near.end());
@@ -177,7 +234,7 @@ Result<Eigen::Vector3d> LocateAnchor(const Anchor& anchor,
                                      std::span<const Sight> sights,
                                      const SceneDatabase& database) {
   if (sights.empty()) {
-    return Problem(anchor, "no pick lies in a keyframe of this map",
+    return Problem(anchor, NoSight(anchor, database),
                    "pick it in one of the keyframes, better in two");
   }
   if (sights.size() == 1) {
@@ -232,8 +289,12 @@ Result<AnchorReport> SolveAnchor(const Anchor& anchor, const SceneDatabase& data
     return Problem(anchor, "the picks see it from almost the same direction",
                    "pick it in keyframes taken farther apart");
   }
-  return AnchorReport{anchor.name, static_cast<int>(sights.size()),
-                      ReprojectionError(sights, point, database), angle, point};
+  return AnchorReport{anchor.name,
+                      static_cast<int>(sights.size()),
+                      ReprojectionError(sights, point, database),
+                      angle,
+                      point,
+                      FramesLeftOut(anchor, database)};
 }
 
 // Sum of squared changes of the anchor's distance from other when each
@@ -282,7 +343,9 @@ Result<Eigen::Vector3d> UpDirection(const Anchor& floor_anchor,
 
 }  // namespace
 
-Result<StageSolution> SolveStage(const StagePicks& picks, const SceneDatabase& database) {
+Result<StageSolution> SolveStage(const StagePicks& picks,
+                                 const SceneDatabase& database,
+                                 std::optional<double> map_units_per_metre) {
   if (!(picks.length_m > 0.0) || !std::isfinite(picks.length_m)) {
     return Status::Error("stage", "the known length must be more than 0 m", "enter it in metres");
   }
@@ -305,8 +368,10 @@ Result<StageSolution> SolveStage(const StagePicks& picks, const SceneDatabase& d
   const Eigen::Vector3d back = (origin.point_in_map - forward.point_in_map).normalized();
   Eigen::Matrix3d map_from_stage;
   map_from_stage << up.cross(back), up, back;  // the images of X, Y and Z
-  solution.map_from_stage = {length / picks.length_m,
-                             Eigen::Quaterniond(map_from_stage).normalized(), origin.point_in_map};
+  const double scale = map_units_per_metre.value_or(length / picks.length_m);
+  solution.measured_length_m = length / scale;
+  solution.map_from_stage = {scale, Eigen::Quaterniond(map_from_stage).normalized(),
+                             origin.point_in_map};
   solution.anchors = {origin, forward, floor};
   if (!picks.length_from.picks.empty()) {
     solution.anchors.push_back(length_from);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct AnchorReport {
   double error_px = 0.0;  // root mean square reprojection error
   double angle = 0.0;     // widest angle between the picks' rays; 0 of a single pick
   Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
+  std::vector<std::string> left_out;  // frames of picks that are no keyframes of this map
 };
 
 struct StageSolution {
@@ -58,10 +60,17 @@ struct StageSolution {
   // Standard deviation of the known length relative to itself, were every pick
   // off by one pixel (first order, through the whole solution).
   double length_spread = 0.0;
+  // The known length as the stage's metres have it: another one than the picks'
+  // length_m only where the scale was given.
+  double measured_length_m = 0.0;
 };
 
-// Errors name the anchor and what to pick instead: no pick in a keyframe of
-// this map, rays too parallel, points on a line or in one place.
-Result<StageSolution> SolveStage(const StagePicks& picks, const vision::SceneDatabase& database);
+// map_units_per_metre: the scale, where it is known from elsewhere; the picks'
+// known length is only measured then. Errors name the anchor and what to pick
+// instead: no pick in a keyframe of this map (and in which frames they lie), rays
+// too parallel, points on a line or in one place.
+Result<StageSolution> SolveStage(const StagePicks& picks,
+                                 const vision::SceneDatabase& database,
+                                 std::optional<double> map_units_per_metre = std::nullopt);
 
 }  // namespace lararium::stage

@@ -1,0 +1,35 @@
+#pragma once
+
+// How well the stage of a place is known, for people and for scripts: where its
+// metres come from and how far off they may be, the picks, the floor.
+
+#include <string>
+
+#include "editor/app/project.h"
+#include "editor/app/staging.h"
+#include "shared/core/json.h"
+#include "shared/core/status.h"
+
+namespace lararium::app {
+
+// {"scale": {"from": "picks" | "tags" | "nothing", "metres_per_unit", ...},
+//  "picks": [...], "floor": {...} | null}; docs/file-formats.md.
+Json StageJson(const PlaceDocument& place,
+               const MapMeasures& measures,
+               const ResolvedPicks& resolved);
+
+// The same in a few lines.
+std::string StageText(const PlaceDocument& place,
+                      const MapMeasures& measures,
+                      const ResolvedPicks& resolved);
+
+struct StageReport {
+  std::string text;
+  Json json;
+};
+
+// Reads the map of a place and measures. Fails where the place is not trained;
+// picks and tags that give nothing are part of the report.
+Result<StageReport> ReportStage(const ProjectPaths& paths, const PlaceDocument& place);
+
+}  // namespace lararium::app
