@@ -40,6 +40,22 @@ TEST_F(OptionsTest, ReadsWhatTheDesignNames) {
   EXPECT_EQ(play->intrinsics, (std::vector<double>{500, 500, 320, 240}));
 }
 
+TEST_F(OptionsTest, ABenchmarkTakesItsImagesFromItsOwnFolder) {
+  const std::string folder = folder_.path().string();
+  const Command command = Parse({show_, "--benchmark", folder, "--foreign", folder, "--foreign",
+                                 show_, "--first-pose", "--smoothing", "strong"});
+  const auto* play = std::get_if<PlayOptions>(&command);
+  ASSERT_NE(play, nullptr);
+  EXPECT_EQ(play->benchmark, folder);
+  EXPECT_EQ(play->foreign.size(), 2u);
+  EXPECT_TRUE(play->first_pose);
+  EXPECT_EQ(play->smoothing, vision::Smoothing::kStrong);
+  EXPECT_EQ(ExitCode({show_, "--benchmark", folder, "--camera", "0"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--foreign", folder}), 2);
+  EXPECT_EQ(ExitCode({show_, "--first-pose"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--smoothing", "much"}), 2);
+}
+
 TEST_F(OptionsTest, InfoTakesABundle) {
   const Command command = Parse({"info", show_});
   ASSERT_NE(std::get_if<InfoOptions>(&command), nullptr);
