@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "editor/train/budget.h"
 #include "editor/train/photometric_reference.h"
 #include "shared/core/check.h"
 
@@ -12,74 +13,28 @@ namespace {
 
 using vision::Descriptor;
 
-// Tracks with points that the database keeps, in order of index.
-std::vector<uint32_t> ChoosePoints(const Reconstruction& reconstruction, size_t max_points) {
+// Tracks with points, in order of index.
+std::vector<uint32_t> TracksWithPoints(const Reconstruction& reconstruction) {
   std::vector<uint32_t> tracks;
   for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
     if (reconstruction.HasPoint(track)) {
       tracks.push_back(track);
     }
   }
-  if (tracks.size() <= max_points) {
-    return tracks;
-  }
-  std::vector<std::vector<uint32_t>> wishes;  // of each image, best first
-  for (const uint32_t image : reconstruction.LocatedImages()) {
-    std::vector<uint32_t>& wish = wishes.emplace_back();
-    for (const uint32_t element : reconstruction.ElementsOf(image)) {
-      if (reconstruction.Observed(element)) {
-        wish.push_back(reconstruction.TrackOf(element));
-      }
-    }
-    std::stable_sort(wish.begin(), wish.end(), [&](uint32_t a, uint32_t b) {
-      return reconstruction.ObservationCount(a) > reconstruction.ObservationCount(b);
-    });
-  }
-  std::vector<bool> taken(reconstruction.tracks().size(), false);
-  std::vector<size_t> next(wishes.size(), 0);
-  size_t count = 0;
-  while (count < max_points) {
-    for (size_t i = 0; i < wishes.size() && count < max_points; ++i) {
-      while (next[i] < wishes[i].size() && taken[wishes[i][next[i]]]) {
-        ++next[i];
-      }
-      if (next[i] < wishes[i].size()) {
-        taken[wishes[i][next[i]]] = true;
-        ++count;
-      }
-    }
-  }
-  std::erase_if(tracks, [&](uint32_t track) { return !taken[track]; });
   return tracks;
 }
 
-// Up to max_count of the candidates: the most central first, then always the one
-// farthest from those chosen, until the rest is near to them.
-std::vector<Descriptor> ChooseDescriptors(std::span<const Descriptor* const> candidates,
-                                          size_t max_count) {
-  constexpr uint32_t kNear = 110 * 110;  // squared; descriptors have length 512
+// The candidate of least summed distance to the others.
+size_t MostCentral(std::span<const Descriptor> candidates) {
   std::vector<uint64_t> sums(candidates.size(), 0);
   for (size_t i = 0; i < candidates.size(); ++i) {
     for (size_t j = i + 1; j < candidates.size(); ++j) {
-      const uint32_t distance = vision::SquaredDistance(*candidates[i], *candidates[j]);
+      const uint32_t distance = vision::SquaredDistance(candidates[i], candidates[j]);
       sums[i] += distance;
       sums[j] += distance;
     }
   }
-  auto next = static_cast<size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
-  std::vector<uint32_t> nearest(candidates.size(), std::numeric_limits<uint32_t>::max());
-  std::vector<Descriptor> chosen;
-  while (chosen.size() < std::min(max_count, candidates.size())) {
-    chosen.push_back(*candidates[next]);
-    for (size_t i = 0; i < candidates.size(); ++i) {
-      nearest[i] = std::min(nearest[i], vision::SquaredDistance(*candidates[i], *candidates[next]));
-    }
-    next = static_cast<size_t>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
-    if (nearest[next] < kNear) {
-      break;
-    }
-  }
-  return chosen;
+  return static_cast<size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
 }
 
 class Builder {
@@ -94,8 +49,7 @@ class Builder {
     AddKeyframes();
     database_.descriptor_begin.push_back(0);
     double error_sum = 0.0;
-    for (const uint32_t track :
-         ChoosePoints(reconstruction_, static_cast<size_t>(options_.max_points))) {
+    for (const uint32_t track : TracksWithPoints(reconstruction_)) {
       error_sum += AddPoint(track);
     }
     std::sort(database_.observations.begin(), database_.observations.end(),
@@ -110,7 +64,13 @@ class Builder {
     vision::ForestOptions forest;
     forest.seed = options_.seed;
     database_.forest = vision::BuildForest(database_.descriptors, forest);
-    return std::move(database_);
+    if (database_.points.size() <= static_cast<size_t>(options_.max_points)) {
+      return std::move(database_);
+    }
+    BudgetOptions budget;
+    budget.max_points = options_.max_points;
+    budget.seed = options_.seed;
+    return Prune(database_, budget);
   }
 
  private:
@@ -133,7 +93,7 @@ class Builder {
     const Eigen::Vector3d point = reconstruction_.Point(track);
     const auto index = static_cast<uint32_t>(database_.points.size());
     Eigen::Vector3d towards_viewers = Eigen::Vector3d::Zero();
-    std::vector<const Descriptor*> candidates;
+    std::vector<Descriptor> candidates;
     double error_sum = 0.0;
     const Tracks& tracks = reconstruction_.tracks();
     for (uint32_t element = tracks.begin[track]; element < tracks.begin[track + 1]; ++element) {
@@ -144,7 +104,7 @@ class Builder {
       const vision::Keypoint& keypoint = images_[image].features.keypoints[feature];
       database_.observations.push_back(
           {index, keyframe_of_image_[image], keypoint.x, keypoint.y, keypoint.scale});
-      candidates.push_back(&images_[image].features.descriptors[feature]);
+      candidates.push_back(images_[image].features.descriptors[feature]);
       towards_viewers +=
           (reconstruction_.camera_from_map(image).Center() - point).stableNormalized();
       error_sum += std::sqrt(reconstruction_.SquaredErrorPx(element, point));
@@ -157,8 +117,10 @@ class Builder {
     database_.normals.push_back(towards_viewers.normalized().cast<float>());
     database_.observation_counts.push_back(static_cast<uint32_t>(candidates.size()));
     database_.session_masks.push_back(1u << options_.session);
-    for (const Descriptor& descriptor :
-         ChooseDescriptors(candidates, static_cast<size_t>(options_.max_descriptors_per_point))) {
+    std::vector<Descriptor> chosen;
+    AddDistinctDescriptors(candidates, static_cast<size_t>(options_.max_descriptors_per_point),
+                           chosen);
+    for (const Descriptor& descriptor : chosen) {
       database_.descriptors.push_back(descriptor);
       database_.descriptor_point.push_back(index);
     }
@@ -175,6 +137,36 @@ class Builder {
 };
 
 }  // namespace
+
+void AddDistinctDescriptors(std::span<const Descriptor> candidates,
+                            size_t max_count,
+                            std::vector<Descriptor>& chosen) {
+  constexpr uint32_t kNear = 110 * 110;  // squared; descriptors have length 512
+  if (candidates.empty()) {
+    return;
+  }
+  std::vector<uint32_t> nearest(candidates.size(), std::numeric_limits<uint32_t>::max());
+  const auto note = [&](const Descriptor& taken) {
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      nearest[i] = std::min(nearest[i], vision::SquaredDistance(candidates[i], taken));
+    }
+  };
+  for (const Descriptor& taken : chosen) {
+    note(taken);
+  }
+  if (chosen.empty()) {
+    chosen.push_back(candidates[MostCentral(candidates)]);
+    note(chosen.back());
+  }
+  while (chosen.size() < max_count) {
+    const auto farthest = std::max_element(nearest.begin(), nearest.end());
+    if (*farthest < kNear) {
+      break;
+    }
+    chosen.push_back(candidates[static_cast<size_t>(farthest - nearest.begin())]);
+    note(chosen.back());
+  }
+}
 
 vision::SceneDatabase BuildDatabase(const Reconstruction& reconstruction,
                                     std::span<const TrainingImage> images,

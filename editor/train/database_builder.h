@@ -29,8 +29,15 @@ struct DatabaseOptions {
   uint64_t seed = 1;
 };
 
+// Adds candidates to chosen until it has max_count: the most central one where it
+// was empty, then always the one farthest from those chosen, until the rest is
+// near to one of them. max_count > 0.
+void AddDistinctDescriptors(std::span<const vision::Descriptor> candidates,
+                            size_t max_count,
+                            std::vector<vision::Descriptor>& chosen);
+
 // images[i] is image i of the reconstruction. Where there are more points than
-// max_points, the images choose in turn, each its most observed point.
+// max_points, budget.h's ChoosePoints says which stay.
 vision::SceneDatabase BuildDatabase(const Reconstruction& reconstruction,
                                     std::span<const TrainingImage> images,
                                     const DatabaseOptions& options);

@@ -1,0 +1,504 @@
+#include "editor/train/budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+#include "editor/train/database_builder.h"
+#include "shared/core/check.h"
+#include "shared/core/parallel.h"
+#include "shared/vision/localizer.h"
+
+namespace lararium::train {
+namespace {
+
+using geometry::Rigid3;
+using vision::Descriptor;
+using vision::Observation;
+using vision::SceneDatabase;
+
+constexpr int kColumns = 8;  // parts of an image that want points of their own
+constexpr int kRows = 6;
+constexpr uint32_t kNone = 0xffffffff;
+
+// ------------------------------------------------------------ points
+
+// 0..1 for each point: how unlike those of other points its descriptors are.
+std::vector<float> Distinctiveness(const SceneDatabase& db) {
+  // Squared distance between a point's descriptor and its look from elsewhere.
+  constexpr float kUsual = 200.0f * 200.0f;
+  constexpr int kChecks = 48;
+  constexpr size_t kJobs = 16;
+  std::vector<float> distinct(db.points.size(), 0.0f);
+  ParallelFor(kJobs, [&](size_t job) {
+    vision::ForestSearcher searcher(db.forest, db.descriptors);
+    std::array<vision::Neighbour, 12> neighbours;
+    const size_t end = db.points.size() * (job + 1) / kJobs;
+    for (size_t point = db.points.size() * job / kJobs; point < end; ++point) {
+      if (db.descriptor_begin[point] == db.descriptor_begin[point + 1]) {
+        continue;
+      }
+      const size_t found =
+          searcher.Search(db.descriptors[db.descriptor_begin[point]], kChecks, neighbours);
+      float other = 2.0f * 512.0f * 512.0f;  // of descriptors that have nothing in common
+      for (size_t i = 0; i < found; ++i) {
+        if (db.descriptor_point[neighbours[i].descriptor] != point) {
+          other = static_cast<float>(neighbours[i].squared_distance);
+          break;
+        }
+      }
+      distinct[point] = other / (other + kUsual);
+    }
+  });
+  return distinct;
+}
+
+// The greedy choice. A point's gain is the sum over its sights of
+//   weight / (1 + what the sight's part of the image has) * hunger,
+// where hunger falls to 1 as the keyframe comes to have enough to be located by.
+class PointChooser {
+ public:
+  explicit PointChooser(const SceneDatabase& db)
+      : begin_(db.points.size() + 1, 0),
+        cells_(db.keyframes.size() * kColumns * kRows, 0.0f),
+        keyframes_(db.keyframes.size(), 0.0f) {
+    for (const Observation& o : db.observations) {
+      ++begin_[o.point + 1];
+    }
+    for (size_t i = 1; i < begin_.size(); ++i) {
+      begin_[i] += begin_[i - 1];
+    }
+    const std::vector<float> distinct = Distinctiveness(db);
+    sights_.resize(db.observations.size());
+    std::vector<uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for (const Observation& o : db.observations) {
+      sights_[next[o.point]++] = {CellOf(db.camera, o), distinct[o.point] * ScaleWeight(o.scale)};
+    }
+  }
+
+  std::vector<uint32_t> Choose(size_t count) {
+    struct Candidate {
+      float gain;  // at most
+      uint32_t point;
+      bool operator<(const Candidate& other) const {
+        return gain != other.gain ? gain < other.gain : point > other.point;
+      }
+    };
+    std::priority_queue<Candidate> queue;
+    for (uint32_t point = 0; point + 1 < begin_.size(); ++point) {
+      queue.push({Gain(point), point});
+    }
+    std::vector<uint32_t> chosen;
+    while (chosen.size() < count && !queue.empty()) {
+      const Candidate best = queue.top();
+      queue.pop();
+      // Gains only fall: what is still ahead of the next at most is the best.
+      const float gain = Gain(best.point);
+      if (!queue.empty() && gain < queue.top().gain) {
+        queue.push({gain, best.point});
+        continue;
+      }
+      chosen.push_back(best.point);
+      for (uint32_t s = begin_[best.point]; s < begin_[best.point + 1]; ++s) {
+        cells_[sights_[s].cell] += sights_[s].weight;
+        keyframes_[sights_[s].cell / (kColumns * kRows)] += sights_[s].weight;
+      }
+    }
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+  }
+
+ private:
+  struct Sight {
+    uint32_t cell = 0;
+    float weight = 0.0f;
+  };
+
+  static uint32_t CellOf(const geometry::CameraModel& camera, const Observation& o) {
+    const int column = std::clamp(static_cast<int>(o.x * kColumns / camera.width), 0, kColumns - 1);
+    const int row = std::clamp(static_cast<int>(o.y * kRows / camera.height), 0, kRows - 1);
+    return (o.keyframe * kRows + static_cast<uint32_t>(row)) * kColumns +
+           static_cast<uint32_t>(column);
+  }
+
+  // Features finer than this are only found in an enlarged image.
+  static float ScaleWeight(float scale) {
+    constexpr float kFindable = 2.0f;
+    return std::min(1.0f, scale / kFindable);
+  }
+
+  // A pose takes some fifteen points, of which about half are found in a frame.
+  static float Hunger(float has) {
+    constexpr float kEnough = 40.0f;
+    constexpr float kMost = 9.0f;
+    return 1.0f + (kMost - 1.0f) * std::max(0.0f, 1.0f - has / kEnough);
+  }
+
+  float Gain(uint32_t point) const {
+    float gain = 0.0f;
+    for (uint32_t s = begin_[point]; s < begin_[point + 1]; ++s) {
+      const uint32_t cell = sights_[s].cell;
+      gain +=
+          sights_[s].weight / (1.0f + cells_[cell]) * Hunger(keyframes_[cell / (kColumns * kRows)]);
+    }
+    return gain;
+  }
+
+  std::vector<uint32_t> begin_;  // [points + 1], into sights_
+  std::vector<Sight> sights_;
+  std::vector<float> cells_;      // [keyframes][rows][columns]: weight chosen so far
+  std::vector<float> keyframes_;  // [keyframes]: likewise
+};
+
+// ------------------------------------------------------------ images
+
+// A sight as the follower's patches need it.
+struct View {
+  uint32_t keyframe = 0;
+  Eigen::Vector3f direction;  // from the point, unit
+  float scale = 0.0f;
+};
+
+bool LooksAlike(const View& a, const View& b) {
+  constexpr float kCosine = 0.966f;  // 15 degrees
+  constexpr float kScaleRatio = 1.4f;
+  return a.direction.dot(b.direction) > kCosine && a.scale < kScaleRatio * b.scale &&
+         b.scale < kScaleRatio * a.scale;
+}
+
+std::vector<std::vector<View>> ViewsOfPoints(const SceneDatabase& db) {
+  std::vector<Eigen::Vector3d> centers;
+  for (const vision::Keyframe& keyframe : db.keyframes) {
+    centers.push_back(keyframe.camera_from_map.Center());
+  }
+  std::vector<std::vector<View>> views(db.points.size());
+  for (const Observation& o : db.observations) {
+    const Eigen::Vector3d away = centers[o.keyframe] - db.points[o.point].cast<double>();
+    views[o.point].push_back({o.keyframe, away.stableNormalized().cast<float>(), o.scale});
+  }
+  return views;
+}
+
+// ------------------------------------------------------------ pruning
+
+std::vector<Descriptor> DescriptorsWithin(const SceneDatabase& db, uint32_t point, int most) {
+  const auto first = db.descriptors.begin() + db.descriptor_begin[point];
+  const auto last = db.descriptors.begin() + db.descriptor_begin[point + 1];
+  std::vector<Descriptor> all(first, last);
+  if (most == 0 || all.size() <= static_cast<size_t>(most)) {
+    return all;
+  }
+  std::vector<Descriptor> kept;
+  AddDistinctDescriptors(all, static_cast<size_t>(most), kept);
+  return kept;
+}
+
+// points: ascending.
+SceneDatabase WithPoints(const SceneDatabase& db,
+                         std::span<const uint32_t> points,
+                         int max_descriptors) {
+  SceneDatabase kept;
+  kept.camera = db.camera;
+  kept.mean_reprojection_error_px = db.mean_reprojection_error_px;
+  kept.keyframes = db.keyframes;
+  kept.descriptor_begin.push_back(0);
+  std::vector<uint32_t> new_index(db.points.size(), kNone);
+  for (const uint32_t point : points) {
+    const auto index = static_cast<uint32_t>(kept.points.size());
+    new_index[point] = index;
+    kept.points.push_back(db.points[point]);
+    kept.normals.push_back(db.normals[point]);
+    kept.observation_counts.push_back(db.observation_counts[point]);
+    kept.session_masks.push_back(db.session_masks[point]);
+    if (!db.colours.empty()) {
+      kept.colours.push_back(db.colours[point]);
+    }
+    for (const Descriptor& descriptor : DescriptorsWithin(db, point, max_descriptors)) {
+      kept.descriptors.push_back(descriptor);
+      kept.descriptor_point.push_back(index);
+    }
+    kept.descriptor_begin.push_back(static_cast<uint32_t>(kept.descriptors.size()));
+  }
+  for (Observation o : db.observations) {
+    o.point = new_index[o.point];
+    if (o.point != kNone) {
+      kept.observations.push_back(o);
+    }
+  }
+  return kept;
+}
+
+// ------------------------------------------------------------ recall
+
+std::span<const Observation> SightsOf(const SceneDatabase& db, uint32_t keyframe) {
+  const auto less = [](const Observation& o, uint32_t wanted) { return o.keyframe < wanted; };
+  const auto first =
+      std::lower_bound(db.observations.begin(), db.observations.end(), keyframe, less);
+  const auto last = std::lower_bound(first, db.observations.end(), keyframe + 1, less);
+  return {first, last};
+}
+
+struct HeldOutView {
+  uint32_t keyframe = 0;
+  vision::Features finest;  // as training looks for them
+  vision::Features query;   // as the player does
+};
+
+Result<std::vector<HeldOutView>> HeldOutViews(const SceneDatabase& db, size_t stride) {
+  std::vector<HeldOutView> views;
+  size_t with_image = 0;
+  for (uint32_t k = 0; k < db.keyframes.size(); ++k) {
+    if (!db.keyframes[k].grey.empty() && with_image++ % stride == stride / 2) {
+      views.emplace_back().keyframe = k;
+    }
+  }
+  if (views.empty()) {
+    return Status::Error("budget", "too few keyframes have an image to measure recall",
+                         "train the place again, without leaving images out");
+  }
+  std::vector<Status> problems(views.size());
+  ParallelFor(views.size(), [&](size_t i) {
+    const cv::Mat& grey = db.keyframes[views[i].keyframe].grey;
+    vision::FeatureOptions options;
+    options.contrast_threshold = 0.02f;
+    auto finest = vision::ExtractFeatures(grey, options);
+    options = vision::FeatureOptions();
+    options.first_octave = 0;
+    options.max_features = 1000;
+    auto query = vision::ExtractFeatures(grey, options);
+    if (finest.ok() && query.ok()) {
+      views[i].finest = std::move(*finest);
+      views[i].query = std::move(*query);
+    } else {
+      problems[i] = finest.ok() ? query.status() : finest.status();
+    }
+  });
+  for (const Status& problem : problems) {
+    LARARIUM_RETURN_IF_ERROR(problem);
+  }
+  return views;
+}
+
+// Descriptors that came from a view, [descriptors]: those of the points that it
+// observes which equal a feature there, but for what compression changed.
+void MarkDescriptorsOf(const SceneDatabase& db, const HeldOutView& view, std::vector<bool>& marks) {
+  constexpr float kSamePx = 1.0f;
+  constexpr uint32_t kSame = 80 * 80;
+  std::vector<uint32_t> order(view.finest.size());  // features by row
+  for (uint32_t f = 0; f < order.size(); ++f) {
+    order[f] = f;
+  }
+  const std::vector<vision::Keypoint>& keypoints = view.finest.keypoints;
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return keypoints[a].y != keypoints[b].y ? keypoints[a].y < keypoints[b].y : a < b;
+  });
+  for (const Observation& o : SightsOf(db, view.keyframe)) {
+    auto f = std::lower_bound(order.begin(), order.end(), o.y - kSamePx,
+                              [&](uint32_t i, float y) { return keypoints[i].y < y; });
+    for (; f != order.end() && keypoints[*f].y < o.y + kSamePx; ++f) {
+      for (uint32_t d = db.descriptor_begin[o.point];
+           std::abs(keypoints[*f].x - o.x) < kSamePx && d < db.descriptor_begin[o.point + 1]; ++d) {
+        marks[d] = marks[d] ||
+                   vision::SquaredDistance(db.descriptors[d], view.finest.descriptors[*f]) < kSame;
+      }
+    }
+  }
+}
+
+// The map without what only the held-out views know: their descriptors and
+// observations, and points that are left with nothing. Keyframes keep their index.
+SceneDatabase WithoutViews(const SceneDatabase& db, std::span<const HeldOutView> views) {
+  std::vector<bool> of_views(db.descriptors.size(), false);
+  std::vector<bool> held_out(db.keyframes.size(), false);
+  for (const HeldOutView& view : views) {
+    MarkDescriptorsOf(db, view, of_views);
+    held_out[view.keyframe] = true;
+  }
+  SceneDatabase rest = db;
+  std::erase_if(rest.observations, [&](const Observation& o) { return held_out[o.keyframe]; });
+  std::vector<uint32_t> counts(db.points.size(), 0);
+  for (const Observation& o : rest.observations) {
+    ++counts[o.point];
+  }
+  rest.descriptors.clear();
+  rest.descriptor_point.clear();
+  rest.descriptor_begin = {0};
+  std::vector<uint32_t> points;
+  for (uint32_t point = 0; point < db.points.size(); ++point) {
+    const size_t before = rest.descriptors.size();
+    for (uint32_t d = db.descriptor_begin[point]; d < db.descriptor_begin[point + 1]; ++d) {
+      if (!of_views[d]) {
+        rest.descriptors.push_back(db.descriptors[d]);
+        rest.descriptor_point.push_back(point);
+      }
+    }
+    rest.descriptor_begin.push_back(static_cast<uint32_t>(rest.descriptors.size()));
+    if (counts[point] >= 2 && rest.descriptors.size() > before) {
+      points.push_back(point);
+    }
+  }
+  return WithPoints(rest, points, 0);
+}
+
+double MeanDifferencePx(const SceneDatabase& db, uint32_t keyframe, const Rigid3& found) {
+  double sum = 0.0;
+  size_t count = 0;
+  for (const Observation& o : SightsOf(db, keyframe)) {
+    const Eigen::Vector3d point = db.points[o.point].cast<double>();
+    const auto expected = db.camera.Project(db.keyframes[keyframe].camera_from_map * point);
+    const auto actual = db.camera.Project(found * point);
+    if (expected && actual) {
+      sum += (*actual - *expected).norm();
+      ++count;
+    }
+  }
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+BudgetRow MeasureBudget(const SceneDatabase& db,
+                        const SceneDatabase& rest,
+                        std::span<const HeldOutView> views,
+                        const BudgetOptions& options) {
+  BudgetRow row;
+  {
+    const SceneDatabase whole = Prune(db, options);
+    row.points = static_cast<int>(whole.points.size());
+    row.descriptors = static_cast<int>(whole.descriptors.size());
+    row.images =
+        static_cast<int>(std::count_if(whole.keyframes.begin(), whole.keyframes.end(),
+                                       [](const vision::Keyframe& k) { return !k.grey.empty(); }));
+    row.bytes = vision::SerializeSceneDatabase(whole).size();
+  }
+  const SceneDatabase pruned = Prune(rest, options);
+  vision::Localizer localizer(pruned, vision::LocalizerOptions());
+  std::vector<double> differences;
+  for (const HeldOutView& view : views) {
+    const vision::Location location = localizer.Locate(view.query, db.camera);
+    if (location.camera_from_map) {
+      differences.push_back(MeanDifferencePx(db, view.keyframe, *location.camera_from_map));
+    }
+  }
+  row.recall = static_cast<double>(differences.size()) / static_cast<double>(views.size());
+  if (!differences.empty()) {
+    const auto middle = differences.begin() + static_cast<ptrdiff_t>(differences.size() / 2);
+    std::nth_element(differences.begin(), middle, differences.end());
+    row.median_difference_px = *middle;
+  }
+  return row;
+}
+
+}  // namespace
+
+Status BudgetOptions::Validate() const {
+  constexpr std::string_view kOptions = "budget";
+  if (max_points < 100) {
+    return Status::Error(kOptions, "max_points must be at least 100");
+  }
+  if (max_descriptors_per_point < 0) {
+    return Status::Error(kOptions, "max_descriptors_per_point must not be negative");
+  }
+  if (!(image_coverage >= 0.0 && image_coverage <= 1.0)) {
+    return Status::Error(kOptions, "image_coverage must lie between 0 and 1");
+  }
+  return Status();
+}
+
+std::vector<uint32_t> ChoosePoints(const SceneDatabase& database, size_t count) {
+  if (count >= database.points.size()) {
+    std::vector<uint32_t> all(database.points.size());
+    for (uint32_t i = 0; i < all.size(); ++i) {
+      all[i] = i;
+    }
+    return all;
+  }
+  return PointChooser(database).Choose(count);
+}
+
+std::vector<uint32_t> ChooseImages(const SceneDatabase& database, double coverage) {
+  const std::vector<std::vector<View>> views = ViewsOfPoints(database);
+  // shows[k]: sights, as (point, place in views[point]), that look as in keyframe k.
+  std::vector<std::vector<std::pair<uint32_t, uint32_t>>> shows(database.keyframes.size());
+  for (uint32_t point = 0; point < views.size(); ++point) {
+    for (const View& image : views[point]) {
+      for (uint32_t v = 0; v < views[point].size(); ++v) {
+        if (!database.keyframes[image.keyframe].grey.empty() &&
+            LooksAlike(image, views[point][v])) {
+          shows[image.keyframe].emplace_back(point, v);
+        }
+      }
+    }
+  }
+  std::vector<std::vector<bool>> shown(views.size());
+  for (size_t point = 0; point < views.size(); ++point) {
+    shown[point].resize(views[point].size(), false);
+  }
+  const auto gain = [&](uint32_t k) {
+    return std::count_if(shows[k].begin(), shows[k].end(),
+                         [&](const auto& sight) { return !shown[sight.first][sight.second]; });
+  };
+  const double wanted = coverage * static_cast<double>(database.observations.size());
+  double covered = 0.0;
+  std::vector<uint32_t> chosen;
+  while (covered < wanted) {
+    uint32_t best = 0;
+    ptrdiff_t most = 0;
+    for (uint32_t k = 0; k < shows.size(); ++k) {
+      if (const ptrdiff_t more = gain(k); more > most) {
+        most = more;
+        best = k;
+      }
+    }
+    if (most == 0) {
+      break;
+    }
+    for (const auto& [point, v] : shows[best]) {
+      shown[point][v] = true;
+    }
+    covered += static_cast<double>(most);
+    chosen.push_back(best);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+SceneDatabase Prune(const SceneDatabase& database, const BudgetOptions& options) {
+  CHECK(options.Validate().ok());
+  const std::vector<uint32_t> points =
+      ChoosePoints(database, static_cast<size_t>(options.max_points));
+  SceneDatabase pruned = WithPoints(database, points, options.max_descriptors_per_point);
+  if (options.image_coverage < 1.0) {
+    std::vector<bool> keeps(pruned.keyframes.size(), false);
+    for (const uint32_t k : ChooseImages(pruned, options.image_coverage)) {
+      keeps[k] = true;
+    }
+    for (size_t k = 0; k < keeps.size(); ++k) {
+      if (!keeps[k]) {
+        pruned.keyframes[k].grey = cv::Mat();
+      }
+    }
+  }
+  vision::ForestOptions forest;
+  forest.seed = options.seed;
+  pruned.forest = vision::BuildForest(pruned.descriptors, forest);
+  return pruned;
+}
+
+Result<std::vector<BudgetRow>> MeasureBudgets(const SceneDatabase& database,
+                                              std::span<const BudgetOptions> budgets,
+                                              size_t stride) {
+  CHECK(stride >= 2);
+  for (const BudgetOptions& options : budgets) {
+    LARARIUM_RETURN_IF_ERROR(options.Validate());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<HeldOutView> views, HeldOutViews(database, stride));
+  SceneDatabase rest = WithoutViews(database, views);
+  rest.forest = vision::BuildForest(rest.descriptors, vision::ForestOptions());
+  std::vector<BudgetRow> rows;
+  for (const BudgetOptions& options : budgets) {
+    rows.push_back(MeasureBudget(database, rest, views, options));
+  }
+  return rows;
+}
+
+}  // namespace lararium::train

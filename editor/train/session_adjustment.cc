@@ -1,0 +1,143 @@
+#include "editor/train/session_adjustment.h"
+
+#include <ceres/ceres.h>
+
+#include <array>
+#include <memory>
+
+#include "editor/train/bundle_adjustment.h"
+
+namespace lararium::train {
+namespace {
+
+using geometry::CameraModel;
+using geometry::Rigid3;
+using PoseManifold =
+    ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
+
+class SightCost : public ceres::SizedCostFunction<2, 7, 3> {
+ public:
+  SightCost(const CameraModel& camera, const vision::Observation& observation)
+      : camera_(camera),
+        intrinsics_{camera.fx, camera.k1, camera.k2},
+        pixel_(observation.x, observation.y) {}
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    return ReprojectionResidual(camera_, pixel_, intrinsics_.data(), parameters[0], parameters[1],
+                                residuals, nullptr, jacobians != nullptr ? jacobians[0] : nullptr,
+                                jacobians != nullptr ? jacobians[1] : nullptr);
+  }
+
+ private:
+  const CameraModel& camera_;
+  IntrinsicsBlock intrinsics_;
+  Eigen::Vector2d pixel_;
+};
+
+PoseBlock ToBlock(const Rigid3& pose) {
+  PoseBlock block;
+  Eigen::Map<Eigen::Vector4d>(block.data()) = pose.rotation.coeffs();
+  Eigen::Map<Eigen::Vector3d>(block.data() + 4) = pose.translation;
+  return block;
+}
+
+Rigid3 ToPose(const PoseBlock& block) {
+  Rigid3 pose;
+  pose.rotation.coeffs() = Eigen::Map<const Eigen::Vector4d>(block.data());
+  pose.rotation.normalize();
+  pose.translation = Eigen::Map<const Eigen::Vector3d>(block.data() + 4);
+  return pose;
+}
+
+// Points that a free pose observes.
+std::vector<bool> FreePoints(std::span<const vision::Observation> observations,
+                             size_t first_free,
+                             size_t count) {
+  std::vector<bool> free(count, false);
+  for (const vision::Observation& o : observations) {
+    if (o.keyframe >= first_free) {
+      free[o.point] = true;
+    }
+  }
+  return free;
+}
+
+ceres::Problem::Options BorrowingOptions() {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  return options;
+}
+
+ceres::Solver::Options SolverOptions(size_t free_poses) {
+  ceres::Solver::Options options;
+  options.max_num_iterations = 20;
+  options.num_threads = 1;  // several do not give the same bits twice
+  options.logging_type = ceres::SILENT;
+  constexpr size_t kMaxDensePoses = 250;
+  options.linear_solver_type =
+      free_poses <= kMaxDensePoses ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+  return options;
+}
+
+}  // namespace
+
+bool AdjustSession(const CameraModel& camera,
+                   std::span<const vision::Observation> observations,
+                   size_t first_free,
+                   std::span<Rigid3> camera_from_map,
+                   std::span<Eigen::Vector3d> points) {
+  constexpr double kLossScalePx = 1.5;
+  ceres::CauchyLoss loss(kLossScalePx);
+  PoseManifold manifold;
+  std::vector<PoseBlock> poses;
+  for (const Rigid3& pose : camera_from_map) {
+    poses.push_back(ToBlock(pose));
+  }
+  std::vector<Eigen::Vector3d> moved(points.begin(), points.end());
+  const std::vector<bool> free = FreePoints(observations, first_free, points.size());
+
+  ceres::Problem problem(BorrowingOptions());
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (const vision::Observation& o : observations) {
+    if (free[o.point]) {
+      problem.AddResidualBlock(new SightCost(camera, o), &loss, poses[o.keyframe].data(),
+                               moved[o.point].data());
+    }
+  }
+  size_t free_poses = 0;
+  for (size_t k = 0; k < poses.size(); ++k) {
+    double* block = poses[k].data();
+    if (!problem.HasParameterBlock(block)) {
+      continue;
+    }
+    problem.SetManifold(block, &manifold);
+    ordering->AddElementToGroup(block, 1);
+    if (k < first_free) {
+      problem.SetParameterBlockConstant(block);
+    } else {
+      ++free_poses;
+    }
+  }
+  for (Eigen::Vector3d& point : moved) {
+    if (problem.HasParameterBlock(point.data())) {
+      ordering->AddElementToGroup(point.data(), 0);
+    }
+  }
+  ceres::Solver::Options options = SolverOptions(free_poses);
+  options.linear_solver_ordering = ordering;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) {
+    return false;
+  }
+  for (size_t k = first_free; k < poses.size(); ++k) {
+    camera_from_map[k] = ToPose(poses[k]);
+  }
+  std::copy(moved.begin(), moved.end(), points.begin());
+  return true;
+}
+
+}  // namespace lararium::train

@@ -1,0 +1,786 @@
+#include "editor/train/session_merge.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "editor/train/budget.h"
+#include "editor/train/database_builder.h"
+#include "editor/train/session_adjustment.h"
+#include "editor/train/survey.h"
+#include "shared/core/check.h"
+#include "shared/core/parallel.h"
+#include "shared/core/random.h"
+#include "shared/vision/guided_matcher.h"
+#include "shared/vision/localizer.h"
+
+namespace lararium::train {
+namespace {
+
+using geometry::CameraModel;
+using geometry::Rigid3;
+using geometry::Similarity3;
+using vision::Features;
+using vision::Observation;
+using vision::SceneDatabase;
+
+constexpr std::string_view kPlace = "adding a session";
+constexpr uint32_t kNone = 0xffffffff;
+constexpr size_t kLeastLocated = 3;         // keyframes that agree
+constexpr double kAgreeingAngle = 0.035;    // radians, between keyframes' ideas of the rotation
+constexpr double kAgreeingDistance = 0.03;  // of the median depth, likewise of the place
+constexpr double kPointDistance = 0.02;     // of the median depth, of two positions of one point
+constexpr double kFirstRadiusPx = 6.0;      // of guided matching, before the joint adjustment
+constexpr double kLaterRadiusPx = 3.0;      // and after
+constexpr double kLargestErrorPx = 2.5;     // of a sight that is kept
+
+Status NotFound(size_t located, size_t keyframes) {
+  return Status::Error(kPlace,
+                       std::to_string(located) + " of " + std::to_string(keyframes) +
+                           " images of the new video were found in the map",
+                       "film the place from where it was filmed before, so that most of each view "
+                       "is known; where the light differs much, film once more in light between");
+}
+
+// ------------------------------------------------------------ the map's camera
+
+Eigen::Vector2d PixelIn(const CameraModel& to, const CameraModel& from, float x, float y) {
+  return to.PixelFromPlane(from.PlaneFromPixel({x, y}));
+}
+
+// The image that to would have taken in place of from.
+cv::Mat Resampled(cv::Mat image, CameraModel from, const CameraModel& to) {
+  if (image.empty() || from == to) {
+    return image;
+  }
+  if (from.Focal() > 1.5 * to.Focal()) {  // averages, so that nothing aliases
+    from = from.Resized(
+        std::max(1, static_cast<int>(std::lround(from.width * to.Focal() / from.Focal()))),
+        std::max(1, static_cast<int>(std::lround(from.height * to.Focal() / from.Focal()))));
+    cv::resize(image, image, cv::Size(from.width, from.height), 0.0, 0.0, cv::INTER_AREA);
+  }
+  cv::Mat places(to.height, to.width, CV_32FC2);
+  ParallelFor(static_cast<size_t>(to.height), [&](size_t row) {
+    for (int column = 0; column < to.width; ++column) {
+      const Eigen::Vector2d p =
+          PixelIn(from, to, static_cast<float>(column), static_cast<float>(row));
+      places.at<cv::Vec2f>(static_cast<int>(row), column) =
+          cv::Vec2f(static_cast<float>(p.x()), static_cast<float>(p.y()));
+    }
+  });
+  cv::Mat resampled;
+  cv::remap(image, resampled, places, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  return resampled;
+}
+
+Features FeaturesIn(const CameraModel& to, const CameraModel& from, const Features& features) {
+  if (from == to) {
+    return features;
+  }
+  Features moved;
+  for (size_t f = 0; f < features.size(); ++f) {
+    vision::Keypoint keypoint = features.keypoints[f];
+    const Eigen::Vector2d pixel = PixelIn(to, from, keypoint.x, keypoint.y);
+    if (to.Contains(pixel)) {
+      keypoint.x = static_cast<float>(pixel.x());
+      keypoint.y = static_cast<float>(pixel.y());
+      keypoint.scale *= static_cast<float>(to.Focal() / from.Focal());
+      moved.keypoints.push_back(keypoint);
+      moved.descriptors.push_back(features.descriptors[f]);
+    }
+  }
+  return moved;
+}
+
+std::vector<Observation> ObservationsIn(const CameraModel& to,
+                                        const CameraModel& from,
+                                        std::vector<Observation> observations) {
+  if (from == to) {
+    return observations;
+  }
+  for (Observation& o : observations) {
+    const Eigen::Vector2d pixel = PixelIn(to, from, o.x, o.y);
+    o.x = static_cast<float>(pixel.x());
+    o.y = static_cast<float>(pixel.y());
+    o.scale *= static_cast<float>(to.Focal() / from.Focal());
+  }
+  std::erase_if(observations, [&](const Observation& o) { return !to.Contains({o.x, o.y}); });
+  return observations;
+}
+
+// ------------------------------------------------------------ similarities
+
+double AngleBetween(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  return a.angularDistance(b);
+}
+
+// A keyframe of the session that the map knows by sight.
+struct LocatedKeyframe {
+  uint32_t keyframe = 0;  // of the session
+  Rigid3 camera_from_session;
+  Rigid3 camera_from_map;
+
+  Eigen::Quaterniond Rotation() const {  // map_from_session
+    return camera_from_map.rotation.conjugate() * camera_from_session.rotation;
+  }
+};
+
+std::optional<Similarity3> SimilarityOfTwo(const LocatedKeyframe& a, const LocatedKeyframe& b) {
+  if (AngleBetween(a.Rotation(), b.Rotation()) > kAgreeingAngle) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d in_session =
+      b.camera_from_session.Center() - a.camera_from_session.Center();
+  const Eigen::Vector3d in_map = b.camera_from_map.Center() - a.camera_from_map.Center();
+  if (in_session.norm() < 1e-9 || in_map.norm() < 1e-9) {
+    return std::nullopt;
+  }
+  Similarity3 map_from_session;
+  map_from_session.scale = in_map.norm() / in_session.norm();
+  map_from_session.rotation = a.Rotation().slerp(0.5, b.Rotation());
+  map_from_session.translation =
+      a.camera_from_map.Center() -
+      map_from_session.scale * (map_from_session.rotation * a.camera_from_session.Center());
+  return map_from_session;
+}
+
+std::vector<LocatedKeyframe> Agreeing(std::span<const LocatedKeyframe> located,
+                                      const Similarity3& map_from_session,
+                                      double depth) {
+  std::vector<LocatedKeyframe> agreeing;
+  for (const LocatedKeyframe& k : located) {
+    const double distance =
+        (map_from_session * k.camera_from_session.Center() - k.camera_from_map.Center()).norm();
+    if (distance < kAgreeingDistance * depth &&
+        AngleBetween(map_from_session.rotation, k.Rotation()) < kAgreeingAngle) {
+      agreeing.push_back(k);
+    }
+  }
+  return agreeing;
+}
+
+// The most keyframes that one similarity explains (RANSAC over pairs of them).
+std::vector<LocatedKeyframe> LargestAgreement(std::span<const LocatedKeyframe> located,
+                                              double depth,
+                                              uint64_t seed) {
+  constexpr int kSamples = 2000;
+  std::vector<LocatedKeyframe> best;
+  Random random(seed);
+  const auto count = static_cast<uint32_t>(located.size());
+  for (int i = 0; i < kSamples && count >= 2; ++i) {
+    const uint32_t a = random.Below(count);
+    const uint32_t b = random.Below(count);
+    const auto similarity = a == b ? std::nullopt : SimilarityOfTwo(located[a], located[b]);
+    if (!similarity) {
+      continue;
+    }
+    std::vector<LocatedKeyframe> agreeing = Agreeing(located, *similarity, depth);
+    if (agreeing.size() > best.size()) {
+      best = std::move(agreeing);
+    }
+  }
+  return best;
+}
+
+// Places of one thing in both maps.
+struct PointPair {
+  Eigen::Vector3d in_map;
+  Eigen::Vector3d in_session;
+};
+
+std::optional<Similarity3> FitSimilarity(std::span<const PointPair> pairs) {
+  std::vector<Eigen::Vector3d> in_map;
+  std::vector<Eigen::Vector3d> in_session;
+  for (const PointPair& pair : pairs) {
+    in_map.push_back(pair.in_map);
+    in_session.push_back(pair.in_session);
+  }
+  const Result<Similarity3> fitted = geometry::EstimateSimilarity(in_map, in_session);
+  return fitted.ok() ? std::optional(*fitted) : std::nullopt;
+}
+
+// By consensus over triples, then over all that agree.
+std::optional<Similarity3> RobustSimilarity(std::span<const PointPair> pairs,
+                                            double tolerance,
+                                            uint64_t seed) {
+  constexpr int kSamples = 300;
+  constexpr size_t kLeastPairs = 12;
+  if (pairs.size() < kLeastPairs) {
+    return std::nullopt;
+  }
+  const auto agreeing = [&](const Similarity3& similarity) {
+    std::vector<PointPair> inliers;
+    for (const PointPair& pair : pairs) {
+      if ((similarity * pair.in_session - pair.in_map).norm() < tolerance) {
+        inliers.push_back(pair);
+      }
+    }
+    return inliers;
+  };
+  Random random(seed);
+  const auto count = static_cast<uint32_t>(pairs.size());
+  std::vector<PointPair> best;
+  for (int i = 0; i < kSamples; ++i) {
+    const std::array<PointPair, 3> triple = {pairs[random.Below(count)], pairs[random.Below(count)],
+                                             pairs[random.Below(count)]};
+    if (const auto similarity = FitSimilarity(triple)) {
+      std::vector<PointPair> inliers = agreeing(*similarity);
+      if (inliers.size() > best.size()) {
+        best = std::move(inliers);
+      }
+    }
+  }
+  std::optional<Similarity3> similarity = FitSimilarity(best);
+  if (similarity) {
+    best = agreeing(*similarity);
+    similarity = FitSimilarity(best);
+  }
+  return best.size() < kLeastPairs ? std::nullopt : similarity;
+}
+
+double MedianDepth(const SceneDatabase& db) {
+  std::vector<double> depths;
+  for (const Observation& o : db.observations) {
+    depths.push_back(
+        (db.keyframes[o.keyframe].camera_from_map * db.points[o.point].cast<double>()).z());
+  }
+  if (depths.empty()) {
+    return 1.0;
+  }
+  const auto middle = depths.begin() + static_cast<ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle;
+}
+
+// ------------------------------------------------------------ merging
+
+class Merger {
+ public:
+  Merger(const SceneDatabase& map,
+         const SceneDatabase& session,
+         std::span<const Features> features,
+         const MergeOptions& options,
+         Log& log)
+      : map_(map), session_(session), options_(options), log_(log), guided_(map) {
+    for (const Features& of_keyframe : features) {
+      features_.push_back(FeaturesIn(map.camera, session.camera, of_keyframe));
+    }
+    sights_ = ObservationsIn(map.camera, session.camera, session.observations);
+    sight_begin_.push_back(0);
+    for (uint32_t k = 0; k < session.keyframes.size(); ++k) {
+      size_t end = sight_begin_.back();
+      while (end < sights_.size() && sights_[end].keyframe == k) {
+        ++end;
+      }
+      sight_begin_.push_back(end);
+    }
+    report_.keyframes = static_cast<int>(session.keyframes.size());
+  }
+
+  Result<MergedMap> Run() {
+    LARARIUM_RETURN_IF_ERROR(Align());
+    MatchPoints(kFirstRadiusPx);
+    Adjust();
+    MatchPoints(kLaterRadiusPx);
+    Adjust();
+    DropPoorSights();
+    Adjust();
+    MergedMap merged;
+    merged.database = Build();
+    merged.report = report_;
+    return merged;
+  }
+
+ private:
+  size_t MapKeyframes() const { return map_.keyframes.size(); }
+  size_t MapPoints() const { return map_.points.size(); }
+
+  std::span<const Observation> SightsOf(uint32_t keyframe) const {
+    return std::span(sights_).subspan(sight_begin_[keyframe],
+                                      sight_begin_[keyframe + 1] - sight_begin_[keyframe]);
+  }
+
+  std::vector<LocatedKeyframe> LocateKeyframes() const {
+    vision::LocalizerOptions options;
+    options.seed = options_.seed;
+    vision::Localizer localizer(map_, options);
+    std::vector<LocatedKeyframe> located;
+    for (uint32_t k = 0; k < features_.size(); ++k) {
+      const vision::Location location = localizer.Locate(features_[k], map_.camera);
+      if (location.camera_from_map) {
+        located.push_back({k, session_.keyframes[k].camera_from_map, *location.camera_from_map});
+      }
+    }
+    return located;
+  }
+
+  // Finds map_from_session: first by what the keyframes agree on, then by points
+  // that both maps have.
+  Status Align() {
+    const double depth = MedianDepth(map_);
+    const std::vector<LocatedKeyframe> located = LocateKeyframes();
+    const std::vector<LocatedKeyframe> agreeing = LargestAgreement(located, depth, options_.seed);
+    report_.located = static_cast<int>(agreeing.size());
+    log_.info("{} of {} images of the session were found in the map, {} of them agree",
+              located.size(), features_.size(), agreeing.size());
+    if (agreeing.size() < kLeastLocated) {
+      return NotFound(agreeing.size(), features_.size());
+    }
+    poses_.assign(session_.keyframes.size(), Rigid3());
+    std::vector<bool> known(poses_.size(), false);
+    for (const LocatedKeyframe& k : agreeing) {
+      poses_[k.keyframe] = k.camera_from_map;
+      known[k.keyframe] = true;
+    }
+    CastVotes(known, kLaterRadiusPx);
+    std::vector<PointPair> pairs;
+    for (uint32_t q = 0; q < session_.points.size(); ++q) {
+      if (const uint32_t p = Elected(q); p != kNone) {
+        pairs.push_back({map_.points[p].cast<double>(), session_.points[q].cast<double>()});
+      }
+    }
+    const auto similarity = RobustSimilarity(pairs, kPointDistance * depth, options_.seed);
+    if (!similarity) {
+      return NotFound(agreeing.size(), features_.size());
+    }
+    report_.map_from_session = *similarity;
+    for (size_t k = 0; k < poses_.size(); ++k) {
+      poses_[k] = geometry::CameraFromB(session_.keyframes[k].camera_from_map,
+                                        report_.map_from_session.Inverse());
+    }
+    points_.clear();
+    for (const Eigen::Vector3f& point : map_.points) {
+      points_.push_back(point.cast<double>());
+    }
+    for (const Eigen::Vector3f& point : session_.points) {
+      points_.push_back(report_.map_from_session * point.cast<double>());
+    }
+    return Status();
+  }
+
+  // Looks for the map's points in keyframes of the session; a session's point
+  // that was seen at the same place gets a vote for being the same.
+  void CastVotes(const std::vector<bool>& keyframes, double radius_px) {
+    votes_.assign(session_.points.size(), {});
+    guided_sights_.clear();
+    std::vector<vision::FeatureMatch> matches;
+    for (uint32_t k = 0; k < features_.size(); ++k) {
+      if (!keyframes[k]) {
+        continue;
+      }
+      std::map<std::pair<float, float>, uint32_t> point_at;
+      for (const Observation& o : SightsOf(k)) {
+        point_at.emplace(std::pair(o.x, o.y), o.point);
+      }
+      guided_.Match(map_.camera, poses_[k], features_[k], radius_px, matches);
+      for (const vision::FeatureMatch& match : matches) {
+        const vision::Keypoint& keypoint = features_[k].keypoints[match.feature];
+        guided_sights_.push_back(
+            {{match.point, k, keypoint.x, keypoint.y, keypoint.scale}, match.feature});
+        if (const auto found = point_at.find({keypoint.x, keypoint.y}); found != point_at.end()) {
+          votes_[found->second].push_back(match.point);
+        }
+      }
+    }
+  }
+
+  // The map's point that most sights of a session's point show; kNone where
+  // fewer than two do, or no majority.
+  uint32_t Elected(uint32_t session_point) const {
+    std::vector<uint32_t> votes = votes_[session_point];
+    std::sort(votes.begin(), votes.end());
+    for (size_t begin = 0; begin < votes.size();) {
+      const auto end = static_cast<size_t>(
+          std::upper_bound(votes.begin(), votes.end(), votes[begin]) - votes.begin());
+      if (end - begin >= 2 && 2 * (end - begin) > votes.size()) {
+        return votes[begin];
+      }
+      begin = end;
+    }
+    return kNone;
+  }
+
+  // Which point of the merged map a session's point is.
+  uint32_t Joined(uint32_t session_point) const {
+    const uint32_t elected = joined_[session_point];
+    return elected != kNone ? elected : static_cast<uint32_t>(MapPoints() + session_point);
+  }
+
+  // All sights of the session: of its own points, joined to the map's where
+  // elected, and of the map's points that guided matching found besides.
+  void MatchPoints(double radius_px) {
+    CastVotes(std::vector<bool>(poses_.size(), true), radius_px);
+    joined_.assign(session_.points.size(), kNone);
+    for (uint32_t q = 0; q < session_.points.size(); ++q) {
+      joined_[q] = Elected(q);
+    }
+    joint_.clear();
+    for (const Observation& o : sights_) {
+      joint_.push_back({Joined(o.point), o.keyframe, o.x, o.y, o.scale});
+    }
+    for (const GuidedSight& sight : guided_sights_) {
+      joint_.push_back(sight.observation);
+    }
+    KeepNearestSights();
+  }
+
+  double ErrorPx(const Observation& o) const {
+    const auto pixel = map_.camera.Project(poses_[o.keyframe] * points_[o.point]);
+    return pixel ? (*pixel - Eigen::Vector2d(o.x, o.y)).norm() : 1e9;
+  }
+
+  // Each keyframe sees each point once, and each feature shows one point: the
+  // nearest ones stay.
+  void KeepNearestSights() {
+    const auto keep_first = [&](const auto& key) {
+      std::stable_sort(joint_.begin(), joint_.end(), [&](const auto& a, const auto& b) {
+        return key(a) != key(b) ? key(a) < key(b) : ErrorPx(a) < ErrorPx(b);
+      });
+      joint_.erase(std::unique(joint_.begin(), joint_.end(),
+                               [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+                   joint_.end());
+    };
+    keep_first([](const Observation& o) { return std::tuple(o.keyframe, o.x, o.y); });
+    keep_first([](const Observation& o) { return std::tuple(o.keyframe, o.point, 0u); });
+  }
+
+  void Adjust() {
+    std::vector<Rigid3> poses;
+    for (const vision::Keyframe& keyframe : map_.keyframes) {
+      poses.push_back(keyframe.camera_from_map);
+    }
+    poses.insert(poses.end(), poses_.begin(), poses_.end());
+    if (!AdjustSession(map_.camera, AllObservations(), MapKeyframes(), poses, points_)) {
+      log_.warn("the joint adjustment found no solution");
+      return;
+    }
+    std::copy(poses.begin() + static_cast<ptrdiff_t>(MapKeyframes()), poses.end(), poses_.begin());
+  }
+
+  // Of the map and then of the session, in the merged map's numbers, sorted.
+  std::vector<Observation> AllObservations() const {
+    std::vector<Observation> all = map_.observations;
+    for (Observation o : joint_) {
+      o.keyframe += static_cast<uint32_t>(MapKeyframes());
+      all.push_back(o);
+    }
+    return all;
+  }
+
+  void DropPoorSights() {
+    std::erase_if(joint_, [&](const Observation& o) { return ErrorPx(o) > kLargestErrorPx; });
+    std::vector<int> counts(points_.size(), 0);
+    for (const Observation& o : joint_) {
+      ++counts[o.point];
+    }
+    std::erase_if(joint_, [&](const Observation& o) {
+      return o.point >= MapPoints() && counts[o.point] < 2;
+    });
+  }
+
+  // ---------------------------------------------------------- the database
+
+  SceneDatabase Build() {
+    SceneDatabase db;
+    db.camera = map_.camera;
+    db.keyframes = map_.keyframes;
+    const std::array<float, 3> exposure = ReferenceRatio();
+    for (size_t k = 0; k < poses_.size(); ++k) {
+      vision::Keyframe& keyframe = db.keyframes.emplace_back(session_.keyframes[k]);
+      keyframe.camera_from_map = poses_[k];
+      keyframe.grey = Resampled(keyframe.grey, session_.camera, map_.camera);
+      for (size_t c = 0; c < 3; ++c) {
+        keyframe.gain[c] *= exposure[c];
+      }
+    }
+    AddPoints(db, exposure);
+    double error_sum = 0.0;
+    for (const Observation& o : db.observations) {
+      const auto pixel = db.camera.Project(db.keyframes[o.keyframe].camera_from_map *
+                                           db.points[o.point].cast<double>());
+      error_sum += pixel ? (*pixel - Eigen::Vector2d(o.x, o.y)).norm() : 0.0;
+    }
+    db.mean_reprojection_error_px =
+        error_sum / static_cast<double>(std::max<size_t>(1, db.observations.size()));
+    return db;
+  }
+
+  // Light of the session's reference over that of the map's, by the points that
+  // both show: what its gains are multiplied by, and its colours divided by.
+  std::array<float, 3> ReferenceRatio() const {
+    std::array<float, 3> ratio = {1.0f, 1.0f, 1.0f};
+    for (int c = 0; c < 3; ++c) {
+      std::vector<float> ratios;
+      for (uint32_t q = 0; q < session_.colours.size() && !map_.colours.empty(); ++q) {
+        const float of_session = session_.colours[q][c];
+        if (joined_[q] != kNone && of_session > 0.0f && map_.colours[joined_[q]][c] > 0.0f) {
+          ratios.push_back(of_session / map_.colours[joined_[q]][c]);
+        }
+      }
+      if (!ratios.empty()) {
+        const auto middle = ratios.begin() + static_cast<ptrdiff_t>(ratios.size() / 2);
+        std::nth_element(ratios.begin(), middle, ratios.end());
+        ratio[static_cast<size_t>(c)] = *middle;
+      }
+    }
+    return ratio;
+  }
+
+  void AddPoints(SceneDatabase& db, const std::array<float, 3>& exposure) {
+    const std::vector<Observation> all = AllObservations();
+    std::vector<Eigen::Vector3d> towards(points_.size(), Eigen::Vector3d::Zero());
+    std::vector<uint32_t> counts(points_.size(), 0);
+    for (const Observation& o : joint_) {
+      ++counts[o.point];
+      towards[o.point] += (poses_[o.keyframe].Center() - points_[o.point]).stableNormalized();
+    }
+    const std::vector<std::vector<vision::Descriptor>> fresh = FreshDescriptors();
+    const bool coloured = !map_.colours.empty() || !session_.colours.empty();
+    std::vector<uint32_t> new_index(points_.size(), kNone);
+    db.descriptor_begin.push_back(0);
+    for (uint32_t i = 0; i < points_.size(); ++i) {
+      const bool old = i < MapPoints();
+      if (!old && counts[i] == 0) {
+        continue;
+      }
+      new_index[i] = static_cast<uint32_t>(db.points.size());
+      report_.shared_points += old && counts[i] > 0;
+      report_.added_points += !old;
+      const Eigen::Vector3d before =
+          old ? Eigen::Vector3d(map_.observation_counts[i] * map_.normals[i].cast<double>())
+              : Eigen::Vector3d::Zero();
+      const Eigen::Vector3d normal = before + towards[i];
+      db.points.push_back(points_[i].cast<float>());
+      db.normals.push_back(normal.norm() > 1e-9 ? Eigen::Vector3f(normal.normalized().cast<float>())
+                                                : Eigen::Vector3f(0.0f, 0.0f, 1.0f));
+      db.observation_counts.push_back(counts[i] + (old ? map_.observation_counts[i] : 0));
+      const uint32_t bit = counts[i] > 0 ? 1u << session_.keyframes.front().session : 0u;
+      db.session_masks.push_back(bit | (old ? map_.session_masks[i] : 0u));
+      if (coloured) {
+        db.colours.push_back(Colour(i, exposure));
+      }
+      AddDescriptors(db, i, fresh[i]);
+    }
+    for (Observation o : all) {
+      o.point = new_index[o.point];
+      db.observations.push_back(o);
+    }
+    std::sort(db.observations.begin(), db.observations.end(),
+              [](const Observation& a, const Observation& b) {
+                return a.keyframe != b.keyframe ? a.keyframe < b.keyframe : a.point < b.point;
+              });
+  }
+
+  Eigen::Vector3f Colour(uint32_t point, const std::array<float, 3>& exposure) const {
+    Eigen::Vector3f colour = Eigen::Vector3f::Constant(-1.0f);
+    if (point < MapPoints()) {
+      return map_.colours.empty() ? colour : map_.colours[point];
+    }
+    if (!session_.colours.empty()) {
+      const Eigen::Vector3f& of_session = session_.colours[point - MapPoints()];
+      for (int c = 0; c < 3; ++c) {
+        colour[c] = of_session[c] > 0.0f ? of_session[c] / exposure[static_cast<size_t>(c)] : -1.0f;
+      }
+    }
+    return colour;
+  }
+
+  // [points]: what the session's light makes of them.
+  std::vector<std::vector<vision::Descriptor>> FreshDescriptors() const {
+    std::vector<std::vector<vision::Descriptor>> fresh(points_.size());
+    for (uint32_t q = 0; q < session_.points.size(); ++q) {
+      for (uint32_t d = session_.descriptor_begin[q]; d < session_.descriptor_begin[q + 1]; ++d) {
+        fresh[Joined(q)].push_back(session_.descriptors[d]);
+      }
+    }
+    for (const GuidedSight& sight : guided_sights_) {
+      if (ErrorPx(sight.observation) < kLargestErrorPx) {
+        fresh[sight.observation.point].push_back(
+            features_[sight.observation.keyframe].descriptors[sight.feature]);
+      }
+    }
+    return fresh;
+  }
+
+  void AddDescriptors(SceneDatabase& db,
+                      uint32_t point,
+                      const std::vector<vision::Descriptor>& fresh) const {
+    std::vector<vision::Descriptor> kept;
+    if (point < MapPoints()) {
+      kept.assign(map_.descriptors.begin() + map_.descriptor_begin[point],
+                  map_.descriptors.begin() + map_.descriptor_begin[point + 1]);
+    }
+    const size_t most = kept.size() + static_cast<size_t>(options_.max_descriptors_per_point);
+    AddDistinctDescriptors(fresh, most, kept);
+    const auto index = static_cast<uint32_t>(db.points.size() - 1);
+    for (const vision::Descriptor& descriptor : kept) {
+      db.descriptors.push_back(descriptor);
+      db.descriptor_point.push_back(index);
+    }
+    db.descriptor_begin.push_back(static_cast<uint32_t>(db.descriptors.size()));
+  }
+
+  struct GuidedSight {
+    Observation observation;  // of a point of the map, in a keyframe of the session
+    uint32_t feature = 0;
+  };
+
+  const SceneDatabase& map_;
+  const SceneDatabase& session_;
+  MergeOptions options_;
+  Log& log_;
+  vision::GuidedMatcher guided_;
+  std::vector<Features> features_;            // of the session's keyframes, in the map's camera
+  std::vector<Observation> sights_;           // of the session, in the map's camera
+  std::vector<size_t> sight_begin_;           // [keyframes + 1], into sights_
+  std::vector<Rigid3> poses_;                 // of the session's keyframes, camera_from_map
+  std::vector<Eigen::Vector3d> points_;       // of the map, then of the session
+  std::vector<std::vector<uint32_t>> votes_;  // [session's points]: points of the map
+  std::vector<GuidedSight> guided_sights_;
+  std::vector<uint32_t> joined_;    // [session's points]: point of the map, or kNone
+  std::vector<Observation> joint_;  // of session keyframes, of points_
+  MergeReport report_;
+};
+
+// ------------------------------------------------------------ the video
+
+Result<CameraModel> CameraOf(const SceneDatabase& map,
+                             const capture::FrameSource& source,
+                             const TrainOptions& options) {
+  return options.intrinsics ? Result<CameraModel>(*options.intrinsics)
+                            : map.camera.ForImages(source.width(), source.height());
+}
+
+Result<std::vector<Features>> KeyframeFeatures(const SceneDatabase& session,
+                                               int max_features,
+                                               Progress& progress) {
+  std::vector<TrainingImage> images(session.keyframes.size());
+  for (size_t k = 0; k < images.size(); ++k) {
+    images[k].name = session.keyframes[k].name;
+    images[k].grey = session.keyframes[k].grey;
+  }
+  LARARIUM_RETURN_IF_ERROR(ExtractFeatures(images, max_features, progress));
+  std::vector<Features> features;
+  for (TrainingImage& image : images) {
+    features.push_back(std::move(image.features));
+  }
+  return features;
+}
+
+// Poses of the session's frames, moved with the keyframe nearest in the video.
+class PoseMover {
+ public:
+  PoseMover(const SceneDatabase& session, const MergedMap& merged)
+      : session_(session), merged_(merged) {}
+
+  Rigid3 Moved(int64_t frame_index, const Rigid3& camera_from_session) const {
+    size_t nearest = 0;
+    for (size_t k = 1; k < session_.keyframes.size(); ++k) {
+      const auto distance = [&](size_t i) {
+        return std::abs(session_.keyframes[i].frame_index - frame_index);
+      };
+      nearest = distance(k) < distance(nearest) ? k : nearest;
+    }
+    const Rigid3& before = session_.keyframes[nearest].camera_from_map;
+    const size_t first = merged_.database.keyframes.size() - session_.keyframes.size();
+    const Rigid3& after = merged_.database.keyframes[first + nearest].camera_from_map;
+    const double scale = merged_.report.map_from_session.scale;
+    // The motion from the keyframe to the frame, in the map's unit.
+    Rigid3 frame_from_keyframe = camera_from_session * before.Inverse();
+    frame_from_keyframe.translation *= scale;
+    return frame_from_keyframe * after;
+  }
+
+ private:
+  const SceneDatabase& session_;
+  const MergedMap& merged_;
+};
+
+void MoveReport(const SceneDatabase& session, const MergedMap& merged, TrainReport& report) {
+  const PoseMover mover(session, merged);
+  for (LocatedFrame& frame : report.located) {
+    frame.camera_from_map = mover.Moved(frame.frame_index, frame.camera_from_map);
+  }
+  for (FrameReport& frame : report.frame_reports) {
+    if (frame.camera_from_map) {
+      frame.camera_from_map = mover.Moved(frame.frame_index, *frame.camera_from_map);
+    }
+  }
+  report.points = static_cast<int>(merged.database.points.size());
+  report.observations = static_cast<int>(merged.database.observations.size());
+  report.mean_reprojection_error_px = merged.database.mean_reprojection_error_px;
+}
+
+}  // namespace
+
+uint32_t NextSession(const SceneDatabase& map) {
+  uint32_t next = 0;
+  for (const vision::Keyframe& keyframe : map.keyframes) {
+    next = std::max(next, keyframe.session + 1);
+  }
+  return next;
+}
+
+Result<MergedMap> MergeSession(const SceneDatabase& map,
+                               const SceneDatabase& session,
+                               std::span<const Features> features,
+                               const MergeOptions& options,
+                               Log& log) {
+  CHECK(features.size() == session.keyframes.size());
+  if (map.points.empty() || session.keyframes.empty()) {
+    return NotFound(0, session.keyframes.size());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(MergedMap merged, Merger(map, session, features, options, log).Run());
+  BudgetOptions budget;
+  budget.max_points = options.max_points;
+  budget.seed = options.seed;
+  merged.database = Prune(merged.database, budget);
+  log.info("the session sees {} points of the map and adds {}", merged.report.shared_points,
+           merged.report.added_points);
+  return merged;
+}
+
+Result<TrainResult> AddSession(const SceneDatabase& map,
+                               capture::FrameSource& source,
+                               const TrainOptions& options,
+                               Progress& progress,
+                               Log& log) {
+  constexpr uint32_t kSessions = 32;
+  TrainOptions of_session = options;
+  of_session.session = NextSession(map);
+  if (of_session.session >= kSessions) {
+    return Status::Error(kPlace, "the map has 32 sessions already", "train the place anew");
+  }
+  if (const Result<CameraModel> camera = CameraOf(map, source, options); camera.ok()) {
+    of_session.intrinsics = *camera;
+  } else {
+    log.info("the video has other proportions than the map's; its intrinsics are estimated");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(TrainResult trained, Train(source, of_session, progress, log));
+  progress.Report("merging", 0.0);
+  const auto start = std::chrono::steady_clock::now();
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<Features> features,
+                            KeyframeFeatures(trained.database, options.max_features, progress));
+  MergeOptions merging;
+  merging.max_points = options.max_points;
+  merging.seed = options.seed;
+  LARARIUM_ASSIGN_OR_RETURN(MergedMap merged,
+                            MergeSession(map, trained.database, features, merging, log));
+  if (progress.Cancelled()) {
+    return Status::Error(kPlace, "cancelled");
+  }
+  MoveReport(trained.database, merged, trained.report);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  trained.report.seconds.emplace_back("merging", seconds.count());
+  LARARIUM_RETURN_IF_ERROR(merged.database.Validate());
+  trained.database = std::move(merged.database);
+  return trained;
+}
+
+}  // namespace lararium::train

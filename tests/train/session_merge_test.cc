@@ -1,0 +1,203 @@
+#include "editor/train/session_merge.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/synthetic_world.h"
+
+namespace lararium::train {
+namespace {
+
+using geometry::Rigid3;
+using geometry::Similarity3;
+using vision::Observation;
+using vision::SceneDatabase;
+
+// A map of a world and a session that was trained by itself: in its own frame
+// and unit, by other cameras, with a part of the descriptors changed by the light.
+struct TwoSessions {
+  SceneDatabase map;
+  SceneDatabase session;
+  std::vector<vision::Features> features;  // of the session's keyframes
+  Similarity3 map_from_session;
+};
+
+struct TwoSessionsOptions {
+  double changed_share = 0.5;
+  double noise_px = 0.3;
+  bool other_camera = false;
+};
+
+void Retake(test::SyntheticWorld& world,
+            double noise_px,
+            SceneDatabase& db,
+            std::vector<vision::Features>& features) {
+  db = test::MakeSceneDatabase(world);
+  db.observations.clear();
+  for (uint32_t k = 0; k < world.cameras_from_world.size(); ++k) {
+    test::SyntheticViewOptions options;
+    options.noise_px = noise_px;
+    options.seed = 100 + k;
+    const test::SyntheticView view = test::RenderView(world, world.cameras_from_world[k], options);
+    for (size_t f = 0; f < view.features.size(); ++f) {
+      const vision::Keypoint& keypoint = view.features.keypoints[f];
+      db.observations.push_back(
+          {static_cast<uint32_t>(view.points[f]), k, keypoint.x, keypoint.y, keypoint.scale});
+    }
+    features.push_back(view.features);
+  }
+  std::sort(db.observations.begin(), db.observations.end(),
+            [](const Observation& a, const Observation& b) {
+              return std::tuple(a.keyframe, a.point) < std::tuple(b.keyframe, b.point);
+            });
+}
+
+TwoSessions MakeTwoSessions(const TwoSessionsOptions& options) {
+  TwoSessions sessions;
+  test::SyntheticWorld world = test::MakeSyntheticWorld({.points = 300, .cameras = 8});
+  std::vector<vision::Features> unused;
+  Retake(world, options.noise_px, sessions.map, unused);
+  sessions.map.colours.assign(300, Eigen::Vector3f(0.4f, 0.2f, 0.1f));
+
+  sessions.map_from_session = {2.5, geometry::RotationFromVector({0.3, -0.8, 0.4}),
+                               Eigen::Vector3d(3.0, -1.0, 2.0)};
+  const Similarity3 session_from_map = sessions.map_from_session.Inverse();
+  Random random(5);
+  for (size_t i = 0; i < world.points.size(); ++i) {
+    world.points[i] = session_from_map * world.points[i];
+    world.normals[i] = session_from_map.rotation * world.normals[i];
+    world.sizes[i] *= session_from_map.scale;
+    if (random.Uniform() < options.changed_share) {
+      world.descriptors[i] = test::RandomDescriptor(random);
+    }
+  }
+  std::vector<Rigid3> cameras;
+  for (int i = 0; i < 6; ++i) {
+    const double angle = 0.15 * (i - 2.5);
+    const Rigid3 camera_from_map =
+        test::LookAt({4.2 * std::sin(angle), 0.5, 4.2 * std::cos(angle)}, {0.1, 0, 0});
+    cameras.push_back(geometry::CameraFromB(camera_from_map, sessions.map_from_session));
+  }
+  world.cameras_from_world = cameras;
+  if (options.other_camera) {
+    world.camera = {.width = 800, .height = 500, .fx = 700, .fy = 700, .cx = 400, .cy = 250};
+  }
+  Retake(world, options.noise_px, sessions.session, sessions.features);
+  for (vision::Keyframe& keyframe : sessions.session.keyframes) {
+    keyframe.session = 1;
+    keyframe.gain = {2.0f, 2.0f, 2.0f};
+  }
+  // The same points in half the light, of which its reference knows nothing.
+  sessions.session.colours.assign(300, Eigen::Vector3f(0.2f, 0.1f, 0.05f));
+  sessions.session.session_masks.assign(300, 2u);
+  return sessions;
+}
+
+Result<MergedMap> Merge(const TwoSessions& sessions) {
+  return MergeSession(sessions.map, sessions.session, sessions.features, MergeOptions(),
+                      *MakeSilentLog());
+}
+
+double LargestCenterError(const TwoSessions& sessions, const SceneDatabase& merged) {
+  double largest = 0.0;
+  for (size_t k = 0; k < sessions.session.keyframes.size(); ++k) {
+    const Eigen::Vector3d expected =
+        sessions.map_from_session * sessions.session.keyframes[k].camera_from_map.Center();
+    const Eigen::Vector3d found =
+        merged.keyframes[sessions.map.keyframes.size() + k].camera_from_map.Center();
+    largest = std::max(largest, (found - expected).norm());
+  }
+  return largest;
+}
+
+TEST(MergeSession, FindsTheSessionsPlaceInTheMap) {
+  const TwoSessions sessions = MakeTwoSessions({});
+  const Result<MergedMap> merged = Merge(sessions);
+  ASSERT_TRUE(merged.ok()) << merged.message();
+  ASSERT_TRUE(merged->database.Validate().ok()) << merged->database.Validate().message();
+  EXPECT_EQ(merged->report.located, 6);
+  EXPECT_EQ(merged->database.keyframes.size(), 14u);
+  EXPECT_NEAR(merged->report.map_from_session.scale, 2.5, 0.02);
+  EXPECT_LT(LargestCenterError(sessions, merged->database), 0.02);  // cameras are 4 away
+}
+
+TEST(MergeSession, LeavesTheMapsFrameAndKeyframesAlone) {
+  const TwoSessions sessions = MakeTwoSessions({});
+  const Result<MergedMap> merged = Merge(sessions);
+  ASSERT_TRUE(merged.ok()) << merged.message();
+  for (size_t k = 0; k < sessions.map.keyframes.size(); ++k) {
+    const Rigid3& before = sessions.map.keyframes[k].camera_from_map;
+    const Rigid3& after = merged->database.keyframes[k].camera_from_map;
+    EXPECT_EQ(before.translation, after.translation);
+    EXPECT_EQ(before.rotation.coeffs(), after.rotation.coeffs());
+  }
+  for (size_t i = 0; i < sessions.map.points.size(); ++i) {
+    EXPECT_LT((merged->database.points[i] - sessions.map.points[i]).norm(), 0.02f);
+  }
+}
+
+TEST(MergeSession, SharesPointsThatLookTheSameAndAddsTheOthers) {
+  const TwoSessions sessions = MakeTwoSessions({.changed_share = 0.4});
+  const Result<MergedMap> merged = Merge(sessions);
+  ASSERT_TRUE(merged.ok()) << merged.message();
+  EXPECT_NEAR(merged->report.shared_points, 180, 20);
+  EXPECT_NEAR(merged->report.added_points, 120, 20);
+  int both = 0;
+  for (size_t i = 0; i < merged->database.points.size(); ++i) {
+    const uint32_t mask = merged->database.session_masks[i];
+    EXPECT_TRUE(mask == 1u || mask == 2u || mask == 3u);
+    both += mask == 3u;
+    EXPECT_EQ(mask == 2u, i >= 300);  // the map's points come first
+  }
+  EXPECT_EQ(both, merged->report.shared_points);
+}
+
+TEST(MergeSession, BringsTheGainsToOneReference) {
+  const Result<MergedMap> merged = Merge(MakeTwoSessions({}));
+  ASSERT_TRUE(merged.ok()) << merged.message();
+  // What the session's reference calls 1 is half of the map's: its colours
+  // double, and its gain of 2 is the map's 1.
+  EXPECT_NEAR(merged->database.keyframes.back().gain[1], 1.0f, 1e-4f);
+  EXPECT_NEAR(merged->database.colours.back()[0], 0.4f, 1e-4f);
+  EXPECT_EQ(merged->database.keyframes.front().gain[1], 1.0f);
+}
+
+TEST(MergeSession, TakesAnotherCamera) {
+  const TwoSessions sessions = MakeTwoSessions({.other_camera = true});
+  const Result<MergedMap> merged = Merge(sessions);
+  ASSERT_TRUE(merged.ok()) << merged.message();
+  ASSERT_TRUE(merged->database.Validate().ok()) << merged->database.Validate().message();
+  EXPECT_EQ(merged->database.camera, sessions.map.camera);
+  EXPECT_EQ(merged->database.keyframes.back().grey.cols, sessions.map.camera.width);
+  EXPECT_LT(LargestCenterError(sessions, merged->database), 0.02);
+  EXPECT_LT(merged->database.mean_reprojection_error_px, 0.6);
+}
+
+TEST(MergeSession, RefusesAnotherPlaceAndSaysWhatToFilm) {
+  const Result<MergedMap> merged = Merge(MakeTwoSessions({.changed_share = 1.0}));
+  ASSERT_FALSE(merged.ok());
+  EXPECT_THAT(merged.message(), testing::HasSubstr("0 of 6 images of the new video"));
+  EXPECT_THAT(merged.message(), testing::HasSubstr("film the place from where"));
+}
+
+TEST(MergeSession, GivesTheSameBytesTwice) {
+  const TwoSessions sessions = MakeTwoSessions({});
+  const Result<MergedMap> first = Merge(sessions);
+  const Result<MergedMap> second = Merge(sessions);
+  ASSERT_TRUE(first.ok() && second.ok());
+  EXPECT_EQ(vision::SerializeSceneDatabase(first->database),
+            vision::SerializeSceneDatabase(second->database));
+}
+
+TEST(NextSession, FollowsTheHighest) {
+  SceneDatabase map = test::MakeSceneDatabase(test::MakeSyntheticWorld({.points = 10}));
+  EXPECT_EQ(NextSession(map), 1u);
+  map.keyframes[3].session = 6;
+  EXPECT_EQ(NextSession(map), 7u);
+  EXPECT_EQ(NextSession(SceneDatabase()), 0u);
+}
+
+}  // namespace
+}  // namespace lararium::train
