@@ -7,6 +7,7 @@
 #include "editor/train/pair_selection.h"
 #include "editor/train/survey.h"
 #include "editor/train/tracks.h"
+#include "editor/train/two_view.h"
 
 namespace lararium::train {
 namespace {
@@ -17,15 +18,34 @@ constexpr std::string_view kPlace = "training";
 
 Status CancelledStatus() { return Status::Error(kPlace, "cancelled"); }
 
-Status WhyNoMap(std::span<const TrainingImage> images,
-                std::span<const VerifiedPair> pairs,
-                double min_angle) {
-  const auto widest = std::max_element(
-      pairs.begin(), pairs.end(),
-      [](const VerifiedPair& a, const VerifiedPair& b) { return a.median_angle < b.median_angle; });
+// How far matches moved besides what a turn of the camera explains, in pixels.
+double ParallaxPx(std::span<const TrainingImage> images,
+                  const VerifiedPair& pair,
+                  const geometry::CameraModel& camera) {
+  PointPairs points;
+  for (const FeatureMatch& match : pair.matches) {
+    const vision::Keypoint& a = images[pair.images.a].features.keypoints[match.a];
+    const vision::Keypoint& b = images[pair.images.b].features.keypoints[match.b];
+    points.a.push_back(camera.PlaneFromPixel({a.x, a.y}));
+    points.b.push_back(camera.PlaneFromPixel({b.x, b.y}));
+  }
+  return AngleBesidesTurning(points) * camera.Focal();
+}
+
+Status WhyNoMap(std::span<const TrainingImage> images, const VerifiedPairs& verified) {
+  constexpr double kNoParallaxPx = 3.0;
+  const VerifiedPair* widest = nullptr;
+  double most = -1.0;
+  for (const VerifiedPair& pair : verified.pairs) {
+    const double parallax = ParallaxPx(images, pair, verified.camera);
+    if (parallax > most) {
+      most = parallax;
+      widest = &pair;
+    }
+  }
   const std::string a = images[widest->images.a].name;
   const std::string b = images[widest->images.b].name;
-  if (widest->median_angle < min_angle) {
+  if (most < kNoParallaxPx) {
     return Status::Error(
         kPlace,
         "too little parallax: from " + images.front().name + " to " + images.back().name +
@@ -134,7 +154,7 @@ Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
   VerificationOptions verification;
   verification.trusted_gap = images.size() <= pair_options.exhaustive_up_to
                                  ? pair_options.exhaustive_up_to
-                                 : pair_options.neighbours;
+                                 : pair_options.gaps.back();
   VerifiedPairs verified =
       Verify(features, candidates, images.front().grey.size(), options, verification, progress);
   for (size_t i = 0; i < images.size(); ++i) {
@@ -181,7 +201,7 @@ Result<ImageMap> MapImages(std::span<const TrainingImage> images,
     return CancelledStatus();
   }
   if (!anchors) {
-    return WhyNoMap(images, verified.pairs, mapper.min_initial_angle);
+    return WhyNoMap(images, verified);
   }
   map.anchors = *anchors;
   LARARIUM_RETURN_IF_ERROR(CheckShare(images, *map.reconstruction));

@@ -100,47 +100,96 @@ std::vector<Eigen::VectorXf> DescribeImages(std::span<const Features> images, ui
   return vectors;
 }
 
-void AddSimilarPairs(std::span<const Features> images,
-                     const PairOptions& options,
-                     std::vector<ImagePair>& pairs) {
-  const std::vector<Eigen::VectorXf> vectors = DescribeImages(images, options.seed);
+// [i]: the other images, most alike first.
+using Rankings = std::vector<std::vector<uint32_t>>;
+
+Rankings RankByAppearance(std::span<const Features> images, uint64_t seed) {
+  const std::vector<Eigen::VectorXf> vectors = DescribeImages(images, seed);
   const auto count = static_cast<uint32_t>(images.size());
-  std::vector<std::vector<uint32_t>> similar(count);
+  Rankings rankings(count);
   ParallelFor(count, [&](size_t i) {
     std::vector<std::pair<float, uint32_t>> others;
     for (uint32_t j = 0; j < count; ++j) {
-      const uint32_t gap = j > i ? j - static_cast<uint32_t>(i) : static_cast<uint32_t>(i) - j;
-      if (gap > options.neighbours && vectors[i].size() == vectors[j].size()) {
+      if (j != i && vectors[i].size() == vectors[j].size()) {
         others.emplace_back(-vectors[i].dot(vectors[j]), j);
       }
     }
-    const size_t keep = std::min<size_t>(options.similar, others.size());
-    std::partial_sort(others.begin(), others.begin() + static_cast<ptrdiff_t>(keep), others.end());
-    for (size_t k = 0; k < keep; ++k) {
-      similar[i].push_back(others[k].second);
+    std::sort(others.begin(), others.end());
+    for (const auto& [dissimilarity, j] : others) {
+      rankings[i].push_back(j);
     }
   });
-  for (uint32_t i = 0; i < count; ++i) {
-    for (const uint32_t j : similar[i]) {
-      pairs.push_back({std::min(i, j), std::max(i, j)});
+  return rankings;
+}
+
+uint32_t Gap(uint32_t i, uint32_t j) { return i > j ? i - j : j - i; }
+
+// Whether images mostly look like the next one: a video, not a heap of photographs.
+bool Ordered(const Rankings& rankings) {
+  size_t alike = 0;
+  for (uint32_t i = 0; i + 1 < rankings.size(); ++i) {
+    const std::vector<uint32_t>& ranking = rankings[i];
+    const auto next = std::find(ranking.begin(), ranking.end(), i + 1);
+    alike += 5 * static_cast<size_t>(next - ranking.begin()) < ranking.size() ? 1 : 0;
+  }
+  return 3 * alike >= 2 * rankings.size();
+}
+
+// The first of the ranking that are further away than beyond, and from each other
+// no less than apart.
+std::vector<uint32_t> ChooseSimilar(uint32_t image,
+                                    std::span<const uint32_t> ranking,
+                                    uint32_t beyond,
+                                    uint32_t apart,
+                                    size_t count) {
+  std::vector<uint32_t> chosen;
+  for (const uint32_t candidate : ranking) {
+    if (chosen.size() == count) {
+      break;
+    }
+    if (Gap(image, candidate) > beyond &&
+        std::none_of(chosen.begin(), chosen.end(),
+                     [&](uint32_t other) { return Gap(candidate, other) < apart; })) {
+      chosen.push_back(candidate);
     }
   }
+  return chosen;
 }
 
 }  // namespace
 
 std::vector<ImagePair> SelectPairs(std::span<const Features> images, const PairOptions& options) {
   const auto count = static_cast<uint32_t>(images.size());
-  const bool exhaustive = count <= options.exhaustive_up_to;
   std::vector<ImagePair> pairs;
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t end = exhaustive ? count : std::min(count, i + options.neighbours + 1);
-    for (uint32_t j = i + 1; j < end; ++j) {
-      pairs.push_back({i, j});
+  const auto add = [&](uint32_t i, uint32_t j) {
+    pairs.push_back({std::min(i, j), std::max(i, j)});
+  };
+  if (count <= options.exhaustive_up_to) {
+    for (uint32_t i = 0; i < count; ++i) {
+      for (uint32_t j = i + 1; j < count; ++j) {
+        add(i, j);
+      }
     }
+    return pairs;
   }
-  if (!exhaustive) {
-    AddSimilarPairs(images, options, pairs);
+  const Rankings rankings = RankByAppearance(images, options.seed);
+  const bool ordered = Ordered(rankings);
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!ordered) {
+      for (const uint32_t j : ChooseSimilar(i, rankings[i], 0, 0, options.similar_unordered)) {
+        add(i, j);
+      }
+      continue;
+    }
+    for (const uint32_t gap : options.gaps) {
+      if (i + gap < count) {
+        add(i, i + gap);
+      }
+    }
+    for (const uint32_t j :
+         ChooseSimilar(i, rankings[i], options.gaps.back(), options.apart, options.similar)) {
+      add(i, j);
+    }
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

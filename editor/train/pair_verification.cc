@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "editor/train/guided_matching.h"
 #include "editor/train/matching.h"
 #include "editor/train/two_view.h"
 #include "shared/core/parallel.h"
@@ -13,45 +14,6 @@ namespace {
 using geometry::CameraModel;
 using vision::Descriptor;
 using vision::Features;
-
-// What most pairs without overlap are told by, at a fraction of the work.
-constexpr size_t kPreviewFeatures = 700;
-constexpr size_t kPreviewMatches = 10;
-
-std::vector<Descriptor> Preview(const Features& features) {
-  std::vector<Descriptor> preview;
-  for (const uint32_t i : StrongestFeatures(features, kPreviewFeatures)) {
-    preview.push_back(features.descriptors[i]);
-  }
-  return preview;
-}
-
-// Matches candidates on all cores. verify(i, matches) sees each that has enough.
-void MatchPairs(std::span<const Features> images,
-                std::span<const ImagePair> candidates,
-                const VerificationOptions& options,
-                Progress& progress,
-                const std::function<void(size_t, std::vector<FeatureMatch>)>& verify) {
-  std::vector<std::vector<Descriptor>> previews(images.size());
-  ParallelFor(images.size(), [&](size_t i) { previews[i] = Preview(images[i]); });
-  constexpr size_t kBatch = 32;
-  for (size_t begin = 0; begin < candidates.size() && !progress.Cancelled(); begin += kBatch) {
-    progress.Report("matching",
-                    static_cast<double>(begin) / static_cast<double>(candidates.size()));
-    ParallelFor(std::min(kBatch, candidates.size() - begin), [&](size_t offset) {
-      const auto [a, b] = candidates[begin + offset];
-      if (b - a > options.trusted_gap &&
-          MatchDescriptors(previews[a], previews[b], options.ratio).size() < kPreviewMatches) {
-        return;
-      }
-      std::vector<FeatureMatch> matches =
-          MatchDescriptors(images[a].descriptors, images[b].descriptors, options.ratio);
-      if (matches.size() >= options.min_matches) {
-        verify(begin + offset, std::move(matches));
-      }
-    });
-  }
-}
 
 // Features of an image on the plane z = 1.
 std::vector<Eigen::Vector2d> Undistort(const Features& features, const CameraModel& camera) {
@@ -70,28 +32,26 @@ std::vector<std::vector<Eigen::Vector2d>> UndistortAll(std::span<const Features>
   return plane_points;
 }
 
-PointPairs PlanePairs(std::span<const std::vector<Eigen::Vector2d>> plane_points,
-                      const ImagePair& images,
-                      std::span<const FeatureMatch> matches) {
+PointPairs PairUp(std::span<const std::vector<Eigen::Vector2d>> points,
+                  const ImagePair& images,
+                  std::span<const FeatureMatch> matches) {
   PointPairs pairs;
   for (const FeatureMatch& match : matches) {
-    pairs.a.push_back(plane_points[images.a][match.a]);
-    pairs.b.push_back(plane_points[images.b][match.b]);
+    pairs.a.push_back(points[images.a][match.a]);
+    pairs.b.push_back(points[images.b][match.b]);
   }
   return pairs;
 }
 
-PointPairs PixelPairs(std::span<const Features> images,
-                      const ImagePair& pair,
-                      std::span<const FeatureMatch> matches) {
-  PointPairs pairs;
-  for (const FeatureMatch& match : matches) {
-    const vision::Keypoint& a = images[pair.a].keypoints[match.a];
-    const vision::Keypoint& b = images[pair.b].keypoints[match.b];
-    pairs.a.emplace_back(a.x, a.y);
-    pairs.b.emplace_back(b.x, b.y);
+std::vector<std::vector<Eigen::Vector2d>> PixelsOf(std::span<const Features> images) {
+  std::vector<std::vector<Eigen::Vector2d>> pixels;
+  for (const Features& features : images) {
+    std::vector<Eigen::Vector2d>& of_image = pixels.emplace_back();
+    for (const vision::Keypoint& keypoint : features.keypoints) {
+      of_image.emplace_back(keypoint.x, keypoint.y);
+    }
   }
-  return pairs;
+  return pixels;
 }
 
 std::vector<FeatureMatch> Keep(std::span<const FeatureMatch> matches,
@@ -101,6 +61,134 @@ std::vector<FeatureMatch> Keep(std::span<const FeatureMatch> matches,
     kept.push_back(matches[i]);
   }
   return kept;
+}
+
+struct TwoViewGeometry {
+  Eigen::Matrix3d fundamental;    // b' F a = 0, for the points that were given
+  std::vector<uint32_t> inliers;  // indices of the points
+  geometry::Rigid3 b_from_a;      // where the points are on the plane z = 1
+  double median_angle = 0.0;      // likewise
+};
+using EstimateGeometry = std::function<std::optional<TwoViewGeometry>(const PointPairs&)>;
+
+// Matches pairs of images: the strongest features first. Where these fix the
+// two-view geometry, the others are searched along their epipolar lines only.
+class PairMatcher {
+ public:
+  // points: of the images' features, as estimate takes them. band: of the search
+  // about the epipolar lines, in the same unit.
+  PairMatcher(std::span<const Features> images,
+              std::span<const std::vector<Eigen::Vector2d>> points,
+              double band,
+              const VerificationOptions& options,
+              EstimateGeometry estimate)
+      : images_(images),
+        points_(points),
+        band_(band),
+        options_(options),
+        estimate_(std::move(estimate)),
+        previews_(images.size()),
+        grids_(images.size()) {
+    ParallelFor(images.size(), [&](size_t i) {
+      previews_[i] = ChoosePreview(images_[i]);
+      grids_[i].emplace(images_[i], points_[i]);
+    });
+  }
+
+  // Matches that one two-view geometry explains, and it; nullopt where there are too few.
+  struct Found {
+    std::vector<FeatureMatch> matches;
+    TwoViewGeometry geometry;
+  };
+  std::optional<Found> Match(const ImagePair& pair) const {
+    const std::vector<FeatureMatch> preview = MatchPreviews(pair);
+    if (pair.b - pair.a > options_.trusted_gap && preview.size() < kPreviewMatches) {
+      return std::nullopt;
+    }
+    if (preview.size() >= kFirmMatches) {
+      std::optional<Found> found = Verify(pair, preview);
+      if (found && found->matches.size() >= kFirmMatches) {
+        const size_t before = found->matches.size();
+        found = Verify(pair, MatchAlongLines(pair, *found));
+        if (found && found->matches.size() >= before) {
+          return found;
+        }
+      }
+    }
+    return Verify(pair, MatchDescriptors(images_[pair.a].descriptors, images_[pair.b].descriptors,
+                                         options_.ratio));
+  }
+
+ private:
+  static constexpr size_t kPreviewFeatures = 700;
+  // What most pairs without overlap are told by, at a fraction of the work.
+  static constexpr size_t kPreviewMatches = 10;
+  static constexpr size_t kFirmMatches = 40;  // fix a two-view geometry
+
+  struct PreviewFeatures {
+    std::vector<uint32_t> features;
+    std::vector<Descriptor> descriptors;  // of these
+  };
+
+  static PreviewFeatures ChoosePreview(const Features& features) {
+    PreviewFeatures preview{StrongestFeatures(features, kPreviewFeatures), {}};
+    for (const uint32_t i : preview.features) {
+      preview.descriptors.push_back(features.descriptors[i]);
+    }
+    return preview;
+  }
+
+  std::vector<FeatureMatch> MatchPreviews(const ImagePair& pair) const {
+    const PreviewFeatures& a = previews_[pair.a];
+    const PreviewFeatures& b = previews_[pair.b];
+    std::vector<FeatureMatch> matches =
+        MatchDescriptors(a.descriptors, b.descriptors, options_.ratio);
+    for (FeatureMatch& match : matches) {
+      match = {a.features[match.a], b.features[match.b]};
+    }
+    return matches;
+  }
+
+  std::vector<FeatureMatch> MatchAlongLines(const ImagePair& pair, const Found& found) const {
+    GuidedOptions guided;
+    guided.fundamental = found.geometry.fundamental;
+    guided.band = band_;
+    guided.ratio = options_.ratio;
+    MeasureTurnAndGrowth(images_[pair.a], images_[pair.b], found.matches, guided);
+    return MatchGuided(*grids_[pair.a], *grids_[pair.b], guided);
+  }
+
+  std::optional<Found> Verify(const ImagePair& pair, std::span<const FeatureMatch> matches) const {
+    if (matches.size() < options_.min_matches) {
+      return std::nullopt;
+    }
+    std::optional<TwoViewGeometry> geometry = estimate_(PointsOf(pair, matches));
+    if (!geometry || geometry->inliers.size() < options_.min_matches) {
+      return std::nullopt;
+    }
+    return Found{Keep(matches, geometry->inliers), std::move(*geometry)};
+  }
+
+  PointPairs PointsOf(const ImagePair& pair, std::span<const FeatureMatch> matches) const {
+    return PairUp(points_, pair, matches);
+  }
+
+  std::span<const Features> images_;
+  std::span<const std::vector<Eigen::Vector2d>> points_;
+  double band_;
+  VerificationOptions options_;
+  EstimateGeometry estimate_;
+  std::vector<PreviewFeatures> previews_;          // [image]
+  std::vector<std::optional<FeatureGrid>> grids_;  // [image]
+};
+
+// Calls visit(i) for each candidate on all cores.
+void ForCandidates(size_t count, Progress& progress, const std::function<void(size_t)>& visit) {
+  constexpr size_t kBatch = 32;
+  for (size_t begin = 0; begin < count && !progress.Cancelled(); begin += kBatch) {
+    progress.Report("matching", static_cast<double>(begin) / static_cast<double>(count));
+    ParallelFor(std::min(kBatch, count - begin), [&](size_t offset) { visit(begin + offset); });
+  }
 }
 
 std::vector<VerifiedPair> Compact(std::vector<std::optional<VerifiedPair>> found) {
@@ -131,17 +219,25 @@ std::vector<VerifiedPair> VerifyPairs(std::span<const Features> images,
                                       const VerificationOptions& options,
                                       Progress& progress) {
   const auto plane_points = UndistortAll(images, camera);
+  const double threshold = options.threshold_px / camera.Focal();
+  const PairMatcher matcher(
+      images, plane_points, options.band_px / camera.Focal(), options,
+      [&](const PointPairs& points) -> std::optional<TwoViewGeometry> {
+        std::optional<RelativePose> pose = EstimateRelativePose(points, threshold);
+        if (!pose) {
+          return std::nullopt;
+        }
+        return TwoViewGeometry{EssentialMatrix(pose->b_from_a), std::move(pose->inliers),
+                               pose->b_from_a, pose->median_angle};
+      });
   std::vector<std::optional<VerifiedPair>> found(candidates.size());
-  MatchPairs(images, candidates, options, progress,
-             [&](size_t i, const std::vector<FeatureMatch>& matches) {
-               const std::optional<RelativePose> pose =
-                   EstimateRelativePose(PlanePairs(plane_points, candidates[i], matches),
-                                        options.threshold_px / camera.Focal());
-               if (pose && pose->inliers.size() >= options.min_matches) {
-                 found[i] = VerifiedPair{candidates[i], Keep(matches, pose->inliers),
-                                         pose->b_from_a, pose->median_angle};
-               }
-             });
+  ForCandidates(candidates.size(), progress, [&](size_t i) {
+    auto match = matcher.Match(candidates[i]);
+    if (match) {
+      found[i] = VerifiedPair{candidates[i], std::move(match->matches), match->geometry.b_from_a,
+                              match->geometry.median_angle};
+    }
+  });
   return Compact(std::move(found));
 }
 
@@ -152,17 +248,26 @@ VerifiedPairs VerifyPairsUncalibrated(std::span<const Features> images,
                                       std::optional<double> focal_prior_px,
                                       const VerificationOptions& options,
                                       Progress& progress) {
+  const auto pixels = PixelsOf(images);
+  const PairMatcher matcher(
+      images, pixels, options.band_px, options,
+      [&](const PointPairs& points) -> std::optional<TwoViewGeometry> {
+        std::optional<Fundamental> fundamental = EstimateFundamental(points, options.threshold_px);
+        if (!fundamental) {
+          return std::nullopt;
+        }
+        return TwoViewGeometry{fundamental->matrix, std::move(fundamental->inliers), {}, 0.0};
+      });
   std::vector<std::optional<VerifiedPair>> found(candidates.size());
   std::vector<std::optional<Fundamental>> fundamentals(candidates.size());
-  MatchPairs(
-      images, candidates, options, progress,
-      [&](size_t i, const std::vector<FeatureMatch>& matches) {
-        fundamentals[i] =
-            EstimateFundamental(PixelPairs(images, candidates[i], matches), options.threshold_px);
-        if (fundamentals[i] && fundamentals[i]->inliers.size() >= options.min_matches) {
-          found[i] = VerifiedPair{candidates[i], Keep(matches, fundamentals[i]->inliers), {}, 0.0};
-        }
-      });
+  ForCandidates(candidates.size(), progress, [&](size_t i) {
+    auto match = matcher.Match(candidates[i]);
+    if (match) {
+      found[i] = VerifiedPair{candidates[i], std::move(match->matches), {}, 0.0};
+      fundamentals[i] =
+          Fundamental{match->geometry.fundamental, std::move(match->geometry.inliers)};
+    }
+  });
   std::vector<Fundamental> votes;
   for (size_t i = 0; i < found.size(); ++i) {
     if (found[i]) {
@@ -181,7 +286,7 @@ VerifiedPairs VerifyPairsUncalibrated(std::span<const Features> images,
     }
     // Wide enough for what a wrong focal length and distortion do to true matches.
     const std::optional<RelativePose> pose =
-        EstimateRelativePose(PlanePairs(plane_points, found[i]->images, found[i]->matches),
+        EstimateRelativePose(PairUp(plane_points, found[i]->images, found[i]->matches),
                              2.0 * options.threshold_px / camera.Focal());
     if (pose && 2 * pose->inliers.size() >= found[i]->matches.size()) {
       found[i]->b_from_a = pose->b_from_a;

@@ -17,6 +17,7 @@ namespace lararium::train {
 struct VerificationOptions {
   float ratio = 0.8f;
   double threshold_px = 2.0;  // of the epipolar distance
+  double band_px = 4.0;       // of the search along epipolar lines that few matches gave
   size_t min_matches = 20;
   // Pairs further apart in the source than this are tried on their strongest
   // features first.

@@ -8,6 +8,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
+#include "shared/core/check.h"
+
 namespace lararium::train {
 namespace {
 
@@ -79,10 +81,12 @@ std::vector<uint32_t> Cheiral(const PointPairs& points,
   return kept;
 }
 
-double MedianAngle(const PointPairs& points, const RelativePose& pose) {
-  const Eigen::Matrix3d rotation = pose.b_from_a.rotation.toRotationMatrix();
+// Between the rays of point pairs once those of the first image are turned.
+double MedianAngle(const PointPairs& points,
+                   std::span<const uint32_t> indices,
+                   const Eigen::Matrix3d& rotation) {
   std::vector<double> angles;
-  for (const uint32_t i : pose.inliers) {
+  for (const uint32_t i : indices) {
     const Eigen::Vector3d a = rotation * points.a[i].homogeneous();
     const Eigen::Vector3d b = points.b[i].homogeneous();
     angles.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
@@ -93,6 +97,10 @@ double MedianAngle(const PointPairs& points, const RelativePose& pose) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d EssentialMatrix(const Rigid3& b_from_a) {
+  return geometry::Skew(b_from_a.translation) * b_from_a.rotation.toRotationMatrix();
+}
 
 std::optional<RelativePose> EstimateRelativePose(const PointPairs& plane_points, double threshold) {
   if (plane_points.size() < kMinPairs) {
@@ -127,7 +135,8 @@ std::optional<RelativePose> EstimateRelativePose(const PointPairs& plane_points,
   if (best.inliers.size() < kMinPairs) {
     return std::nullopt;
   }
-  best.median_angle = MedianAngle(plane_points, best);
+  best.median_angle =
+      MedianAngle(plane_points, best.inliers, best.b_from_a.rotation.toRotationMatrix());
   return best;
 }
 
@@ -153,6 +162,23 @@ std::optional<Fundamental> EstimateFundamental(const PointPairs& pixels, double 
     return std::nullopt;
   }
   return fundamental;
+}
+
+double AngleBesidesTurning(const PointPairs& plane_points) {
+  CHECK(plane_points.size() > 0);
+  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
+  std::vector<uint32_t> all;
+  for (uint32_t i = 0; i < plane_points.size(); ++i) {
+    correlation += plane_points.b[i].homogeneous().normalized() *
+                   plane_points.a[i].homogeneous().normalized().transpose();
+    all.push_back(i);
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs(1.0, 1.0, 1.0);
+  signs.z() = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
+  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  return MedianAngle(plane_points, all, rotation);
 }
 
 PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double threshold) {

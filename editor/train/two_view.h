@@ -31,6 +31,9 @@ struct RelativePose {
 // eight points agree. Of a camera that only turned, the median angle is noise.
 std::optional<RelativePose> EstimateRelativePose(const PointPairs& plane_points, double threshold);
 
+// b' E a = 0 for points on the plane z = 1.
+Eigen::Matrix3d EssentialMatrix(const geometry::Rigid3& b_from_a);
+
 struct Fundamental {
   Eigen::Matrix3d matrix;  // b' F a = 0, in pixels
   std::vector<uint32_t> inliers;
@@ -38,6 +41,11 @@ struct Fundamental {
 
 // From pixels, without intrinsics, within RANSAC.
 std::optional<Fundamental> EstimateFundamental(const PointPairs& pixels, double threshold_px);
+
+// How far the points lie from where a mere turn of the camera would put them:
+// the median angle in radians after the best rotation of all rays (Kabsch).
+// Near zero without parallax. At least one pair.
+double AngleBesidesTurning(const PointPairs& plane_points);
 
 struct PlanarGeometry {
   double share = 0.0;  // 0..1, of the point pairs that one homography explains

@@ -93,14 +93,14 @@ TEST(EstimateFocal, AgreesOnTheTrueOne) {
 
 TEST(EstimateFocal, OfNothingIsNothing) { EXPECT_FALSE(EstimateFocal({}, 640, 480)); }
 
-// Images of places; each place has its own descriptors.
-std::vector<vision::Features> ImagesOfPlaces(const std::vector<int>& places) {
+// Images that each show a window of a long wall, 60 features from a start on.
+std::vector<vision::Features> ImagesOfWall(const std::vector<int>& starts) {
   std::vector<vision::Features> images;
-  for (const int place : places) {
-    Random random(static_cast<uint64_t>(place));
+  for (const int start : starts) {
     Random noise(images.size() + 100);
     vision::Features& features = images.emplace_back();
-    for (int i = 0; i < 60; ++i) {
+    for (int i = start; i < start + 60; ++i) {
+      Random random(static_cast<uint64_t>(i));
       vision::Descriptor descriptor{};
       for (uint8_t& value : descriptor) {
         value = static_cast<uint8_t>(random.Below(4) == 0 ? 100 + random.Below(60) : 0);
@@ -113,33 +113,79 @@ std::vector<vision::Features> ImagesOfPlaces(const std::vector<int>& places) {
   return images;
 }
 
-TEST(SelectPairs, TakesAllOfFewImages) {
-  EXPECT_EQ(SelectPairs(ImagesOfPlaces({0, 1, 2, 3}), {}).size(), 6u);
+// A walk along the wall and back.
+std::vector<int> ThereAndBack() {
+  std::vector<int> starts;
+  for (int i = 0; i < 40; ++i) {
+    starts.push_back(12 * std::min(i, 39 - i));
+  }
+  return starts;
 }
 
-TEST(SelectPairs, FindsWhereTheSourceComesBack) {
-  const std::vector<vision::Features> images =
-      ImagesOfPlaces({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 11});
-  PairOptions options;
-  options.exhaustive_up_to = 2;
-  options.neighbours = 2;
-  options.similar = 1;
-  const std::vector<ImagePair> pairs = SelectPairs(images, options);
-  EXPECT_TRUE(std::binary_search(pairs.begin(), pairs.end(), ImagePair{0, 10}));
-  EXPECT_TRUE(std::binary_search(pairs.begin(), pairs.end(), ImagePair{3, 5}));
+bool Contains(const std::vector<ImagePair>& pairs, uint32_t a, uint32_t b) {
+  return std::binary_search(pairs.begin(), pairs.end(), ImagePair{std::min(a, b), std::max(a, b)});
+}
+
+TEST(SelectPairs, TakesAllOfFewImages) {
+  EXPECT_EQ(SelectPairs(ImagesOfWall({0, 100, 200, 300}), {}).size(), 6u);
+}
+
+TEST(SelectPairs, TakesNeighboursInAVideoAndWhereItComesBack) {
+  const std::vector<vision::Features> images = ImagesOfWall(ThereAndBack());
+  const std::vector<ImagePair> pairs = SelectPairs(images, {});
+  for (uint32_t i = 0; i + 2 < images.size(); ++i) {
+    EXPECT_TRUE(Contains(pairs, i, i + 1)) << i;
+    EXPECT_TRUE(Contains(pairs, i, i + 2)) << i;
+  }
+  for (uint32_t i = 0; i < 15; ++i) {  // the same view on the way back
+    EXPECT_TRUE(Contains(pairs, i, 39 - i)) << i;
+  }
   EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
-  EXPECT_LE(pairs.size(), 12u * 3u);
-  EXPECT_EQ(pairs, SelectPairs(images, options));
+  EXPECT_LT(pairs.size(), images.size() * 9);
+  EXPECT_EQ(pairs, SelectPairs(images, {}));
+}
+
+TEST(SelectPairs, FindsWhatBelongsTogetherInAShuffledHeap) {
+  const std::vector<int> starts = ThereAndBack();
+  std::vector<int> shuffled;
+  for (size_t i = 0; i < starts.size(); ++i) {
+    shuffled.push_back(starts[(17 * i + 5) % starts.size()]);  // 17 and 40 share no factor
+  }
+  PairOptions options;
+  options.similar_unordered = 8;
+  const std::vector<ImagePair> pairs = SelectPairs(ImagesOfWall(shuffled), options);
+  for (uint32_t i = 0; i < shuffled.size(); ++i) {
+    for (uint32_t j = i + 1; j < shuffled.size(); ++j) {
+      if (std::abs(shuffled[i] - shuffled[j]) <= 12) {
+        EXPECT_TRUE(Contains(pairs, i, j)) << shuffled[i] << " " << shuffled[j];
+      }
+    }
+  }
+  EXPECT_LT(pairs.size(), 40u * 8u);
 }
 
 TEST(SelectPairs, CopesWithImagesWithoutFeatures) {
-  std::vector<vision::Features> images = ImagesOfPlaces({0, 1, 2, 3});
+  std::vector<vision::Features> images = ImagesOfWall(ThereAndBack());
   images[2] = {};
-  PairOptions options;
-  options.exhaustive_up_to = 2;
-  options.neighbours = 1;
-  EXPECT_GE(SelectPairs(images, options).size(), 3u);
-  EXPECT_EQ(SelectPairs(std::vector<vision::Features>(4), options).size(), 6u);
+  EXPECT_TRUE(Contains(SelectPairs(images, {}), 1, 2));
+  EXPECT_LE(SelectPairs(std::vector<vision::Features>(30), {}).size(), 30u * 29u / 2u);
+}
+
+TEST(AngleBesidesTurning, IsNoughtForATurnAndNotForASidestep) {
+  Random random(5);
+  PointPairs turned;
+  PointPairs moved;
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.2, 1.0, -0.3).normalized()).toRotationMatrix();
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d point(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(3, 5));
+    turned.a.push_back(point.hnormalized());
+    turned.b.push_back((rotation * point).hnormalized());
+    moved.a.push_back(point.hnormalized());
+    moved.b.push_back((rotation * (point + Eigen::Vector3d(0.5, 0.0, 0.0))).hnormalized());
+  }
+  EXPECT_LT(AngleBesidesTurning(turned), 1e-9);
+  EXPECT_GT(AngleBesidesTurning(moved), 0.005);
 }
 
 }  // namespace

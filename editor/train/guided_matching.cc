@@ -1,0 +1,207 @@
+#include "editor/train/guided_matching.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lararium::train {
+namespace {
+
+constexpr double kPerCell = 3.0;    // features, on average
+constexpr float kMaxTurn = 0.8f;    // radians off the images' turn; a match beyond is no match
+constexpr float kMaxGrowth = 1.0f;  // octaves off the images' growth
+// Squared; descriptors have length 512. So few candidates compete that the ratio
+// alone would let random ones through.
+constexpr uint32_t kFarthest = 270 * 270;
+
+struct Nearest {
+  uint32_t best = std::numeric_limits<uint32_t>::max();
+  uint32_t second = std::numeric_limits<uint32_t>::max();
+  uint32_t position = 0;
+
+  void Add(uint32_t squared_distance, size_t candidate) {
+    if (squared_distance < best) {
+      second = best;
+      best = squared_distance;
+      position = static_cast<uint32_t>(candidate);
+    } else if (squared_distance < second) {
+      second = squared_distance;
+    }
+  }
+  bool Distinct(float squared_ratio) const {
+    return best <= kFarthest &&
+           static_cast<float>(best) < squared_ratio * static_cast<float>(second);
+  }
+};
+
+// Into [-pi, pi).
+float Wrap(float angle) {
+  constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
+  return angle - kTurn * std::floor(angle / kTurn + 0.5f);
+}
+
+uint32_t SquaredDistance(const vision::Descriptor& a, const vision::Descriptor& b) {
+  int32_t sum = 0;
+  for (int i = 0; i < vision::kDescriptorSize; ++i) {
+    const auto difference = static_cast<int16_t>(a[i] - b[i]);
+    sum += difference * difference;
+  }
+  return static_cast<uint32_t>(sum);
+}
+
+}  // namespace
+
+FeatureGrid::FeatureGrid(const vision::Features& features, std::span<const Eigen::Vector2d> points)
+    : descriptors_(features.descriptors) {
+  if (points.empty()) {
+    return;
+  }
+  Eigen::Vector2d low = points.front();
+  Eigen::Vector2d high = points.front();
+  for (const Eigen::Vector2d& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const Eigen::Vector2d extent = (high - low).cwiseMax(1e-9);
+  corner_ = low;
+  // Long thin clouds must not make endless rows of cells.
+  cell_ = std::max(std::sqrt(extent.prod() * kPerCell / static_cast<double>(points.size())),
+                   extent.maxCoeff() / 1000.0);
+  columns_ = static_cast<int>(extent.x() / cell_) + 1;
+  rows_ = static_cast<int>(extent.y() / cell_) + 1;
+  std::vector<uint32_t> cell_of(points.size());
+  begin_.assign(static_cast<size_t>(columns_) * rows_ + 1, 0);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector2d at = (points[i] - corner_) / cell_;
+    cell_of[i] =
+        static_cast<uint32_t>(static_cast<int>(at.y()) * columns_ + static_cast<int>(at.x()));
+    ++begin_[cell_of[i] + 1];
+  }
+  for (size_t cell = 1; cell < begin_.size(); ++cell) {
+    begin_[cell] += begin_[cell - 1];
+  }
+  index_.resize(points.size());
+  std::vector<uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    index_[next[cell_of[i]]++] = i;
+  }
+  for (const uint32_t i : index_) {
+    x_.push_back(points[i].x());
+    y_.push_back(points[i].y());
+    angle_.push_back(features.keypoints[i].angle);
+    log_scale_.push_back(std::log2(features.keypoints[i].scale));
+  }
+}
+
+template <typename Visit>
+void FeatureGrid::VisitNearLine(const Eigen::Vector3d& line, double band, Visit visit) const {
+  const double nx = line.x();
+  const double ny = line.y();
+  const double d = line.z();
+  // Walks rows where the line is steep, so that each visits few cells.
+  const auto visit_cells = [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      if (std::abs(nx * x_[i] + ny * y_[i] + d) < band) {
+        visit(i);
+      }
+    }
+  };
+  if (std::abs(nx) > std::abs(ny)) {
+    for (int row = 0; row < rows_; ++row) {
+      const double top = corner_.y() + row * cell_;
+      const double x0 = -(ny * top + d) / nx;
+      const double x1 = -(ny * (top + cell_) + d) / nx;
+      const double margin = band / std::abs(nx);
+      const double first = (std::min(x0, x1) - margin - corner_.x()) / cell_;
+      const double last = (std::max(x0, x1) + margin - corner_.x()) / cell_;
+      if (last < 0.0 || first >= columns_) {
+        continue;
+      }
+      const int from = std::max(0, static_cast<int>(first));
+      const int to = last >= columns_ ? columns_ - 1 : static_cast<int>(last);
+      const size_t base = static_cast<size_t>(row) * columns_;
+      visit_cells(begin_[base + from], begin_[base + to + 1]);
+    }
+  } else {
+    for (int column = 0; column < columns_; ++column) {
+      const double left = corner_.x() + column * cell_;
+      const double y0 = -(nx * left + d) / ny;
+      const double y1 = -(nx * (left + cell_) + d) / ny;
+      const double margin = band / std::abs(ny);
+      const double first = (std::min(y0, y1) - margin - corner_.y()) / cell_;
+      const double last = (std::max(y0, y1) + margin - corner_.y()) / cell_;
+      if (last < 0.0 || first >= rows_) {
+        continue;
+      }
+      const int to = last >= rows_ ? rows_ - 1 : static_cast<int>(last);
+      for (int row = std::max(0, static_cast<int>(first)); row <= to; ++row) {
+        const size_t cell = static_cast<size_t>(row) * columns_ + column;
+        visit_cells(begin_[cell], begin_[cell + 1]);
+      }
+    }
+  }
+}
+
+std::vector<FeatureMatch> MatchGuided(const FeatureGrid& a,
+                                      const FeatureGrid& b,
+                                      const GuidedOptions& options) {
+  std::vector<Nearest> of_a(a.size());
+  std::vector<Nearest> of_b(b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    Eigen::Vector3d line = options.fundamental * a.point(i).homogeneous();
+    const double length = line.head<2>().norm();
+    if (!(length > 1e-12)) {
+      continue;  // the epipole: no line
+    }
+    line /= length;
+    const float angle = a.angle(i) + options.turn;
+    const float log_scale = a.log_scale(i) + options.growth;
+    b.VisitNearLine(line, options.band, [&](size_t j) {
+      if (std::abs(b.log_scale(j) - log_scale) > kMaxGrowth ||
+          std::abs(Wrap(b.angle(j) - angle)) > kMaxTurn) {
+        return;
+      }
+      const uint32_t squared_distance = SquaredDistance(a.descriptor(i), b.descriptor(j));
+      of_a[i].Add(squared_distance, j);
+      of_b[j].Add(squared_distance, i);
+    });
+  }
+  const float squared_ratio = options.ratio * options.ratio;
+  std::vector<FeatureMatch> matches;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const Nearest& forward = of_a[i];
+    if (forward.Distinct(squared_ratio) && of_b[forward.position].position == i &&
+        of_b[forward.position].Distinct(squared_ratio)) {
+      matches.push_back({a.index(i), b.index(forward.position)});
+    }
+  }
+  std::sort(matches.begin(), matches.end(),
+            [](const FeatureMatch& p, const FeatureMatch& q) { return p.a < q.a; });
+  return matches;
+}
+
+void MeasureTurnAndGrowth(const vision::Features& a,
+                          const vision::Features& b,
+                          std::span<const FeatureMatch> matches,
+                          GuidedOptions& options) {
+  float sine = 0.0f;
+  float cosine = 0.0f;
+  std::vector<float> growths;
+  for (const FeatureMatch& match : matches) {
+    const vision::Keypoint& in_a = a.keypoints[match.a];
+    const vision::Keypoint& in_b = b.keypoints[match.b];
+    sine += std::sin(in_b.angle - in_a.angle);
+    cosine += std::cos(in_b.angle - in_a.angle);
+    growths.push_back(std::log2(in_b.scale / in_a.scale));
+  }
+  options.turn = std::atan2(sine, cosine);
+  if (!growths.empty()) {
+    const auto middle = growths.begin() + static_cast<ptrdiff_t>(growths.size() / 2);
+    std::nth_element(growths.begin(), middle, growths.end());
+    options.growth = *middle;
+  }
+}
+
+}  // namespace lararium::train
