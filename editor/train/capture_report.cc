@@ -39,7 +39,7 @@ figcaption{font-size:13px;color:var(--soft);margin-top:4px;overflow-wrap:anywher
 svg{width:100%;height:auto;display:block}svg text{font:12px system-ui,Arial,sans-serif;fill:var(--soft)}
 .key{display:flex;flex-wrap:wrap;gap:4px 18px;font-size:13px;color:var(--soft);margin:8px 0}
 .key i{display:inline-block;width:12px;height:12px;margin-right:6px;vertical-align:-1px}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:5px 22px 5px 0;text-align:left;border-bottom:1px solid var(--line);font-weight:400;vertical-align:top}
+table{border-collapse:collapse;align-self:start;font-variant-numeric:tabular-nums}td,th{padding:5px 22px 5px 0;text-align:left;border-bottom:1px solid var(--line);font-weight:400;vertical-align:top}
 th{color:var(--soft);font-size:13px}
 .weak{display:grid;grid-template-columns:repeat(auto-fill,minmax(230px,1fr));gap:20px}
 .tag{display:inline-block;font-size:13px;padding:0 7px;border:1px solid currentColor;border-radius:3px}
@@ -130,7 +130,10 @@ std::string Picture(const cv::Mat& image, int width, std::string_view alt) {
   }
 }
 
-std::string Percent(double share) { return Fixed(100.0 * share, share < 0.995 ? 0 : 1) + " %"; }
+// Whole percents; 100 only where nothing is missing.
+std::string Percent(double share) {
+  return Fixed(share < 1.0 ? std::min(99.0, std::round(100.0 * share)) : 100.0, 0) + " %";
+}
 
 std::string Size(uint64_t bytes) {
   return Fixed(static_cast<double>(bytes) / (1024.0 * 1024.0), 1) + " MiB";

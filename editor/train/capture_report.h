@@ -18,13 +18,13 @@
 namespace lararium::train {
 
 struct CaptureReportOptions {
-  std::string title;                      // the place's name
-  std::string source;                     // what was filmed: a file name
-  std::optional<double> metres_per_unit;  // of the map, where the stage has fixed it
-  uint64_t database_bytes = 0;            // of the .larscene; 0 leaves it out
+  std::string title = {};                      // the place's name
+  std::string source = {};                     // what was filmed: a file name
+  std::optional<double> metres_per_unit = {};  // of the map, where the stage has fixed it
+  uint64_t database_bytes = 0;                 // of the .larscene; 0 leaves it out
   // The image of a frame of the source (BGR or grey), or an empty one. Without it,
   // pictures come from the keyframes.
-  std::function<cv::Mat(int64_t frame_index)> frame_image;
+  std::function<cv::Mat(int64_t frame_index)> frame_image = {};
 };
 
 // frame_image from the source that was trained on; borrows it.
