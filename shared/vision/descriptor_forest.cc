@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <numeric>
 
 #include "shared/core/check.h"
@@ -192,66 +193,122 @@ Status DescriptorForest::Validate(size_t descriptor_count) const {
 
 ForestSearcher::ForestSearcher(const DescriptorForest& forest,
                                std::span<const Descriptor> descriptors)
-    : forest_(forest), descriptors_(descriptors), seen_(descriptors.size(), 0) {
+    : forest_(forest), descriptors_(descriptors) {
   heap_.reserve(1024);
+}
+
+void ForestSearcher::Restart(int max_checks) {
+  heap_.clear();
+  gathered_.clear();
+  count_ = 0;
+  checks_left_ = max_checks;
+  const size_t wanted = std::bit_ceil(kSlots * static_cast<size_t>(std::max(max_checks, 1)));
+  if (++search_ == 0 || seen_.size() < wanted) {
+    seen_.assign(std::max(wanted, seen_.size()), {0u, 0u});
+    search_ = 1;
+  }
 }
 
 size_t ForestSearcher::Search(const Descriptor& query, int max_checks, std::span<Neighbour> found) {
   if (found.empty()) {
     return 0;
   }
-  if (++search_ == 0) {
-    std::fill(seen_.begin(), seen_.end(), 0u);
-    search_ = 1;
-  }
-  heap_.clear();
+  Restart(max_checks);
   found_ = found;
-  count_ = 0;
-  checks_left_ = max_checks;
-  for (const uint32_t root : forest_.roots) {
-    Descend(root, 0, query);
-  }
   const auto later = [](const Branch& a, const Branch& b) {
     return a.squared_distance > b.squared_distance;
   };
+  std::array<Branch, kTogether> branches;
+  const size_t trees = forest_.roots.size();
+  for (size_t begin = 0; begin < trees; begin += kTogether) {
+    const size_t count = std::min(kTogether, trees - begin);
+    for (size_t i = 0; i < count; ++i) {
+      branches[i] = {forest_.roots[begin + i], 0};
+    }
+    Descend({branches.data(), count}, query);
+  }
+  std::make_heap(heap_.begin(), heap_.end(), later);
   while (!heap_.empty() && checks_left_ > 0) {
-    std::pop_heap(heap_.begin(), heap_.end(), later);
-    const Branch branch = heap_.back();
-    heap_.pop_back();
-    Descend(branch.node, branch.squared_distance, query);
+    size_t count = 0;
+    while (count < kTogether && !heap_.empty()) {
+      std::pop_heap(heap_.begin(), heap_.end(), later);
+      const Branch branch = heap_.back();
+      heap_.pop_back();
+      // Nothing nearer can lie there, nor in any branch after it.
+      if (count_ == found_.size() &&
+          branch.squared_distance >= found_[count_ - 1].squared_distance) {
+        heap_.clear();
+        break;
+      }
+      branches[count++] = branch;
+    }
+    const size_t before = heap_.size();
+    Descend({branches.data(), count}, query);
+    for (size_t end = before + 1; end <= heap_.size(); ++end) {
+      std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(end), later);
+    }
   }
   return count_;
 }
 
-void ForestSearcher::Descend(uint32_t node, uint32_t squared_distance, const Descriptor& query) {
-  if (count_ == found_.size() && squared_distance >= found_[count_ - 1].squared_distance) {
-    return;
+void ForestSearcher::Descend(std::span<Branch> branches, const Descriptor& query) {
+  const std::span<const ForestNode> nodes = forest_.nodes;
+  for (bool walking = true; walking;) {
+    walking = false;
+    for (Branch& branch : branches) {
+      const ForestNode& node = nodes[branch.node];
+      if (node.dimension == ForestNode::kLeaf) {
+        continue;
+      }
+      const int difference = static_cast<int>(query[node.dimension]) - node.threshold;
+      const uint32_t right = difference >= 0 ? 1 : 0;
+      heap_.push_back({node.first + 1 - right,
+                       branch.squared_distance + static_cast<uint32_t>(difference * difference)});
+      branch.node = node.first + right;
+      __builtin_prefetch(&nodes[branch.node]);
+      walking = true;
+    }
   }
-  const auto later = [](const Branch& a, const Branch& b) {
-    return a.squared_distance > b.squared_distance;
-  };
-  while (forest_.nodes[node].dimension != ForestNode::kLeaf) {
-    const ForestNode& inner = forest_.nodes[node];
-    const int difference = static_cast<int>(query[inner.dimension]) - inner.threshold;
-    const uint32_t near = inner.first + (difference >= 0 ? 1 : 0);
-    const uint32_t far = inner.first + (difference >= 0 ? 0 : 1);
-    heap_.push_back({far, squared_distance + static_cast<uint32_t>(difference * difference)});
-    std::push_heap(heap_.begin(), heap_.end(), later);
-    node = near;
+  for (const Branch& branch : branches) {
+    __builtin_prefetch(&forest_.order[nodes[branch.node].first]);
   }
-  Look(forest_.nodes[node], query);
+  for (const Branch& branch : branches) {
+    Gather(nodes[branch.node]);
+  }
+  LookAtGathered(query);
 }
 
-void ForestSearcher::Look(const ForestNode& leaf, const Descriptor& query) {
+bool ForestSearcher::MarkSeen(uint32_t descriptor) {
+  // Fibonacci hashing (Knuth, "The Art of Computer Programming" 3, 6.4).
+  const size_t mask = seen_.size() - 1;
+  size_t slot = (descriptor * 0x9e3779b97f4a7c15ull >> 32) & mask;
+  while (seen_[slot].second == search_) {
+    if (seen_[slot].first == descriptor) {
+      return false;
+    }
+    slot = (slot + 1) & mask;
+  }
+  seen_[slot] = {descriptor, search_};
+  return true;
+}
+
+void ForestSearcher::Gather(const ForestNode& leaf) {
   for (uint32_t i = leaf.first; i < leaf.first + leaf.count && checks_left_ > 0; ++i) {
     const uint32_t descriptor = forest_.order[i];
-    if (seen_[descriptor] == search_) {
-      continue;
+    if (MarkSeen(descriptor)) {
+      --checks_left_;
+      gathered_.push_back(descriptor);
+      __builtin_prefetch(descriptors_[descriptor].data());
+      __builtin_prefetch(descriptors_[descriptor].data() + kDescriptorSize / 2);
     }
-    seen_[descriptor] = search_;
-    --checks_left_;
+  }
+}
+
+void ForestSearcher::LookAtGathered(const Descriptor& query) {
+  for (const uint32_t descriptor : gathered_) {
     Insert({descriptor, SquaredDistance(query, descriptors_[descriptor])});
   }
+  gathered_.clear();
 }
 
 void ForestSearcher::Insert(Neighbour neighbour) {

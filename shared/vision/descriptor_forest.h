@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "shared/core/status.h"
@@ -47,7 +48,8 @@ struct Neighbour {
   uint32_t squared_distance = 0;
 };
 
-// Working memory of searches; keep one for each thread.
+// Working memory of searches, a few kilobytes whatever the forest's size; keep
+// one for each thread.
 class ForestSearcher {
  public:
   // Borrows both for its life.
@@ -63,15 +65,27 @@ class ForestSearcher {
     uint32_t node;
     uint32_t squared_distance;
   };
-  // Walks to a leaf and looks at it, leaving the other branches on the heap.
-  void Descend(uint32_t node, uint32_t squared_distance, const Descriptor& query);
-  void Look(const ForestNode& leaf, const Descriptor& query);
+  // In a large forest nearly every step waits for memory, so several branches
+  // are followed at a time, each a step while the others wait.
+  static constexpr size_t kTogether = 4;
+  // Slots of seen_ for each descriptor that may be looked at.
+  static constexpr size_t kSlots = 4;
+
+  void Restart(int max_checks);
+  // Walks from the branches to leaves, leaving what lies beside on the heap.
+  void Descend(std::span<Branch> branches, const Descriptor& query);
+  void Gather(const ForestNode& leaf);
+  void LookAtGathered(const Descriptor& query);
+  // Whether this search meets the descriptor for the first time.
+  bool MarkSeen(uint32_t descriptor);
   void Insert(Neighbour neighbour);
 
   const DescriptorForest& forest_;
   std::span<const Descriptor> descriptors_;
   std::vector<Branch> heap_;
-  std::vector<uint32_t> seen_;  // number of the search that last looked at a descriptor
+  std::vector<uint32_t> gathered_;  // descriptors to look at
+  // A hash table with open addresses: descriptor, number of the search.
+  std::vector<std::pair<uint32_t, uint32_t>> seen_;
   uint32_t search_ = 0;
   std::span<Neighbour> found_;  // of the search at hand
   size_t count_ = 0;

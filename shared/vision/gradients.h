@@ -27,6 +27,10 @@ inline float Angle(float y, float x) {
   return angle;
 }
 
+// What rows of samples have beyond their end, so that loops may take several
+// samples at a time.
+inline constexpr int kRowPadding = 8;
+
 // Magnitudes and angles of the grey values' gradients in part of a row.
 struct GradientRow {
   std::vector<float> magnitude;
@@ -37,9 +41,9 @@ struct GradientRow {
     const float* here = image.ptr<float>(row) + begin;
     const float* below = image.ptr<float>(row + 1) + begin;
     const int count = end - begin;
-    if (static_cast<size_t>(count) > magnitude.size()) {
-      magnitude.resize(count);
-      angle.resize(count);
+    if (static_cast<size_t>(count + kRowPadding) > magnitude.size()) {
+      magnitude.resize(count + kRowPadding);
+      angle.resize(count + kRowPadding);
     }
     float* m = magnitude.data();
     float* a = angle.data();
@@ -55,7 +59,7 @@ struct GradientRow {
 // exp(-d^2 / (2 sigma^2)) of the distances from centre to begin, begin + 1, ...
 inline void FillGaussian(
     float centre, float sigma, int begin, int end, std::vector<float>& weights) {
-  weights.resize(std::max(end - begin, 0));
+  weights.resize(std::max(end - begin, 0) + kRowPadding);
   for (int i = begin; i < end; ++i) {
     const float d = (static_cast<float>(i) - centre) / sigma;
     weights[i - begin] = std::exp(-0.5f * d * d);

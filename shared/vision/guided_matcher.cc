@@ -1,7 +1,11 @@
 #include "shared/vision/guided_matcher.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace lararium::vision {
 namespace {
@@ -9,9 +13,18 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
+constexpr uint32_t kClusterSize = 64;         // points, at most
+constexpr float kSideMargin = 1.001f;         // for rounding
 constexpr float kLeastFacing = 0.1f;          // cosine between normal and line of sight
 constexpr float kLargestScaleRatio = 1.6f;    // seen over expected
 constexpr uint32_t kLargestDistance = 60000;  // squared, of descriptors of length 512
+
+bool Faces(const Eigen::Vector3f& point,
+           const Eigen::Vector3f& normal,
+           const Eigen::Vector3f& camera_in_map) {
+  const Eigen::Vector3f towards = camera_in_map - point;
+  return normal.dot(towards) > kLeastFacing * towards.norm();
+}
 
 // Geometric mean over its sights, of keypoint scale times depth over focal length.
 std::vector<float> PointScales(const SceneDatabase& db) {
@@ -36,8 +49,91 @@ std::vector<float> PointScales(const SceneDatabase& db) {
 
 }  // namespace
 
-GuidedMatcher::GuidedMatcher(const SceneDatabase& database)
-    : database_(database), point_scales_(PointScales(database)) {}
+GuidedMatcher::GuidedMatcher(const SceneDatabase& database) : database_(database) {
+  BuildClusters();
+}
+
+// Halves the points at the median of their longest extent until few are left.
+void GuidedMatcher::BuildClusters() {
+  const auto& points = database_.points;
+  const std::vector<float> scales = PointScales(database_);
+  std::vector<uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::vector<std::span<uint32_t>> open = {order};
+  candidates_.reserve(points.size());
+  while (!open.empty()) {
+    const std::span<uint32_t> part = open.back();
+    open.pop_back();
+    if (part.size() <= kClusterSize) {
+      AddCluster(part, scales);
+      continue;
+    }
+    Eigen::AlignedBox3f box;
+    for (const uint32_t point : part) {
+      box.extend(points[point]);
+    }
+    Eigen::Index axis = 0;
+    box.sizes().maxCoeff(&axis);
+    const size_t middle = part.size() / 2;
+    std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(middle), part.end(),
+                     [&](uint32_t a, uint32_t b) {
+                       const float x = points[a][axis];
+                       const float y = points[b][axis];
+                       return x != y ? x < y : a < b;
+                     });
+    open.push_back(part.subspan(middle));
+    open.push_back(part.first(middle));
+  }
+}
+
+void GuidedMatcher::AddCluster(std::span<const uint32_t> points, std::span<const float> scales) {
+  Cluster cluster;
+  Eigen::AlignedBox3f box;
+  cluster.begin = static_cast<uint32_t>(candidates_.size());
+  for (const uint32_t point : points) {
+    box.extend(database_.points[point]);
+    const float scale = scales[point];
+    cluster.largest_scale = std::max(cluster.largest_scale,
+                                     scale > 0.0f ? scale : std::numeric_limits<float>::infinity());
+    candidates_.push_back({database_.points[point], database_.normals[point], scale, point});
+  }
+  cluster.end = static_cast<uint32_t>(candidates_.size());
+  cluster.centre = box.center();
+  cluster.radius = 0.5f * box.diagonal().norm();
+  clusters_.push_back(cluster);
+}
+
+// Distortion bends the sides: the planes go through their outermost pixels.
+void GuidedMatcher::FillSides(const CameraModel& camera) {
+  constexpr int kSteps = 8;
+  Eigen::AlignedBox2d box;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double x = static_cast<double>(i) * camera.width / kSteps - 0.5;
+    const double y = static_cast<double>(i) * camera.height / kSteps - 0.5;
+    box.extend(camera.PlaneFromPixel({x, -0.5}));
+    box.extend(camera.PlaneFromPixel({x, camera.height - 0.5}));
+    box.extend(camera.PlaneFromPixel({-0.5, y}));
+    box.extend(camera.PlaneFromPixel({camera.width - 0.5, y}));
+  }
+  const Eigen::Vector2f low = box.min().cast<float>();
+  const Eigen::Vector2f high = box.max().cast<float>();
+  sides_ = {Eigen::Vector3f(1.0f, 0.0f, -low.x()).normalized(),
+            Eigen::Vector3f(-1.0f, 0.0f, high.x()).normalized(),
+            Eigen::Vector3f(0.0f, 1.0f, -low.y()).normalized(),
+            Eigen::Vector3f(0.0f, -1.0f, high.y()).normalized()};
+}
+
+bool GuidedMatcher::MayShow(const Cluster& cluster, const Eigen::Vector3f& centre) const {
+  const float nearest = centre.z() - cluster.radius;
+  if (centre.z() + cluster.radius <= 0.0f ||
+      (nearest > 0.0f &&
+       cluster.largest_scale * focal_ * kLargestScaleRatio < least_scale_ * nearest)) {
+    return false;
+  }
+  return std::all_of(sides_.begin(), sides_.end(), [&](const Eigen::Vector3f& side) {
+    return side.dot(centre) > -kSideMargin * cluster.radius;
+  });
+}
 
 void GuidedMatcher::FillGrid(const CameraModel& camera, const Features& features) {
   columns_ = camera.width / kCell + 1;
@@ -52,11 +148,6 @@ void GuidedMatcher::FillGrid(const CameraModel& camera, const Features& features
     next_[f] = head;
     head = static_cast<uint32_t>(f);
   }
-}
-
-bool GuidedMatcher::Faces(size_t point, const Eigen::Vector3f& camera_in_map) const {
-  const Eigen::Vector3f towards = camera_in_map - database_.points[point];
-  return database_.normals[point].dot(towards) > kLeastFacing * towards.norm();
 }
 
 uint32_t GuidedMatcher::Distance(size_t point, const Descriptor& descriptor) const {
@@ -109,25 +200,45 @@ void GuidedMatcher::Match(const CameraModel& camera,
                           double radius_px,
                           std::vector<FeatureMatch>& matches) {
   FillGrid(camera, features);
+  FillSides(camera);
+  focal_ = static_cast<float>(camera.Focal());
+  least_scale_ = std::numeric_limits<float>::infinity();
+  for (const Keypoint& keypoint : features.keypoints) {
+    least_scale_ = std::min(least_scale_, keypoint.scale);
+  }
   best_of_feature_.assign(features.size(), {kNone, 0, kNone});
   const Eigen::Matrix3f rotation = camera_from_map.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f translation = camera_from_map.translation.cast<float>();
   const Eigen::Vector3f camera_in_map = camera_from_map.Center().cast<float>();
-  for (size_t point = 0; point < database_.points.size(); ++point) {
-    const Eigen::Vector3f p = rotation * database_.points[point] + translation;
-    if (p.z() <= 1e-6f || !Faces(point, camera_in_map)) {
+  for (const Cluster& cluster : clusters_) {
+    if (!MayShow(cluster, rotation * cluster.centre + translation)) {
       continue;
     }
-    const auto pixel = camera.Project(p.cast<double>());
-    if (!pixel || !camera.Contains(*pixel)) {
-      continue;
-    }
-    const float expected_scale = point_scales_[point] * static_cast<float>(camera.Focal()) / p.z();
-    const FeatureMatch match = BestNear(point, pixel->cast<float>(), expected_scale,
-                                        static_cast<float>(radius_px), features);
-    if (match.feature != kNone &&
-        match.squared_distance < best_of_feature_[match.feature].squared_distance) {
-      best_of_feature_[match.feature] = match;
+    for (uint32_t i = cluster.begin; i < cluster.end; ++i) {
+      const Candidate& candidate = candidates_[i];
+      const Eigen::Vector3f p = rotation * candidate.position + translation;
+      if (p.z() <= 1e-6f || !Faces(candidate.position, candidate.normal, camera_in_map)) {
+        continue;
+      }
+      const float expected_scale = candidate.scale * focal_ / p.z();
+      if (expected_scale > 0.0f && expected_scale * kLargestScaleRatio < least_scale_) {
+        continue;
+      }
+      const auto pixel = camera.Project(p.cast<double>());
+      if (!pixel || !camera.Contains(*pixel)) {
+        continue;
+      }
+      const FeatureMatch match = BestNear(candidate.point, pixel->cast<float>(), expected_scale,
+                                          static_cast<float>(radius_px), features);
+      if (match.feature == kNone) {
+        continue;
+      }
+      FeatureMatch& best = best_of_feature_[match.feature];
+      // Of two that are equally near the first point, whatever their clusters.
+      if (match.squared_distance < best.squared_distance ||
+          (match.squared_distance == best.squared_distance && match.point < best.point)) {
+        best = match;
+      }
     }
   }
   matches.clear();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 #include "shared/core/parallel.h"
 #include "shared/geometry/p3p.h"
@@ -13,11 +15,17 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-constexpr size_t kNeighbours = 8;    // of a query: usually more than one point's descriptors
-constexpr size_t kSearchJobs = 8;    // each with its own searcher
-constexpr size_t kLeastMatches = 6;  // below, three that agree mean nothing
+constexpr size_t kNeighbours = 8;      // of a query: usually more than one point's descriptors
+constexpr size_t kSearchJobs = 8;      // each with its own searcher
+constexpr size_t kLeastMatches = 6;    // below, three that agree mean nothing
+constexpr size_t kFirstQueries = 400;  // of the features, before the others are searched
+constexpr int kPlentyOfInliers = 50;   // of guided matching: the others would change nothing
 constexpr double kGuidedRadiusPx = 3.0;
-constexpr double kLargestErrorPx = 3.0;  // expected, of a pose worth showing
+constexpr double kSample = 3.0;            // matches that make a pose
+constexpr double kPosesOfSample = 4.0;     // of P3P, at most
+constexpr double kMostFalseAlarms = 1e-6;  // poses by chance, expected for each image
+constexpr float kSpotPx = 8.0f;            // matches nearer to each other are no two witnesses
+constexpr double kLargestErrorPx = 3.0;    // expected, of a pose worth showing
 
 // Relative uncertainty of where a feature shows a point. Measured on sequences
 // with true poses: it grows with the feature's scale and with the distance of
@@ -31,6 +39,30 @@ double SigmaOf(const Keypoint& keypoint, uint32_t squared_distance, uint32_t obs
   const double d = 1.0 + squared_distance / kDistance;
   return std::sqrt((1.0 + s * s) * d * d + kObservations / std::max(observations, 1u));
 }
+
+// Squares of the image, without end to the right and below.
+class TileGrid {
+ public:
+  explicit TileGrid(const Features& features) {
+    for (const Keypoint& keypoint : features.keypoints) {
+      columns_ = std::max(columns_, Index(keypoint.x) + 1);
+      rows_ = std::max(rows_, Index(keypoint.y) + 1);
+    }
+  }
+  size_t size() const { return columns_ * rows_; }
+  size_t TileOf(const Keypoint& keypoint) const {
+    return Index(keypoint.y) * columns_ + Index(keypoint.x);
+  }
+  static double TileArea() { return kTilePx * kTilePx; }
+
+ private:
+  static constexpr float kTilePx = 64.0f;
+  static size_t Index(float pixels) {
+    return static_cast<size_t>(std::max(pixels, 0.0f) / kTilePx);
+  }
+  size_t columns_ = 0;
+  size_t rows_ = 0;
+};
 
 }  // namespace
 
@@ -54,46 +86,131 @@ Location Localizer::Locate(const Features& features, const CameraModel& camera) 
   for (size_t i = 0; i < features.size(); ++i) {
     planes_[i] = camera.PlaneFromPixel({features.keypoints[i].x, features.keypoints[i].y});
   }
-  SearchMatches(features);
+  // A few hundred of the features, strong and spread over the image, nearly always
+  // tell where the camera is; then the others need no search without a prior.
+  OrderQueries(features);
+  found_.assign(features.size(), std::nullopt);
+  const size_t first = std::min(kFirstQueries, queries_.size());
+  SearchMatches(features, 0, first);
+  bool located = LocateFromMatches(features, camera, location);
+  if (first < queries_.size() && (!located || location.inliers < kPlentyOfInliers)) {
+    SearchMatches(features, first, queries_.size());
+    Location full;
+    located = LocateFromMatches(features, camera, full);
+    if (located || !location.camera_from_map) {
+      location = full;
+    }
+  }
+  return location;
+}
+
+bool Localizer::LocateFromMatches(const Features& features,
+                                  const CameraModel& camera,
+                                  Location& location) {
   location.matches = static_cast<int>(matches_.size());
   location.reason = TrackReason::kTooFewMatches;
   if (matches_.size() < kLeastMatches) {
-    return location;
+    return false;
   }
   location.reason = TrackReason::kNoConsistentPose;
   FillPoseMatches(features, matches_);
   const std::optional<Rigid3> first = FindPose(camera);
   if (!first) {
-    return location;
+    return false;
   }
   const RefinementOptions refinement{camera.Focal(), options_.inlier_threshold_px};
   refiner_.Refine(pose_matches_, refinement, *first, refined_);
-  if (refined_.inliers.size() < kLeastMatches) {
-    return location;
+  if (refined_.inliers.size() < kLeastMatches || !IsNoAccident(features, camera)) {
+    return false;
   }
   guided_.Match(camera, refined_.camera_from_map, features, kGuidedRadiusPx, guided_matches_);
   FillPoseMatches(features, guided_matches_);
   refiner_.Refine(pose_matches_, refinement, refined_.camera_from_map, refined_);
-  Judge(camera, location);
-  return location;
+  return Judge(camera, location);
 }
 
-void Localizer::Judge(const CameraModel& camera, Location& location) {
+// Rank by rank through the tiles: the strongest of every tile, then the second, ...
+void Localizer::OrderQueries(const Features& features) {
+  queries_.resize(features.size());
+  std::iota(queries_.begin(), queries_.end(), 0u);
+  const auto& keypoints = features.keypoints;
+  std::sort(queries_.begin(), queries_.end(), [&](uint32_t a, uint32_t b) {
+    return keypoints[a].response != keypoints[b].response
+               ? keypoints[a].response > keypoints[b].response
+               : a < b;
+  });
+  const TileGrid grid(features);
+  counts_.assign(grid.size(), 0);
+  place_in_tile_.resize(features.size());
+  for (const uint32_t f : queries_) {
+    place_in_tile_[f] = counts_[grid.TileOf(keypoints[f])]++;
+  }
+  std::stable_sort(queries_.begin(), queries_.end(),
+                   [&](uint32_t a, uint32_t b) { return place_in_tile_[a] < place_in_tile_[b]; });
+}
+
+// Whether chance would hardly ever make so many matches agree: the expected
+// number of poses that as many random matches support (Moisan & Stival, "A
+// probabilistic criterion to detect rigid point matches between two images",
+// IJCV 2004; Moulon, Monasse & Marlet, "Adaptive structure from motion with a
+// contrario model estimation", ACCV 2012). A random match shows its point at the
+// place of some feature of this image, so where features crowd chance has it
+// easier; and what stands on one spot counts once.
+bool Localizer::IsNoAccident(const Features& features, const CameraModel& camera) {
+  const double radius = 2.0 * options_.inlier_threshold_px;  // that of the vaguest inliers
+  const TileGrid grid(features);
+  counts_.assign(grid.size(), 0);
+  for (const Keypoint& keypoint : features.keypoints) {
+    ++counts_[grid.TileOf(keypoint)];
+  }
+  spots_.clear();
+  double log_chance = 0.0;
+  for (const uint32_t i : refined_.inliers) {
+    const Keypoint& keypoint = features.keypoints[matches_[i].feature];
+    const auto column = static_cast<uint32_t>(std::max(keypoint.x, 0.0f) / kSpotPx);
+    const auto row = static_cast<uint32_t>(std::max(keypoint.y, 0.0f) / kSpotPx);
+    spots_.push_back(row << 16 | column);
+    // Density of features around, at least that of an even spread.
+    const double share = counts_[grid.TileOf(keypoint)] / static_cast<double>(features.size());
+    const double density = std::max(share / grid.TileArea(),
+                                    1.0 / (static_cast<double>(camera.width) * camera.height));
+    log_chance += std::log(std::min(std::numbers::pi * radius * radius * density, 1.0));
+  }
+  const auto inliers = static_cast<double>(spots_.size());
+  log_chance /= inliers;
+  std::sort(spots_.begin(), spots_.end());
+  spots_.erase(std::unique(spots_.begin(), spots_.end()), spots_.end());
+  const auto k = static_cast<double>(spots_.size());
+  // As many matches fewer as inliers stand on spots of others.
+  const double n = static_cast<double>(matches_.size()) - (inliers - k);
+  if (k <= kSample) {
+    return false;
+  }
+  const auto log_choose = [](double from, double count) {
+    return std::lgamma(from + 1.0) - std::lgamma(count + 1.0) - std::lgamma(from - count + 1.0);
+  };
+  const double log_tests =
+      std::log(kPosesOfSample * (n - kSample)) + log_choose(n, k) + log_choose(k, kSample);
+  return log_tests + (k - kSample) * log_chance < std::log(kMostFalseAlarms);
+}
+
+bool Localizer::Judge(const CameraModel& camera, Location& location) {
   location.inliers = static_cast<int>(refined_.inliers.size());
   if (location.inliers < options_.min_inliers) {
-    return;
+    return false;
   }
   const PoseEvidence evidence{
       .covariance = refined_.covariance, .depths = Depths(), .inliers = location.inliers};
   const double error = std::sqrt(ComputeRegistrationVariance(camera, evidence).Sum());
   if (!(error < kLargestErrorPx)) {
-    return;
+    return false;
   }
   location.camera_from_map = refined_.camera_from_map;
   location.covariance = refined_.covariance;
   location.reason = TrackReason::kNone;
   location.expected_error_px = error;
   location.confidence = static_cast<float>(PoseConfidence(camera, evidence));
+  return true;
 }
 
 template <typename M>
@@ -132,12 +249,12 @@ std::optional<Localizer::Match> Localizer::SearchMatch(const Features& features,
   return Match{{feature, point, neighbours[0].squared_distance}, ratio};
 }
 
-void Localizer::SearchMatches(const Features& features) {
-  found_.assign(features.size(), std::nullopt);
+void Localizer::SearchMatches(const Features& features, size_t begin, size_t end) {
   ParallelFor(kSearchJobs, [&](size_t job) {
-    const size_t end = features.size() * (job + 1) / kSearchJobs;
-    for (size_t f = features.size() * job / kSearchJobs; f < end; ++f) {
-      found_[f] = SearchMatch(features, static_cast<uint32_t>(f), searchers_[job]);
+    const size_t last = begin + (end - begin) * (job + 1) / kSearchJobs;
+    for (size_t q = begin + (end - begin) * job / kSearchJobs; q < last; ++q) {
+      const uint32_t feature = queries_[q];
+      found_[feature] = SearchMatch(features, feature, searchers_[job]);
     }
   });
   KeepBestOfEachPoint();

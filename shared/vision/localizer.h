@@ -59,7 +59,14 @@ class Localizer {
     float ratio = 1.0f;  // to the distance of the nearest other point, squared
   };
 
-  void SearchMatches(const Features& features);
+  void OrderQueries(const Features& features);
+  // Searches for the features queries_[begin, end) and adds what it finds.
+  void SearchMatches(const Features& features, size_t begin, size_t end);
+  // From the matches that were found so far; whether there is a pose.
+  bool LocateFromMatches(const Features& features,
+                         const geometry::CameraModel& camera,
+                         Location& location);
+  bool IsNoAccident(const Features& features, const geometry::CameraModel& camera);
   std::optional<Match> SearchMatch(const Features& features,
                                    uint32_t feature,
                                    ForestSearcher& searcher) const;
@@ -68,7 +75,7 @@ class Localizer {
   void FillPoseMatches(const Features& features, const std::vector<M>& matches);
   std::optional<geometry::Rigid3> FindPose(const geometry::CameraModel& camera);
   std::array<double, 3> Depths();
-  void Judge(const geometry::CameraModel& camera, Location& location);
+  bool Judge(const geometry::CameraModel& camera, Location& location);
 
   const SceneDatabase& database_;
   LocalizerOptions options_;
@@ -77,15 +84,19 @@ class Localizer {
   // Working memory.
   std::vector<Eigen::Vector2d> planes_;  // of the features, undistorted
   std::vector<ForestSearcher> searchers_;
-  std::vector<std::optional<Match>> found_;
-  std::vector<Match> matches_;            // most distinctive first
-  std::vector<uint32_t> match_of_point_;  // into matches_
+  std::vector<uint32_t> queries_;            // features, those searched first before the others
+  std::vector<uint32_t> place_in_tile_;      // [features]: rank by strength in its tile
+  std::vector<uint32_t> counts_;             // of features or inliers in tiles
+  std::vector<std::optional<Match>> found_;  // [features]
+  std::vector<Match> matches_;               // most distinctive first
+  std::vector<uint32_t> match_of_point_;     // into matches_
   std::vector<FeatureMatch> guided_matches_;
   std::vector<PoseMatch> pose_matches_;
   geometry::PreemptiveRansac<Eigen::Matrix<double, 3, 4>> ransac_;
   PoseRefiner refiner_;
   RefinedPose refined_;
   std::vector<double> depths_;
+  std::vector<uint32_t> spots_;  // of the inliers
 };
 
 }  // namespace lararium::vision

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <utility>
 
@@ -12,12 +13,33 @@ namespace {
 constexpr int kCells = 4;   // along each side
 constexpr int kAngles = 8;  // for each cell
 
-// One more cell on every side, and one more angle, catch the outer shares of
-// the trilinear interpolation.
+// The angles of a cell, side by side in one register or in the two that the
+// processor has instead.
+using Lanes = float __attribute__((vector_size(4 * kAngles)));
+using Indices = int32_t __attribute__((vector_size(4 * kAngles)));
+static_assert(kRowPadding >= kAngles);
+
+inline Lanes Load(const float* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof(lanes));
+  return lanes;
+}
+template <typename Vector, typename T>
+void Store(const Vector& lanes, T* to) {
+  std::memcpy(to, &lanes, sizeof(lanes));
+}
+
+// To [0, most]; 0 for NaN.
+inline Lanes Clamped(const Lanes& values, float most) {
+  const Lanes positive = values > 0.0f ? values : Lanes{};
+  return positive < most ? positive : Lanes{} + most;
+}
+
+// One more cell on every side catches the outer shares of the interpolation.
 constexpr int kPaddedCells = kCells + 2;
-constexpr size_t kCellStride = kAngles + 1;
-constexpr size_t kRowStride = kPaddedCells * kCellStride;
-using PaddedHistogram = std::array<float, kPaddedCells * kRowStride>;
+// Samples take turns, so that one need not wait until another is stored.
+constexpr int kTurns = 2;
+using PaddedHistogram = std::array<Lanes, kTurns * kPaddedCells * kPaddedCells>;
 
 // Part of a row in which both |a + b t| < limit hold.
 std::pair<float, float> Overlap(float a, float b, float limit, std::pair<float, float> range) {
@@ -30,24 +52,24 @@ std::pair<float, float> Overlap(float a, float b, float limit, std::pair<float, 
           std::min(range.second, std::max(first, second))};
 }
 
-void AddSample(float u, float v, float angle_bin, float weight, PaddedHistogram& histogram) {
-  const int iu = static_cast<int>(u);
-  const int iv = static_cast<int>(v);
-  const int ia = static_cast<int>(angle_bin);
-  const float fu = u - static_cast<float>(iu);
-  const float fv = v - static_cast<float>(iv);
-  const float fa = angle_bin - static_cast<float>(ia);
-  float* cell = &histogram[iv * kRowStride + iu * kCellStride + (ia & (kAngles - 1))];
-  const float below = weight * (1.0f - fv);
-  const float above = weight * fv;
-  const auto add = [fa](float* bin, float share) {
-    bin[0] += share * (1.0f - fa);
-    bin[1] += share * fa;
-  };
-  add(cell, below * (1.0f - fu));
-  add(cell + kCellStride, below * fu);
-  add(cell + kRowStride, above * (1.0f - fu));
-  add(cell + kRowStride + kCellStride, above * fu);
+// Shares of a sample at (u, v), linear in the distances from cells and angles.
+void AddSamples(const SampleRow& samples, int count, PaddedHistogram& histogram) {
+  constexpr Lanes kBins = {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
+  constexpr Lanes kOne = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
+  constexpr Lanes kNone = {};
+  constexpr auto kTurn = static_cast<float>(kAngles);
+  for (int i = 0; i < count; ++i) {
+    const Lanes ahead = samples.angle_bin[i] - kBins;
+    const Lanes apart = ahead > kNone ? ahead : -ahead;
+    const Lanes around = kTurn - apart;
+    const Lanes near = kOne - (apart < around ? apart : around);
+    const Lanes angles = near > kNone ? near : kNone;
+    Lanes* cell = &histogram[(i % kTurns) * kPaddedCells * kPaddedCells + samples.cell[i]];
+    cell[0] += samples.share[0][i] * angles;
+    cell[1] += samples.share[1][i] * angles;
+    cell[kPaddedCells] += samples.share[2][i] * angles;
+    cell[kPaddedCells + 1] += samples.share[3][i] * angles;
+  }
 }
 
 PaddedHistogram Accumulate(const cv::Mat& image,
@@ -78,27 +100,32 @@ PaddedHistogram Accumulate(const cv::Mat& image,
     }
     const int count = end - begin;
     memory.gradients.Fill(image, y, begin, end);
-    memory.samples.Reserve(count);
-    const float* magnitude = memory.gradients.magnitude.data();
-    const float* angle = memory.gradients.angle.data();
     const float* weight_x = &memory.weights_x[begin - window.x_begin];
     const float weight_y = memory.weights_y[y - window.y_begin];
-    float* u = memory.samples.u.data();
-    float* v = memory.samples.v.data();
-    float* angle_bin = memory.samples.angle_bin.data();
-    float* weight = memory.samples.weight.data();
-    for (int i = 0; i < count; ++i) {
-      const float dx = static_cast<float>(begin + i) - e.x;
-      // Within the range but for rounding.
-      u[i] = std::clamp(cosine * dx + sine * dy + kReach, 0.0f, kLastCell);
-      v[i] = std::clamp(-sine * dx + cosine * dy + kReach, 0.0f, kLastCell);
-      const float turned = angle[i] - oriented.angle;
-      angle_bin[i] = (turned < 0.0f ? turned + kTwoPi : turned) * (kAngles / kTwoPi);
-      weight[i] = weight_y * weight_x[i] * magnitude[i];
+    SampleRow& samples = memory.samples;
+    samples.Reserve(count + kRowPadding);
+    constexpr Lanes kSteps = {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
+    for (int i = 0; i < count; i += kAngles) {
+      const Lanes dx = static_cast<float>(begin + i) - e.x + kSteps;
+      // Within the range but for rounding, and beyond the row's end.
+      const Lanes u = Clamped(cosine * dx + sine * dy + kReach, kLastCell);
+      const Lanes v = Clamped(-sine * dx + cosine * dy + kReach, kLastCell);
+      const Indices iu = __builtin_convertvector(u, Indices);
+      const Indices iv = __builtin_convertvector(v, Indices);
+      const Lanes fu = u - __builtin_convertvector(iu, Lanes);
+      const Lanes fv = v - __builtin_convertvector(iv, Lanes);
+      const Lanes turned = Load(&memory.gradients.angle[i]) - oriented.angle;
+      const Lanes weight = weight_y * Load(weight_x + i) * Load(&memory.gradients.magnitude[i]);
+      const Lanes below = weight * (1.0f - fv);
+      const Lanes above = weight * fv;
+      Store((turned < 0.0f ? turned + kTwoPi : turned) * (kAngles / kTwoPi), &samples.angle_bin[i]);
+      Store(iv * kPaddedCells + iu, &samples.cell[i]);
+      Store(below * (1.0f - fu), &samples.share[0][i]);
+      Store(below * fu, &samples.share[1][i]);
+      Store(above * (1.0f - fu), &samples.share[2][i]);
+      Store(above * fu, &samples.share[3][i]);
     }
-    for (int i = 0; i < count; ++i) {
-      AddSample(u[i], v[i], angle_bin[i], weight[i], histogram);
-    }
+    AddSamples(samples, count, histogram);
   }
   return histogram;
 }
@@ -109,9 +136,10 @@ Descriptor Quantised(const PaddedHistogram& histogram) {
   size_t k = 0;
   for (int v = 1; v <= kCells; ++v) {
     for (int u = 1; u <= kCells; ++u) {
-      const float* cell = &histogram[v * kRowStride + u * kCellStride];
+      const Lanes* cell = &histogram[v * kPaddedCells + u];
+      const Lanes sum = cell[0] + cell[kPaddedCells * kPaddedCells];
       for (int a = 0; a < kAngles; ++a) {
-        values[k++] = cell[a] + (a == 0 ? cell[kAngles] : 0.0f);
+        values[k++] = sum[a];
       }
     }
   }

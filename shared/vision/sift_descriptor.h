@@ -2,6 +2,8 @@
 
 // The histogram of gradients around a keypoint: Lowe, IJCV 2004, section 6.
 
+#include <array>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -13,15 +15,16 @@ namespace lararium::vision {
 
 // Samples of part of a row in a descriptor's own axes.
 struct SampleRow {
-  std::vector<float> u;
-  std::vector<float> v;
   std::vector<float> angle_bin;
-  std::vector<float> weight;
+  std::vector<int32_t> cell;  // the first of the four that a sample falls between
+  std::array<std::vector<float>, 4> share;
 
   void Reserve(size_t count) {
-    if (u.size() < count) {
-      for (std::vector<float>* values : {&u, &v, &angle_bin, &weight}) {
-        values->resize(count);
+    if (cell.size() < count) {
+      cell.resize(count);
+      angle_bin.resize(count);
+      for (std::vector<float>& values : share) {
+        values.resize(count);
       }
     }
   }
