@@ -16,6 +16,7 @@ using geometry::Rigid3;
 using vision::Observation;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kGlance = 30.0 * kDegree;  // to either side, as visitors do
 
 std::string Fixed(double value, int decimals) {
   std::array<char, 64> text{};
@@ -165,6 +166,17 @@ Rigid3 Displaced(const Rigid3& camera_from_map, const Eigen::Vector3d& offset) {
           camera_from_map.translation - camera_from_map.rotation * offset};
 }
 
+// The camera turned to its right by angle, where it stands.
+Rigid3 Turned(const Rigid3& camera_from_map, double angle) {
+  const Eigen::Vector3d center = camera_from_map.Center();
+  Rigid3 turned;
+  // The camera's turn to the right turns what it sees to the left.
+  turned.rotation =
+      (Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()) * camera_from_map.rotation).normalized();
+  turned.translation = -(turned.rotation * center);
+  return turned;
+}
+
 void FillPlaces(const vision::SceneDatabase& database,
                 const ViewpointPredictor& predictor,
                 CaptureAnalysis& analysis) {
@@ -175,7 +187,7 @@ void FillPlaces(const vision::SceneDatabase& database,
   for (const vision::Keyframe& keyframe : database.keyframes) {
     path.push_back(analysis.plan(keyframe.camera_from_map.Center()));
   }
-  const double margin = 0.35 * predictor.median_depth();
+  const double margin = 0.6 * predictor.median_depth();
   const Square square = Bounds(path, margin);
   const Eigen::Vector2d extent = square.max - square.min;
   constexpr double kCellsAlong = 28.0;
@@ -207,9 +219,13 @@ void FillPlaces(const vision::SceneDatabase& database,
       const Eigen::Vector2d step = place.center - path[k];
       const Eigen::Vector3d offset =
           step.x() * analysis.plan.right + step.y() * analysis.plan.ahead;
-      place.prediction =
-          Better(place.prediction,
-                 predictor.Predict(Displaced(database.keyframes[k].camera_from_map, offset)));
+      const Rigid3 pose = Displaced(database.keyframes[k].camera_from_map, offset);
+      ViewpointPrediction worst = predictor.Predict(pose);
+      for (const double turn : {-kGlance, kGlance}) {
+        const ViewpointPrediction turned = predictor.Predict(Turned(pose, turn));
+        worst = Better(worst, turned) == worst ? turned : worst;
+      }
+      place.prediction = Better(place.prediction, worst);
     }
   });
 }
@@ -432,14 +448,19 @@ class Adviser {
       Eigen::Vector3d offset;  // plan axes: right, ahead
       double turn;             // radians, to the right
     };
-    const double turn = 30.0 * kDegree;
     const std::array<Way, 6> ways = {{
         {"steps to the left", "walk the same way again further left", {-step, 0, 0}, 0.0},
         {"steps to the right", "walk the same way again further right", {step, 0, 0}, 0.0},
         {"goes nearer", "walk the same way again from nearer", {0, step, 0}, 0.0},
         {"steps back", "walk the same way again from further back", {0, -step, 0}, 0.0},
-        {"turns to the left", "film what lies to the left too, walking past it", {0, 0, 0}, -turn},
-        {"turns to the right", "film what lies to the right too, walking past it", {0, 0, 0}, turn},
+        {"turns to the left",
+         "film what lies to the left too, walking past it",
+         {0, 0, 0},
+         -kGlance},
+        {"turns to the right",
+         "film what lies to the right too, walking past it",
+         {0, 0, 0},
+         kGlance},
     }};
     constexpr size_t kMaxStops = 60;
     const size_t stride = (stops_.size() + kMaxStops - 1) / kMaxStops;
@@ -479,15 +500,7 @@ class Adviser {
     const Eigen::Vector3d up = analysis_.plan.up;
     const Eigen::Vector3d right = (axis - up * up.dot(axis)).stableNormalized();
     const Eigen::Vector3d ahead = up.cross(right);
-    Rigid3 moved = Displaced(pose, right * offset.x() + ahead * offset.y());
-    if (turn != 0.0) {
-      const Eigen::Vector3d center = moved.Center();
-      // Turning the camera to the right turns the map to the left about its y axis.
-      moved.rotation =
-          (Eigen::AngleAxisd(-turn, Eigen::Vector3d::UnitY()) * moved.rotation).normalized();
-      moved.translation = -(moved.rotation * center);
-    }
-    return moved;
+    return Turned(Displaced(pose, right * offset.x() + ahead * offset.y()), turn);
   }
 
   void AdviseOnCamera() {

@@ -52,7 +52,8 @@ struct WeakFrames {
 };
 
 // A square of the floor where a visitor may stand, at the height of the nearest
-// keyframe, looking where the keyframes near it looked.
+// keyframe, looking where the keyframes near it looked, or up to 30 degrees to
+// either side: the worst of these.
 struct StandingPlace {
   Eigen::Vector2d center;  // plan
   ViewpointPrediction prediction;

@@ -465,7 +465,8 @@ class Page {
     const std::array<size_t, 4> counts = PlacesOfQuality();
     html_ +=
         "<p class=\"small\">Predicted for each square from the points that a camera there "
-        "would recognise when it looks where the film looked nearby, and from how exactly "
+        "would recognise when it looks where the film looked nearby, or 30 degrees to either "
+        "side (the worst of these counts), and from how exactly "
         "they are seen (" +
         Fixed(analysis_.noise_px, 2) +
         " px). Walls are known only through "

@@ -17,6 +17,8 @@ struct ViewpointPrediction {
   // One sigma, in pixels, of where the pose found from them would put things at
   // the image's worst corner; infinite where no pose would be found.
   double error_px = 0.0;
+
+  friend bool operator==(const ViewpointPrediction&, const ViewpointPrediction&) = default;
 };
 
 enum class ViewpointQuality { kGood, kFair, kPoor, kNone };
