@@ -133,13 +133,15 @@ Similarity3 FromOrientations(std::span<const PosePair> pairs, const Centres& cen
   move.rotation =
       Eigen::Quaterniond(Matrix3d(svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose()));
   double variance = 0.0;
+  double true_variance = 0.0;
   double covariance = 0.0;
   for (size_t i = 0; i < pairs.size(); ++i) {
     const Vector3d offset = centres.map[i] - mean_map;
     variance += offset.squaredNorm();
+    true_variance += (centres.world[i] - mean_world).squaredNorm();
     covariance += (move.rotation * offset).dot(centres.world[i] - mean_world);
   }
-  if (variance > 1e-18 && covariance > 0.0) {
+  if (variance > 1e-18 && true_variance > 1e-18 && covariance > 0.0) {
     move.scale = covariance / variance;
   }
   move.translation = mean_world - move.scale * (move.rotation * mean_map);

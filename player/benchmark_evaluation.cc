@@ -266,6 +266,8 @@ std::vector<FrameOffsets> ComparePoses(const BenchmarkSequence& sequence,
   }
   const std::optional<Alignment> alignment = AlignOnPoints(pairs, sequence.points);
   score.world_from_map = alignment->world_from_map;
+  // Which scale the map has cannot be seen from one place.
+  const bool still = sequence.IsStill();
   std::vector<FrameOffsets> offsets;
   std::vector<double> pixels;
   std::vector<double> centres;
@@ -276,12 +278,17 @@ std::vector<FrameOffsets> ComparePoses(const BenchmarkSequence& sequence,
     const std::vector<double> registration = RegistrationErrors(
         VisiblePoints(sequence.points, pairs[k].camera, pairs[k].camera_from_world),
         pairs[k].camera, estimate);
-    const FrameError& error = score.errors.emplace_back(
+    FrameError& error = score.errors.emplace_back(
         CompareFrame(frames[k], answers[frames[k]], score.world_from_map, registration));
+    if (still) {
+      error.normalised_pose_error.reset();
+    }
     offsets.push_back({frames[k], estimate});
     pixels.insert(pixels.end(), registration.begin(), registration.end());
-    centres.push_back(error.centre);
     rotations.push_back(error.rotation_deg);
+    if (!still) {
+      centres.push_back(error.centre);
+    }
     if (error.normalised_pose_error) {
       normalised.push_back(*error.normalised_pose_error);
     }

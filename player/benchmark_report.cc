@@ -170,10 +170,11 @@ void PrintAccuracy(const BenchmarkReport& report, std::FILE* out) {
       std::fprintf(out, "%-*s  nothing to measure\n", kNameWidth, sequence.name.c_str());
       continue;
     }
-    std::fprintf(out, "%-*s  %7.4f %7.4f %7.4f %7.2f  %8.4f %8s %7s  %10.3f  %7.4f\n", kNameWidth,
+    std::fprintf(out, "%-*s  %7.4f %7.4f %7.4f %7.2f  %8.4f %8s %7s  %10s  %7.4f\n", kNameWidth,
                  sequence.name.c_str(), s.registration_px.mean, s.registration_px.median,
                  s.registration_px.p95, s.registration_px.max, s.swimming_px,
-                 Fixed(s.jitter_px, 4).c_str(), Fixed(s.lag_ms, 2).c_str(), 1e3 * s.centre.mean,
+                 Fixed(s.jitter_px, 4).c_str(), Fixed(s.lag_ms, 2).c_str(),
+                 s.centre.count > 0 ? Fixed(1e3 * s.centre.mean, 3).c_str() : "-",
                  s.rotation_deg.mean);
   }
   std::fprintf(out, "* thousandths of the ground truth's unit\n");

@@ -101,11 +101,17 @@ void PoseSmoother::Filter(const TrackedFrame& tracked, double interval, Rigid3& 
     filtered_ = pose;  // what noise looks like is not known
     return;
   }
+  // Root mean square over the degrees of freedom.
+  const auto deviations = [&](const Twist& twist) {
+    return std::sqrt(std::max(0.0, twist.dot(covariance.solve(twist)) / 6.0));
+  };
   const Twist velocity = TwistBetween(*measured_, pose) / interval;
   velocity_ += Gain(options_.speed_cutoff_hz, interval) * (velocity - velocity_);
-  const double speed = std::sqrt(std::max(0.0, velocity_.dot(covariance.solve(velocity_)) / 6.0));
-  const double cutoff = options_.still_cutoff_hz + options_.cutoff_per_speed * speed;
-  filtered_ = Moved(*filtered_, Gain(cutoff, interval) * TwistBetween(*filtered_, pose));
+  const double cutoff =
+      options_.still_cutoff_hz + options_.cutoff_per_speed * deviations(velocity_);
+  const Twist way = TwistBetween(*filtered_, pose);
+  const double least = 1.0 - options_.most_deviations / std::max(deviations(way), 1e-9);
+  filtered_ = Moved(*filtered_, std::max(Gain(cutoff, interval), least) * way);
   pose = *filtered_;
 }
 

@@ -13,7 +13,8 @@
 // Euro filter (Casiez, Roussel & Vogel, "1 Euro filter", CHI 2012): strong where the
 // camera stands, hardly there where it moves. The speed is measured in standard
 // deviations of the pose, by its covariance, so that noise looks like noise in
-// every direction. It adds a lag of 1 / (2 pi cutoff) seconds.
+// every direction. It adds a lag of 1 / (2 pi cutoff) seconds, and never holds the
+// pose further from the tracker's than a few standard deviations.
 
 #include <Eigen/Core>
 #include <memory>
@@ -23,8 +24,8 @@
 
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
-#include "shared/vision/scene_database.h"
 #include "shared/vision/pose_refinement.h"
+#include "shared/vision/scene_database.h"
 #include "shared/vision/tracked_frame.h"
 
 namespace lararium::vision {
@@ -44,6 +45,7 @@ struct PoseSmootherOptions {
   double still_cutoff_hz = 1.0;
   double cutoff_per_speed = 0.02;  // Hz for each standard deviation per second
   double speed_cutoff_hz = 1.0;    // of the low-pass on the velocity
+  double most_deviations = 3.0;    // between the filtered pose and the tracker's
 
   static PoseSmootherOptions Of(Smoothing smoothing);
 };

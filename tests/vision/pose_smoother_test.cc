@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "shared/core/random.h"
@@ -204,11 +205,21 @@ TEST_F(PoseSmootherTest, TheFilterOpensWhereTheCameraMoves) {
   EXPECT_LT(lag, 0.010);
 }
 
+TEST_F(PoseSmootherTest, TheFilterNeverHoldsBackMoreThanAFewDeviations) {
+  Make(PoseSmootherOptions::Of(Smoothing::kStrong));
+  Apply(0.0, Sideways(0.0), true);
+  const Rigid3 jumped = Sideways(50.0);
+  const Twist rest = TwistBetween(Apply(kFrame, jumped, true), jumped);
+  const double deviations = std::sqrt(rest.dot(covariance_.inverse() * rest) / 6.0);
+  EXPECT_NEAR(deviations, PoseSmootherOptions().most_deviations, 1e-6);
+}
+
 TEST_F(PoseSmootherTest, TheFrameRateDoesNotMatter) {
   std::vector<double> arrived;
   for (const int rate : {30, 60, 120}) {
     PoseSmootherOptions options = PoseSmootherOptions::Of(Smoothing::kStrong);
     options.cutoff_per_speed = 0.0;  // a plain low-pass, whose answer is known
+    options.most_deviations = 1e9;
     Make(options);
     for (int i = 0; i <= rate / 10; ++i) {
       arrived.push_back(Pixels(Apply(static_cast<double>(i) / rate, Sideways(i > 0), true)));
