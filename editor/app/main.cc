@@ -35,6 +35,13 @@ struct Runner {
   Result<CommandResult> operator()(const TrainOptions& options) {
     return RunTrain(options, progress, log);
   }
+  Result<CommandResult> operator()(const ImportColmapOptions& options) {
+    return RunImportColmap(options, progress, log);
+  }
+  Result<CommandResult> operator()(const ExportColmapOptions& options) {
+    return RunExportColmap(options);
+  }
+  Result<CommandResult> operator()(const PruneOptions& options) { return RunPrune(options); }
   Result<CommandResult> operator()(const CastOptions& options) { return RunCast(options); }
   Result<CommandResult> operator()(const BakeOptions& options) {
     return RunBake(options, progress);

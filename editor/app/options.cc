@@ -15,6 +15,9 @@ struct AllOptions {
   WindowOptions window;
   NewOptions create;
   TrainOptions train;
+  ImportColmapOptions import_colmap;
+  ExportColmapOptions export_colmap;
+  PruneOptions prune;
   CastOptions cast;
   BakeOptions bake;
   CheckOptions check;
@@ -52,7 +55,46 @@ void AddTrain(CLI::App& app, TrainOptions& train) {
       ->capture_default_str();
   command->add_option("--place", train.place, "Name of the place");
   AddIntrinsics(command, train.intrinsics);
+  command->add_flag("--add", train.add,
+                    "Merge the recording, shot in other light, into the map that is there");
+  command->add_option("--points", train.points, "Points that the map may have")
+      ->check(CLI::Range(100, 10'000'000));
+  command
+      ->add_option("--tag-size", train.tag_size,
+                   "AprilTags of this size, in metres over the black border, fix the scale")
+      ->check(CLI::Range(0.001, 100.0));
+  command->add_option("--tag-family", train.tag_family, "Family of the tags")
+      ->capture_default_str();
   command->add_option("--poses-out", train.poses_out, "Write the poses here (poses.json)");
+  command->add_option("--report", train.report, "Write the capture report here (.html)");
+}
+
+void AddColmap(CLI::App& app, AllOptions& options) {
+  ImportColmapOptions& in = options.import_colmap;
+  CLI::App* import =
+      AddSubcommand(app, "import-colmap", "Take a place over from a COLMAP model", in.project);
+  import->add_option("DIR", in.model, "The model, text or binary, or a COLMAP project")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  import->add_option("--images", in.images, "Its images; in the project or beside it otherwise")
+      ->check(CLI::ExistingDirectory);
+  import->add_option("--place", in.place, "Name of the place");
+
+  ExportColmapOptions& out = options.export_colmap;
+  CLI::App* write =
+      AddSubcommand(app, "export-colmap", "Write a place as a COLMAP model", out.project);
+  write->add_option("DIR", out.model, "The folder to write")->required();
+  write->add_option("--place", out.place, "Name of the place");
+  write->add_flag("--text", out.text, "As text; binary otherwise");
+  write->add_flag("--with-images", out.with_images, "Write the keyframes' images too");
+}
+
+void AddPrune(CLI::App& app, PruneOptions& prune) {
+  CLI::App* command = AddSubcommand(
+      app, "prune", "Make a map smaller, and tell what smaller ones lose", prune.project);
+  command->add_option("--points", prune.points, "Points that stay; only the table otherwise")
+      ->check(CLI::Range(100, 10'000'000));
+  command->add_option("--place", prune.place, "Name of the place");
 }
 
 void AddRender(CLI::App& app, RenderOptions& render) {
@@ -69,6 +111,8 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   create->add_option("--title", options.create.title, "Title; the folder's name otherwise");
 
   AddTrain(app, options.train);
+  AddColmap(app, options);
+  AddPrune(app, options.prune);
 
   CLI::App* cast = AddSubcommand(app, "cast", "Add a person", options.cast.project);
   cast->add_option("--name", options.cast.name, "As the drama calls the person")->required();
@@ -97,6 +141,9 @@ void AddOthers(CLI::App& app, AllOptions& options) {
 Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("new")) return options.create;
   if (app.got_subcommand("train")) return options.train;
+  if (app.got_subcommand("import-colmap")) return options.import_colmap;
+  if (app.got_subcommand("export-colmap")) return options.export_colmap;
+  if (app.got_subcommand("prune")) return options.prune;
   if (app.got_subcommand("cast")) return options.cast;
   if (app.got_subcommand("bake")) return options.bake;
   if (app.got_subcommand("check")) return options.check;
@@ -108,6 +155,13 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
 void CheckIntrinsics(const std::vector<double>& intrinsics) {
   if (!intrinsics.empty() && intrinsics.size() != 4 && intrinsics.size() != 8) {
     throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
+  }
+}
+
+void CheckSession(const TrainOptions& train) {
+  if (train.add && train.video.empty() && train.images.empty() && !train.camera) {
+    throw CLI::ValidationError("--add",
+                               "needs the recording to add: --video, --images or --camera");
   }
 }
 
@@ -126,6 +180,7 @@ std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* arg
     app.parse(argc, argv);
     CheckIntrinsics(options.train.intrinsics);
     CheckIntrinsics(options.render.intrinsics);
+    CheckSession(options.train);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;
   }

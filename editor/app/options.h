@@ -30,7 +30,33 @@ struct TrainOptions {
   double seconds = 60.0;  // how long the camera records
 
   std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
+  bool add = false;                // merge the recording into the map that is there
+  std::optional<int> points;       // of the database at most
+  std::optional<double> tag_size;  // metres: AprilTags of this size fix the scale
+  std::string tag_family = "tag36h11";
   std::filesystem::path poses_out;
+  std::filesystem::path report;  // the capture report, HTML
+};
+
+struct ImportColmapOptions {
+  std::filesystem::path project;
+  std::filesystem::path model;   // a model, text or binary, or a project with one
+  std::filesystem::path images;  // empty: in the project, or beside the model
+  std::string place;             // empty: the only one, or a new one called "place"
+};
+
+struct ExportColmapOptions {
+  std::filesystem::path project;
+  std::filesystem::path model;  // the folder to write
+  std::string place;            // empty: the only one
+  bool text = false;
+  bool with_images = false;  // the keyframes as files beside the model
+};
+
+struct PruneOptions {
+  std::filesystem::path project;
+  std::string place;          // empty: the only one
+  std::optional<int> points;  // none: only tell what smaller maps would lose
 };
 
 struct CastOptions {
@@ -66,6 +92,9 @@ struct ExportOptions {
 using Subcommand = std::variant<WindowOptions,
                                 NewOptions,
                                 TrainOptions,
+                                ImportColmapOptions,
+                                ExportColmapOptions,
+                                PruneOptions,
                                 CastOptions,
                                 BakeOptions,
                                 CheckOptions,

@@ -11,91 +11,12 @@
 #include "editor/app/project.h"
 #include "editor/app/rendering.h"
 #include "editor/app/staging.h"
-#include "editor/app/training.h"
 #include "shared/core/file.h"
 #include "shared/drama/drama.h"
 
 namespace lararium::app {
 
 namespace {
-
-// The place that an option names, or the only one.
-Result<std::string> ChoosePlace(const ProjectPaths& paths,
-                                const ProjectDocument& document,
-                                const std::string& name) {
-  if (!name.empty()) {
-    if (document.FindPlace(name) == nullptr) {
-      return Status::Error(paths.Project().string(), "has no place \"" + name + "\"");
-    }
-    return name;
-  }
-  if (document.places.size() != 1) {
-    return Status::Error(paths.Project().string(),
-                         "has " + std::to_string(document.places.size()) + " places",
-                         "name one with --place");
-  }
-  return document.places.front().name;
-}
-
-// The place to train, added where it is new.
-Result<PlaceDocument*> PlaceToTrain(ProjectDocument& document, const std::string& option) {
-  std::string name = option;
-  if (name.empty()) {
-    name = document.places.size() == 1 ? document.places.front().name : "place";
-  }
-  if (!IsPlainName(name)) {
-    return Status::Error("--place " + name, "cannot name a place",
-                         "use 1 to 64 letters, digits, '_' and '-'");
-  }
-  if (document.FindPlace(name) == nullptr) {
-    PlaceDocument place;
-    place.name = name;
-    document.places.push_back(std::move(place));
-  }
-  return document.FindPlace(name);
-}
-
-// Sets place.training from the options; records a camera for it.
-Status ChooseTrainingSource(const TrainOptions& options,
-                            const ProjectPaths& paths,
-                            PlaceDocument& place,
-                            Progress& progress) {
-  if (!options.video.empty()) {
-    place.training = {SourceDocument::Kind::kVideo, paths.Shorten(options.video)};
-  } else if (!options.images.empty()) {
-    place.training = {SourceDocument::Kind::kImages, paths.Shorten(options.images)};
-  } else if (options.camera) {
-    const std::filesystem::path file = paths.Place(place.name) / "training.mp4";
-    LARARIUM_ASSIGN_OR_RETURN(const int64_t frames,
-                              RecordCamera(*options.camera, file, options.seconds, progress));
-    if (frames == 0) {
-      return Status::Error("camera " + std::to_string(*options.camera), "gave no image");
-    }
-    place.training = {SourceDocument::Kind::kVideo, paths.Shorten(file)};
-  }
-  return Status();
-}
-
-Status GiveIntrinsics(const std::vector<double>& numbers,
-                      const ProjectPaths& paths,
-                      PlaceDocument& place) {
-  if (numbers.empty()) {
-    return Status();
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, place.training));
-  LARARIUM_ASSIGN_OR_RETURN(place.intrinsics, geometry::CameraModel::FromNumbers(
-                                                  numbers, source->width(), source->height()));
-  return Status();
-}
-
-std::string TrainSummary(const std::string& place, const train::TrainReport& report) {
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "%s: %zu of %d images located, %d points, mean reprojection error %.3f px\n",
-                place.c_str(), report.located.size(), report.frames, report.points,
-                report.mean_reprojection_error_px);
-  return text;
-}
 
 // Runs the drama without drawing and tells what went wrong in it.
 std::vector<std::string> DryRun(const ProjectPaths& paths,
@@ -143,6 +64,23 @@ std::vector<std::string> DryRun(const ProjectPaths& paths,
 
 }  // namespace
 
+Result<std::string> ChoosePlace(const ProjectPaths& paths,
+                                const ProjectDocument& document,
+                                const std::string& name) {
+  if (!name.empty()) {
+    if (document.FindPlace(name) == nullptr) {
+      return Status::Error(paths.Project().string(), "has no place \"" + name + "\"");
+    }
+    return name;
+  }
+  if (document.places.size() != 1) {
+    return Status::Error(paths.Project().string(),
+                         "has " + std::to_string(document.places.size()) + " places",
+                         "name one with --place");
+  }
+  return document.places.front().name;
+}
+
 Result<CommandResult> RunNew(const NewOptions& options) {
   const ProjectPaths paths{options.project};
   const std::filesystem::path folder = options.project.lexically_normal();
@@ -150,23 +88,6 @@ Result<CommandResult> RunNew(const NewOptions& options) {
   LARARIUM_RETURN_IF_ERROR(CreateProject(paths, options.title.empty() ? stem : options.title));
   return CommandResult{"made " + options.project.string() + "\n",
                        {{"project", options.project.string()}}};
-}
-
-Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, Log& log) {
-  const ProjectPaths paths{options.project};
-  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, PlaceToTrain(document, options.place));
-  LARARIUM_RETURN_IF_ERROR(ChooseTrainingSource(options, paths, *place, progress));
-  LARARIUM_RETURN_IF_ERROR(GiveIntrinsics(options.intrinsics, paths, *place));
-  LARARIUM_ASSIGN_OR_RETURN(const train::TrainReport report,
-                            TrainPlace(paths, *place, progress, log));
-  LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
-  if (!options.poses_out.empty()) {
-    LARARIUM_RETURN_IF_ERROR(vision::SavePoses(options.poses_out, PosesOf(report)));
-  }
-  CommandResult result{TrainSummary(place->name, report), ReportJson(report)};
-  result.json["place"] = place->name;
-  return result;
 }
 
 Result<CommandResult> RunCast(const CastOptions& options) {

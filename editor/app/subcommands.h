@@ -6,6 +6,7 @@
 #include <string>
 
 #include "editor/app/options.h"
+#include "editor/app/project.h"
 #include "shared/core/json.h"
 #include "shared/core/log.h"
 #include "shared/core/progress.h"
@@ -19,8 +20,18 @@ struct CommandResult {
   bool failed = false;  // the work was done, and its result is bad (check found problems)
 };
 
+// The place that an option names, or the only one.
+Result<std::string> ChoosePlace(const ProjectPaths& paths,
+                                const ProjectDocument& document,
+                                const std::string& name);
+
 Result<CommandResult> RunNew(const NewOptions& options);
 Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, Log& log);
+Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
+                                      Progress& progress,
+                                      Log& log);
+Result<CommandResult> RunExportColmap(const ExportColmapOptions& options);
+Result<CommandResult> RunPrune(const PruneOptions& options);
 Result<CommandResult> RunCast(const CastOptions& options);
 Result<CommandResult> RunBake(const BakeOptions& options, Progress& progress);
 Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress);

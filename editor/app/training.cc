@@ -3,34 +3,139 @@
 #include <map>
 #include <utility>
 
+#include "editor/app/picked_frames.h"
 #include "editor/app/staging.h"
+#include "editor/train/capture_report.h"
+#include "editor/train/session_merge.h"
 #include "shared/capture/video_writer.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::app {
 
+namespace {
+
+using vision::SceneDatabase;
+
+train::TrainOptions OptionsFor(const ProjectPaths& paths,
+                               const SessionDocument& session,
+                               const capture::FrameSource& source,
+                               const TrainingOptions& options) {
+  train::TrainOptions train;
+  train.intrinsics = session.intrinsics;
+  train.max_points = options.max_points.value_or(train.max_points);
+  if (!train.intrinsics && session.source.kind == SourceDocument::Kind::kImages) {
+    train.focal_prior_px = capture::ExifFocalPixels(
+        paths.Resolve(session.source.path) / source.FrameName(0), source.width(), source.height());
+  }
+  return train;
+}
+
+Result<train::TrainResult> MergeSession(const ProjectPaths& paths,
+                                        const PlaceDocument& place,
+                                        const SceneDatabase& map,
+                                        const SessionDocument& session,
+                                        const TrainingOptions& options,
+                                        Progress& progress,
+                                        Log& log) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, session.source));
+  const uint32_t number = train::NextSession(map);
+  LARARIUM_ASSIGN_OR_RETURN(
+      train::TrainResult result,
+      train::AddSession(map, *source, OptionsFor(paths, session, *source, options), progress, log));
+  LARARIUM_RETURN_IF_ERROR(
+      KeepPickedFrames(place.picks, number, result.report, *source, result.database));
+  return result;
+}
+
+// The unit of the map in metres, where something in the project fixes it.
+std::optional<double> MetresPerUnit(const PlaceDocument& place, const SceneDatabase& database) {
+  const MapMeasures measures = MeasureMap(place, database);
+  const ResolvedPicks resolved = ResolvePicks(place, database, measures);
+  if (!measures.tags && !resolved.solution) {
+    return std::nullopt;
+  }
+  return 1.0 / resolved.map_from_picked.scale;
+}
+
+Status WriteReport(const ProjectPaths& paths,
+                   const PlaceDocument& place,
+                   const SourceDocument& recording,
+                   const train::TrainResult& result,
+                   const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, recording));
+  train::CaptureReportOptions options;
+  options.title = place.name;
+  options.source = std::filesystem::path(recording.path).filename().string();
+  options.metres_per_unit = MetresPerUnit(place, result.database);
+  std::error_code ignored;
+  options.database_bytes = std::filesystem::file_size(paths.Scene(place.name), ignored);
+  options.frame_image = train::FrameImagesOf(*source);
+  return train::WriteCaptureReport(result.report, result.database, file, options);
+}
+
+// The map first: a report that cannot be written costs no training.
+Result<train::TrainReport> Finish(const ProjectPaths& paths,
+                                  const PlaceDocument& place,
+                                  const SourceDocument& recording,
+                                  train::TrainResult result,
+                                  const TrainingOptions& options) {
+  LARARIUM_RETURN_IF_ERROR(SaveMap(paths, place, result.database));
+  if (!options.report.empty()) {
+    LARARIUM_RETURN_IF_ERROR(WriteReport(paths, place, recording, result, options.report));
+  }
+  return std::move(result.report);
+}
+
+}  // namespace
+
 Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
                                       const PlaceDocument& place,
+                                      const TrainingOptions& options,
                                       Progress& progress,
                                       Log& log) {
-  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, place.training));
-  train::TrainOptions options;
-  options.intrinsics = place.intrinsics;
-  if (!options.intrinsics && place.training.kind == SourceDocument::Kind::kImages) {
-    options.focal_prior_px =
-        capture::ExifFocalPixels(paths.Resolve(place.training.path) / source->FrameName(0),
-                                 source->width(), source->height());
+  const SessionDocument first{place.training, place.intrinsics};
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, first.source));
+  LARARIUM_ASSIGN_OR_RETURN(
+      train::TrainResult result,
+      train::Train(*source, OptionsFor(paths, first, *source, options), progress, log));
+  LARARIUM_RETURN_IF_ERROR(
+      KeepPickedFrames(place.picks, 0, result.report, *source, result.database));
+  for (const SessionDocument& session : place.added) {
+    log.info("adding {}", session.source.path);
+    LARARIUM_ASSIGN_OR_RETURN(
+        train::TrainResult merged,
+        MergeSession(paths, place, result.database, session, options, progress, log));
+    result.database = std::move(merged.database);
+    result.report.points = merged.report.points;
+    result.report.observations = merged.report.observations;
+    result.report.mean_reprojection_error_px = merged.report.mean_reprojection_error_px;
   }
+  return Finish(paths, place, place.training, std::move(result), options);
+}
+
+Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
+                                        const PlaceDocument& place,
+                                        const SessionDocument& session,
+                                        const TrainingOptions& options,
+                                        Progress& progress,
+                                        Log& log) {
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase map,
+                            vision::LoadSceneDatabase(paths.Scene(place.name)));
   LARARIUM_ASSIGN_OR_RETURN(train::TrainResult result,
-                            train::Train(*source, options, progress, log));
+                            MergeSession(paths, place, map, session, options, progress, log));
+  return Finish(paths, place, session.source, std::move(result), options);
+}
+
+Status SaveMap(const ProjectPaths& paths,
+               const PlaceDocument& place,
+               const SceneDatabase& database) {
   std::error_code error;
   std::filesystem::create_directories(paths.Place(place.name), error);
   if (error) {
     return Status::Error(paths.Place(place.name).string(),
                          "cannot make the folder: " + error.message());
   }
-  LARARIUM_RETURN_IF_ERROR(vision::SaveSceneDatabase(paths.Scene(place.name), result.database));
-  return std::move(result.report);
+  return vision::SaveSceneDatabase(paths.Scene(place.name), database);
 }
 
 Result<int64_t> RecordCamera(int number,

@@ -12,15 +12,38 @@
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/vision/poses_file.h"
+#include "shared/vision/scene_database.h"
 
 namespace lararium::app {
 
-// Trains from place.training and writes the scene database, atomically. A
-// failed or cancelled training leaves an earlier one as it was.
+struct TrainingOptions {
+  std::optional<int> max_points;  // of the map; none: training's own limit
+  std::filesystem::path report;   // where the capture report goes; empty: none
+};
+
+// Trains from place.training, merges the sessions of place.added into it and
+// writes the scene database, atomically. A failed or cancelled training leaves an
+// earlier one as it was. The report is about place.training; points and error are
+// those of the whole map.
 Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
                                       const PlaceDocument& place,
+                                      const TrainingOptions& options,
                                       Progress& progress,
                                       Log& log);
+
+// Merges a further session into the map that is there, likewise. The report is
+// about the session.
+Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
+                                        const PlaceDocument& place,
+                                        const SessionDocument& session,
+                                        const TrainingOptions& options,
+                                        Progress& progress,
+                                        Log& log);
+
+// Writes a map as the place's, atomically.
+Status SaveMap(const ProjectPaths& paths,
+               const PlaceDocument& place,
+               const vision::SceneDatabase& database);
 
 // Records a camera into a video file until stop says so; returns the frames.
 // Training needs a recording: it looks at frames more than once.

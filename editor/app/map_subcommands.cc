@@ -1,0 +1,262 @@
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "editor/app/project.h"
+#include "editor/app/stage_report.h"
+#include "editor/app/staging.h"
+#include "editor/app/subcommands.h"
+#include "editor/app/training.h"
+#include "editor/train/budget.h"
+#include "editor/train/colmap_exchange.h"
+#include "shared/vision/poses_file.h"
+#include "shared/vision/scene_database.h"
+
+// The steps that make maps, and that take them elsewhere.
+namespace lararium::app {
+
+namespace {
+
+using vision::SceneDatabase;
+
+// The place to make a map for, added where it is new.
+Result<PlaceDocument*> PlaceToTrain(ProjectDocument& document, const std::string& option) {
+  std::string name = option;
+  if (name.empty()) {
+    name = document.places.size() == 1 ? document.places.front().name : "place";
+  }
+  if (!IsPlainName(name)) {
+    return Status::Error("--place " + name, "cannot name a place",
+                         "use 1 to 64 letters, digits, '_' and '-'");
+  }
+  if (document.FindPlace(name) == nullptr) {
+    PlaceDocument place;
+    place.name = name;
+    document.places.push_back(std::move(place));
+  }
+  return document.FindPlace(name);
+}
+
+// The recording that the options name; records a camera for it. file: where to.
+Result<SourceDocument> ChooseRecording(const TrainOptions& options,
+                                       const ProjectPaths& paths,
+                                       const std::filesystem::path& file,
+                                       Progress& progress) {
+  if (!options.video.empty()) {
+    return SourceDocument{SourceDocument::Kind::kVideo, paths.Shorten(options.video)};
+  }
+  if (!options.images.empty()) {
+    return SourceDocument{SourceDocument::Kind::kImages, paths.Shorten(options.images)};
+  }
+  if (!options.camera) {
+    return SourceDocument{};
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t frames,
+                            RecordCamera(*options.camera, file, options.seconds, progress));
+  if (frames == 0) {
+    return Status::Error("camera " + std::to_string(*options.camera), "gave no image");
+  }
+  return SourceDocument{SourceDocument::Kind::kVideo, paths.Shorten(file)};
+}
+
+Result<std::optional<geometry::CameraModel>> GivenIntrinsics(const std::vector<double>& numbers,
+                                                             const ProjectPaths& paths,
+                                                             const SourceDocument& recording) {
+  if (numbers.empty()) {
+    return std::optional<geometry::CameraModel>();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, recording));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const geometry::CameraModel camera,
+      geometry::CameraModel::FromNumbers(numbers, source->width(), source->height()));
+  return std::optional(camera);
+}
+
+Result<train::TrainReport> TrainFirst(const TrainOptions& options,
+                                      const TrainingOptions& training,
+                                      const ProjectPaths& paths,
+                                      PlaceDocument& place,
+                                      Progress& progress,
+                                      Log& log) {
+  LARARIUM_ASSIGN_OR_RETURN(
+      const SourceDocument recording,
+      ChooseRecording(options, paths, paths.Place(place.name) / "training.mp4", progress));
+  if (!recording.empty()) {
+    place.training = recording;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto intrinsics,
+                            GivenIntrinsics(options.intrinsics, paths, place.training));
+  if (intrinsics) {
+    place.intrinsics = intrinsics;
+  }
+  return TrainPlace(paths, place, training, progress, log);
+}
+
+Result<train::TrainReport> TrainAnother(const TrainOptions& options,
+                                        const TrainingOptions& training,
+                                        const ProjectPaths& paths,
+                                        PlaceDocument& place,
+                                        Progress& progress,
+                                        Log& log) {
+  if (place.added.size() == kMaxAddedSessions) {
+    return Status::Error(place.name, "has as many recordings as a map can hold",
+                         "train it anew from the best of them");
+  }
+  const std::string number = std::to_string(place.added.size() + 1);
+  SessionDocument session;
+  LARARIUM_ASSIGN_OR_RETURN(
+      session.source,
+      ChooseRecording(options, paths, paths.Place(place.name) / ("session-" + number + ".mp4"),
+                      progress));
+  LARARIUM_ASSIGN_OR_RETURN(session.intrinsics,
+                            GivenIntrinsics(options.intrinsics, paths, session.source));
+  LARARIUM_ASSIGN_OR_RETURN(train::TrainReport report,
+                            TrainSession(paths, place, session, training, progress, log));
+  place.added.push_back(std::move(session));
+  return report;
+}
+
+std::string TrainSummary(const std::string& place, const train::TrainReport& report) {
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                "%s: %zu of %d images located, %d points, mean reprojection error %.3f px\n",
+                place.c_str(), report.located.size(), report.frames, report.points,
+                report.mean_reprojection_error_px);
+  return text;
+}
+
+// {"points", "descriptors", "images", "bytes", "recall", ...} of each budget.
+Json BudgetJson(const std::vector<train::BudgetRow>& rows) {
+  Json json = Json::array();
+  for (const train::BudgetRow& row : rows) {
+    json.push_back({{"points", row.points},
+                    {"descriptors", row.descriptors},
+                    {"images", row.images},
+                    {"bytes", row.bytes},
+                    {"recall", row.recall},
+                    {"median_difference_px", row.median_difference_px}});
+  }
+  return json;
+}
+
+std::string BudgetText(const std::vector<train::BudgetRow>& rows) {
+  std::string text = "  points  images       MB  located  difference px\n";
+  for (const train::BudgetRow& row : rows) {
+    char line[128];
+    std::snprintf(line, sizeof(line), "%8d  %6d  %7.1f  %5.1f %%  %13.3f\n", row.points, row.images,
+                  1e-6 * static_cast<double>(row.bytes), 100.0 * row.recall,
+                  row.median_difference_px);
+    text += line;
+  }
+  return text;
+}
+
+// The map as it is, then halves of it, and the size that was asked for.
+std::vector<train::BudgetOptions> BudgetsFor(const SceneDatabase& database,
+                                             const std::optional<int>& points) {
+  constexpr int kFewPoints = 1000;
+  std::vector<train::BudgetOptions> budgets;
+  bool asked = !points.has_value();
+  for (int count = static_cast<int>(database.points.size()); count >= kFewPoints; count /= 2) {
+    if (!asked && *points >= count) {
+      budgets.push_back({.max_points = *points});
+      asked = true;
+    }
+    if (budgets.empty() || budgets.back().max_points != count) {
+      budgets.push_back({.max_points = count});
+    }
+  }
+  if (!asked) {
+    budgets.push_back({.max_points = *points});
+  }
+  return budgets;
+}
+
+}  // namespace
+
+Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, Log& log) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, PlaceToTrain(document, options.place));
+  if (options.tag_size) {
+    const train::TagOptions tags{options.tag_family, *options.tag_size};
+    LARARIUM_RETURN_IF_ERROR(tags.Validate());
+    place->tags = TagsDocument{tags.family, tags.size_m};
+  }
+  const TrainingOptions training{options.points, options.report};
+  LARARIUM_ASSIGN_OR_RETURN(const train::TrainReport report,
+                            options.add
+                                ? TrainAnother(options, training, paths, *place, progress, log)
+                                : TrainFirst(options, training, paths, *place, progress, log));
+  LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
+  if (!options.poses_out.empty()) {
+    LARARIUM_RETURN_IF_ERROR(vision::SavePoses(options.poses_out, PosesOf(report)));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const StageReport stage, ReportStage(paths, *place));
+  CommandResult result{TrainSummary(place->name, report) + stage.text, ReportJson(report)};
+  result.json["place"] = place->name;
+  result.json["stage"] = stage.json;
+  return result;
+}
+
+Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
+                                      Progress& progress,
+                                      Log& log) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, PlaceToTrain(document, options.place));
+  LARARIUM_ASSIGN_OR_RETURN(const train::ColmapFolders folders,
+                            train::FindColmapFolders(options.model, options.images));
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database,
+                            train::ImportColmap(folders.model, folders.images, {}, progress, log));
+  LARARIUM_RETURN_IF_ERROR(SaveMap(paths, *place, database));
+  // Training again would start from the same images, with the model's camera.
+  place->training = {SourceDocument::Kind::kImages, paths.Shorten(folders.images)};
+  place->intrinsics = database.camera;
+  place->added.clear();
+  LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
+  return CommandResult{place->name + ": " + std::to_string(database.keyframes.size()) +
+                           " images, " + std::to_string(database.points.size()) + " points\n",
+                       {{"place", place->name},
+                        {"keyframes", database.keyframes.size()},
+                        {"points", database.points.size()},
+                        {"mean_reprojection_error_px", database.mean_reprojection_error_px}}};
+}
+
+Result<CommandResult> RunExportColmap(const ExportColmapOptions& options) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string place, ChoosePlace(paths, document, options.place));
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database,
+                            vision::LoadSceneDatabase(paths.Scene(place)));
+  LARARIUM_RETURN_IF_ERROR(
+      train::ExportColmap(database, options.model,
+                          options.text ? train::ColmapFormat::kText : train::ColmapFormat::kBinary,
+                          options.with_images));
+  return CommandResult{"wrote " + options.model.string() + "\n",
+                       {{"out", options.model.string()},
+                        {"keyframes", database.keyframes.size()},
+                        {"points", database.points.size()}}};
+}
+
+Result<CommandResult> RunPrune(const PruneOptions& options) {
+  constexpr size_t kStride = 4;  // every fourth view is held out
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, ChoosePlace(paths, document, options.place));
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database,
+                            vision::LoadSceneDatabase(paths.Scene(name)));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const std::vector<train::BudgetRow> rows,
+      train::MeasureBudgets(database, BudgetsFor(database, options.points), kStride));
+  CommandResult result{BudgetText(rows), {{"place", name}, {"budgets", BudgetJson(rows)}}};
+  if (options.points) {
+    const SceneDatabase pruned = train::Prune(database, {.max_points = *options.points});
+    LARARIUM_RETURN_IF_ERROR(vision::SaveSceneDatabase(paths.Scene(name), pruned));
+    result.text += name + ": " + std::to_string(pruned.points.size()) + " points stay\n";
+    result.json["points"] = pruned.points.size();
+  }
+  return result;
+}
+
+}  // namespace lararium::app
