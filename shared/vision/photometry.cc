@@ -9,13 +9,13 @@
 namespace lararium::vision {
 namespace {
 
-constexpr uint8_t kClipped = 250;  // brightest pixel of a sample, sRGB
+constexpr uint8_t kClipped = 230;  // brightest pixel of a sample, sRGB
 
 // Linear values between which the weight rises, and falls again.
 constexpr float kBlack = 0.004f;
 constexpr float kShadow = 0.02f;
-constexpr float kHighlight = 0.55f;
-constexpr float kWhite = 0.85f;
+constexpr float kHighlight = 0.4f;
+constexpr float kWhite = 0.65f;
 
 std::array<float, 256> MakeLinearTable() {
   std::array<float, 256> table;
