@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lararium::vision {
 namespace {
@@ -302,13 +303,17 @@ bool Follower::ViewSlot(const CameraModel& camera,
     return false;
   }
   view.key_from_pixel = pixel_from_key.inverse();
-  view.blur.setZero();
+  view.velocity.setZero();
+  view.acceleration.setZero();
   if (has_motion_) {
-    // From half the exposure before to half of it after.
-    const Eigen::Vector3d moved = exposure_ * p;
-    if (moved.z() > 1e-9) {
-      view.blur = shutter_ * (camera.PixelFromPlane(moved.hnormalized()) - view.pixel);
-    }
+    const auto shift = [&](const Rigid3& motion) -> Eigen::Vector2d {
+      const Eigen::Vector3d moved = motion * p;
+      return moved.z() > 1e-9
+                 ? Eigen::Vector2d(camera.PixelFromPlane(moved.hnormalized()) - view.pixel)
+                 : Eigen::Vector2d::Zero();
+    };
+    view.velocity = shutter_ * shift(velocity_);
+    view.acceleration = shutter_ * shutter_ * shift(acceleration_);
   }
   return true;
 }
@@ -326,10 +331,8 @@ bool Follower::SampleSlot(const Slot& slot,
   PatchWarp warp;
   warp.centre = LevelFromPixel(slot.key_pixel, key_level).cast<float>();
   warp.source_from_patch = (shrink * (1 << level) * view.key_from_pixel).cast<float>();
-  // Less than a pixel of blur hardly changes what is seen.
-  if (view.blur.squaredNorm() > std::pow(1 << level, 2)) {
-    warp.blur = (shrink * view.key_from_pixel * view.blur).cast<float>();
-  }
+  warp.motion.velocity = (shrink * view.key_from_pixel * view.velocity).cast<float>();
+  warp.motion.acceleration = (shrink * view.key_from_pixel * view.acceleration).cast<float>();
   return patch.Sample(pyramid.level(key_level), warp);
 }
 
@@ -364,26 +367,25 @@ bool Follower::RunLevel(const ImagePyramid& image,
   matches_.clear();
   expected = 0;
   PatchTemplate patch;
-  const PatchSearch search{.iterations = 10,
-                           .largest_shift = level == 0 ? 2.0f : 3.5f,
-                           .converged = level == 0 ? 0.01f : 0.05f};
+  const bool last = stride == 1;
+  const PatchSearch search{
+      .iterations = 10, .largest_shift = last ? 2.0f : 3.5f, .converged = last ? 0.01f : 0.05f};
   for (auto i = static_cast<uint32_t>(now_ % static_cast<uint32_t>(stride)); i < slots_.size();
        i += static_cast<uint32_t>(stride)) {
     View view;
-    Sight sight;
-    sight.slot = i;
+    PatchFit fit;
     if (!ViewSlot(camera, camera_from_map, slots_[i], view) ||
         !SampleSlot(slots_[i], view, level, patch)) {
       continue;
     }
     ++expected;
     const Eigen::Vector2f start = LevelFromPixel(view.pixel, level).cast<float>();
-    if (!AlignPatch(image.level(level), patch, start, search, sight.fit) ||
-        sight.fit.correlation < kLeastCorrelation) {
+    if (!AlignPatch(image.level(level), patch, start, search, fit) ||
+        fit.correlation < kLeastCorrelation) {
       continue;
     }
-    sights_.push_back(sight);
-    AddMatch(camera, i, level, sight.fit);
+    sights_.push_back({i, PixelFromLevel(fit.centre, level)});
+    AddMatch(camera, i, level, fit);
   }
   if (!EstimatePatchPose(matches_, camera_from_map, kLeastScale, pose_)) {
     return false;
@@ -473,9 +475,104 @@ void Follower::SetMotion(const Rigid3& camera_from_map) {
   const Rigid3 since = camera_from_map * before_.Inverse();
   motion_.head<3>() = geometry::VectorFromRotation(since.rotation) / frames_;
   motion_.tail<3>() = since.translation / frames_;
-  const Vector6d now =
-      has_motion_before_ ? Vector6d(1.5 * motion_ - 0.5 * motion_before_) : motion_;
-  exposure_ = ExpMotion(now);
+  // The velocity of now, not of half a frame ago.
+  const Vector6d acceleration =
+      has_motion_before_ ? Vector6d(motion_ - motion_before_) : Vector6d::Zero();
+  velocity_ = ExpMotion(motion_ + 0.5 * acceleration);
+  acceleration_ = ExpMotion(acceleration);
+}
+
+// Mean length of the patches' paths during the exposure, pixels.
+double Follower::BlurPx(const CameraModel& camera, const Rigid3& camera_from_map) const {
+  constexpr size_t kSample = 20;
+  if (!has_motion_) {
+    return 0.0;
+  }
+  double sum = 0.0;
+  int count = 0;
+  const size_t stride = std::max(size_t{1}, slots_.size() / kSample);
+  for (size_t i = 0; i < slots_.size(); i += stride) {
+    View view;
+    if (ViewSlot(camera, camera_from_map, slots_[i], view)) {
+      sum += view.velocity.norm();
+      ++count;
+    }
+  }
+  return sum / std::max(count, 1);
+}
+
+// How alike the patches that agree look for a shutter time; they stay where they
+// were found.
+double Follower::Likeness(const ImagePyramid& image,
+                          const CameraModel& camera,
+                          int level,
+                          const Rigid3& camera_from_map,
+                          double shutter) {
+  constexpr size_t kSample = 40;
+  const double kept = std::exchange(shutter_, shutter);
+  double sum = 0.0;
+  const size_t stride = std::max(size_t{1}, sights_.size() / kSample);
+  for (size_t i = 0; i < sights_.size(); i += stride) {
+    View view;
+    PatchTemplate patch;
+    if (pose_.squares[i] < kInlierSquare &&
+        ViewSlot(camera, camera_from_map, slots_[sights_[i].slot], view) &&
+        SampleSlot(slots_[sights_[i].slot], view, level, patch)) {
+      sum += CorrelatePatch(image.level(level), patch, LevelFromPixel(sights_[i].pixel, level));
+    }
+  }
+  shutter_ = kept;
+  return sum;
+}
+
+// Fast motion shows for how long the shutter is open: a step towards the summit of
+// the parabola through three trials.
+void Follower::EstimateShutter(const ImagePyramid& image,
+                               const CameraModel& camera,
+                               int level,
+                               const Rigid3& camera_from_map) {
+  constexpr double kTrial = 0.15;
+  constexpr double kLeastShare = 0.25;   // of the step, once settled
+  constexpr double kLeastShownPx = 3.0;  // in a whole frame's time, on the level
+  const double shown = BlurPx(camera, camera_from_map) / shutter_ / (1 << level);
+  if (shown < kLeastShownPx) {
+    return;
+  }
+  const double less = Likeness(image, camera, level, camera_from_map, shutter_ - kTrial);
+  const double same = Likeness(image, camera, level, camera_from_map, shutter_);
+  const double more = Likeness(image, camera, level, camera_from_map, shutter_ + kTrial);
+  const double bend = 2.0 * same - less - more;
+  const double rise = more - less;
+  const double step =
+      bend > 0.0 ? std::clamp(0.5 * rise / bend, -1.0, 1.0) : (rise > 0.0 ? 1.0 : -1.0);
+  const double share = std::max(kLeastShare, 1.0 / ++shutter_trials_);
+  shutter_ = std::clamp(shutter_ + share * kTrial * step, kTrial, 1.0);
+}
+
+// The finest level on which blur leaves something to align. What it leaves on finer
+// ones are the ends of the path, which show the speed at the ends as much as the
+// place in the middle.
+int Follower::FinestLevel(const CameraModel& camera, const Rigid3& camera_from_map) const {
+  constexpr double kMostBlurPx = 8.0;  // on the level
+  const double blur = BlurPx(camera, camera_from_map);
+  return blur > kMostBlurPx ? static_cast<int>(std::ceil(std::log2(blur / kMostBlurPx))) : 0;
+}
+
+// That of the patches as if each erred by itself, more for what they share: the
+// errors of their keyframes' poses, and the part of the acceleration during the
+// exposure that the frames before do not foretell.
+Matrix6d Follower::Covariance() const {
+  constexpr double kSharedErrors = 2.0;
+  Matrix6d covariance = kSharedErrors * pose_.covariance;
+  if (has_motion_) {
+    constexpr double kUnforeseen = 1.0 / 16.0;  // of the path's length, shutter^2 a
+    const double share = kUnforeseen * shutter_ * shutter_;
+    Matrix6d doubt = accelerations_;
+    doubt.diagonal().head<3>().array() += accelerations_.diagonal().head<3>().mean();
+    doubt.diagonal().tail<3>().array() += accelerations_.diagonal().tail<3>().mean();
+    covariance += share * share * doubt;
+  }
+  return covariance;
 }
 
 FollowedPose Follower::Follow(const ImagePyramid& image,
@@ -492,9 +589,11 @@ FollowedPose Follower::Follow(const ImagePyramid& image,
   }
   Rigid3 pose = BestPrediction(image, camera, predictions);
   const int coarsest = Coarsest(image);
-  for (int level = coarsest; level >= 0; --level) {
+  int finest = 0;
+  for (int level = coarsest; level >= finest; --level) {
     SetMotion(pose);
-    const int wanted = level == coarsest ? 60 : level == 0 ? 1000 : 100;
+    finest = std::min(FinestLevel(camera, pose), level);
+    const int wanted = level == finest ? 1000 : level == coarsest ? 60 : 100;
     const int stride = std::max(1, static_cast<int>(slots_.size()) / wanted);
     Rigid3 moved = pose;
     bool found = RunLevel(image, camera, level, stride, moved, result.expected);
@@ -508,15 +607,16 @@ FollowedPose Follower::Follow(const ImagePyramid& image,
     }
     if (found) {
       pose = moved;
-    } else if (level == 0) {
+    } else if (level == finest) {
       return result;
     }
   }
   result.camera_from_map = pose;
-  result.evidence.covariance = pose_.covariance;
+  result.evidence.covariance = Covariance();
   result.agreeing = pose_.inliers;
   Judge(camera, result);
   if (result.honest) {
+    EstimateShutter(image, camera, finest, pose);
     Settle(camera, result);
   }
   return result;
@@ -530,7 +630,7 @@ void Follower::Judge(const CameraModel& camera, FollowedPose& pose) {
     if (pose_.squares[i] >= kInlierSquare) {
       continue;
     }
-    const Eigen::Vector2d pixel = sights_[i].fit.centre.cast<double>();
+    const Eigen::Vector2d pixel = sights_[i].pixel.cast<double>();
     bool& cell = covered[static_cast<size_t>(CellIn(camera, pixel, kSpreadColumns, kSpreadRows))];
     cells += cell ? 0 : 1;
     cell = true;
@@ -553,6 +653,12 @@ void Follower::Judge(const CameraModel& camera, FollowedPose& pose) {
 // Takes note of who agreed, lets go of who did not, and looks for others.
 void Follower::Settle(const CameraModel& camera, const FollowedPose& pose) {
   SetMotion(pose.camera_from_map);
+  if (has_motion_ && has_motion_before_) {
+    constexpr double kMemory = 0.7;
+    const Vector6d acceleration = motion_ - motion_before_;
+    accelerations_ =
+        kMemory * accelerations_ + (1.0 - kMemory) * acceleration * acceleration.transpose();
+  }
   has_motion_before_ = has_motion_;
   motion_before_ = motion_;
   seen_.clear();
@@ -564,7 +670,7 @@ void Follower::Settle(const CameraModel& camera, const FollowedPose& pose) {
       Slot& slot = slots_[sights_[i].slot];
       slot.failures = 0;
       slot.proven = true;
-      seen_.push_back({slot.point, sights_[i].fit.centre});
+      seen_.push_back({slot.point, sights_[i].pixel});
     }
   }
   for (size_t i = slots_.size(); i-- > 0;) {

@@ -75,16 +75,18 @@ class Follower {
     bool proven = false;  // agreed at least once
   };
 
-  struct Sight {  // of a slot, in one frame and level
+  struct Sight {  // of a slot, in one frame
     uint32_t slot = 0;
-    PatchFit fit;
+    Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
   };
 
   // Where a slot is expected, and how its patch lies in its keyframe.
   struct View {
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
     Eigen::Matrix2d key_from_pixel = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d blur = Eigen::Vector2d::Zero();  // pixels
+    // During the exposure, pixels.
+    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+    Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();
   };
 
   bool ViewSlot(const geometry::CameraModel& camera,
@@ -110,6 +112,19 @@ class Follower {
   geometry::Rigid3 BestPrediction(const ImagePyramid& image,
                                   const geometry::CameraModel& camera,
                                   std::span<const geometry::Rigid3> predictions);
+  double BlurPx(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_map) const;
+  double Likeness(const ImagePyramid& image,
+                  const geometry::CameraModel& camera,
+                  int level,
+                  const geometry::Rigid3& camera_from_map,
+                  double shutter);
+  Matrix6d Covariance() const;
+  void EstimateShutter(const ImagePyramid& image,
+                       const geometry::CameraModel& camera,
+                       int level,
+                       const geometry::Rigid3& camera_from_map);
+  int FinestLevel(const geometry::CameraModel& camera,
+                  const geometry::Rigid3& camera_from_map) const;
   void SetMotion(const geometry::Rigid3& camera_from_map);
 
   void Judge(const geometry::CameraModel& camera, FollowedPose& pose);
@@ -146,11 +161,16 @@ class Follower {
   bool has_motion_ = false;
   geometry::Rigid3 before_;
   double frames_ = 1.0;
-  Eigen::Matrix<double, 6, 1> motion_ = Eigen::Matrix<double, 6, 1>::Zero();  // of this frame
-  Eigen::Matrix<double, 6, 1> motion_before_ = Eigen::Matrix<double, 6, 1>::Zero();
+  // Twists (w, v) of the camera: the motion from the frame before, and the one before
+  // that, each frame.
+  Vector6d motion_ = Vector6d::Zero();
+  Vector6d motion_before_ = Vector6d::Zero();
   bool has_motion_before_ = false;
-  geometry::Rigid3 exposure_;  // camera at the end of a whole frame's exposure from its start
-  double shutter_ = 0.5;
+  geometry::Rigid3 velocity_;                  // what a frame's time of it does
+  geometry::Rigid3 acceleration_;              // likewise
+  Matrix6d accelerations_ = Matrix6d::Zero();  // mean square of late
+  double shutter_ = 0.3;
+  int shutter_trials_ = 0;
 
   // Working memory.
   std::vector<Sight> sights_;

@@ -12,13 +12,15 @@ namespace lararium::vision {
 // (x + 0.5) / 2^l - 0.5 of level l: integer coordinates stay pixel centres.
 template <typename T>
 T LevelFromPixel(const T& pixel, int level) {
-  const double scale = 1.0 / (1 << level);
-  return (scale * (pixel.array() + 0.5) - 0.5).matrix();
+  const auto scale = static_cast<typename T::Scalar>(1.0 / (1 << level));
+  const auto half = static_cast<typename T::Scalar>(0.5);
+  return (scale * (pixel.array() + half) - half).matrix();
 }
 template <typename T>
 T PixelFromLevel(const T& pixel, int level) {
-  const double scale = 1 << level;
-  return (scale * (pixel.array() + 0.5) - 0.5).matrix();
+  const auto scale = static_cast<typename T::Scalar>(1 << level);
+  const auto half = static_cast<typename T::Scalar>(0.5);
+  return (scale * (pixel.array() + half) - half).matrix();
 }
 
 // Keeps its memory from image to image.

@@ -47,7 +47,7 @@ void AddSamples(const cv::Mat& source,
 bool Inside(const cv::Mat& source, const PatchWarp& warp) {
   const Eigen::Array2f reach =
       0.5f * (kBordered - 1) * warp.source_from_patch.cwiseAbs().rowwise().sum().array() +
-      0.5f * warp.blur.array().abs();
+      0.5f * warp.motion.velocity.array().abs() + 0.125f * warp.motion.acceleration.array().abs();
   const Eigen::Array2f low = warp.centre.array() - reach;
   const Eigen::Array2f high = warp.centre.array() + reach;
   return low.x() >= 0.0f && low.y() >= 0.0f && high.x() < static_cast<float>(source.cols - 1) &&
@@ -152,12 +152,16 @@ bool PatchTemplate::Sample(const cv::Mat& source, const PatchWarp& warp) {
     return false;
   }
   std::array<float, kBordered * kBordered> samples{};
-  const float length = warp.blur.norm();
-  // Samples no farther apart than a pixel of the source.
-  const int count = std::clamp(static_cast<int>(std::ceil(length)), 1, kMostBlurSamples);
+  // Against what is seen, the source moves the other way. Samples no farther apart
+  // than a pixel of the source.
+  const PatchMotion& motion = warp.motion;
+  const int count =
+      std::clamp(static_cast<int>(std::ceil(motion.velocity.norm())), 1, kMostBlurSamples);
   for (int i = 0; i < count; ++i) {
-    const float place = (static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 0.5f;
-    AddSamples(source, warp, place * warp.blur, samples);
+    const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 0.5f;
+    // One sample stands for the mean of t^2, 1/12.
+    const float t2 = count > 1 ? t * t : 1.0f / 12.0f;
+    AddSamples(source, warp, -t * motion.velocity - 0.5f * t2 * motion.acceleration, samples);
   }
   const float share = 1.0f / static_cast<float>(count);
   for (size_t r = 0; r < kPatchSize; ++r) {

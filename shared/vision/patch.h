@@ -14,14 +14,20 @@ inline constexpr int kPatchSize = 8;  // pixels along each side
 inline constexpr int kPatchArea = kPatchSize * kPatchSize;
 inline constexpr float kPatchHalf = 0.5f * (kPatchSize - 1);  // from its centre to its outer pixels
 
+// How what is seen moves during the exposure: it is at velocity * t +
+// acceleration * t^2 / 2 pixels from its place in the middle, t in -1/2..1/2.
+struct PatchMotion {
+  Eigen::Vector2f velocity = Eigen::Vector2f::Zero();
+  Eigen::Vector2f acceleration = Eigen::Vector2f::Zero();
+};
+
 // How patch pixels lie in a source image: offset o from the patch's centre is
-// sampled at centre + source_from_patch * o. blur, in source pixels, is the whole
-// length of the line over which each sample is averaged: the motion of the image
-// during its exposure.
+// sampled at centre + source_from_patch * o. The source is sharp; motion, in its
+// pixels, blurs the patch.
 struct PatchWarp {
   Eigen::Vector2f centre = Eigen::Vector2f::Zero();
   Eigen::Matrix2f source_from_patch = Eigen::Matrix2f::Identity();
-  Eigen::Vector2f blur = Eigen::Vector2f::Zero();
+  PatchMotion motion;
 };
 
 // What is looked for. Rows of kPatchSize values.

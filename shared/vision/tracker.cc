@@ -9,6 +9,7 @@
 
 #include "shared/core/check.h"
 #include "shared/vision/follower.h"
+#include "shared/vision/gain_estimator.h"
 #include "shared/vision/level_of_detail.h"
 #include "shared/vision/map_locator.h"
 #include "shared/vision/motion_model.h"
@@ -169,6 +170,7 @@ class Tracker final : public PoseSource {
     TrackedFrame tracked;
     tracked.frame = frame;
     tracked.camera = CameraFor(frame);
+    tracked.gain = last_gain_;
     if (frame.grey.empty()) {
       tracked.reason = TrackReason::kTooFewFeatures;
     } else if (cv::mean(frame.grey)[0] < kDarkMean) {
@@ -236,7 +238,7 @@ class Tracker final : public PoseSource {
     if (share_ < kFewAgree &&
         DistancePx(tracked.camera, before, followed.camera_from_map, depth_) > kLeapPx) {
       // The patches were chosen for another view.
-      Refine(tracked);
+      Refine(tracked, &before, frames);
     }
     return true;
   }
@@ -276,16 +278,16 @@ class Tracker final : public PoseSource {
   void Anchor(TrackedFrame& tracked) {
     map_ = tracked.map;
     motion_.Forget();
-    Refine(tracked);
+    Refine(tracked, nullptr, 1.0);
   }
 
   // Chooses patches for the pose and aligns them.
-  void Refine(TrackedFrame& tracked) {
+  void Refine(TrackedFrame& tracked, const Rigid3* before, double frames) {
     const Rigid3 rough = *tracked.camera_from_map;
     Follower& follower = *followers_[map_];
     follower.Start(tracked.camera, rough);
     const FollowedPose followed =
-        follower.Follow(pyramid_, tracked.camera, std::span(&rough, 1), nullptr, 1.0);
+        follower.Follow(pyramid_, tracked.camera, std::span(&rough, 1), before, frames);
     if (followed.honest && DistancePx(tracked.camera, rough, followed.camera_from_map,
                                       followed.evidence.depths[1]) < kTwoMeaningsPx) {
       Report(followed, tracked);
@@ -301,6 +303,11 @@ class Tracker final : public PoseSource {
     tracked.features = followed.expected;
     tracked.matches = followed.expected;
     tracked.inliers = followed.agreeing;
+    if (const auto gain =
+            gain_.Estimate(tracked.frame.bgr, *maps_[map_], followers_[map_]->seen())) {
+      last_gain_ = *gain;
+    }
+    tracked.gain = last_gain_;
     share_ = followed.share();
     depth_ = followed.evidence.depths[1];
   }
@@ -373,6 +380,8 @@ class Tracker final : public PoseSource {
   ImagePyramid pyramid_;
   cv::Mat small_before_;
   MotionModel motion_;
+  GainEstimator gain_;
+  std::array<float, 3> last_gain_ = {1.0f, 1.0f, 1.0f};
   uint32_t map_ = 0;
   double share_ = 0.0;  // of the patches that agree
   double depth_ = 1.0;  // of what is visible
