@@ -376,6 +376,7 @@ BudgetRow MeasureBudget(const SceneDatabase& db,
   for (const HeldOutView& view : views) {
     const vision::Location location = localizer.Locate(view.query, db.camera);
     if (location.camera_from_map) {
+      row.mean_inliers += location.inliers;
       differences.push_back(MeanDifferencePx(db, view.keyframe, *location.camera_from_map));
     }
   }
@@ -384,6 +385,7 @@ BudgetRow MeasureBudget(const SceneDatabase& db,
     const auto middle = differences.begin() + static_cast<ptrdiff_t>(differences.size() / 2);
     std::nth_element(differences.begin(), middle, differences.end());
     row.median_difference_px = *middle;
+    row.mean_inliers /= static_cast<double>(differences.size());
   }
   return row;
 }

@@ -45,8 +45,9 @@ struct BudgetRow {
   int points = 0;
   int descriptors = 0;
   int images = 0;
-  size_t bytes = 0;     // of the .larscene file
-  double recall = 0.0;  // share of the held-out views that the map locates
+  size_t bytes = 0;           // of the .larscene file
+  double recall = 0.0;        // share of the held-out views that the map locates
+  double mean_inliers = 0.0;  // of the located views: what recall has in reserve
   // Median over these views: mean distance in pixels between where the pose and
   // the one that training found project the points in view.
   double median_difference_px = 0.0;
