@@ -4,10 +4,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <set>
 #include <string_view>
 
 #include "editor/train/capture_analysis.h"
@@ -368,7 +368,7 @@ class Page {
     std::vector<Eigen::Vector2d> good;
     std::vector<Eigen::Vector2d> weak;
     std::string crosses;
-    std::set<std::string> own;
+    std::map<std::string, Eigen::Vector3d> own;  // centres by name
     std::optional<Eigen::Vector2d> previous;
     bool gap = false;
     for (size_t i = 0; i < report_.frame_reports.size(); ++i) {
@@ -385,12 +385,15 @@ class Page {
       }
       line += (gap || !previous ? "M" : "L") + Fixed(at.x(), 1) + " " + Fixed(at.y(), 1);
       (IsWeak(i) ? weak : good).push_back(at);
-      own.insert(frame.name);
+      own[frame.name] = frame.camera_from_map->Center();
       previous = at;
       gap = false;
     }
     for (const vision::Keyframe& keyframe : database_.keyframes) {
-      if (!own.contains(keyframe.name)) {
+      // Frames of two sessions may share a name.
+      const auto found = own.find(keyframe.name);
+      const Eigen::Vector3d center = keyframe.camera_from_map.Center();
+      if (found == own.end() || (found->second - center).norm() > 1e-3 * analysis_.median_depth) {
         const Eigen::Vector2d at = scale(analysis_.plan(keyframe.camera_from_map.Center()));
         svg += "<circle cx=\"" + Fixed(at.x(), 1) + "\" cy=\"" + Fixed(at.y(), 1) +
                "\" r=\"2.5\" fill=\"#fff\" stroke=\"#5d6b75\"/>";
@@ -488,12 +491,13 @@ class Page {
         return image;
       }
     }
-    for (const vision::Keyframe& keyframe : database_.keyframes) {
-      if (keyframe.name == name && keyframe.frame_index == frame_index) {
-        return keyframe.grey;
-      }
-    }
-    return {};
+    // The latest session comes last.
+    const auto found =
+        std::find_if(database_.keyframes.rbegin(), database_.keyframes.rend(),
+                     [&](const vision::Keyframe& keyframe) {
+                       return keyframe.name == name && keyframe.frame_index == frame_index;
+                     });
+    return found != database_.keyframes.rend() ? found->grey : cv::Mat();
   }
 
   void AddFilmed() {

@@ -200,7 +200,7 @@ class ColmapImport : public ::testing::Test {
   ColmapModel model_;
 };
 
-// Largest offset, over all observations, of where they are from where they should be: its mean.
+// Mean offset of the observations from where their points project.
 Eigen::Vector2d MeanOffset(const vision::SceneDatabase& db) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const vision::Observation& o : db.observations) {
@@ -231,6 +231,7 @@ TEST_F(ColmapImport, KeepsPosesAndPointsAndTiesFeaturesWithoutAHalfPixelShift) {
     }
     ASSERT_LT(next, model_.points.size());
   }
+  EXPECT_EQ(db->colours.size(), db->points.size());
   EXPECT_LT(db->mean_reprojection_error_px, 0.4);
   EXPECT_LT(MeanOffset(*db).norm(), 0.05);
 }
