@@ -1,17 +1,41 @@
 #include "player/info.h"
 
+#include <bit>
 #include <cstdio>
 
 #include "shared/bundle/bundle.h"
+#include "shared/vision/scene_database.h"
 
 namespace lararium::player {
+namespace {
+
+// How many filmings of the place are in its map.
+int CountSessions(const vision::SceneDatabase& map) {
+  uint32_t sessions = 0;
+  for (const uint32_t mask : map.session_masks) {
+    sessions |= mask;
+  }
+  return std::popcount(sessions);
+}
+
+Status PrintPlace(const bundle::Bundle& bundle, const bundle::PlaceEntry& place) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(place.scene));
+  LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase map,
+                            vision::ParseSceneDatabase(bytes, bundle.place() + ": " + place.scene));
+  std::printf("place   %s: %zu points, %zu keyframes, %d sessions, %zu bytes, %zu occluders\n",
+              place.name.c_str(), map.points.size(), map.keyframes.size(), CountSessions(map),
+              bytes.size(), place.occluders.size());
+  return Status();
+}
+
+}  // namespace
 
 Status PrintInfo(const InfoOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
   const bundle::ShowManifest& manifest = bundle.manifest();
   std::printf("%s\n", manifest.title.c_str());
   for (const bundle::PlaceEntry& place : manifest.places) {
-    std::printf("place   %s, %zu occluders\n", place.name.c_str(), place.occluders.size());
+    LARARIUM_RETURN_IF_ERROR(PrintPlace(bundle, place));
   }
   for (const bundle::CastEntry& member : manifest.cast) {
     std::printf("cast    %s\n", member.name.c_str());

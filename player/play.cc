@@ -13,6 +13,7 @@
 #include "shared/core/parallel.h"
 #include "shared/show/frame_pipeline.h"
 #include "shared/show/show_renderer.h"
+#include "shared/vision/pose_smoother.h"
 #include "shared/vision/tracker.h"
 
 namespace lararium::player {
@@ -90,6 +91,9 @@ Status Performance::Prepare() {
       const CameraChoice choice,
       ChooseCamera(options_, TrainedCameras(content), source_->width(), source_->height()));
   log_.info("camera intrinsics from {}", choice.origin);
+  for (const show::ShowPlace& place : content.places) {
+    statistics_.places.push_back(place.stage.name);
+  }
   vision::TrackerOptions tracking;
   tracking.seed = options_.seed;
   tracking.threads = options_.threads;
@@ -97,6 +101,7 @@ Status Performance::Prepare() {
                                                      : vision::BackgroundWork::kFree;
   LARARIUM_ASSIGN_OR_RETURN(poses_,
                             vision::CreateTracker(show::Maps(content), choice.camera, tracking));
+  poses_ = vision::Smooth(std::move(poses_), show::Maps(content), options_.smoothing);
   drama::DramaOptions drama;
   drama.seed = options_.seed;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
@@ -122,7 +127,7 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
     statistics_.startup_seconds = std::chrono::duration<double>(now - started_).count();
   }
   const std::chrono::duration<double, std::milli> total = now - staged.arrival;
-  statistics_.total.Add(total.count(), 0.0);
+  statistics_.total.Add(total.count());
   ++drawn_frames_;
   return recorder_->Add(staged.tracked, *target_);
 }

@@ -16,8 +16,7 @@ Result<Recorder> Recorder::Create(const PlayOptions& options,
 
 Status Recorder::Add(const vision::TrackedFrame& tracked, const render::RenderTarget& target) {
   if (!options_->poses_out.empty()) {
-    poses_.push_back({source_->FrameName(tracked.frame.index), tracked.camera,
-                      tracked.camera_from_map, tracked.camera_from_map.has_value()});
+    poses_.push_back(vision::MakePoseRecord(source_->FrameName(tracked.frame.index), tracked));
   }
   if (video_ != nullptr) {
     target.ReadPixels(picture_);

@@ -48,20 +48,25 @@ double DurationHistogram::Quantile(double q) const {
   return max_;
 }
 
+Json DurationHistogram::ToJson() const {
+  return {{"count", count_},
+          {"mean", mean()},
+          {"p50", Quantile(0.50)},
+          {"p95", Quantile(0.95)},
+          {"max", max_}};
+}
+
 void StageTimes::Add(double wall_ms, double cpu_ms) {
   wall_.Add(wall_ms);
   cpu_.Add(cpu_ms);
 }
 
 Json StageTimes::ToJson() const {
-  return {{"count", wall_.count()},
-          {"mean", wall_.mean()},
-          {"p50", wall_.Quantile(0.50)},
-          {"p95", wall_.Quantile(0.95)},
-          {"max", wall_.max()},
-          {"cpu_mean", cpu_.mean()},
-          {"cpu_p50", cpu_.Quantile(0.50)},
-          {"cpu_p95", cpu_.Quantile(0.95)}};
+  Json json = wall_.ToJson();
+  json["cpu_mean"] = cpu_.mean();
+  json["cpu_p50"] = cpu_.Quantile(0.50);
+  json["cpu_p95"] = cpu_.Quantile(0.95);
+  return json;
 }
 
 }  // namespace lararium

@@ -24,6 +24,8 @@ class DurationHistogram {
   double mean() const;
   double max() const { return max_; }
   double Quantile(double q) const;
+  // {"count", "mean", "p50", "p95", "max"}
+  Json ToJson() const;
 
  private:
   static constexpr size_t kBins = 2080;

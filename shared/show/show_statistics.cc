@@ -5,8 +5,8 @@
 namespace lararium::show {
 namespace {
 
-double Ratio(int64_t part, int64_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+double Ratio(double part, int64_t whole) {
+  return whole == 0 ? 0.0 : part / static_cast<double>(whole);
 }
 
 }  // namespace
@@ -14,16 +14,34 @@ double Ratio(int64_t part, int64_t whole) {
 void TrackingStatistics::Add(const vision::TrackedFrame& frame) {
   const bool tracking = frame.camera_from_map.has_value();
   ++frames_;
-  tracked_ += tracking ? 1 : 0;
-  inliers_ += tracking ? frame.inliers : 0;
+  if (tracking) {
+    ++tracked_;
+    followed_ += frame.followed ? 1 : 0;
+    inliers_ += frame.inliers;
+    confidence_ += frame.confidence;
+    if (frame.map >= frames_in_map_.size()) {
+      frames_in_map_.resize(frame.map + 1);
+    }
+    ++frames_in_map_[frame.map];
+  }
   relocalizations_ += tracking && had_pose_ && !was_tracking_ ? 1 : 0;
   had_pose_ = had_pose_ || tracking;
   was_tracking_ = tracking;
 }
 
-double TrackingStatistics::tracked_fraction() const { return Ratio(tracked_, frames_); }
+double TrackingStatistics::tracked_fraction() const {
+  return Ratio(static_cast<double>(tracked_), frames_);
+}
 
-double TrackingStatistics::mean_inliers() const { return Ratio(inliers_, tracked_); }
+double TrackingStatistics::followed_fraction() const {
+  return Ratio(static_cast<double>(followed_), frames_);
+}
+
+double TrackingStatistics::mean_inliers() const {
+  return Ratio(static_cast<double>(inliers_), tracked_);
+}
+
+double TrackingStatistics::mean_confidence() const { return Ratio(confidence_, tracked_); }
 
 double PeakResidentMebibytes() {
   rusage usage{};
@@ -32,6 +50,11 @@ double PeakResidentMebibytes() {
 }
 
 Json ShowStatistics::ToJson() const {
+  const std::vector<int64_t>& counts = tracking.frames_in_map();
+  Json frames_in_place = Json::object();
+  for (size_t i = 0; i < places.size(); ++i) {
+    frames_in_place[places[i]] = i < counts.size() ? counts[i] : 0;
+  }
   return {{"capture", capture.ToJson()},
           {"track", track.ToJson()},
           {"simulate", simulate.ToJson()},
@@ -39,8 +62,11 @@ Json ShowStatistics::ToJson() const {
           {"total", total.ToJson()},
           {"frames", tracking.frames()},
           {"tracked_fraction", tracking.tracked_fraction()},
+          {"followed_fraction", tracking.followed_fraction()},
           {"relocalizations", tracking.relocalizations()},
           {"inliers", tracking.mean_inliers()},
+          {"confidence", tracking.mean_confidence()},
+          {"frames_in_place", frames_in_place},
           {"peak_resident_mib", PeakResidentMebibytes()},
           {"startup_seconds", startup_seconds},
           {"dropped_frames", dropped_frames},

@@ -11,7 +11,9 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-constexpr int kMaxSide = 16384;          // pixels
+constexpr int kMaxSide = 16384;   // pixels
+constexpr int64_t kMaxMaps = 64;  // places of a bundle
+constexpr double kMaxGain = 1e6;
 constexpr double kRotationError = 1e-2;  // of the entries of a rotation matrix
 
 // ------------------------------------------------------------ writing
@@ -27,9 +29,18 @@ Json ToJson(const Rigid3& pose) {
   return {{"R", rotation}, {"t", {m(0, 3), m(1, 3), m(2, 3)}}};
 }
 
+void AddDetails(const TrackingDetails& details, Json& json) {
+  json["state"] = Name(details.state);
+  json["reason"] = Name(details.reason);
+  json["map"] = details.map;
+  json["followed"] = details.followed;
+  json["confidence"] = details.confidence;
+  json["gain"] = details.gain;
+}
+
 Json ToJson(const PoseRecord& record) {
   const CameraModel& c = record.camera;
-  return {
+  Json json = {
       {"file", record.file},
       {"width", c.width},
       {"height", c.height},
@@ -37,6 +48,10 @@ Json ToJson(const PoseRecord& record) {
       {"distortion", {{"model", "opencv"}, {"k1_k2_p1_p2", {c.k1, c.k2, c.p1, c.p2}}}},
       {"world_to_camera", record.camera_from_world ? ToJson(*record.camera_from_world) : Json()},
       {"tracked", record.tracked}};
+  if (record.details) {
+    AddDetails(*record.details, json);
+  }
+  return json;
 }
 
 // ------------------------------------------------------------ reading
@@ -83,6 +98,28 @@ Result<CameraModel> ReadCamera(const JsonView& view) {
   return camera;
 }
 
+Result<bool> ReadFlag(const JsonView& view, std::string_view key) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+  return field.Boolean();
+}
+
+Result<TrackingDetails> ReadDetails(const JsonView& view) {
+  TrackingDetails details;
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t map, view.Integer("map", 0, kMaxMaps - 1));
+  LARARIUM_ASSIGN_OR_RETURN(details.followed, ReadFlag(view, "followed"));
+  LARARIUM_ASSIGN_OR_RETURN(const double confidence, view.Number("confidence", 0.0, 1.0));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> gain, view.Numbers("gain", 3));
+  details.map = static_cast<uint32_t>(map);
+  details.confidence = static_cast<float>(confidence);
+  for (size_t c = 0; c < details.gain.size(); ++c) {
+    if (!(gain[c] > 0.0 && gain[c] < kMaxGain)) {
+      return view.Problem("the gain is not positive");
+    }
+    details.gain[c] = static_cast<float>(gain[c]);
+  }
+  return details;
+}
+
 Result<PoseRecord> ReadRecord(const JsonView& view) {
   PoseRecord record;
   LARARIUM_ASSIGN_OR_RETURN(record.file, view.Text("file"));
@@ -95,9 +132,11 @@ Result<PoseRecord> ReadRecord(const JsonView& view) {
   }
   record.tracked = record.camera_from_world.has_value();
   if (view.Has("tracked")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("tracked"));
-    LARARIUM_ASSIGN_OR_RETURN(const bool tracked, field.Boolean());
+    LARARIUM_ASSIGN_OR_RETURN(const bool tracked, ReadFlag(view, "tracked"));
     record.tracked = record.tracked && tracked;
+  }
+  if (view.Has("map")) {
+    LARARIUM_ASSIGN_OR_RETURN(record.details, ReadDetails(view));
   }
   return record;
 }
@@ -118,7 +157,12 @@ class RecordedPoses final : public PoseSource {
       if (record.tracked && record.camera_from_world) {
         tracked.camera_from_map = record.camera_from_world;
         tracked.state = TrackState::kTracking;
-        tracked.confidence = 1.0f;
+        const TrackingDetails details =
+            record.details.value_or(TrackingDetails{.confidence = 1.0f});
+        tracked.map = details.map;
+        tracked.followed = details.followed;
+        tracked.confidence = details.confidence;
+        tracked.gain = details.gain;
         had_pose_ = true;
         return tracked;
       }
@@ -134,6 +178,13 @@ class RecordedPoses final : public PoseSource {
 };
 
 }  // namespace
+
+PoseRecord MakePoseRecord(std::string file, const TrackedFrame& tracked) {
+  return {std::move(file), tracked.camera, tracked.camera_from_map,
+          tracked.camera_from_map.has_value(),
+          TrackingDetails{tracked.state, tracked.reason, tracked.map, tracked.followed,
+                          tracked.confidence, tracked.gain}};
+}
 
 Status SavePoses(const std::filesystem::path& path, std::span<const PoseRecord> poses) {
   Json images = Json::array();

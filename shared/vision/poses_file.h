@@ -3,6 +3,8 @@
 // poses.json: the poses of images, as training and the player write them with
 // --poses-out. The world is the map.
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,14 +19,28 @@
 
 namespace lararium::vision {
 
+// What a tracker says about a frame besides its pose: see TrackedFrame.
+struct TrackingDetails {
+  TrackState state = TrackState::kSearching;
+  TrackReason reason = TrackReason::kNone;
+  uint32_t map = 0;
+  bool followed = false;
+  float confidence = 0.0f;
+  std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};
+};
+
 struct PoseRecord {
   std::string file;  // FrameSource::FrameName of the image
   geometry::CameraModel camera;
   std::optional<geometry::Rigid3> camera_from_world;
   bool tracked = false;  // a pose that was not tracked is a guess, and not used
+  std::optional<TrackingDetails> details = std::nullopt;  // training writes none
 };
 
+PoseRecord MakePoseRecord(std::string file, const TrackedFrame& tracked);
+
 Status SavePoses(const std::filesystem::path& path, std::span<const PoseRecord> poses);
+// Of the details, what replaying needs is read back: all but state and reason.
 Result<std::vector<PoseRecord>> LoadPoses(const std::filesystem::path& path);
 
 // Gives frame i the pose of poses[i]: replays a recording without the tracker.

@@ -97,6 +97,28 @@ TEST(ShowManifest, RefusesWhatCannotBe) {
   }
 }
 
+TEST(ShowManifest, HoldsSeveralPlacesUnderDifferentNames) {
+  ShowManifest manifest = Listed();
+  manifest.places.push_back(manifest.places[0]);
+  manifest.places[1].name = "yard";
+  manifest.places[1].map_from_stage.scale = 2.0;
+  const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "manifest.json");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  ASSERT_EQ(parsed->places.size(), 2u);
+  EXPECT_EQ(parsed->places[0].map_from_stage.scale, 0.37);
+  EXPECT_EQ(parsed->places[1].name, "yard");
+  EXPECT_EQ(parsed->places[1].map_from_stage.scale, 2.0);
+
+  Json json = Json::parse(FormatShowManifest(manifest));
+  json["places"][1]["name"] = "maquette";
+  EXPECT_THAT(Parse(json).message(), HasSubstr("used twice"));
+  json["places"][1]["name"] = "yard";
+  json["places"][1]["scene"] = "places/1/scene.larscene";
+  EXPECT_THAT(Parse(json).message(), HasSubstr("not listed"));
+  json["places"] = Json(std::vector<Json>(65, json["places"][0]));
+  EXPECT_FALSE(Parse(json).ok());
+}
+
 TEST(ShowManifest, SurvivesDeepNesting) {
   EXPECT_FALSE(ParseShowManifest(std::string(100'000, '['), "manifest.json").ok());
 }
