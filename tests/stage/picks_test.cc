@@ -221,7 +221,45 @@ TEST(StagePicks, PicksInFramesThatAreNoKeyframesAreLeftOut) {
   const auto solution = SolveStage(picks, world.Map(SomeGauge()));
   ASSERT_TRUE(solution.ok());
   EXPECT_EQ(solution->anchors[0].picks, 1);
+  EXPECT_THAT(solution->anchors[0].left_out, testing::ElementsAre("frame30", "other"));
   EXPECT_EQ(solution->anchors[1].picks, 3);
+  EXPECT_TRUE(solution->anchors[1].left_out.empty());
+}
+
+TEST(StagePicks, LieInTheirSessionOnly) {
+  const World world;
+  vision::SceneDatabase map = world.Map(SomeGauge());
+  StagePicks picks = Picks(world, {0, 3, 6});
+  picks.origin.picks[1].session = 2;
+  auto solution = SolveStage(picks, map);
+  ASSERT_TRUE(solution.ok());
+  EXPECT_THAT(solution->anchors[0].left_out, testing::ElementsAre("frame30 of session 2"));
+  map.keyframes[3].session = 2;  // then the others are not in it
+  solution = SolveStage(picks, map);
+  ASSERT_TRUE(solution.ok());
+  EXPECT_EQ(solution->anchors[0].picks, 3);
+  EXPECT_EQ(solution->anchors[1].picks, 2);
+}
+
+TEST(StagePicks, AGivenScaleMeasuresTheKnownLength) {
+  const World world;
+  StagePicks picks = Picks(world, {0, 3, 6});
+  picks.length_m = 1.5;  // in truth 1.2
+  const auto solution = SolveStage(picks, world.Map(SomeGauge()), SomeGauge().scale);
+  ASSERT_TRUE(solution.ok()) << solution.message();
+  ExpectTrueStage(*solution, SomeGauge(), 1e-6);
+  EXPECT_NEAR(solution->measured_length_m, 1.2, 1e-6);
+}
+
+TEST(StagePicks, ASinglePickMayLieInAFrameThatWasLocatedAfterwards) {
+  const World world;
+  vision::SceneDatabase map = world.Map(SomeGauge());
+  std::erase_if(map.observations, [](const auto& o) { return o.keyframe == 3; });
+  const Eigen::Vector3f away = (SomeGauge().rotation * Eigen::Vector3d(0, -1, 1)).cast<float>();
+  map.normals.assign(map.points.size(), away.normalized());
+  const auto solution = SolveStage(Picks(world, {3}), map);
+  ASSERT_TRUE(solution.ok()) << solution.message();
+  ExpectTrueStage(*solution, SomeGauge(), 1e-3);
 }
 
 TEST(StagePicks, FailuresNameTheAnchorAndTheRemedy) {
@@ -232,6 +270,10 @@ TEST(StagePicks, FailuresNameTheAnchorAndTheRemedy) {
   StagePicks picks = good;
   picks.floor.picks.clear();
   EXPECT_THAT(SolveStage(picks, map).message(), HasSubstr("'floor': no pick lies in a keyframe"));
+
+  picks = good;
+  picks.floor.picks = {{7, "frame7", {1, 1}}, {9, "frame9", {1, 1}}};
+  EXPECT_THAT(SolveStage(picks, map).message(), HasSubstr("they lie in frame7, frame9"));
 
   picks = good;
   picks.floor = world.See("floor", 0.4 * kOrigin + 0.6 * kForward, {0, 4});
