@@ -13,9 +13,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<std::byte> SmallScene() {
+std::vector<std::byte> SmallScene(double focal = 50.0) {
   vision::SceneDatabase database;
-  database.camera = {64, 48, 50.0, 50.0, 32.0, 24.0};
+  database.camera = {64, 48, focal, focal, 32.0, 24.0};
   database.points = {{0.0f, 0.0f, 2.0f}};
   database.normals = {{0.0f, 0.0f, -1.0f}};
   database.observation_counts = {2};
@@ -72,6 +72,33 @@ TEST(Export, PacksAllThatThePlayerNeeds) {
   EXPECT_TRUE(human::ParseHuman(*opened->member(manifest.cast[1].human), "human").ok());
   const auto drama = *opened->member(manifest.drama);
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(drama.data()), drama.size()), content.drama);
+}
+
+TEST(Export, PacksEveryPlaceWithItsOwnMapAndOccluders) {
+  const test::TemporaryFolder folder;
+  ExportContent content = SmallShow();
+  content.places.push_back(content.places[0]);
+  content.places[1].place.name = "yard";
+  content.places[1].place.occluders.pop_back();
+  content.places[1].place.map_from_stage.scale = 3.0;
+  content.places[1].scene = SmallScene(60.0);
+  NoProgress progress;
+  ASSERT_TRUE(ExportBundle(content, folder / "a.larshow", progress).ok());
+  const auto opened = bundle::Bundle::Open(folder / "a.larshow");
+  ASSERT_TRUE(opened.ok()) << opened.message();
+  const std::vector<bundle::PlaceEntry>& places = opened->manifest().places;
+  ASSERT_EQ(places.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    const auto scene = vision::ParseSceneDatabase(*opened->member(places[i].scene), "scene");
+    ASSERT_TRUE(scene.ok()) << scene.message();
+    EXPECT_EQ(scene->camera.fx, i == 0 ? 50.0 : 60.0);
+    EXPECT_EQ(places[i].map_from_stage.scale, i == 0 ? 2.0 : 3.0);
+    EXPECT_EQ(places[i].occluders.size(), i == 0 ? 2u : 1u);
+  }
+
+  content.places[1].place.name = "maquette";
+  EXPECT_THAT(ExportBundle(content, folder / "b.larshow", progress).message(),
+              HasSubstr("used twice"));
 }
 
 TEST(Export, RefusesBrokenPartsAndKeepsTheOldFile) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "shared/core/random.h"
 #include "tests/show/small_show.h"
 
@@ -56,6 +58,71 @@ TEST_F(ShowTest, ThePoseOnTheStageIsMetric) {
   // The map is twice as large as the stage, so 4 map units are 2 metres.
   ASSERT_TRUE(staged.camera_from_stage.has_value());
   EXPECT_NEAR(staged.camera_from_stage->translation.z(), 2.0, 1e-12);
+}
+
+TEST_F(ShowTest, TheStageGoesWhereTheFramesMapSaysAndTheDramaRunsOn) {
+  const std::unique_ptr<Show> show = Make();
+  StagedFrame staged;
+  const auto stage = [&](double time, std::optional<uint32_t> map) {
+    vision::TrackedFrame tracked;
+    if (map) {
+      tracked = test::FakePoses().Track({});
+      tracked.map = *map;
+    }
+    show->StageFrame(tracked, time, staged);
+    EXPECT_NEAR(PositionX(staged), time, 1e-4);
+  };
+  struct Step {
+    std::optional<uint32_t> map;
+    uint32_t place;
+    double depth;  // 4 map units in metres of the place
+  };
+  // The bar's map is twice as large as the stage, the yard's half as large.
+  double time = 0.0;
+  for (const Step& step : {Step{0, 0, 2.0}, Step{1, 1, 8.0}, Step{std::nullopt, 1, 0.0},
+                           Step{std::nullopt, 1, 0.0}, Step{1, 1, 8.0}, Step{0, 0, 2.0}}) {
+    stage(time, step.map);
+    EXPECT_EQ(staged.place, step.place) << time;
+    ASSERT_EQ(staged.camera_from_stage.has_value(), step.map.has_value()) << time;
+    if (step.map) {
+      EXPECT_NEAR(staged.camera_from_stage->translation.z(), step.depth, 1e-12) << time;
+    }
+    time += 0.1;
+  }
+}
+
+TEST_F(ShowTest, StagingOnePlaceAnewLeavesTheOthers) {
+  const std::unique_ptr<Show> show = Make();
+  stage::Place moved = show->content().places[1].stage;
+  moved.camera_nudge = {0.0, 0.0, 1.0};
+  show->SetPlace(1, moved);
+  StagedFrame staged;
+  vision::TrackedFrame tracked = test::FakePoses().Track({});
+  show->StageFrame(tracked, 0.0, staged);
+  EXPECT_NEAR(staged.camera_from_stage->translation.z(), 2.0, 1e-12);
+  tracked.map = 1;
+  show->StageFrame(tracked, 0.1, staged);
+  EXPECT_NEAR(staged.camera_from_stage->translation.z(), 7.0, 1e-12);
+}
+
+TEST_F(ShowTest, TheGainIsSteadiedUntilThePlaceChangesOrThePoseIsLost) {
+  const std::unique_ptr<Show> show = Make();
+  StagedFrame staged;
+  double time = 0.0;
+  const auto gain_of = [&](float gain, uint32_t map) {
+    vision::TrackedFrame tracked = test::FakePoses().Track({});
+    tracked.frame.capture_time = time += 1.0 / 30.0;
+    tracked.map = map;
+    tracked.gain = {gain, gain, gain};
+    show->StageFrame(tracked, time, staged);
+    return staged.gain[0];
+  };
+  EXPECT_FLOAT_EQ(gain_of(1.0f, 0), 1.0f);
+  const float left = std::exp(-1.0f / 30.0f / static_cast<float>(GainFilter::kTimeConstant));
+  EXPECT_NEAR(gain_of(0.5f, 0), std::exp2(left - 1.0f), 1e-4f);
+  EXPECT_FLOAT_EQ(gain_of(2.0f, 1), 2.0f);
+  show->StageFrame({}, time, staged);
+  EXPECT_FLOAT_EQ(gain_of(0.25f, 1), 0.25f);
 }
 
 TEST_F(ShowTest, WithoutAPoseNothingIsPlaced) {

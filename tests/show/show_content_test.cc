@@ -1,0 +1,106 @@
+#include "shared/show/show_content.h"
+
+#include <gmock/gmock.h>
+
+#include "shared/bundle/bundle_writer.h"
+#include "shared/core/file.h"
+#include "shared/stage/mesh_file.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::show {
+namespace {
+
+using ::testing::HasSubstr;
+
+// One point, seen by nobody; focal tells one scene from another.
+std::vector<std::byte> Scene(double focal) {
+  vision::SceneDatabase database;
+  database.camera = {64, 48, focal, focal, 32.0, 24.0};
+  database.points = {{0.0f, 0.0f, 2.0f}};
+  database.normals = {{0.0f, 0.0f, -1.0f}};
+  database.observation_counts = {2};
+  database.session_masks = {1};
+  database.descriptor_begin = {0, 1};
+  database.descriptors.resize(1);
+  database.descriptor_point = {0};
+  database.forest = vision::BuildForest(database.descriptors, {});
+  return vision::SerializeSceneDatabase(database);
+}
+
+class ShowContentTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    geometry::TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.indices = {0, 1, 2};
+    wall_ = stage::SerializeMesh(mesh);
+    manifest_.title = "Two rooms";
+    manifest_.drama = "drama.lua";
+    manifest_.places.resize(2);
+    manifest_.places[0].name = "bar";
+    manifest_.places[0].scene = "bar.larscene";
+    manifest_.places[1].name = "yard";
+    manifest_.places[1].scene = "yard.larscene";
+    manifest_.places[0].map_from_stage.scale = 2.0;
+    manifest_.places[1].camera_nudge = {0.0, 0.1, 0.0};
+    manifest_.places[1].light[0] = {1.0f, 2.0f, 3.0f};
+    manifest_.places[1].occluders = {{"wall", "wall.larmesh", {}}};
+  }
+
+  Result<ShowContent> Load(std::string_view place = {}) {
+    const std::string drama = "function main() end\n";
+    const std::filesystem::path path = folder_ / "a.larshow";
+    const Status written = bundle::WriteBundle(path, manifest_,
+                                               {{"drama.lua", std::as_bytes(std::span(drama))},
+                                                {"bar.larscene", bar_},
+                                                {"yard.larscene", yard_},
+                                                {"wall.larmesh", wall_}});
+    LARARIUM_RETURN_IF_ERROR(written);
+    LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(path));
+    return LoadShowContent(bundle, place);
+  }
+
+  test::TemporaryFolder folder_;
+  bundle::ShowManifest manifest_;
+  std::vector<std::byte> bar_ = Scene(50.0);
+  std::vector<std::byte> yard_ = Scene(60.0);
+  std::vector<std::byte> wall_;
+};
+
+TEST_F(ShowContentTest, LoadsAllPlacesInTheBundlesOrder) {
+  const auto content = Load();
+  ASSERT_TRUE(content.ok()) << content.message();
+  ASSERT_EQ(content->places.size(), 2u);
+  const ShowPlace& bar = content->places[0];
+  const ShowPlace& yard = content->places[1];
+  EXPECT_EQ(bar.stage.name, "bar");
+  EXPECT_EQ(bar.stage.map_from_stage.scale, 2.0);
+  EXPECT_EQ(bar.map->camera.fx, 50.0);
+  EXPECT_TRUE(bar.stage.occluders.empty());
+  EXPECT_EQ(yard.stage.name, "yard");
+  EXPECT_EQ(yard.stage.camera_nudge.y(), 0.1);
+  EXPECT_EQ(yard.stage.light[0], glm::vec3(1.0f, 2.0f, 3.0f));
+  EXPECT_EQ(yard.map->camera.fx, 60.0);
+  EXPECT_EQ(yard.stage.occluders.size(), 1u);
+  EXPECT_EQ(Maps(*content)[1], yard.map);
+}
+
+TEST_F(ShowContentTest, LoadsOnlyTheNamedPlace) {
+  const auto content = Load("yard");
+  ASSERT_TRUE(content.ok()) << content.message();
+  ASSERT_EQ(content->places.size(), 1u);
+  EXPECT_EQ(content->places[0].stage.name, "yard");
+  EXPECT_THAT(Load("attic").message(), HasSubstr("has no place \"attic\""));
+}
+
+TEST_F(ShowContentTest, OneBrokenPlaceIsAnErrorUnlessItIsNotWanted) {
+  yard_.resize(yard_.size() / 2);
+  EXPECT_THAT(Load().message(), HasSubstr("yard.larscene"));
+  EXPECT_TRUE(Load("bar").ok());
+  yard_ = Scene(60.0);
+  wall_.resize(20);
+  EXPECT_THAT(Load().message(), HasSubstr("wall.larmesh"));
+}
+
+}  // namespace
+}  // namespace lararium::show

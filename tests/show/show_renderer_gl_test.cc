@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "shared/show/show_renderer.h"
+#include "tests/golden/compare_images.h"
+#include "tests/render/gl_fixture.h"
+#include "tests/render/test_people.h"
+
+namespace lararium::show {
+namespace {
+
+constexpr geometry::CameraModel kCamera{160, 120, 200.0, 200.0, 79.5, 59.5};
+const float kKnee = render::RenderScene().knee;  // of the camera's response
+
+double LinearFromSrgb(double c) {
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+uint8_t SrgbFromLinear(double c) {
+  c = std::clamp(c, 0.0, 1.0);
+  return static_cast<uint8_t>(
+      std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055)));
+}
+
+// A place whose light makes a white matte surface of the given radiance, from
+// whichever side.
+stage::Place UniformPlace(const glm::vec3& radiance) {
+  stage::Place place;
+  place.light[0] = radiance * 2.0f * std::sqrt(std::numbers::pi_v<float>);
+  return place;
+}
+
+geometry::TriangleMesh Wall(float left, float right, float z) {
+  return {.positions = {{left, -9.0f, z}, {right, -9.0f, z}, {right, 9.0f, z}, {left, 9.0f, z}},
+          .normals = {},
+          .indices = {0, 1, 2, 0, 2, 3}};
+}
+
+// A ball of radius 1, 4 m in front of a camera that looks along the stage's -Z.
+class ShowRendererTest : public render::GlTest {
+ protected:
+  void Create(const glm::vec3& albedo, std::vector<stage::Place> places) {
+    ShowContent content;
+    content.cast = {{"ball", std::make_shared<const human::Human>(
+                                 render::MakeHuman(render::Sphere(albedo), 1))}};
+    for (stage::Place& place : places) {
+      content.places.push_back({std::move(place), nullptr});
+    }
+    auto renderer = ShowRenderer::Create(content);
+    ASSERT_TRUE(renderer.ok()) << renderer.message();
+    renderer_ = std::move(renderer).value();
+    target_.emplace(MakeTarget(kCamera.width, kCamera.height));
+    staged_.actors = {{0, glm::mat4(1.0f), 0, 1}};
+    staged_.actors[0].stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
+    staged_.skin = {glm::mat4(1.0f)};
+    staged_.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
+    staged_.tracked.camera = kCamera;
+  }
+
+  // An even image of the camera: linear colour, below the knee.
+  cv::Mat Draw(const glm::vec3& background = glm::vec3(0.0f)) {
+    staged_.tracked.frame.bgr =
+        cv::Mat(kCamera.height, kCamera.width, CV_8UC3,
+                cv::Scalar(SrgbFromLinear(background.b), SrgbFromLinear(background.g),
+                           SrgbFromLinear(background.r)));
+    const Status drawn = renderer_->Draw(staged_, *target_);
+    EXPECT_TRUE(drawn.ok()) << drawn.message();
+    return Read(*target_);
+  }
+
+  static glm::dvec3 LinearAt(const cv::Mat& picture, int x, int y) {
+    const cv::Vec3b pixel = picture.at<cv::Vec3b>(y, x);
+    return {LinearFromSrgb(pixel[2] / 255.0), LinearFromSrgb(pixel[1] / 255.0),
+            LinearFromSrgb(pixel[0] / 255.0)};
+  }
+
+  std::unique_ptr<ShowRenderer> renderer_;
+  std::optional<render::RenderTarget> target_;
+  StagedFrame staged_;
+};
+
+TEST_F(ShowRendererTest, OneStopLessOfTheCameraIsOneStopLessOfThePeople) {
+  Create(glm::vec3(0.5f), {UniformPlace(glm::vec3(1.0f, 0.9f, 0.8f))});
+  staged_.gain = {1.0f, 1.0f, 1.0f};
+  const glm::dvec3 full = LinearAt(Draw(), 80, 60);
+  staged_.gain = {0.5f, 0.5f, 0.5f};
+  const glm::dvec3 half = LinearAt(Draw(), 80, 60);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_LT(full[c], kKnee);
+    EXPECT_NEAR(half[c] / full[c], 0.5, 0.01) << c;
+  }
+}
+
+TEST_F(ShowRendererTest, PeopleStandInThePictureLikeThePlaceAtEveryGain) {
+  // What has the radiance of the map's reference there looks like the place itself,
+  // whatever exposure and white balance the camera chose: the ball vanishes.
+  const glm::vec3 albedo(0.6f, 0.4f, 0.3f);
+  const glm::vec3 light(0.8f, 0.9f, 1.0f);
+  Create(albedo, {UniformPlace(light)});
+  const glm::vec3 reference = albedo * light;
+  for (const glm::vec3& gain :
+       {glm::vec3(1.0f), glm::vec3(0.5f), glm::vec3(0.25f), glm::vec3(1.2f, 1.0f, 0.7f)}) {
+    staged_.gain = {gain.r, gain.g, gain.b};
+    const glm::vec3 seen = reference * gain;
+    ASSERT_LT(std::max({seen.r, seen.g, seen.b}), kKnee);
+    const cv::Mat picture = Draw(seen);
+    EXPECT_TRUE(test::ImagesAgree(picture, staged_.tracked.frame.bgr, {.max = 1.0, .mean = 0.5}))
+        << gain.r << " " << gain.g << " " << gain.b;
+  }
+}
+
+TEST_F(ShowRendererTest, EachPlaceHasItsOwnLightAndOccluders) {
+  stage::Place bar = UniformPlace(glm::vec3(0.5f, 0.5f, 0.1f));
+  stage::Place yard = UniformPlace(glm::vec3(0.1f, 0.2f, 0.5f));
+  yard.occluders = {{"wall", Wall(0.0f, 9.0f, -2.0f), {}}};
+  Create(glm::vec3(1.0f), {bar, yard});
+  const glm::dvec3 in_bar(0.5, 0.5, 0.1);
+  const glm::dvec3 in_yard(0.1, 0.2, 0.5);
+  for (const uint32_t place : {0u, 1u, 0u}) {
+    staged_.place = place;
+    const cv::Mat picture = Draw();
+    const glm::dvec3 left = LinearAt(picture, 60, 60);
+    const glm::dvec3 right = LinearAt(picture, 100, 60);
+    const glm::dvec3& expected = place == 0 ? in_bar : in_yard;
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(left[c], expected[c], 0.01) << place;
+      EXPECT_NEAR(right[c], place == 0 ? in_bar[c] : 0.0, 0.01) << place;
+    }
+  }
+}
+
+TEST_F(ShowRendererTest, StagingOnePlaceAnewLeavesTheOthers) {
+  Create(glm::vec3(1.0f), {UniformPlace(glm::vec3(0.5f)), UniformPlace(glm::vec3(0.2f))});
+  renderer_->SetPlace(1, UniformPlace(glm::vec3(0.4f)));
+  EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.5, 0.01);
+  staged_.place = 1;
+  EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.4, 0.01);
+}
+
+}  // namespace
+}  // namespace lararium::show
