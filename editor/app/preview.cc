@@ -98,6 +98,8 @@ PreviewPicture Preview::Worker::Describe() const {
   picture.state = staged_.tracked.state;
   picture.reason = staged_.tracked.reason;
   picture.inliers = staged_.tracked.inliers;
+  picture.followed = staged_.tracked.followed;
+  picture.confidence = staged_.tracked.confidence;
   picture.camera_from_map = staged_.tracked.camera_from_map;
   picture.camera_from_stage = staged_.camera_from_stage;
   for (const show::StagedActor& actor : staged_.actors) {

@@ -41,6 +41,8 @@ struct PreviewPicture {
   vision::TrackState state = vision::TrackState::kSearching;
   vision::TrackReason reason = vision::TrackReason::kNone;
   int inliers = 0;
+  bool followed = false;    // from the frame before; otherwise found without a prior
+  float confidence = 0.0f;  // see vision::TrackedFrame
   std::optional<geometry::Rigid3> camera_from_map;
   std::optional<geometry::Rigid3> camera_from_stage;
   std::vector<PreviewActor> actors;  // those that the drama shows at this moment

@@ -381,18 +381,17 @@ const train::TrainReport* Workspace::last_training() const {
   return trained_place_ == place_name_ ? training_.get() : nullptr;
 }
 
-void Workspace::Train() {
-  if (place() == nullptr) {
-    return;
-  }
+void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
+                              std::function<void()> done) {
   const auto report = std::make_shared<train::TrainReport>();
   const bool started = tasks_.Start(
       kTraining,
-      [report, paths = paths_, place = *place(), &log = log_](Progress& progress) {
-        LARARIUM_ASSIGN_OR_RETURN(*report, TrainPlace(paths, place, {}, progress, log));
+      [report, work = std::move(work)](Progress& progress) {
+        LARARIUM_ASSIGN_OR_RETURN(*report, work(progress));
         return Status();
       },
-      [this, report, name = place_name_](const Status& status, bool cancelled) {
+      [this, report, name = place_name_, done = std::move(done)](const Status& status,
+                                                                 bool cancelled) {
         Report(status, cancelled,
                name + ": " + std::to_string(report->located.size()) + " of " +
                    std::to_string(report->frames) + " images located, " +
@@ -400,12 +399,39 @@ void Workspace::Train() {
         if (status.ok() && !cancelled) {
           training_ = report;
           trained_place_ = name;
+          done();
         }
         map_stale_ |= status.ok() && name == place_name_;
       });
   if (!started) {
     Tell(Message::Level::kWarning, "A training is running already. Cancel it first.");
   }
+}
+
+void Workspace::Train() {
+  if (place() == nullptr) {
+    return;
+  }
+  StartTraining([paths = paths_, place = *place(), &log = log_](
+                    Progress& progress) { return TrainPlace(paths, place, {}, progress, log); },
+                [] {});
+}
+
+void Workspace::AddSession(const SessionDocument& session) {
+  if (place() == nullptr) {
+    return;
+  }
+  StartTraining(
+      [paths = paths_, place = *place(), session, &log = log_](Progress& progress) {
+        return TrainSession(paths, place, session, {}, progress, log);
+      },
+      [this, session, name = place_name_] {
+        Edit("add a session", [&](ProjectDocument& document) {
+          if (PlaceDocument* place = document.FindPlace(name)) {
+            place->added.push_back(session);
+          }
+        });
+      });
 }
 
 void Workspace::Bake() {

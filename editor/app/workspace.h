@@ -77,6 +77,9 @@ class Workspace {
 
   // Long work; progress in tasks(), outcome in messages().
   void Train();  // the place at hand, from its recordings
+  // Merges a further recording of the place at hand into its map; the document
+  // names it once that has worked.
+  void AddSession(const SessionDocument& session);
   // Of the last training in this window; nullptr before one, or of another place.
   const train::TrainReport* last_training() const;
   void Bake();
@@ -117,6 +120,9 @@ class Workspace {
   void ReloadPreview();
   void RequestPicture();
   void AdvancePlayback(double seconds);
+  // The work of Train and AddSession. done: edits the document after success.
+  void StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
+                     std::function<void()> done);
   void Report(const Status& status, bool cancelled, const std::string& success);
 
   ProjectPaths paths_;

@@ -23,6 +23,7 @@ using geometry::Similarity3;
 constexpr glm::u8vec4 kCameraColour(150, 156, 166, 255);
 constexpr glm::u8vec4 kPathColour(110, 116, 128, 255);
 constexpr glm::u8vec4 kGridColour(62, 67, 77, 255);
+constexpr glm::u8vec4 kFloorColour(110, 170, 150, 28);
 constexpr glm::u8vec4 kLiveColour(217, 107, 73, 255);
 
 glm::u8vec4 Bytes(const ImVec4& c, float alpha = 1.0f) {
@@ -192,6 +193,28 @@ void AroundView::UpdateActors(const app::Workspace& workspace) {
   }
 }
 
+// A faint square on the floor that was found in the map, about its points.
+void AroundView::DrawFloor(const app::LoadedPlace& loaded) {
+  if (!loaded.measures.floor) {
+    return;
+  }
+  if (!floor_) {
+    geometry::TriangleMesh square;
+    square.positions = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}};
+    square.normals.assign(4, {0, 1, 0});
+    square.indices = {0, 1, 2, 0, 2, 3};
+    floor_ = renderer_->AddMesh(square);
+  }
+  const train::FloorPlane& floor = *loaded.measures.floor;
+  const Similarity3 map_from_floor{
+      2.0 * floor.radius, Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), floor.normal),
+      floor.center};
+  const Similarity3 world_from_floor = loaded.picks.map_from_picked.Inverse() * map_from_floor;
+  const Status status =
+      overlay_->DrawMesh(*floor_, geometry::ToGlm(world_from_floor), kFloorColour);
+  CHECK(status.ok());  // the mesh is our own
+}
+
 void AroundView::DrawMeshes(const app::Workspace& workspace, const EditorState& state) {
   const app::PlaceDocument& place = *workspace.place();
   const glm::mat4 world_from_stage = geometry::ToGlm(place.picked_from_stage);
@@ -248,6 +271,7 @@ Status AroundView::Draw(const app::Workspace& workspace,
     if (state.show_points) {
       overlay_->DrawPoints(points_, Px(2.5f));
     }
+    DrawFloor(workspace.loaded());
     DrawMeshes(workspace, state);
   }
   overlay_->End();

@@ -40,6 +40,7 @@ class AroundView {
               int width,
               int height);
   void DrawMeshes(const app::Workspace& workspace, const EditorState& state);
+  void DrawFloor(const app::LoadedPlace& loaded);
   void Interact(EditorState& state, bool hovered, bool gizmo_busy, const Eigen::Vector2d& size);
 
   std::unique_ptr<render::Renderer> renderer_;
@@ -58,6 +59,7 @@ class AroundView {
     render::MeshHandle mesh;
   };
   std::vector<Ghost> occluders_;
+  std::optional<render::MeshHandle> floor_;  // a square from -1 to 1 on y = 0
   std::shared_ptr<const app::PreviewPicture> actors_of_;
   std::vector<std::pair<render::MeshHandle, glm::mat4>> actors_;
   bool framed_ = false;  // the orbit was set to show the whole place

@@ -65,9 +65,13 @@ void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList&
   char text[128];
   const bool tracked = picture.camera_from_stage.has_value();
   if (tracked) {
-    std::snprintf(text, sizeof(text), "Tracking, %d inliers", picture.inliers);
+    std::snprintf(text, sizeof(text), "%s, %.0f %% sure, %d points",
+                  picture.followed ? "Followed" : "Found", 100.0f * picture.confidence,
+                  picture.inliers);
   } else {
-    std::snprintf(text, sizeof(text), "No pose: %s", ReasonText(picture.reason));
+    std::snprintf(text, sizeof(text), "%s: %s",
+                  picture.state == vision::TrackState::kLost ? "Lost" : "Searching",
+                  ReasonText(picture.reason));
   }
   const ImVec2 size = ImGui::CalcTextSize(text);
   const ImVec2 at(rect.origin.x + Px(12), rect.origin.y + Px(12));

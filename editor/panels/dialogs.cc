@@ -74,10 +74,7 @@ std::vector<double> ParseNumbers(const std::string& text) {
   return numbers.size() == 4 || numbers.size() == 8 ? numbers : std::vector<double>();
 }
 
-std::string TrainProblem(const app::Workspace& workspace, const DialogFields& fields) {
-  if (const std::string problem = NameProblem(fields.place); !problem.empty()) {
-    return problem;
-  }
+std::string RecordingProblem(const app::Workspace& workspace, const DialogFields& fields) {
   if (!Exists(workspace, fields.file)) {
     return "Choose a recording that exists.";
   }
@@ -87,32 +84,43 @@ std::string TrainProblem(const app::Workspace& workspace, const DialogFields& fi
   return "";
 }
 
-// Sets the place up and trains it. The size of the images is needed for given
-// intrinsics, hence the look into the recording.
+std::string TrainProblem(const app::Workspace& workspace, const DialogFields& fields) {
+  const std::string problem = NameProblem(fields.place);
+  return problem.empty() ? RecordingProblem(workspace, fields) : problem;
+}
+
+// The recording that was typed, with its intrinsics. Their image size is the
+// recording's, hence the look into it.
+Result<app::SessionDocument> ChosenRecording(const app::Workspace& workspace,
+                                             const DialogFields& fields) {
+  app::SessionDocument recording;
+  recording.source = {
+      fields.images ? app::SourceDocument::Kind::kImages : app::SourceDocument::Kind::kVideo,
+      workspace.paths().Shorten(workspace.paths().Resolve(fields.file))};
+  if (const std::vector<double> numbers = ParseNumbers(fields.intrinsics); !numbers.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const auto source,
+                              app::OpenSource(workspace.paths(), recording.source));
+    LARARIUM_ASSIGN_OR_RETURN(
+        recording.intrinsics,
+        geometry::CameraModel::FromNumbers(numbers, source->width(), source->height()));
+  }
+  return recording;
+}
+
+// Sets the place up and trains it.
 void StartTraining(app::Workspace& workspace, const DialogFields& fields) {
+  const Result<app::SessionDocument> recording = ChosenRecording(workspace, fields);
+  if (!recording.ok()) {
+    workspace.Tell(app::Message::Level::kError, recording.message());
+    return;
+  }
   app::PlaceDocument trained;
   trained.name = fields.place;
   if (const app::PlaceDocument* known = workspace.document().FindPlace(fields.place)) {
     trained = *known;
   }
-  trained.training = {
-      fields.images ? app::SourceDocument::Kind::kImages : app::SourceDocument::Kind::kVideo,
-      workspace.paths().Shorten(workspace.paths().Resolve(fields.file))};
-  trained.intrinsics.reset();
-  if (const std::vector<double> numbers = ParseNumbers(fields.intrinsics); !numbers.empty()) {
-    const auto source = app::OpenSource(workspace.paths(), trained.training);
-    if (!source.ok()) {
-      workspace.Tell(app::Message::Level::kError, source.message());
-      return;
-    }
-    const auto camera =
-        geometry::CameraModel::FromNumbers(numbers, (*source)->width(), (*source)->height());
-    if (!camera.ok()) {
-      workspace.Tell(app::Message::Level::kError, camera.message());
-      return;
-    }
-    trained.intrinsics = *camera;
-  }
+  trained.training = recording->source;
+  trained.intrinsics = recording->intrinsics;
   workspace.Edit("train " + fields.place, [&](app::ProjectDocument& document) {
     if (app::PlaceDocument* known = document.FindPlace(trained.name)) {
       *known = trained;
@@ -126,6 +134,23 @@ void StartTraining(app::Workspace& workspace, const DialogFields& fields) {
   workspace.Train();
 }
 
+// Rows for the recording: what kind, which file, its intrinsics.
+void RecordingFields(const app::Workspace& workspace,
+                     DialogFields& fields,
+                     const char* no_intrinsics) {
+  PropertyLabel("Recording");
+  static constexpr const char* kKinds[] = {"Video", "Folder of images"};
+  int kind = fields.images ? 1 : 0;
+  if (Segmented("kind", kKinds, kind)) {
+    fields.images = kind == 1;
+  }
+  PropertyLabel(fields.images ? "Folder" : "File");
+  PathField("file", fields.file, workspace.paths().folder,
+            fields.images ? std::span<const char* const>() : kVideos);
+  PropertyLabel("Intrinsics");
+  ImGui::InputTextWithHint("##intrinsics", no_intrinsics, &fields.intrinsics);
+}
+
 void TrainDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
@@ -134,22 +159,30 @@ void TrainDialog(app::Workspace& workspace, EditorState& state) {
   if (BeginProperties("train")) {
     PropertyLabel("Place");
     ImGui::InputText("##place", &fields.place);
-    PropertyLabel("Recording");
-    static constexpr const char* kKinds[] = {"Video", "Folder of images"};
-    int kind = fields.images ? 1 : 0;
-    if (Segmented("kind", kKinds, kind)) {
-      fields.images = kind == 1;
-    }
-    PropertyLabel(fields.images ? "Folder" : "File");
-    PathField("file", fields.file, workspace.paths().folder,
-              fields.images ? std::span<const char* const>() : kVideos);
-    PropertyLabel("Intrinsics");
-    ImGui::InputTextWithHint("##intrinsics", "estimated; or fx, fy, cx, cy, k1, k2, p1, p2",
-                             &fields.intrinsics);
+    RecordingFields(workspace, fields, "estimated; or fx, fy, cx, cy, k1, k2, p1, p2");
     EndProperties();
   }
   if (DialogButtons(state, "Train", TrainProblem(workspace, fields))) {
     StartTraining(workspace, fields);
+  }
+}
+
+void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
+  DialogFields& fields = state.fields;
+  Hint(
+      "Films the place again in other light and merges what it sees into the map, so that "
+      "visitors are located in both. The stage stays where it is.");
+  if (BeginProperties("add session")) {
+    RecordingFields(workspace, fields, "as the map's camera; or fx, fy, cx, cy, k1, k2, p1, p2");
+    EndProperties();
+  }
+  if (DialogButtons(state, "Add", RecordingProblem(workspace, fields))) {
+    const Result<app::SessionDocument> recording = ChosenRecording(workspace, fields);
+    if (recording.ok()) {
+      workspace.AddSession(*recording);
+    } else {
+      workspace.Tell(app::Message::Level::kError, recording.message());
+    }
   }
 }
 
@@ -263,6 +296,7 @@ struct DialogEntry {
 };
 
 constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, "Train a place", TrainDialog},
+                                    {Dialog::kAddSession, "Add a session", AddSessionDialog},
                                     {Dialog::kExport, "Export the show", ExportDialog},
                                     {Dialog::kOccluder, "Add an occluder", OccluderDialog},
                                     {Dialog::kProbe, "Light probe", ProbeDialog},

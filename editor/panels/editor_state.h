@@ -22,7 +22,7 @@ struct Selection {
   friend bool operator==(const Selection&, const Selection&) = default;
 };
 
-enum class Dialog { kNone, kTrain, kExport, kOccluder, kProbe, kCast };
+enum class Dialog { kNone, kTrain, kAddSession, kExport, kOccluder, kProbe, kCast };
 
 // What has been typed into the open dialog.
 struct DialogFields {

@@ -4,8 +4,10 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "editor/panels/gizmo_view.h"
@@ -70,26 +72,152 @@ std::string SourceText(const app::SourceDocument& source) {
   return source.empty() ? "none" : source.path;
 }
 
-void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
-  Heading(place.name.c_str());
-  if (!BeginProperties("place")) {
+size_t CountSessions(const vision::SceneDatabase& database) {
+  std::set<uint32_t> sessions;
+  for (const vision::Keyframe& keyframe : database.keyframes) {
+    sessions.insert(keyframe.session);
+  }
+  return sessions.size();
+}
+
+void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& database) {
+  const geometry::CameraModel& camera = database.camera;
+  const train::TrainReport* training = workspace.last_training();
+  if (training != nullptr) {
+    PropertyText("Frames", Format("%zu of %d located", training->located.size(), training->frames));
+  }
+  PropertyText("Keyframes", std::to_string(database.keyframes.size()));
+  PropertyText("Points", std::to_string(database.points.size()));
+  PropertyText("Sessions", std::to_string(CountSessions(database)));
+  PropertyText("Error", Format("%.3f px", database.mean_reprojection_error_px));
+  PropertyText("Image", Format("%d x %d", camera.width, camera.height));
+  std::string focal = Format("%.1f, %.1f px", camera.fx, camera.fy);
+  if (training != nullptr && training->intrinsics_estimated) {
+    focal = Format("%.1f \xc2\xb1 %.1f px", camera.fx, training->focal_deviation_px);
+  }
+  PropertyText("Focal", focal);
+  PropertyText("Centre", Format("%.1f, %.1f px", camera.cx, camera.cy));
+  PropertyText("Distortion", Format("%.4f, %.4f", camera.k1, camera.k2));
+}
+
+const char* ScaleSource(const app::LoadedPlace& loaded) {
+  if (!loaded.measured) {
+    return "being measured";
+  }
+  if (loaded.measures.tags) {
+    return "tags in the images";
+  }
+  return loaded.picks.solution ? "the picked length" : "a guess";
+}
+
+// Where the stage's metres come from, and how far off they may be.
+void ShowScale(app::Workspace& workspace, const app::PlaceDocument& place) {
+  Heading("Metres");
+  const app::LoadedPlace& loaded = workspace.loaded();
+  app::TagsDocument tags = place.tags.value_or(app::TagsDocument());
+  bool changed = false;
+  if (BeginProperties("scale")) {
+    PropertyText("From", ScaleSource(loaded));
+    if (loaded.measures.tags) {
+      const train::TagScale& scale = *loaded.measures.tags;
+      PropertyText("Tags", Format("%zu, %zu left out", scale.tags.size(), scale.left_out.size()));
+      PropertyText("Uncertainty", Format("\xc2\xb1 %.2f %%", 100.0 * scale.deviation));
+      PropertyText("Residual", Format("%.2f %% of the sides", 100.0 * scale.spread));
+    }
+    if (loaded.picks.solution) {
+      const stage::StageSolution& solution = *loaded.picks.solution;
+      PropertyText("Known length", Format("%.3f m, measured %.3f m", place.picks.length_m,
+                                          solution.measured_length_m));
+      PropertyText("for each px", Format("\xc2\xb1 %.2f cm (%.2f %%)",
+                                         100.0 * solution.length_spread * place.picks.length_m,
+                                         100.0 * solution.length_spread));
+    }
+    if (place.tags) {
+      PropertyLabel("Family");
+      if (ImGui::BeginCombo("##family", tags.family.c_str())) {
+        for (const std::string_view family : train::TagFamilies()) {
+          if (ImGui::Selectable(std::string(family).c_str(), family == tags.family)) {
+            tags.family = family;
+            changed = true;
+          }
+        }
+        ImGui::EndCombo();
+      }
+      changed |= NumberProperty(workspace, "Tag size", tags.size_m, 0.001, 0.001, 100.0, "%.4f m");
+    }
+    EndProperties();
+  }
+  if (changed) {
+    workspace.EditPlace(
+        "tags", [&](app::PlaceDocument& p) { p.tags = tags; }, "tags");
+  }
+  if (!loaded.measures.tag_problem.ok()) {
+    Hint(loaded.measures.tag_problem.message());
+  }
+  if (!place.tags) {
+    Hint("An AprilTag of known size in view of the recording gives the metres without picking.");
+    if (ImGui::Button("Take the metres from tags", ImVec2(-FLT_MIN, 0))) {
+      workspace.EditPlace("metres from tags", [](app::PlaceDocument& p) {
+        p.tags = app::TagsDocument();
+        p.tags->size_m = 0.1;
+      });
+    }
+  } else if (ImGui::Button("Do without tags", ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace("do without tags", [](app::PlaceDocument& p) { p.tags.reset(); });
+  }
+}
+
+void LayOnFloorButton(app::Workspace& workspace) {
+  ImGui::BeginDisabled(!workspace.loaded().measures.floor.has_value());
+  if (ImGui::Button("Lay the stage on the floor", ImVec2(-FLT_MIN, 0))) {
+    workspace.LayStageOnFloor();
+  }
+  ImGui::EndDisabled();
+}
+
+void ShowFloor(app::Workspace& workspace, const app::PlaceDocument& place) {
+  Heading("Floor");
+  const app::LoadedPlace& loaded = workspace.loaded();
+  if (!loaded.measures.floor) {
+    Hint("No large level surface was found among the points.");
     return;
   }
-  PropertyText("Training", SourceText(place.training));
-  PropertyText("Preview", place.preview.empty() ? "the training" : place.preview.path);
-  if (const auto& database = workspace.loaded().database) {
-    const geometry::CameraModel& camera = database->camera;
-    PropertyText("Points", std::to_string(database->points.size()));
-    PropertyText("Keyframes", std::to_string(database->keyframes.size()));
-    PropertyText("Error", Format("%.3f px", database->mean_reprojection_error_px));
-    PropertyText("Image", Format("%d x %d", camera.width, camera.height));
-    PropertyText("Focal", Format("%.1f, %.1f px", camera.fx, camera.fy));
-    PropertyText("Centre", Format("%.1f, %.1f px", camera.cx, camera.cy));
-    PropertyText("Distortion", Format("%.4f, %.4f", camera.k1, camera.k2));
-  } else {
-    PropertyText("State", "not trained");
+  const train::FloorPlane& floor = *loaded.measures.floor;
+  const Similarity3 map_from_stage = loaded.picks.map_from_picked * place.picked_from_stage;
+  if (BeginProperties("floor")) {
+    PropertyText("Points", std::to_string(floor.points));
+    PropertyText("Spread", Format("%.1f mm", 1000.0 * floor.spread / map_from_stage.scale));
+    PropertyText("Level to", Format("%.2f\xc2\xb0", kDegrees * floor.tilt_deviation));
+    const double cosine = floor.normal.dot(map_from_stage.rotation * Eigen::Vector3d::UnitY());
+    const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double height = floor.Height(map_from_stage.translation) / map_from_stage.scale;
+    PropertyText("Stage",
+                 Format("%.1f mm above, tilted %.2f\xc2\xb0", 1000.0 * height, kDegrees * tilt));
+    EndProperties();
   }
-  EndProperties();
+  LayOnFloorButton(workspace);
+}
+
+void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
+  Heading(place.name.c_str());
+  const auto database = workspace.loaded().database;
+  if (BeginProperties("place")) {
+    PropertyText("Training", SourceText(place.training));
+    for (const app::SessionDocument& session : place.added) {
+      PropertyText("Added", SourceText(session.source));
+    }
+    PropertyText("Preview", place.preview.empty() ? "the training" : place.preview.path);
+    if (database != nullptr) {
+      ShowMap(workspace, *database);
+    } else {
+      PropertyText("State", "not trained");
+    }
+    EndProperties();
+  }
+  if (database != nullptr) {
+    ShowScale(workspace, place);
+    ShowFloor(workspace, place);
+  }
 }
 
 void ShowStage(app::Workspace& workspace, EditorState& state, const app::PlaceDocument& place) {
@@ -105,6 +233,7 @@ void ShowStage(app::Workspace& workspace, EditorState& state, const app::PlaceDo
   if (changed) {
     MoveSelected(workspace, state.selection, transform, "inspector stage");
   }
+  LayOnFloorButton(workspace);
   if (ImGui::Button("Back to the picks", ImVec2(-FLT_MIN, 0))) {
     MoveSelected(workspace, state.selection, Similarity3(), "");
   }
@@ -156,6 +285,22 @@ void ShowAnchorTable(app::Workspace& workspace,
   ImGui::EndTable();
 }
 
+// Picks that do not count in this map.
+void ShowLeftOut(const app::Workspace& workspace) {
+  if (!workspace.loaded().picks.solution) {
+    return;
+  }
+  for (const stage::AnchorReport& report : workspace.loaded().picks.solution->anchors) {
+    if (!report.left_out.empty()) {
+      std::string text = report.name + ": left out, in frames that are no keyframes now:";
+      for (const std::string& frame : report.left_out) {
+        text += " " + frame;
+      }
+      Hint(text);
+    }
+  }
+}
+
 void ShowPicks(app::Workspace& workspace, EditorState& state, const app::PlaceDocument& place) {
   Heading("Picks");
   Hint("Points of the place, clicked in two or more training images, tie the stage to it.");
@@ -167,11 +312,17 @@ void ShowPicks(app::Workspace& workspace, EditorState& state, const app::PlaceDo
           "known length", [&](app::PlaceDocument& p) { p.picks.length_m = length; }, "length");
     }
     if (const auto& solution = workspace.loaded().picks.solution) {
-      PropertyText("Uncertainty", Format("%.2f %% for each px", 100.0 * solution->length_spread));
+      PropertyText("Uncertainty", Format("%.2f cm (%.2f %%) for each px",
+                                         100.0 * solution->length_spread * place.picks.length_m,
+                                         100.0 * solution->length_spread));
+      if (workspace.loaded().measures.tags) {
+        PropertyText("By the tags", Format("%.3f m", solution->measured_length_m));
+      }
     }
     EndProperties();
   }
   Hint("The length lies between the two length points; without them, between origin and forward.");
+  ShowLeftOut(workspace);
   if (state.view != ViewKind::kPicks) {
     if (ImGui::Button("Pick in the training images", ImVec2(-FLT_MIN, 0))) {
       state.view = ViewKind::kPicks;

@@ -39,8 +39,8 @@ struct ImageMap {
 };
 
 bool SameFrame(const stage::Pick& pick, const vision::Keyframe& keyframe) {
-  return pick.frame.empty() ? pick.frame_index == keyframe.frame_index
-                            : pick.frame == keyframe.name;
+  return pick.session == keyframe.session && pick.frame_index == keyframe.frame_index &&
+         (pick.frame.empty() || pick.frame == keyframe.name);
 }
 
 void SetPick(app::Workspace& workspace,
@@ -51,7 +51,7 @@ void SetPick(app::Workspace& workspace,
   workspace.EditPlace(std::string("pick ") + entry.label, [&](app::PlaceDocument& place) {
     std::vector<stage::Pick>& picks = (place.picks.*entry.anchor).picks;
     std::erase_if(picks, [&](const stage::Pick& pick) { return SameFrame(pick, keyframe); });
-    picks.push_back({keyframe.frame_index, keyframe.name, pixel});
+    picks.push_back({keyframe.frame_index, keyframe.name, pixel, keyframe.session});
   });
 }
 
@@ -148,9 +148,12 @@ std::span<const AnchorEntry> AnchorEntries() { return kAnchors; }
 void PickView::ShowImage(app::Workspace& workspace,
                          EditorState& state,
                          const vision::Keyframe& keyframe) {
+  const geometry::CameraModel& camera = workspace.loaded().database->camera;
   if (&keyframe != uploaded_) {
-    cv::Mat bgr;
-    cv::cvtColor(keyframe.grey, bgr, cv::COLOR_GRAY2BGR);
+    cv::Mat bgr(camera.height, camera.width, CV_8UC3, cv::Scalar::all(36));
+    if (!keyframe.grey.empty()) {
+      cv::cvtColor(keyframe.grey, bgr, cv::COLOR_GRAY2BGR);
+    }
     texture_.Upload(bgr);
     uploaded_ = &keyframe;
   }
@@ -159,16 +162,20 @@ void PickView::ShowImage(app::Workspace& workspace,
   size.y -= ImGui::GetFrameHeightWithSpacing() + Px(4);
   ImGui::InvisibleButton("image", size);
   const bool hovered = ImGui::IsItemHovered();
-  const double scale = std::min(size.x / static_cast<double>(keyframe.grey.cols),
-                                size.y / static_cast<double>(keyframe.grey.rows));
-  const Vector2d extent = scale * Vector2d(keyframe.grey.cols, keyframe.grey.rows);
+  const double scale = std::min(size.x / static_cast<double>(camera.width),
+                                size.y / static_cast<double>(camera.height));
+  const Vector2d extent = scale * Vector2d(camera.width, camera.height);
   const ImageMap map{ToEigen(corner) + 0.5 * (ToEigen(size) - extent), scale};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture_.id())),
                 ToImGui(map.origin), ToImGui(map.origin + extent));
+  if (keyframe.grey.empty()) {
+    draw.AddText(ToImGui(map.origin + Vector2d(Px(12), Px(12))), Packed(colour::kDim),
+                 "The map was made small and holds no image here.");
+  }
   DrawAnchors(workspace, state, keyframe, map, draw);
   const Vector2d pixel = map.ToPixel(ToEigen(ImGui::GetMousePos()));
-  if (hovered && workspace.loaded().database->camera.Contains(pixel)) {
+  if (hovered && camera.Contains(pixel)) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_None);
     DrawCross(ImGui::GetMousePos(), Packed(colour::kText), draw);
     DrawLoupe(ImGui::GetMousePos(), pixel, texture_, draw);
@@ -191,13 +198,17 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
   state.keyframe = std::clamp(state.keyframe, 0, last);
   const vision::Keyframe& keyframe = database->keyframes[static_cast<size_t>(state.keyframe)];
   ShowImage(workspace, state, keyframe);
-  const float name_width = ImGui::CalcTextSize(keyframe.name.c_str()).x + Px(12);
+  std::string name = keyframe.name;
+  if (keyframe.session != 0) {
+    name += ", session " + std::to_string(keyframe.session);
+  }
+  const float name_width = ImGui::CalcTextSize(name.c_str()).x + Px(12);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - name_width);
   ImGui::SliderInt("##keyframe", &state.keyframe, 0, last, "training image %d",
                    ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  DimText(keyframe.name);
+  DimText(name);
 }
 
 }  // namespace lararium::panels

@@ -36,6 +36,11 @@ void OpenTrainDialog(const app::Workspace& workspace, EditorState& state) {
   }
 }
 
+bool CanAddSession(app::Workspace& workspace) {
+  return workspace.place() != nullptr && workspace.loaded().database != nullptr &&
+         !workspace.tasks().Running(app::Workspace::kTraining);
+}
+
 std::string UndoLabel(const app::Workspace& workspace) {
   return workspace.commands().CanUndo() ? "Undo " + workspace.commands().undo_name() : "Undo";
 }
@@ -71,6 +76,9 @@ void EditMenu(app::Workspace& workspace) {
 void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   if (ImGui::MenuItem("Train\xe2\x80\xa6")) {
     OpenTrainDialog(workspace, state);
+  }
+  if (ImGui::MenuItem("Add a session\xe2\x80\xa6", nullptr, false, CanAddSession(workspace))) {
+    OpenDialog(state, Dialog::kAddSession);
   }
   if (ImGui::MenuItem("Bake")) {
     workspace.Bake();
@@ -184,6 +192,12 @@ void ShowToolbar(app::Workspace& workspace, EditorState& state) {
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kTraining));
   if (ImGui::Button("Train\xe2\x80\xa6")) {
     OpenTrainDialog(workspace, state);
+  }
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!CanAddSession(workspace));
+  if (ImGui::Button("Add a session\xe2\x80\xa6")) {
+    OpenDialog(state, Dialog::kAddSession);
   }
   ImGui::EndDisabled();
   ImGui::SameLine();

@@ -391,6 +391,11 @@ std::optional<FloorPlane> FitFloor(const Plane& level, const Scene& scene) {
   floor.normal = (heights.axes * Vector3d(-fit.slope.x(), -fit.slope.y(), 1.0)).normalized();
   floor.center = heights.origin + fit.slope.z() * heights.axes.col(2);
   floor.offset = floor.normal.dot(floor.center);
+  double squares = 0.0;
+  for (const Vector3d& point : heights.points) {
+    squares += point.head<2>().squaredNorm();
+  }
+  floor.radius = std::sqrt(squares / static_cast<double>(heights.points.size()));
   floor.spread = fit.spread;
   floor.tilt_deviation = SlopeDeviation(heights, fit, kBlock * scene.distance);
   return floor;

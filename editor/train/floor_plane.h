@@ -15,6 +15,7 @@ struct FloorPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();  // unit, upwards
   double offset = 0.0;                                // normal . x = offset on the floor
   Eigen::Vector3d center = Eigen::Vector3d::Zero();   // on the plane, amid its points
+  double radius = 0.0;                                // root mean square distance from there
   int points = 0;                                     // that lie on it
   double spread = 0.0;                                // their robust standard deviation about it
   // Standard deviation of its tilt, radians, about the axis that is known worst.
