@@ -69,9 +69,45 @@ TEST(PosesFile, HasTheFieldsThatOtherToolsRead) {
   EXPECT_TRUE((*json)["images"][1]["world_to_camera"].is_null());
 }
 
+TEST(PosesFile, KeepsWhatTheTrackerSays) {
+  const test::TemporaryFolder folder;
+  TrackedFrame tracked;
+  tracked.camera = kCamera;
+  tracked.state = TrackState::kTracking;
+  tracked.camera_from_map = Rigid3();
+  tracked.map = 2;
+  tracked.followed = true;
+  tracked.confidence = 0.75f;
+  tracked.gain = {0.5f, 1.0f, 2.0f};
+  TrackedFrame lost;
+  lost.camera = kCamera;
+  lost.state = TrackState::kLost;
+  lost.reason = TrackReason::kTooDark;
+  const std::vector<PoseRecord> records = {MakePoseRecord("0.png", tracked),
+                                           MakePoseRecord("1.png", lost)};
+  ASSERT_TRUE(SavePoses(folder / "poses.json", records).ok());
+  const Json images = (*LoadJson(folder / "poses.json"))["images"];
+  EXPECT_EQ(images[0]["state"], "tracking");
+  EXPECT_EQ(images[1]["state"], "lost");
+  EXPECT_EQ(images[1]["reason"], "too dark");
+
+  const auto source = CreateRecordedPoses(LoadPoses(folder / "poses.json").value());
+  geometry::Frame frame;
+  frame.index = 0;
+  const TrackedFrame replayed = source->Track(frame);
+  EXPECT_EQ(replayed.map, 2u);
+  EXPECT_TRUE(replayed.followed);
+  EXPECT_EQ(replayed.confidence, 0.75f);
+  EXPECT_EQ(replayed.gain, tracked.gain);
+  frame.index = 1;
+  EXPECT_EQ(source->Track(frame).state, TrackState::kLost);
+}
+
 TEST(PosesFile, RefusesWhatItCannotUse) {
   const test::TemporaryFolder folder;
-  ASSERT_TRUE(SavePoses(folder / "good.json", Records()).ok());
+  std::vector<PoseRecord> records = Records();
+  records[0].details = TrackingDetails{.state = TrackState::kTracking};
+  ASSERT_TRUE(SavePoses(folder / "good.json", records).ok());
   const Json good = *LoadJson(folder / "good.json");
   const auto refuses = [&](const char* what, const auto& edit) {
     Json bad = good;
@@ -93,6 +129,12 @@ TEST(PosesFile, RefusesWhatItCannotUse) {
   refuses("reflection",
           [](Json& image) { image["world_to_camera"]["R"] = {1, 0, 0, 0, 1, 0, 0, 0, -1}; });
   refuses("text for t", [](Json& image) { image["world_to_camera"]["t"] = "here"; });
+  refuses("negative map", [](Json& image) { image["map"] = -1; });
+  refuses("a map beyond all bundles", [](Json& image) { image["map"] = 1 << 20; });
+  refuses("a number for followed", [](Json& image) { image["followed"] = 1; });
+  refuses("confidence above 1", [](Json& image) { image["confidence"] = 1.5; });
+  refuses("no gain", [](Json& image) { image.erase("gain"); });
+  refuses("gain of zero", [](Json& image) { image["gain"][1] = 0.0; });
   refuses("image is a number", [](Json& image) { image = 7; });
   EXPECT_FALSE(LoadPoses(folder / "none.json").ok());
   ASSERT_TRUE(WriteFileAtomically(folder / "list.json", std::string_view("[]")).ok());
