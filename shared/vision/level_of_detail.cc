@@ -28,7 +28,7 @@ constexpr std::array<Level, 16> kLevels = {{{-1, 0.015f},
                                             {1, 0.04f},
                                             {1, 0.056f},
                                             {1, 0.08f}}};
-constexpr int kFirstLevel = 6;
+constexpr int kFirstLevel = 8;
 
 // Off by less than these factors the level stays.
 constexpr double kTooFew = 0.75;
