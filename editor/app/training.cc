@@ -67,8 +67,9 @@ Status WriteReport(const ProjectPaths& paths,
   options.title = place.name;
   options.source = std::filesystem::path(recording.path).filename().string();
   options.metres_per_unit = MetresPerUnit(place, result.database);
-  std::error_code ignored;
-  options.database_bytes = std::filesystem::file_size(paths.Scene(place.name), ignored);
+  std::error_code error;
+  const uintmax_t bytes = std::filesystem::file_size(paths.Scene(place.name), error);
+  options.database_bytes = error ? 0 : bytes;
   options.frame_image = train::FrameImagesOf(*source);
   return train::WriteCaptureReport(result.report, result.database, file, options);
 }
