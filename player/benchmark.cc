@@ -57,6 +57,19 @@ Result<Maps> LoadMaps(const PlayOptions& options) {
   return maps;
 }
 
+// Points all over each map.
+std::vector<std::vector<Eigen::Vector3d>> Landmarks(const Maps& maps) {
+  constexpr size_t kCount = 2000;
+  std::vector<std::vector<Eigen::Vector3d>> landmarks;
+  for (const auto& map : maps) {
+    std::vector<Eigen::Vector3d>& chosen = landmarks.emplace_back();
+    for (size_t i = 0; i < map->points.size(); i += 1 + map->points.size() / kCount) {
+      chosen.push_back(map->points[i].cast<double>());
+    }
+  }
+  return landmarks;
+}
+
 // A camera like the map's for images of any size and proportions.
 CameraModel CameraLike(const CameraModel& trained, int width, int height) {
   if (const Result<CameraModel> same = trained.ForImages(width, height); same.ok()) {
@@ -192,7 +205,7 @@ Result<SequenceReport> BenchmarkRun::Sequence(const BenchmarkSequence& sequence)
   }
   log_.info("{}: {} frames", sequence.name, answers.size());
   LARARIUM_RETURN_IF_ERROR(SavePoses(sequence, poses));
-  return SequenceReport{sequence.name, Evaluate(sequence, answers)};
+  return SequenceReport{sequence.name, Evaluate(sequence, answers, Landmarks(maps_))};
 }
 
 Status BenchmarkRun::ShowForeign(const std::filesystem::path& path, ForeignReport& report) const {

@@ -101,8 +101,9 @@ struct FrameOffsets {
   Rigid3 estimate;  // camera_from_world
 };
 
-Vector2d Project(const TrueImage& image, const Rigid3& camera_from_world, const Vector3d& point) {
-  const std::optional<Vector2d> pixel = image.camera.Project(camera_from_world * point);
+// camera_from_point: the pose in the frame that the point is in.
+Vector2d Project(const TrueImage& image, const Rigid3& camera_from_point, const Vector3d& point) {
+  const std::optional<Vector2d> pixel = image.camera.Project(camera_from_point * point);
   return pixel.value_or(Vector2d::Constant(std::hypot(image.camera.width, image.camera.height)));
 }
 
@@ -171,18 +172,20 @@ std::optional<double> LagMilliseconds(const BenchmarkSequence& sequence,
 
 double Jitter(const BenchmarkSequence& sequence,
               std::span<const FrameAnswer> answers,
-              std::span<const FrameOffsets> frames) {
-  const TrueImage& image = *answers[frames.front().frame].truth;
+              std::span<const size_t> frames,
+              std::span<const Vector3d> landmarks) {
+  const TrueImage& image = sequence.images.front();
   double sum = 0.0;
   size_t count = 0;
   for (const VisiblePoint& point :
-       VisiblePoints(sequence.points, image.camera, *image.camera_from_world)) {
+       VisiblePoints(landmarks, image.camera, *answers[frames.front()].camera_from_map)) {
     Vector2d mean = Vector2d::Zero();
-    for (const FrameOffsets& at : frames) {
-      mean += Project(image, at.estimate, point.in_world) / static_cast<double>(frames.size());
+    for (const size_t i : frames) {
+      mean += Project(image, *answers[i].camera_from_map, point.in_world) /
+              static_cast<double>(frames.size());
     }
-    for (const FrameOffsets& at : frames) {
-      sum += (Project(image, at.estimate, point.in_world) - mean).squaredNorm();
+    for (const size_t i : frames) {
+      sum += (Project(image, *answers[i].camera_from_map, point.in_world) - mean).squaredNorm();
       ++count;
     }
   }
@@ -266,8 +269,6 @@ std::vector<FrameOffsets> ComparePoses(const BenchmarkSequence& sequence,
   }
   const std::optional<Alignment> alignment = AlignOnPoints(pairs, sequence.points);
   score.world_from_map = alignment->world_from_map;
-  // Which scale the map has cannot be seen from one place.
-  const bool still = sequence.IsStill();
   std::vector<FrameOffsets> offsets;
   std::vector<double> pixels;
   std::vector<double> centres;
@@ -278,17 +279,12 @@ std::vector<FrameOffsets> ComparePoses(const BenchmarkSequence& sequence,
     const std::vector<double> registration = RegistrationErrors(
         VisiblePoints(sequence.points, pairs[k].camera, pairs[k].camera_from_world),
         pairs[k].camera, estimate);
-    FrameError& error = score.errors.emplace_back(
+    const FrameError& error = score.errors.emplace_back(
         CompareFrame(frames[k], answers[frames[k]], score.world_from_map, registration));
-    if (still) {
-      error.normalised_pose_error.reset();
-    }
     offsets.push_back({frames[k], estimate});
     pixels.insert(pixels.end(), registration.begin(), registration.end());
     rotations.push_back(error.rotation_deg);
-    if (!still) {
-      centres.push_back(error.centre);
-    }
+    centres.push_back(error.centre);
     if (error.normalised_pose_error) {
       normalised.push_back(*error.normalised_pose_error);
     }
@@ -359,7 +355,9 @@ double Calibration::Error() const {
   return count() == 0 ? 0.0 : gap / static_cast<double>(count());
 }
 
-SequenceScore Evaluate(const BenchmarkSequence& sequence, std::span<const FrameAnswer> answers) {
+SequenceScore Evaluate(const BenchmarkSequence& sequence,
+                       std::span<const FrameAnswer> answers,
+                       std::span<const std::vector<Vector3d>> landmarks) {
   SequenceScore score;
   CountFrames(answers, score);
   TimeFrames(answers, score);
@@ -370,17 +368,18 @@ SequenceScore Evaluate(const BenchmarkSequence& sequence, std::span<const FrameA
   for (size_t i = 0; i < answers.size(); ++i) {
     wrong[i] = answers[i].camera_from_map && (answers[i].map != map || !known);
   }
-  if (const std::vector<size_t> frames = Comparable(answers, map); !frames.empty()) {
+  const std::vector<size_t> frames = Comparable(answers, map);
+  if (sequence.IsStill()) {
+    if (!frames.empty() && map < landmarks.size()) {
+      score.jitter_px = Jitter(sequence, answers, frames, landmarks[map]);
+    }
+  } else if (!frames.empty()) {
     const std::vector<FrameOffsets> offsets = ComparePoses(sequence, answers, frames, score);
     for (const FrameError& error : score.errors) {
       wrong[error.frame] = error.registration_px > kFalsePixels;
     }
     score.swimming_px = Swimming(sequence, answers, offsets);
-    if (sequence.IsStill()) {
-      score.jitter_px = Jitter(sequence, answers, offsets);
-    } else {
-      score.lag_ms = LagMilliseconds(sequence, answers, offsets);
-    }
+    score.lag_ms = LagMilliseconds(sequence, answers, offsets);
   }
   score.false_accepts = static_cast<size_t>(std::count(wrong.begin(), wrong.end(), true));
   score.recoveries = FindRecoveries(answers, wrong);

@@ -104,8 +104,10 @@ struct SequenceScore {
   // How far the projections stand from their places, frame after frame: the
   // change of the offset between successive tracked frames.
   double swimming_px = 0.0;
-  // Of sequences without motion: how far the projections stray from their mean,
-  // root mean square over points and frames.
+  // Of sequences without motion: how far the projections of the map's own points
+  // stray from their mean, root mean square over points and frames. Where the
+  // camera stands it cannot be seen which scale the map has, so nothing else is
+  // compared with the truth.
   std::optional<double> jitter_px;
   // By how much the poses run behind the true motion (negative: ahead).
   std::optional<double> lag_ms;
@@ -126,6 +128,9 @@ inline constexpr double kCovered = 0.05;  // visible fraction of a lens that is 
 inline constexpr double kFalsePixels = 10.0;
 inline constexpr double kCorrectPixels = 1.0;
 
-SequenceScore Evaluate(const BenchmarkSequence& sequence, std::span<const FrameAnswer> answers);
+// landmarks: for each of the tracker's maps, points all over it.
+SequenceScore Evaluate(const BenchmarkSequence& sequence,
+                       std::span<const FrameAnswer> answers,
+                       std::span<const std::vector<Eigen::Vector3d>> landmarks);
 
 }  // namespace lararium::player

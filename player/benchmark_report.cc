@@ -166,16 +166,17 @@ void PrintAccuracy(const BenchmarkReport& report, std::FILE* out) {
                "   mean  median     p95     max  swimming   jitter  lag ms  centre mm*  rot deg");
   for (const SequenceReport& sequence : report.sequences) {
     const SequenceScore& s = sequence.score;
-    if (s.registration_px.count == 0) {
-      std::fprintf(out, "%-*s  nothing to measure\n", kNameWidth, sequence.name.c_str());
-      continue;
-    }
-    std::fprintf(out, "%-*s  %7.4f %7.4f %7.4f %7.2f  %8.4f %8s %7s  %10s  %7.4f\n", kNameWidth,
-                 sequence.name.c_str(), s.registration_px.mean, s.registration_px.median,
-                 s.registration_px.p95, s.registration_px.max, s.swimming_px,
-                 Fixed(s.jitter_px, 4).c_str(), Fixed(s.lag_ms, 2).c_str(),
-                 s.centre.count > 0 ? Fixed(1e3 * s.centre.mean, 3).c_str() : "-",
-                 s.rotation_deg.mean);
+    const bool compared = s.registration_px.count > 0;
+    const auto figure = [&](double value, int digits) {
+      return compared ? Fixed(value, digits) : "-";
+    };
+    const Summary& px = s.registration_px;
+    std::fprintf(out, "%-*s  %7s %7s %7s %7s  %8s %8s %7s  %10s  %7s\n", kNameWidth,
+                 sequence.name.c_str(), figure(px.mean, 4).c_str(), figure(px.median, 4).c_str(),
+                 figure(px.p95, 4).c_str(), figure(px.max, 2).c_str(),
+                 figure(s.swimming_px, 4).c_str(), Fixed(s.jitter_px, 4).c_str(),
+                 Fixed(s.lag_ms, 2).c_str(), figure(1e3 * s.centre.mean, 3).c_str(),
+                 figure(s.rotation_deg.mean, 4).c_str());
   }
   std::fprintf(out, "* thousandths of the ground truth's unit\n");
 }

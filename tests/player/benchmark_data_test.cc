@@ -55,7 +55,7 @@ TEST(BenchmarkDataTest, AgreesWithTheReferenceEvaluator) {
       answer.camera_from_map = estimate[i].camera_from_world;
     }
   }
-  const SequenceScore score = Evaluate(sequence, answers);
+  const SequenceScore score = Evaluate(sequence, answers, {});
 
   const test::TemporaryFolder folder;
   ASSERT_TRUE(vision::SavePoses(folder / "truth.json", truth).ok());

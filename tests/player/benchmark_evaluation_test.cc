@@ -38,11 +38,12 @@ class BenchmarkEvaluationTest : public ::testing::Test {
     }
   }
   void Lose(int frame) { answers_[frame].camera_from_map.reset(); }
-  SequenceScore Score() const { return Evaluate(sequence_, answers_); }
+  SequenceScore Score() const { return Evaluate(sequence_, answers_, landmarks_); }
 
   test::BenchmarkWorld world_;
   BenchmarkSequence sequence_;
   std::vector<FrameAnswer> answers_;
+  std::vector<std::vector<Eigen::Vector3d>> landmarks_;
 };
 
 TEST(BenchmarkSummaryTest, QuantilesInterpolateBetweenSamples) {
@@ -183,19 +184,25 @@ TEST_F(BenchmarkEvaluationTest, PosesOfTheFrameBeforeLagByOneFrame) {
 
 TEST_F(BenchmarkEvaluationTest, JitterIsTheStrayingOfAStillCamera) {
   Make(400);
-  sequence_.points.resize(50);
+  const geometry::Similarity3 map_from_world = world_.world_from_map.Inverse();
+  landmarks_.resize(1);
+  for (int i = 0; i < 50; ++i) {
+    landmarks_[0].push_back(map_from_world * world_.points[i]);
+  }
   Random random(3);
   for (int i = 0; i < 400; ++i) {
     Rigid3 pose;
     pose.translation.z() = 4.0;
     sequence_.images[i].camera_from_world = pose;
     // 0.1 px at the principal axis, along y only.
-    pose.rotation = geometry::RotationFromVector({0.1 / 500.0 * random.Normal(), 0.0, 0.0});
-    answers_[i].camera_from_map = test::CameraFromMap(pose, world_.world_from_map);
+    const Rigid3 turn{geometry::RotationFromVector({0.1 / 500.0 * random.Normal(), 0.0, 0.0}),
+                      Eigen::Vector3d::Zero()};
+    answers_[i].camera_from_map = test::CameraFromMap(turn * pose, world_.world_from_map);
   }
   const SequenceScore score = Score();
   EXPECT_NEAR(score.jitter_px.value(), 0.1, 0.02);
   EXPECT_FALSE(score.lag_ms);
+  EXPECT_EQ(score.registration_px.count, 0u) << "the scale of the map cannot be seen";
 }
 
 TEST_F(BenchmarkEvaluationTest, TheGainErrorForgivesTheReferenceItsOwnGain) {
