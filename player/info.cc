@@ -22,9 +22,9 @@ Status PrintPlace(const bundle::Bundle& bundle, const bundle::PlaceEntry& place)
   LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(place.scene));
   LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase map,
                             vision::ParseSceneDatabase(bytes, bundle.place() + ": " + place.scene));
-  std::printf("place   %s: %zu points, %zu keyframes, %d sessions, %zu bytes, %zu occluders\n",
+  std::printf("place   %s: points %zu, keyframes %zu, sessions %d, occluders %zu, bytes %zu\n",
               place.name.c_str(), map.points.size(), map.keyframes.size(), CountSessions(map),
-              bytes.size(), place.occluders.size());
+              place.occluders.size(), bytes.size());
   return Status();
 }
 
