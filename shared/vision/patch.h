@@ -27,7 +27,7 @@ struct PatchMotion {
 struct PatchWarp {
   Eigen::Vector2f centre = Eigen::Vector2f::Zero();
   Eigen::Matrix2f source_from_patch = Eigen::Matrix2f::Identity();
-  PatchMotion motion;
+  PatchMotion motion = {};
 };
 
 // What is looked for. Rows of kPatchSize values.

@@ -1,0 +1,77 @@
+// The motion of the camera: foretold, and seen in small images.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "shared/vision/motion_model.h"
+#include "shared/vision/rotation_estimator.h"
+
+namespace lararium::vision {
+namespace {
+
+using geometry::CameraModel;
+using geometry::Rigid3;
+
+TEST(MotionModel, GoesOnAsBefore) {
+  const Rigid3 step{geometry::RotationFromVector({0.02, 0.05, -0.01}), {0.1, 0.0, -0.05}};
+  const Rigid3 first{geometry::RotationFromVector({0.3, 0.1, 0.2}), {1.0, 2.0, 3.0}};
+  MotionModel model;
+  EXPECT_FALSE(model.has_pose());
+  model.Add(4.0, first);
+  EXPECT_LT((model.Motion(1.0).Matrix3x4() - Rigid3().Matrix3x4()).norm(), 1e-12);
+  model.Add(5.0, step * first);
+  EXPECT_LT((model.Motion(1.0).Matrix3x4() - step.Matrix3x4()).norm(), 1e-12);
+  // A dropped frame: the same velocity over twice the time.
+  EXPECT_NEAR(geometry::VectorFromRotation(model.Motion(2.0).rotation).norm(),
+              2.0 * geometry::VectorFromRotation(step.rotation).norm(), 1e-12);
+  model.Forget();
+  EXPECT_FALSE(model.has_pose());
+}
+
+const CameraModel kSmall = {
+    .width = 40, .height = 30, .fx = 35.0, .fy = 35.0, .cx = 19.5, .cy = 14.5};
+
+// A far world, by direction.
+cv::Mat Look(const Eigen::Quaterniond& camera_from_world, double gain) {
+  cv::Mat image(kSmall.height, kSmall.width, CV_8UC1);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const Eigen::Vector3d d =
+          camera_from_world.conjugate() *
+          kSmall.PlaneFromPixel({static_cast<double>(x), static_cast<double>(y)})
+              .homogeneous()
+              .normalized();
+      const double value = 110.0 + 30.0 * std::sin(7.0 * d.x() + 3.0 * d.y()) +
+                           30.0 * std::sin(2.0 * d.x() - 9.0 * d.y() + 1.0) +
+                           20.0 * std::sin(15.0 * d.x() + 12.0 * d.z());
+      image.at<uint8_t>(y, x) = cv::saturate_cast<uint8_t>(gain * value);
+    }
+  }
+  return image;
+}
+
+TEST(EstimateRotation, SeesATurnInOtherLight) {
+  for (const Eigen::Vector3d& turn :
+       {Eigen::Vector3d(0.0, 0.08, 0.0), Eigen::Vector3d(-0.05, 0.03, 0.06)}) {
+    const Eigen::Quaterniond before = geometry::RotationFromVector({0.1, 0.2, 0.0});
+    const Eigen::Quaterniond now_from_before = geometry::RotationFromVector(turn);
+    const auto estimate = EstimateRotation(Look(before, 1.0), Look(now_from_before * before, 0.7),
+                                           kSmall, Eigen::Quaterniond::Identity());
+    ASSERT_TRUE(estimate.has_value());
+    EXPECT_LT(estimate->now_from_before.angularDistance(now_from_before) * kSmall.fx, 0.05);
+    EXPECT_LT(estimate->noise, 2.0);
+  }
+}
+
+TEST(EstimateRotation, SeesNothingInTheDark) {
+  const cv::Mat black(kSmall.height, kSmall.width, CV_8UC1, cv::Scalar(0));
+  const auto estimate = EstimateRotation(black, black, kSmall, Eigen::Quaterniond::Identity());
+  // Nothing pulls: it stays where it began.
+  EXPECT_TRUE(!estimate ||
+              estimate->now_from_before.angularDistance(Eigen::Quaterniond::Identity()) < 1e-6);
+}
+
+}  // namespace
+}  // namespace lararium::vision
