@@ -74,6 +74,8 @@ std::shared_ptr<const SceneDatabase> MakeDatabase(const cv::Mat& wall) {
     const Eigen::Vector3d point = OnWall(random.Uniform(100, 1900), random.Uniform(100, 1400));
     database->points.push_back(point.cast<float>());
     database->normals.emplace_back(0.0f, 0.0f, 1.0f);
+    database->observation_counts.push_back(4);
+    database->session_masks.push_back(1);
   }
   for (uint32_t k = 0; k < 4; ++k) {
     Keyframe keyframe;
