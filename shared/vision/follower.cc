@@ -125,7 +125,6 @@ bool Follower::AimSlot(Slot& slot, const Rigid3& camera_from_map) {
   if (best == kUsed) {
     return false;
   }
-  slot.choice = least;
   if (best == slot.keyframe && slot.tangent.squaredNorm() > 0.0) {
     return true;
   }
@@ -669,7 +668,6 @@ void Follower::Settle(const CameraModel& camera, const FollowedPose& pose) {
     if (pose_.squares[i] < kInlierSquare) {
       Slot& slot = slots_[sights_[i].slot];
       slot.failures = 0;
-      slot.proven = true;
       seen_.push_back({slot.point, sights_[i].pixel});
     }
   }

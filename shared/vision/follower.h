@@ -70,9 +70,7 @@ class Follower {
     Eigen::Vector2d key_pixel = Eigen::Vector2d::Zero();  // raw
     Eigen::Vector3d tangent = Eigen::Vector3d::Zero();    // FollowMap::PlaneAt
     Eigen::Matrix2d plane_from_key_pixel = Eigen::Matrix2d::Zero();
-    float choice = 0.0f;  // how unlike its keyframe the view was when it was chosen
-    int failures = 0;     // in a row
-    bool proven = false;  // agreed at least once
+    int failures = 0;  // in a row
   };
 
   struct Sight {  // of a slot, in one frame
