@@ -184,13 +184,18 @@ void Workspace::MeasureAgain() {
 }
 
 void Workspace::LayStageOnFloor() {
-  if (!loaded_.measures.floor) {
+  if (!loaded_.measures.floor || place() == nullptr) {
     return;
   }
-  EditPlace("lay the stage on the floor", [&](PlaceDocument& place) {
-    place.picked_from_stage =
-        LayOnFloor(loaded_.picks.map_from_picked, place.picked_from_stage, *loaded_.measures.floor);
-  });
+  const geometry::Similarity3& now = place()->picked_from_stage;
+  const geometry::Similarity3 laid =
+      LayOnFloor(loaded_.picks.map_from_picked, now, *loaded_.measures.floor);
+  constexpr double kSame = 1e-7;  // metres, radians
+  if ((laid.translation - now.translation).norm() > kSame ||
+      laid.rotation.angularDistance(now.rotation) > kSame) {
+    EditPlace("lay the stage on the floor",
+              [&](PlaceDocument& edited) { edited.picked_from_stage = laid; });
+  }
 }
 
 void Workspace::ReloadMap() {
@@ -458,7 +463,7 @@ void Workspace::Export(const std::filesystem::path& out) {
   tasks_.Start(
       kExporting,
       [paths = paths_, document = commands_.snapshot(), out](Progress& progress) {
-        return ExportProject(paths, *document, out, progress);
+        return ExportProject(paths, *document, out, MapBudget(), progress);
       },
       [this, out](const Status& status, bool cancelled) {
         Report(status, cancelled, "Wrote " + out.string());

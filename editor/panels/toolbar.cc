@@ -83,6 +83,10 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   if (ImGui::MenuItem("Bake")) {
     workspace.Bake();
   }
+  if (ImGui::MenuItem("Lay the stage on the floor", "F", false,
+                      workspace.loaded().measures.floor.has_value())) {
+    workspace.LayStageOnFloor();
+  }
   ImGui::Separator();
   const bool any = workspace.place() != nullptr;
   if (ImGui::MenuItem("Add an occluder\xe2\x80\xa6", nullptr, false, any)) {
@@ -146,6 +150,9 @@ void HandlePlainKey(app::Workspace& workspace, EditorState& state, int key) {
       break;
     case GLFW_KEY_3:
       state.view = ViewKind::kPicks;
+      break;
+    case GLFW_KEY_F:
+      workspace.LayStageOnFloor();
       break;
     case GLFW_KEY_W:
       SetGizmo(state, GizmoMode::kMove);
