@@ -20,6 +20,7 @@ using geometry::Rigid3;
 using PoseManifold =
     ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 
+using Matrix2xIntrinsics = Eigen::Matrix<double, 2, kIntrinsics, Eigen::RowMajor>;
 using Matrix2x3 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
 using Matrix2x7 = Eigen::Matrix<double, 2, 7, Eigen::RowMajor>;
 
@@ -38,17 +39,17 @@ Rigid3 ToPose(const PoseBlock& block) {
   return pose;
 }
 
-IntrinsicsBlock ToBlock(const CameraModel& camera) { return {camera.fx, camera.k1, camera.k2}; }
-
 CameraModel WithIntrinsics(CameraModel camera, const IntrinsicsBlock& block) {
   camera.fy *= block[0] / camera.fx;
   camera.fx = block[0];
   camera.k1 = block[1];
   camera.k2 = block[2];
+  camera.cx = block[3];
+  camera.cy = block[4];
   return camera;
 }
 
-class ReprojectionCost : public ceres::SizedCostFunction<2, 3, 7, 3> {
+class ReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 7, 3> {
  public:
   ReprojectionCost(const CameraModel& fixed, const Eigen::Vector2d& pixel)
       : fixed_(fixed), pixel_(pixel) {}
@@ -75,10 +76,12 @@ class Bundle {
         camera_(camera),
         loss_(options.loss_scale_px),
         problem_(BorrowingOptions()),
-        intrinsics_(ToBlock(camera)) {
-    problem_.AddParameterBlock(intrinsics_.data(), 3);
+        intrinsics_(ToIntrinsicsBlock(camera)) {
+    problem_.AddParameterBlock(intrinsics_.data(), kIntrinsics);
     if (!options.refine_intrinsics) {
       problem_.SetParameterBlockConstant(intrinsics_.data());
+    } else if (!options.refine_centre) {
+      problem_.SetManifold(intrinsics_.data(), &centred_manifold_);
     }
   }
   Bundle(const Bundle&) = delete;
@@ -178,6 +181,7 @@ class Bundle {
   CameraModel camera_;
   ceres::CauchyLoss loss_;
   PoseManifold pose_manifold_;
+  ceres::SubsetManifold centred_manifold_{kIntrinsics, {3, 4}};
   ceres::Problem problem_;
   IntrinsicsBlock intrinsics_;
   std::vector<PoseBlock> poses_;
@@ -287,6 +291,10 @@ void RestoreUnit(Reconstruction& reconstruction,
 
 }  // namespace
 
+IntrinsicsBlock ToIntrinsicsBlock(const CameraModel& camera) {
+  return {camera.fx, camera.k1, camera.k2, camera.cx, camera.cy};
+}
+
 bool ReprojectionResidual(const CameraModel& fixed,
                           const Eigen::Vector2d& pixel,
                           const double* intrinsics,
@@ -317,13 +325,13 @@ bool ReprojectionResidual(const CameraModel& fixed,
   const Eigen::Vector2d distorted(
       x * radial + 2.0 * fixed.p1 * x * y + fixed.p2 * (r2 + 2.0 * x * x),
       y * radial + fixed.p1 * (r2 + 2.0 * y * y) + 2.0 * fixed.p2 * x * y);
-  residual[0] = fx * distorted.x() + fixed.cx - pixel.x();
-  residual[1] = fy * distorted.y() + fixed.cy - pixel.y();
+  residual[0] = fx * distorted.x() + intrinsics[3] - pixel.x();
+  residual[1] = fy * distorted.y() + intrinsics[4] - pixel.y();
 
   if (by_intrinsics != nullptr) {
-    Eigen::Map<Matrix2x3> jacobian(by_intrinsics);
-    jacobian << distorted.x(), fx * x * r2, fx * x * r2 * r2,  //
-        fy / fx * distorted.y(), fy * y * r2, fy * y * r2 * r2;
+    Eigen::Map<Matrix2xIntrinsics> jacobian(by_intrinsics);
+    jacobian << distorted.x(), fx * x * r2, fx * x * r2 * r2, 1.0, 0.0,  //
+        fy / fx * distorted.y(), fy * y * r2, fy * y * r2 * r2, 0.0, 1.0;
   }
   if (by_pose == nullptr && by_point == nullptr) {
     return true;
@@ -400,6 +408,13 @@ bool AdjustLocally(Reconstruction& reconstruction,
       tracks.push_back(reconstruction.TrackOf(element));
     }
   }
+  if (options.points_per_image > 0 && tracks.size() > options.points_per_image) {
+    std::stable_sort(tracks.begin(), tracks.end(), [&](uint32_t a, uint32_t b) {
+      return reconstruction.ObservationCount(a) > reconstruction.ObservationCount(b);
+    });
+    tracks.resize(options.points_per_image);
+    std::sort(tracks.begin(), tracks.end());
+  }
   // One image more hardly moves a point that so many fix.
   constexpr size_t kFirmObservations = 10;
   ReconstructionBundle adjusted(reconstruction, std::move(tracks), variable, options,
@@ -431,11 +446,14 @@ std::optional<Rigid3> AdjustPose(const CameraModel& camera,
   return bundle.pose(0);
 }
 
-double FocalDeviation(const Reconstruction& reconstruction, uint32_t anchor) {
+IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
+                                      uint32_t anchor,
+                                      bool centre_refined) {
   std::vector<bool> variable(reconstruction.image_count(), true);
   variable[anchor] = false;
   BundleOptions options;
   options.refine_intrinsics = true;
+  options.refine_centre = centre_refined;
   ReconstructionBundle evaluated(reconstruction, TracksWithPoints(reconstruction), variable,
                                  options);
   ceres::Problem& problem = evaluated.bundle.problem();
@@ -444,27 +462,35 @@ double FocalDeviation(const Reconstruction& reconstruction, uint32_t anchor) {
   double cost = 0.0;
   ceres::CRSMatrix crs;
   if (!problem.Evaluate(evaluate, &cost, nullptr, nullptr, &crs) || crs.num_rows <= crs.num_cols) {
-    return 0.0;
+    return {};
   }
   const Eigen::SparseMatrix<double> jacobian =
       Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
           crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
           crs.cols.data(), crs.values.data());
   Eigen::SparseMatrix<double> normal = jacobian.transpose() * jacobian;
-  // The unit is free. It does not touch the focal length, so that a trace of
+  // The unit is free. It does not touch the intrinsics, so that a trace of
   // damping makes the equations solvable without a change of the answer.
   for (int i = 0; i < normal.cols(); ++i) {
     normal.coeffRef(i, i) *= 1.0 + 1e-9;
   }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(normal);
   if (factors.info() != Eigen::Success) {
-    return 0.0;
+    return {};
   }
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(normal.cols());
-  unit[0] = 1.0;  // the focal length, first of the first block
   const double variance_of_residuals = 2.0 * cost / (crs.num_rows - crs.num_cols);
-  const double variance = factors.solve(unit)[0] * variance_of_residuals;
-  return variance > 0.0 ? std::sqrt(variance) : 0.0;
+  const auto deviation = [&](int parameter) {  // of the first block, the intrinsics
+    Eigen::VectorXd unit = Eigen::VectorXd::Zero(normal.cols());
+    unit[parameter] = 1.0;
+    const double variance = factors.solve(unit)[parameter] * variance_of_residuals;
+    return variance > 0.0 ? std::sqrt(variance) : 0.0;
+  };
+  IntrinsicsDeviation found{deviation(0), deviation(1), deviation(2)};
+  if (centre_refined) {
+    found.cx_px = deviation(3);
+    found.cy_px = deviation(4);
+  }
+  return found;
 }
 
 }  // namespace lararium::train

@@ -14,8 +14,10 @@
 
 namespace lararium::train {
 
-// What the estimated intrinsics change: f = fx, with fy / fx kept.
-using IntrinsicsBlock = std::array<double, 3>;  // f, k1, k2
+// What the estimated intrinsics change: fx, k1, k2, cx, cy; fy / fx is kept.
+inline constexpr int kIntrinsics = 5;
+using IntrinsicsBlock = std::array<double, kIntrinsics>;
+IntrinsicsBlock ToIntrinsicsBlock(const geometry::CameraModel& camera);
 // camera_from_map: quaternion x, y, z, w, then translation.
 using PoseBlock = std::array<double, 7>;
 
@@ -29,7 +31,7 @@ bool ReprojectionResidual(const geometry::CameraModel& fixed,
                           const double* pose,
                           const double* point,
                           double* residual,
-                          double* by_intrinsics,  // [2][3]
+                          double* by_intrinsics,  // [2][kIntrinsics]
                           double* by_pose,        // [2][7]
                           double* by_point);      // [2][3]
 
@@ -37,9 +39,10 @@ struct BundleOptions {
   int max_iterations = 30;
   double loss_scale_px = 1.5;  // of Cauchy's loss
   double function_tolerance = 1e-6;
-  bool refine_intrinsics = false;
-  // Of AdjustAll: enough of the most observed points take part that each image
-  // sees so many of them; the others are intersected again afterwards. 0: all.
+  bool refine_intrinsics = false;  // focal length and two radial terms
+  bool refine_centre = false;      // with these, the principal point
+  // Enough of the most observed points take part that each image sees so many of
+  // them; AdjustAll intersects the others again afterwards. 0: all.
   size_t points_per_image = 0;
 };
 
@@ -50,8 +53,9 @@ bool AdjustAll(Reconstruction& reconstruction,
                const std::array<uint32_t, 2>& anchors,
                const BundleOptions& options);
 
-// Adjusts the poses of images and the points that the first of them observes;
-// other images that see these points hold still, and so do points that many see.
+// Adjusts the poses of images and the points that the first of them observes (the
+// most observed points_per_image of these, where given); other images that see
+// these points hold still, and so do points that many see.
 bool AdjustLocally(Reconstruction& reconstruction,
                    std::span<const uint32_t> images,
                    const BundleOptions& options);
@@ -63,8 +67,17 @@ std::optional<geometry::Rigid3> AdjustPose(const geometry::CameraModel& camera,
                                            const geometry::Rigid3& start,
                                            const BundleOptions& options);
 
-// Standard deviation in pixels of the estimated focal length, from the residuals
-// and the normal equations of AdjustAll with refined intrinsics. 0 when singular.
-double FocalDeviation(const Reconstruction& reconstruction, uint32_t anchor);
+// Standard deviations of estimated intrinsics, from the residuals and the normal
+// equations of AdjustAll; 0 where they are singular or were not refined.
+struct IntrinsicsDeviation {
+  double focal_px = 0.0;
+  double k1 = 0.0;
+  double k2 = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+};
+IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
+                                      uint32_t anchor,
+                                      bool centre_refined);
 
 }  // namespace lararium::train

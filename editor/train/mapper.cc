@@ -230,7 +230,7 @@ class Mapper {
       CompleteAll(limits.max_error_px);
       Retriangulate();
       BundleOptions bundle = Growing();
-      bundle.points_per_image = 0;
+      bundle.points_per_image = 600;
       AdjustAll(reconstruction_, anchors_, bundle);
       limits.max_error_px = options_.final_max_error_px;
       FilterAll(limits);
@@ -242,6 +242,37 @@ class Mapper {
     bundle.function_tolerance = 1e-6;
     AdjustAll(reconstruction_, anchors_, bundle);
     FilterAll(limits);
+    ForAllTracks(true, [&](uint32_t track) { reconstruction_.DropIfMoving(track); });
+    if (bundle.refine_intrinsics && !progress_.Cancelled()) {
+      FreeCentre(bundle, limits);
+    }
+  }
+
+  // The principal point last: many recordings hardly determine it, and then the
+  // centre of the image is the better guess.
+  void FreeCentre(BundleOptions bundle, const TriangulationOptions& limits) {
+    constexpr double kMaxDeviation = 0.002;  // of the longer side
+    constexpr double kMaxShift = 0.1;        // likewise, from where it was assumed
+    const geometry::CameraModel before = reconstruction_.camera();
+    const double side = std::max(before.width, before.height);
+    Reconstruction centred = reconstruction_;
+    bundle.refine_centre = true;
+    if (!AdjustAll(reconstruction_, anchors_, bundle)) {
+      return;
+    }
+    FilterAll(limits);
+    AdjustAll(reconstruction_, anchors_, bundle);
+    const geometry::CameraModel& after = reconstruction_.camera();
+    const IntrinsicsDeviation deviation = EstimateDeviation(reconstruction_, anchors_[0], true);
+    const bool taken = deviation.cx_px > 0.0 && deviation.cx_px < kMaxDeviation * side &&
+                       deviation.cy_px > 0.0 && deviation.cy_px < kMaxDeviation * side &&
+                       std::hypot(after.cx - before.cx, after.cy - before.cy) < kMaxShift * side;
+    log_.info("principal point off the centre by {:.1f} +- {:.1f}, {:.1f} +- {:.1f} pixels: {}",
+              after.cx - before.cx, deviation.cx_px, after.cy - before.cy, deviation.cy_px,
+              taken ? "taken" : "not taken");
+    if (!taken) {
+      reconstruction_ = std::move(centred);
+    }
   }
 
   BundleOptions Growing() const {
@@ -365,6 +396,7 @@ class Mapper {
     }
     BundleOptions bundle;
     bundle.max_iterations = 10;
+    bundle.points_per_image = 500;
     AdjustLocally(reconstruction_, images, bundle);
   }
 

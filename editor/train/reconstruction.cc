@@ -210,6 +210,12 @@ size_t Reconstruction::Filter(uint32_t track, const TriangulationOptions& option
   return before.size() - kept.size();
 }
 
+void Reconstruction::DropIfMoving(uint32_t track) {
+  if (2 * ObservationCount(track) <= LocatedElements(track).size()) {
+    DropPoint(track);
+  }
+}
+
 void Reconstruction::DropPoint(uint32_t track) {
   points_[track].reset();
   std::fill(observed_.begin() + tracks_.begin[track], observed_.begin() + tracks_.begin[track + 1],

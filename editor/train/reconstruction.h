@@ -72,6 +72,10 @@ class Reconstruction {
   // left or their rays are too parallel. Returns how many were dropped.
   size_t Filter(uint32_t track, const TriangulationOptions& options);
 
+  // Drops the point of a track most of whose sights do not fit it: what some of
+  // them agree on is chance, the thing moved against the scene.
+  void DropIfMoving(uint32_t track);
+
   // Forgets an image's pose and its observations.
   void Unlocate(uint32_t image);
   // The map in other axes and another unit.

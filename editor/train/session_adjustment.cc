@@ -19,7 +19,7 @@ class SightCost : public ceres::SizedCostFunction<2, 7, 3> {
  public:
   SightCost(const CameraModel& camera, const vision::Observation& observation)
       : camera_(camera),
-        intrinsics_{camera.fx, camera.k1, camera.k2},
+        intrinsics_(ToIntrinsicsBlock(camera)),
         pixel_(observation.x, observation.y) {}
 
   bool Evaluate(double const* const* parameters,

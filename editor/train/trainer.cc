@@ -86,7 +86,15 @@ class Trainer {
     LARARIUM_ASSIGN_OR_RETURN(
         map_, MapImages(survey_.keyframes, verified_, MappingOptions(), progress_, log_));
     if (!options_.intrinsics) {
-      report_.focal_deviation_px = FocalDeviation(*map_.reconstruction, map_.anchors[0]);
+      const bool centre = map_.reconstruction->camera().cx != verified_.camera.cx;
+      const IntrinsicsDeviation deviation =
+          EstimateDeviation(*map_.reconstruction, map_.anchors[0], centre);
+      report_.focal_deviation_px = deviation.focal_px;
+      report_.k1_deviation = deviation.k1;
+      report_.k2_deviation = deviation.k2;
+      report_.principal_point_estimated = centre;
+      report_.cx_deviation_px = deviation.cx_px;
+      report_.cy_deviation_px = deviation.cy_px;
     }
     return Status();
   }

@@ -23,7 +23,8 @@ namespace lararium::train {
 
 struct TrainOptions {
   // Given intrinsics are kept. Otherwise the focal length and two radial terms
-  // are estimated, with square pixels and the principal point in the centre.
+  // are estimated, with square pixels, and the principal point where the images
+  // determine it; else it is the image's centre.
   std::optional<geometry::CameraModel> intrinsics;
   // Where to start the estimate, in pixels, say from EXIF data. Without it the
   // start is the focal length that the two-view geometries agree on best.
@@ -68,7 +69,15 @@ struct TrainReport {
   double mean_reprojection_error_px = 0.0;
   geometry::CameraModel camera;
   bool intrinsics_estimated = false;
-  double focal_deviation_px = 0.0;  // standard deviation of an estimated focal length
+  // Standard deviations of estimated intrinsics, if the errors of the observations
+  // are independent; 0 of what was not estimated.
+  double focal_deviation_px = 0.0;
+  double k1_deviation = 0.0;
+  double k2_deviation = 0.0;
+  bool principal_point_estimated = false;
+  double cx_deviation_px = 0.0;
+  double cy_deviation_px = 0.0;
+  double aspect_deviation = 0.0;                        // of fy / fx
   std::vector<std::pair<std::string, double>> seconds;  // of each step, wall clock
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "editor/train/bundle_adjustment.h"
 #include "tests/train/synthetic_world.h"
 
@@ -77,10 +79,87 @@ TEST(Mapper, EstimatesAWrongFocalLength) {
   NoProgress progress;
   const auto anchors = MapIncrementally(reconstruction, pairs, options, progress, *MakeSilentLog());
   ASSERT_TRUE(anchors);
-  const double deviation = FocalDeviation(reconstruction, (*anchors)[0]);
+  const double deviation = EstimateDeviation(reconstruction, (*anchors)[0], false).focal_px;
   EXPECT_GT(deviation, 0.0);
   EXPECT_NEAR(reconstruction.camera().fx, world.camera.fx, 4.0 * deviation);
   EXPECT_NEAR(reconstruction.camera().fx, world.camera.fx, 6.0);
+}
+
+TEST(Mapper, FreesAPrincipalPointThatTheImagesDetermine) {
+  const World world = MakeWorld({.images = 24, .points = 800, .arc = 1.6, .seed = 6});
+  geometry::CameraModel assumed = world.camera;
+  assumed.cx += 9.0;
+  assumed.cy -= 6.0;
+  const auto pairs = world.Pairs(6, assumed);
+  Reconstruction reconstruction = world.Unsolved(pairs, assumed);
+  MapperOptions options;
+  options.refine_intrinsics = true;
+  NoProgress progress;
+  const auto anchors = MapIncrementally(reconstruction, pairs, options, progress, *MakeSilentLog());
+  ASSERT_TRUE(anchors);
+  const bool freed = reconstruction.camera().cx != assumed.cx;
+  const IntrinsicsDeviation deviation = EstimateDeviation(reconstruction, (*anchors)[0], freed);
+  ASSERT_TRUE(freed);
+  EXPECT_GT(deviation.cx_px, 0.0);
+  EXPECT_NEAR(reconstruction.camera().cx, world.camera.cx, 4.0 * deviation.cx_px);
+  EXPECT_NEAR(reconstruction.camera().cy, world.camera.cy, 4.0 * deviation.cy_px);
+}
+
+TEST(Mapper, KeepsTheCentreThatAFewImagesDoNotDetermine) {
+  const World world =
+      MakeWorld({.images = 4, .points = 60, .arc = 0.3, .noise_px = 1.0, .seed = 7});
+  const auto pairs = world.Pairs(3, world.camera);
+  Reconstruction reconstruction = world.Unsolved(pairs, world.camera);
+  MapperOptions options;
+  options.refine_intrinsics = true;
+  NoProgress progress;
+  if (MapIncrementally(reconstruction, pairs, options, progress, *MakeSilentLog())) {
+    EXPECT_EQ(reconstruction.camera().cx, world.camera.cx);
+    EXPECT_EQ(reconstruction.camera().cy, world.camera.cy);
+  }
+}
+
+// Somebody who covers two fifths of what the images in the middle see walks by.
+TEST(Mapper, LeavesOutSomebodyWhoWalksBy) {
+  World world = MakeWorld({.images = 16, .points = 600, .seed = 8});
+  constexpr uint32_t kWalking = 240;  // the first of the points
+  for (uint32_t image = 0; image < world.pixels.size(); ++image) {
+    std::vector<Eigen::Vector2d> pixels;
+    std::vector<uint32_t> point_of;
+    for (size_t f = 0; f < world.pixels[image].size(); ++f) {
+      const uint32_t point = world.point_of[image][f];
+      Eigen::Vector2d pixel = world.pixels[image][f];
+      if (point < kWalking) {
+        const Eigen::Vector3d step(0.11 * image - 0.8, 0.03 * std::sin(1.3 * image), 0.0);
+        const auto moved =
+            world.camera.Project(world.camera_from_world[image] * (world.points[point] + step));
+        if (image < 4 || image > 11 || !moved || !world.camera.Contains(*moved)) {
+          continue;
+        }
+        pixel = *moved;
+      }
+      pixels.push_back(pixel);
+      point_of.push_back(point);
+    }
+    world.pixels[image] = pixels;
+    world.point_of[image] = point_of;
+  }
+  const auto pairs = world.Pairs(6, world.camera);
+  Reconstruction reconstruction = world.Unsolved(pairs, world.camera);
+  NoProgress progress;
+  ASSERT_TRUE(MapIncrementally(reconstruction, pairs, {}, progress, *MakeSilentLog()));
+  EXPECT_EQ(reconstruction.LocatedImages().size(), world.pixels.size());
+  EXPECT_LT(world.CenterError(reconstruction), 0.01);
+  size_t walking = 0;
+  for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
+    const TrackElement& element = reconstruction.tracks()[track].front();
+    walking +=
+        reconstruction.HasPoint(track) && world.point_of[element.image][element.feature] < kWalking
+            ? 1
+            : 0;
+  }
+  EXPECT_LE(walking, kWalking / 50);
+  EXPECT_GT(reconstruction.PointCount(), 340u);
 }
 
 TEST(Mapper, StopsWhenCancelled) {

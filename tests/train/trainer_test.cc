@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "shared/core/parallel.h"
 #include "shared/core/random.h"
 
 namespace lararium::train {
@@ -170,6 +171,25 @@ TEST(Trainer, GivesTheSameBytesTwice) {
   ASSERT_TRUE(first.ok() && second.ok());
   EXPECT_EQ(vision::SerializeSceneDatabase(first->database),
             vision::SerializeSceneDatabase(second->database));
+}
+
+TEST(Trainer, GivesTheSameBytesWithAnyNumberOfThreads) {
+  std::vector<std::vector<std::byte>> bytes;
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    const Result<TrainResult> result = TrainOn(WalkPast(5), KnownCamera());
+    ASSERT_TRUE(result.ok()) << result.message();
+    bytes.push_back(vision::SerializeSceneDatabase(result->database));
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+  EXPECT_EQ(bytes[0], bytes[2]);
+}
+
+TEST(Trainer, RefusesAStandingCamera) {
+  const Result<TrainResult> result =
+      TrainOn(std::vector<cv::Mat>(6, Render(0.0, 0.0)), KnownCamera());
+  ASSERT_FALSE(result.ok());
+  EXPECT_THAT(result.message(), HasSubstr("too little parallax"));
 }
 
 TEST(Trainer, LocatesTheFramesBetweenKeyframes) {
