@@ -199,8 +199,7 @@ Result<SequenceReport> BenchmarkRun::Sequence(const BenchmarkSequence& sequence)
                          .gain = {tracked.gain[0], tracked.gain[1], tracked.gain[2]},
                          .wall_ms = wall.count(),
                          .cpu_ms = cpu});
-      poses.push_back(
-          {name, tracked.camera, tracked.camera_from_map, tracked.camera_from_map.has_value()});
+      poses.push_back(vision::MakePoseRecord(name, tracked));
     }
   }
   log_.info("{}: {} frames", sequence.name, answers.size());
