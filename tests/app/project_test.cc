@@ -19,7 +19,10 @@ ProjectDocument FullDocument() {
   place.preview = {SourceDocument::Kind::kImages, "/elsewhere/frames"};
   place.intrinsics = geometry::CameraModel{640, 480, 600.5, 601.25, 319.5, 239.5, -0.1, 0.01};
   place.picks.origin.picks = {{12, "000012.png", {320.25, 410.5}}, {40, "000040.png", {300, 400}}};
-  place.picks.forward.picks = {{12, "", {333.0, 320.0}}};
+  place.picks.forward.picks = {{12, "", {333.0, 320.0}, 1}};
+  place.added = {{{SourceDocument::Kind::kVideo, "evening.mp4"}, place.intrinsics},
+                 {{SourceDocument::Kind::kImages, "night"}, {}}};
+  place.tags = TagsDocument{"tag25h9", 0.125};
   place.picks.length_m = 2.75;
   place.picked_from_stage = {0.1, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, 0.2, 0.3}};
   place.camera_nudge = {0.01, -0.02, 0.03};
@@ -47,6 +50,13 @@ TEST(Project, SurvivesWritingAndReading) {
   EXPECT_EQ(FormatProject(*loaded), FormatProject(document));
   EXPECT_EQ(loaded->places[0].picks.origin.picks[1].frame_index, 40);
   EXPECT_EQ(loaded->places[0].picks.origin.name, "origin");
+  EXPECT_EQ(loaded->places[0].picks.forward.picks[0].session, 1u);
+  ASSERT_EQ(loaded->places[0].added.size(), 2u);
+  EXPECT_EQ(loaded->places[0].added[0].source.path, "evening.mp4");
+  EXPECT_EQ(loaded->places[0].added[0].intrinsics, document.places[0].intrinsics);
+  EXPECT_FALSE(loaded->places[0].added[1].intrinsics.has_value());
+  EXPECT_EQ(loaded->places[0].tags->family, "tag25h9");
+  EXPECT_EQ(loaded->places[0].tags->size_m, 0.125);
   EXPECT_EQ(loaded->places[0].intrinsics, document.places[0].intrinsics);
   EXPECT_TRUE(loaded->places[1].training.empty());
 }
@@ -124,6 +134,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"frame", "/places/0/picks/origin/0/frame_index", -4},
                     Damage{"pixel", "/places/0/picks/origin/0/pixel", {1e300, 0}},
                     Damage{"length", "/places/0/picks/length_m", 0.0},
+                    Damage{"session", "/places/0/picks/origin/0/session", 32},
+                    Damage{"added", "/places/0/added/0/source", Json::object()},
+                    Damage{"added_focal", "/places/0/added/0/intrinsics/fy", -1.0},
+                    Damage{"family", "/places/0/tags/family", "tag1h1"},
+                    Damage{"tag_size", "/places/0/tags/size_m", 0.0},
                     Damage{"probe", "/places/0/probe/scale", -1.0},
                     Damage{"cast", "/cast/0", "Publia"},
                     Damage{"giant", "/cast/1/height", 3.0},

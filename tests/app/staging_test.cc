@@ -1,0 +1,185 @@
+#include "editor/app/staging.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "editor/app/picked_frames.h"
+#include "editor/app/stage_report.h"
+#include "shared/core/random.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::app {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::Similarity3;
+using testing::HasSubstr;
+
+// A floor at z = 0 and a wall at y = 2, metres, Z up, filmed at 1.5 m.
+vision::SceneDatabase RoomMap(const Similarity3& map_from_room) {
+  Random random(3);
+  vision::SceneDatabase map;
+  map.camera = {640, 480, 500.0, 500.0, 320.0, 240.0, 0.0, 0.0, 0.0, 0.0};
+  for (int i = 0; i < 2000; ++i) {
+    const double x = random.Uniform(-2.0, 2.0);
+    const double noise = 0.003 * random.Normal();
+    const Vector3d point = i % 2 == 0 ? Vector3d(x, random.Uniform(-2.0, 2.0), noise)
+                                      : Vector3d(x, 2.0 + noise, random.Uniform(0.0, 2.0));
+    map.points.push_back((map_from_room * point).cast<float>());
+  }
+  Eigen::Matrix3d camera_from_room;
+  camera_from_room << 1, 0, 0, 0, -0.3, -1, 0, 1, -0.3;  // looks along +y, and down
+  camera_from_room.rowwise().normalize();
+  for (int k = 0; k < 5; ++k) {
+    vision::Keyframe keyframe;
+    keyframe.frame_index = 10 * k;
+    keyframe.name = "frame" + std::to_string(10 * k);
+    keyframe.camera_from_map =
+        geometry::CameraFromB(geometry::Rigid3::FromMatrix(
+                                  camera_from_room, -camera_from_room * Vector3d(k - 2, -3.0, 1.5)),
+                              map_from_room.Inverse());
+    map.keyframes.push_back(keyframe);
+  }
+  return map;
+}
+
+Similarity3 SomeGauge() {
+  return {2.5, Eigen::Quaterniond(0.3, -0.5, 0.7, 0.4).normalized(), {5.0, -2.0, 1.0}};
+}
+
+double TiltInRoom(const Similarity3& map_from_stage, const Similarity3& map_from_room) {
+  return std::acos(std::min(1.0, (map_from_stage.rotation * Vector3d::UnitY())
+                                     .dot(map_from_room.rotation * Vector3d::UnitZ())));
+}
+
+TEST(GuessStage, StandsOnTheFloor) {
+  const vision::SceneDatabase map = RoomMap(SomeGauge());
+  const MapMeasures measures = MeasureMap({}, map);
+  ASSERT_TRUE(measures.floor.has_value());
+  const Similarity3 guess = GuessStage(map, measures);
+  EXPECT_LT(TiltInRoom(guess, SomeGauge()), 0.005);
+  EXPECT_NEAR((SomeGauge().Inverse() * guess.translation).z(), 0.0, 0.005);
+  // -Z leads away from the cameras.
+  EXPECT_GT((SomeGauge().rotation.conjugate() * (guess.rotation * -Vector3d::UnitZ())).y(), 0.9);
+}
+
+TEST(GuessStage, TakesTheMetresOfTags) {
+  const vision::SceneDatabase map = RoomMap(SomeGauge());
+  MapMeasures measures = MeasureMap({}, map);
+  measures.tags.emplace();
+  measures.tags->metres_per_unit = 1.0 / SomeGauge().scale;
+  EXPECT_NEAR(GuessStage(map, measures).scale, SomeGauge().scale, 1e-12);
+}
+
+TEST(MeasureMap, TellsWhyTagsGiveNoScale) {
+  vision::SceneDatabase map = RoomMap({});
+  map.keyframes[0].grey = cv::Mat(480, 640, CV_8UC1, cv::Scalar(90));
+  PlaceDocument place;
+  place.name = "tavern";
+  place.tags = TagsDocument{"tag36h11", 0.2};
+  const MapMeasures measures = MeasureMap(place, map);
+  const ResolvedPicks resolved = ResolvePicks(place, map, measures);
+  EXPECT_THAT(resolved.problem.message(), HasSubstr("tavern"));
+  EXPECT_THAT(resolved.problem.message(), HasSubstr("no tag of the family"));
+}
+
+TEST(LayOnFloor, MakesTheStageLevelAndKeepsItsHeading) {
+  const vision::SceneDatabase map = RoomMap(SomeGauge());
+  const MapMeasures measures = MeasureMap({}, map);
+  ASSERT_TRUE(measures.floor.has_value());
+  const Similarity3 map_from_picked = {
+      3.0, Eigen::Quaterniond(0.9, 0.1, 0.3, -0.2).normalized(), {1, 2, 3}};
+  const Similarity3 by_hand = {
+      1.1, Eigen::Quaterniond(0.8, -0.3, 0.1, 0.4).normalized(), {0.4, 1.0, -2.0}};
+  const Similarity3 laid = LayOnFloor(map_from_picked, by_hand, *measures.floor);
+  const Similarity3 map_from_stage = map_from_picked * laid;
+  EXPECT_LT(TiltInRoom(map_from_stage, SomeGauge()), 0.005);
+  EXPECT_NEAR((SomeGauge().Inverse() * map_from_stage.translation).z(), 0.0, 0.005);
+  EXPECT_EQ(laid.scale, by_hand.scale);
+  // Moved along the floor's normal only.
+  const Vector3d moved = map_from_picked * laid.translation - map_from_picked * by_hand.translation;
+  EXPECT_LT(moved.cross(measures.floor->normal).norm(), 1e-9 * moved.norm());
+  // Once laid, it stays.
+  const Similarity3 again = LayOnFloor(map_from_picked, laid, *measures.floor);
+  EXPECT_TRUE(again.translation.isApprox(laid.translation, 1e-9));
+  EXPECT_LT(again.rotation.angularDistance(laid.rotation), 1e-7);
+}
+
+TEST(StageReport, MeasuresTheStageAgainstTheFloor) {
+  const vision::SceneDatabase map = RoomMap(SomeGauge());
+  PlaceDocument place;
+  const MapMeasures measures = MeasureMap(place, map);
+  const ResolvedPicks resolved = ResolvePicks(place, map, measures);
+  Json json = StageJson(place, measures, resolved);
+  EXPECT_EQ(json["scale"]["from"], "nothing");
+  EXPECT_NEAR(json["floor"]["stage_tilt_deg"].get<double>(), 0.0, 1e-5);
+  EXPECT_NEAR(json["floor"]["stage_height_mm"].get<double>(), 0.0, 1e-6);
+
+  place.picked_from_stage.translation = {0.0, 0.25, 0.0};
+  place.picked_from_stage.rotation = Eigen::AngleAxisd(0.1, Vector3d::UnitX());
+  json = StageJson(place, measures, resolved);
+  EXPECT_NEAR(json["floor"]["stage_tilt_deg"].get<double>(), 5.7296, 1e-3);
+  EXPECT_NEAR(json["floor"]["stage_height_mm"].get<double>(), 250.0, 1e-6);
+  EXPECT_THAT(StageText(place, measures, resolved), HasSubstr("the stage lies 250.0 mm above it"));
+}
+
+TEST(StageReport, SaysWhatAPlaceLacks) {
+  const test::TemporaryFolder folder;
+  PlaceDocument place;
+  place.name = "tavern";
+  EXPECT_THAT(ReportStage({folder.path()}, place).message(), HasSubstr("scene.larscene"));
+}
+
+// Frames whose every pixel is their index.
+class CountingSource : public capture::FrameSource {
+ public:
+  Result<std::optional<geometry::Frame>> Next() override {
+    geometry::Frame frame;
+    frame.index = next_;
+    frame.grey = cv::Mat(480, 640, CV_8UC1, cv::Scalar(static_cast<double>(next_)));
+    ++next_;
+    return std::optional(std::move(frame));
+  }
+  Status Seek(int64_t index) override {
+    next_ = index;
+    return Status();
+  }
+  std::optional<int64_t> frame_count() const override { return 50; }
+  int width() const override { return 640; }
+  int height() const override { return 480; }
+  double frames_per_second() const override { return 30.0; }
+  bool live() const override { return false; }
+  std::string FrameName(int64_t index) const override { return "frame" + std::to_string(index); }
+
+ private:
+  int64_t next_ = 0;
+};
+
+TEST(KeepPickedFrames, AddsLocatedFramesThatWerePickedIn) {
+  vision::SceneDatabase map = RoomMap({});
+  stage::StagePicks picks = EmptyPicks();
+  picks.origin.picks = {{10, "frame10", {1, 1}},      // a keyframe already
+                        {13, "frame13", {1, 1}},      // located
+                        {14, "frame14", {1, 1}},      // not located
+                        {17, "frame17", {1, 1}, 1}};  // of another session
+  picks.length_to.picks = {{13, "frame13", {2, 2}}};
+  train::TrainReport report;
+  for (const int64_t frame : {10, 13, 17}) {
+    geometry::Rigid3 pose;
+    pose.translation.x() = static_cast<double>(frame);
+    report.located.push_back({frame, "frame" + std::to_string(frame), pose, frame == 10});
+  }
+  CountingSource source;
+  ASSERT_TRUE(KeepPickedFrames(picks, 0, report, source, map).ok());
+  ASSERT_EQ(map.keyframes.size(), 6u);
+  const vision::Keyframe& added = map.keyframes.back();
+  EXPECT_EQ(added.frame_index, 13);
+  EXPECT_EQ(added.name, "frame13");
+  EXPECT_EQ(added.camera_from_map.translation.x(), 13.0);
+  EXPECT_EQ(added.grey.at<uint8_t>(100, 100), 13);
+}
+
+}  // namespace
+}  // namespace lararium::app
