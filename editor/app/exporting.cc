@@ -5,6 +5,7 @@
 #include "editor/app/baking.h"
 #include "editor/app/staging.h"
 #include "editor/export/export.h"
+#include "editor/train/budget.h"
 #include "shared/core/file.h"
 #include "shared/vision/scene_database.h"
 
@@ -12,12 +13,16 @@ namespace lararium::app {
 
 namespace {
 
-Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths, const PlaceDocument& place) {
+Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
+                                         const PlaceDocument& place,
+                                         const MapBudget& budget) {
   exporter::PlaceContent content;
-  const std::filesystem::path file = paths.Scene(place.name);
-  LARARIUM_ASSIGN_OR_RETURN(content.scene, ReadBytes(file));
   LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database,
-                            vision::ParseSceneDatabase(content.scene, file.string()));
+                            vision::LoadSceneDatabase(paths.Scene(place.name)));
+  content.scene = vision::SerializeSceneDatabase(
+      train::Prune(database, {.max_points = budget.max_points,
+                              .max_descriptors_per_point = budget.max_descriptors_per_point,
+                              .image_coverage = budget.image_coverage}));
   const ResolvedPicks picks = ResolvePicks(place, database, MeasureMap(place, database));
   LARARIUM_RETURN_IF_ERROR(picks.problem);
   LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, place, picks.map_from_picked));
@@ -29,6 +34,7 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths, const PlaceD
 Status ExportProject(const ProjectPaths& paths,
                      const ProjectDocument& document,
                      const std::filesystem::path& out,
+                     const MapBudget& budget,
                      Progress& progress) {
   LARARIUM_RETURN_IF_ERROR(Bake(paths, document, progress).status());
   exporter::ExportContent content;
@@ -36,7 +42,7 @@ Status ExportProject(const ProjectPaths& paths,
   content.credits = document.credits;
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
   for (const PlaceDocument& place : document.places) {
-    LARARIUM_ASSIGN_OR_RETURN(exporter::PlaceContent packed, PackPlace(paths, place));
+    LARARIUM_ASSIGN_OR_RETURN(exporter::PlaceContent packed, PackPlace(paths, place, budget));
     content.places.push_back(std::move(packed));
   }
   for (const CastDocument& member : document.cast) {

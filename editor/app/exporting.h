@@ -10,11 +10,20 @@
 
 namespace lararium::app {
 
+// What a visitor needs of a map that was made for editing: fewer points, looks and
+// images locate just as well (docs/benchmarks.md).
+struct MapBudget {
+  int max_points = 10'000;
+  int max_descriptors_per_point = 3;
+  double image_coverage = 0.98;
+};
+
 // Bakes what is stale and packs all places, the cast and the drama. On failure a
 // bundle that was there before is left as it was.
 Status ExportProject(const ProjectPaths& paths,
                      const ProjectDocument& document,
                      const std::filesystem::path& out,
+                     const MapBudget& budget,
                      Progress& progress);
 
 }  // namespace lararium::app

@@ -136,6 +136,8 @@ void AddOthers(CLI::App& app, AllOptions& options) {
 
   CLI::App* pack = AddSubcommand(app, "export", "Pack the show", options.export_.project);
   pack->add_option("--out", options.export_.out, "The bundle (.larshow)")->required();
+  pack->add_option("--points", options.export_.points, "Points that each place keeps at most")
+      ->check(CLI::Range(100, 10'000'000));
 }
 
 Subcommand Chosen(const CLI::App& app, const AllOptions& options) {

@@ -87,6 +87,7 @@ struct RenderOptions {
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
+  std::optional<int> points;  // of each place at most
 };
 
 using Subcommand = std::variant<WindowOptions,

@@ -197,7 +197,9 @@ Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress
 Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress) {
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
-  LARARIUM_RETURN_IF_ERROR(ExportProject(paths, document, options.out, progress));
+  MapBudget budget;
+  budget.max_points = options.points.value_or(budget.max_points);
+  LARARIUM_RETURN_IF_ERROR(ExportProject(paths, document, options.out, budget, progress));
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(options.out, ignored);
   return CommandResult{"wrote " + options.out.string() + " (" + std::to_string(bytes) + " bytes)\n",
