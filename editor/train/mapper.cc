@@ -234,6 +234,7 @@ class Mapper {
       AdjustAll(reconstruction_, anchors_, bundle);
       limits.max_error_px = options_.final_max_error_px;
       FilterAll(limits);
+      DropMoving();
       DropWeakImages();
     }
     BundleOptions bundle = Growing();
@@ -242,7 +243,7 @@ class Mapper {
     bundle.function_tolerance = 1e-6;
     AdjustAll(reconstruction_, anchors_, bundle);
     FilterAll(limits);
-    ForAllTracks(true, [&](uint32_t track) { reconstruction_.DropIfMoving(track); });
+    DropMoving();
     if (bundle.refine_intrinsics && !progress_.Cancelled()) {
       FreeCentre(bundle, limits);
     }
@@ -418,6 +419,9 @@ class Mapper {
   }
   void FilterAll(const TriangulationOptions& limits) {
     ForAllTracks(true, [&](uint32_t track) { reconstruction_.Filter(track, limits); });
+  }
+  void DropMoving() {
+    ForAllTracks(true, [&](uint32_t track) { reconstruction_.DropIfMoving(track); });
   }
   void CompleteAll(double max_error_px) {
     ForAllTracks(true, [&](uint32_t track) { reconstruction_.Complete(track, max_error_px); });
