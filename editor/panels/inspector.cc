@@ -191,8 +191,8 @@ void ShowFloor(app::Workspace& workspace, const app::PlaceDocument& place) {
     const double cosine = floor.normal.dot(map_from_stage.rotation * Eigen::Vector3d::UnitY());
     const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
     const double height = floor.Height(map_from_stage.translation) / map_from_stage.scale;
-    PropertyText("Stage",
-                 Format("%.1f mm above, tilted %.2f\xc2\xb0", 1000.0 * height, kDegrees * tilt));
+    PropertyText("Stage", Format("%.1f mm %s, tilted %.2f\xc2\xb0", 1000.0 * std::abs(height),
+                                 height < 0.0 ? "below" : "above", kDegrees * tilt));
     EndProperties();
   }
   LayOnFloorButton(workspace);
