@@ -1,12 +1,13 @@
 #!/bin/bash
 # Drives the editor's window with real input events: types a number, drags a
-# handle, undoes, redoes, saves, quits; then edits, crashes and recovers. Looks at
-# the saved project and at a screenshot.
+# handle, undoes, redoes, saves, quits; then edits, crashes and recovers; then lays
+# the stage on the floor of a map. Looks at the saved project and at a screenshot.
 #
-#   editor_window_test.sh EDITOR OUTPUT_FOLDER
+#   editor_window_test.sh EDITOR OUTPUT_FOLDER MAKE_ROOM_MAP
 set -u
 editor=$1
 out=$2
+make_room_map=$3
 
 for tool in xvfb-run Xvfb xdotool import identify; do
   if ! command -v $tool > /dev/null; then
@@ -125,6 +126,30 @@ press ctrl+s
 nudged() { tr -d ' \n' < "$json" | grep -q '"camera_nudge":\[0.005,0.0,0.0\]'; }
 wait_for 10 nudged || fail "the edit was not recovered"
 wait_for 10 test ! -e "$project/autosave.json" || fail "the autosave stayed after saving"
+press ctrl+q
+wait_for 10 bash -c "! kill -0 $pid" || fail "did not quit"
+wait $pid
+
+# A map with a floor: nothing is picked, so the stage stands on it but for what
+# was moved by hand. F lays it down; undo lifts it again.
+"$make_room_map" "$project/places/site/scene.larscene" || fail "cannot make a map"
+sed -i -z -E 's/("translation": *\[)[^]]*\]/\10, 0.5, 0]/' "$json"
+start_editor
+press f
+press ctrl+s
+laid() { translation "$json" | awk -F, '{exit !($2 > -0.001 && $2 < 0.001)}'; }
+for ((i = 0; i < 10; ++i)); do  # the map may still be opening
+  laid && break
+  press f
+  press ctrl+s
+done
+laid || fail "the stage was not laid on the floor: $(translation "$json")"
+press 2
+sleep 1
+import -window root "$out/floor.png"
+press ctrl+z
+press ctrl+s
+wait_for 10 translation_is "0.0,0.5,0.0" || fail "undo of laying: $(translation "$json")"
 press ctrl+q
 wait_for 10 bash -c "! kill -0 $pid" || fail "did not quit"
 echo "passed; screenshot: $out/around.png"
