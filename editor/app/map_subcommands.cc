@@ -116,13 +116,25 @@ Result<train::TrainReport> TrainAnother(const TrainOptions& options,
   return report;
 }
 
+// How sure an estimated camera is.
+std::string CameraSummary(const train::TrainReport& report) {
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                "camera: focal length %.1f +- %.1f px, k1 %.4f +- %.4f, k2 %.4f +- %.4f, principal "
+                "point %.1f, %.1f%s\n",
+                report.camera.fx, report.focal_deviation_px, report.camera.k1, report.k1_deviation,
+                report.camera.k2, report.k2_deviation, report.camera.cx, report.camera.cy,
+                report.principal_point_estimated ? "" : " (assumed)");
+  return text;
+}
+
 std::string TrainSummary(const std::string& place, const train::TrainReport& report) {
   char text[256];
   std::snprintf(text, sizeof(text),
                 "%s: %zu of %d images located, %d points, mean reprojection error %.3f px\n",
                 place.c_str(), report.located.size(), report.frames, report.points,
                 report.mean_reprojection_error_px);
-  return text;
+  return report.intrinsics_estimated ? text + CameraSummary(report) : text;
 }
 
 // {"points", "descriptors", "images", "bytes", "recall", ...} of each budget.

@@ -10,6 +10,7 @@
 #include "editor/app/exporting.h"
 #include "editor/app/project.h"
 #include "editor/app/rendering.h"
+#include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
 #include "shared/core/file.h"
 #include "shared/drama/drama.h"
@@ -60,6 +61,20 @@ std::vector<std::string> DryRun(const ProjectPaths& paths,
     problems.push_back(error.message + time);
   }
   return problems;
+}
+
+// Of every place that is trained.
+StageReport ReportStages(const ProjectPaths& paths, const ProjectDocument& document) {
+  StageReport stages;
+  stages.json = Json::object();
+  for (const PlaceDocument& place : document.places) {
+    const Result<StageReport> stage = ReportStage(paths, place);
+    if (stage.ok()) {
+      stages.text += place.name + ":\n" + stage->text;
+      stages.json[place.name] = stage->json;
+    }
+  }
+  return stages;
 }
 
 }  // namespace
@@ -164,14 +179,16 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   // What several parts need is reported by each of them.
   std::sort(problems.begin(), problems.end());
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
+  const StageReport stages = ReportStages(paths, document);
   CommandResult result;
+  result.text = stages.text;
   for (const std::string& problem : problems) {
     result.text += problem + "\n";
   }
   if (problems.empty()) {
-    result.text = "no problems\n";
+    result.text += "no problems\n";
   }
-  result.json = {{"problems", problems}};
+  result.json = {{"problems", problems}, {"stages", stages.json}};
   result.failed = !problems.empty();
   return result;
 }

@@ -207,6 +207,11 @@ Json ReportJson(const train::TrainReport& report) {
           {"observations", report.observations},
           {"mean_reprojection_error_px", report.mean_reprojection_error_px},
           {"intrinsics_estimated", report.intrinsics_estimated},
+          {"principal_point_estimated", report.principal_point_estimated},
+          {"focal_deviation_px", report.focal_deviation_px},
+          {"k1_k2_deviation", Json::array({report.k1_deviation, report.k2_deviation})},
+          {"principal_point_deviation_px",
+           Json::array({report.cx_deviation_px, report.cy_deviation_px})},
           {"K", Json::array({camera.fx, camera.fy, camera.cx, camera.cy})},
           {"k1_k2_p1_p2", Json::array({camera.k1, camera.k2, camera.p1, camera.p2})},
           {"seconds", seconds}};

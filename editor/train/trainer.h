@@ -77,7 +77,6 @@ struct TrainReport {
   bool principal_point_estimated = false;
   double cx_deviation_px = 0.0;
   double cy_deviation_px = 0.0;
-  double aspect_deviation = 0.0;                        // of fy / fx
   std::vector<std::pair<std::string, double>> seconds;  // of each step, wall clock
 };
 

@@ -11,7 +11,7 @@ namespace lararium::player {
 namespace {
 
 const std::vector<TrainedCamera> kTrained = {{"bar", {640, 480, 560, 560, 319.5, 239.5}},
-                                            {"yard", {540, 960, 700, 700, 269.5, 479.5}}};
+                                             {"yard", {540, 960, 700, 700, 269.5, 479.5}}};
 
 class CameraChoiceTest : public ::testing::Test {
  protected:
