@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "shared/core/median.h"
 #include "shared/core/random.h"
 #include "shared/core/statistics.h"
 
@@ -32,15 +33,6 @@ constexpr size_t kSampledPoints = 1000;
 constexpr int kIterations = 50;
 constexpr double kLeastStep = 1e-10;
 constexpr double kMostDamping = 1e6;
-
-double Median(std::vector<double> values) {
-  const size_t middle = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  const double upper = values[middle];
-  return values.size() % 2 == 1
-             ? upper
-             : 0.5 * (upper + *std::max_element(values.begin(), values.begin() + middle));
-}
 
 // ------------------------------------------------------------ centres
 

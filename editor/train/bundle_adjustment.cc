@@ -24,21 +24,6 @@ using Matrix2xIntrinsics = Eigen::Matrix<double, 2, kIntrinsics, Eigen::RowMajor
 using Matrix2x3 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
 using Matrix2x7 = Eigen::Matrix<double, 2, 7, Eigen::RowMajor>;
 
-PoseBlock ToBlock(const Rigid3& pose) {
-  PoseBlock block;
-  Eigen::Map<Eigen::Vector4d>(block.data()) = pose.rotation.coeffs();
-  Eigen::Map<Eigen::Vector3d>(block.data() + 4) = pose.translation;
-  return block;
-}
-
-Rigid3 ToPose(const PoseBlock& block) {
-  Rigid3 pose;
-  pose.rotation.coeffs() = Eigen::Map<const Eigen::Vector4d>(block.data());
-  pose.rotation.normalize();
-  pose.translation = Eigen::Map<const Eigen::Vector3d>(block.data() + 4);
-  return pose;
-}
-
 CameraModel WithIntrinsics(CameraModel camera, const IntrinsicsBlock& block) {
   camera.fy *= block[0] / camera.fx;
   camera.fx = block[0];
@@ -95,7 +80,7 @@ class Bundle {
 
   double* AddPose(const Rigid3& pose, bool variable) {
     CHECK(poses_.size() < poses_.capacity());
-    double* block = poses_.emplace_back(ToBlock(pose)).data();
+    double* block = poses_.emplace_back(ToPoseBlock(pose)).data();
     problem_.AddParameterBlock(block, 7, &pose_manifold_);
     if (!variable) {
       problem_.SetParameterBlockConstant(block);
@@ -290,6 +275,21 @@ void RestoreUnit(Reconstruction& reconstruction,
 }
 
 }  // namespace
+
+PoseBlock ToPoseBlock(const Rigid3& pose) {
+  PoseBlock block;
+  Eigen::Map<Eigen::Vector4d>(block.data()) = pose.rotation.coeffs();
+  Eigen::Map<Eigen::Vector3d>(block.data() + 4) = pose.translation;
+  return block;
+}
+
+Rigid3 ToPose(const PoseBlock& block) {
+  Rigid3 pose;
+  pose.rotation.coeffs() = Eigen::Map<const Eigen::Vector4d>(block.data());
+  pose.rotation.normalize();
+  pose.translation = Eigen::Map<const Eigen::Vector3d>(block.data() + 4);
+  return pose;
+}
 
 IntrinsicsBlock ToIntrinsicsBlock(const CameraModel& camera) {
   return {camera.fx, camera.k1, camera.k2, camera.cx, camera.cy};

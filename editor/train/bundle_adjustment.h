@@ -20,6 +20,8 @@ using IntrinsicsBlock = std::array<double, kIntrinsics>;
 IntrinsicsBlock ToIntrinsicsBlock(const geometry::CameraModel& camera);
 // camera_from_map: quaternion x, y, z, w, then translation.
 using PoseBlock = std::array<double, 7>;
+PoseBlock ToPoseBlock(const geometry::Rigid3& pose);
+geometry::Rigid3 ToPose(const PoseBlock& block);
 
 // Projection of a point by a camera less the pixel where it was seen. Each
 // Jacobian that is not null is filled, row by row.

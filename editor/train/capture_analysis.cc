@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "shared/core/median.h"
 #include "shared/core/parallel.h"
 
 namespace lararium::train {
@@ -23,16 +24,6 @@ std::string Fixed(double value, int decimals) {
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
                                  std::chars_format::fixed, decimals);
   return {text.data(), end.ptr};
-}
-
-template <typename T>
-T Median(std::vector<T> values) {
-  if (values.empty()) {
-    return T{};
-  }
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // ------------------------------------------------------------ histograms

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "shared/core/median.h"
 #include "shared/core/random.h"
 
 namespace lararium::train {
@@ -41,12 +42,6 @@ struct Plane {
 
   double Height(const Vector3d& x) const { return normal.dot(x) - offset; }
 };
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // ------------------------------------------------------------ what is given
 

@@ -36,21 +36,6 @@ class SightCost : public ceres::SizedCostFunction<2, 7, 3> {
   Eigen::Vector2d pixel_;
 };
 
-PoseBlock ToBlock(const Rigid3& pose) {
-  PoseBlock block;
-  Eigen::Map<Eigen::Vector4d>(block.data()) = pose.rotation.coeffs();
-  Eigen::Map<Eigen::Vector3d>(block.data() + 4) = pose.translation;
-  return block;
-}
-
-Rigid3 ToPose(const PoseBlock& block) {
-  Rigid3 pose;
-  pose.rotation.coeffs() = Eigen::Map<const Eigen::Vector4d>(block.data());
-  pose.rotation.normalize();
-  pose.translation = Eigen::Map<const Eigen::Vector3d>(block.data() + 4);
-  return pose;
-}
-
 // Points that a free pose observes.
 std::vector<bool> FreePoints(std::span<const vision::Observation> observations,
                              size_t first_free,
@@ -94,7 +79,7 @@ bool AdjustSession(const CameraModel& camera,
   PoseManifold manifold;
   std::vector<PoseBlock> poses;
   for (const Rigid3& pose : camera_from_map) {
-    poses.push_back(ToBlock(pose));
+    poses.push_back(ToPoseBlock(pose));
   }
   std::vector<Eigen::Vector3d> moved(points.begin(), points.end());
   const std::vector<bool> free = FreePoints(observations, first_free, points.size());

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "shared/core/median.h"
 #include "shared/vision/pose_refinement.h"
 
 namespace lararium::train {
@@ -20,15 +21,6 @@ constexpr double kMoreAngle = 25.0 * std::numbers::pi / 180.0;
 constexpr double kMoreDistance = 1.8;
 // Below so many matches the localizer gives no pose, or seldom.
 constexpr double kMinMatches = 15.0;
-
-double Median(std::vector<double>& values) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
