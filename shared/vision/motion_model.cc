@@ -16,6 +16,10 @@ void MotionModel::Add(double time, const Rigid3& camera_from_map) {
   last_ = {time, camera_from_map};
 }
 
+void MotionModel::Correct(const Rigid3& camera_from_map) {
+  last_->camera_from_map = camera_from_map;
+}
+
 void MotionModel::Forget() {
   last_.reset();
   turn_.setZero();

@@ -12,6 +12,8 @@ class MotionModel {
  public:
   // The pose at a time, in frames of the source.
   void Add(double time, const geometry::Rigid3& camera_from_map);
+  // has_pose(). The last pose was another; the camera's motion stays as it was.
+  void Correct(const geometry::Rigid3& camera_from_map);
   void Forget();
 
   bool has_pose() const { return last_.has_value(); }

@@ -277,6 +277,7 @@ class Tracker final : public PoseSource {
   // A pose found without a prior becomes the start of following, and as exact.
   void Anchor(TrackedFrame& tracked) {
     map_ = tracked.map;
+    checked_pose_.reset();
     motion_.Forget();
     Refine(tracked, nullptr, 1.0);
   }
@@ -312,11 +313,12 @@ class Tracker final : public PoseSource {
     depth_ = followed.evidence.depths[1];
   }
 
-  // Now and then a frame is also found without a prior. Where that contradicts what
-  // was followed, patches decide which of the two is right.
+  // Now and then a frame is also found without a prior: an honest state can be wrong
+  // where the place repeats itself. Where that contradicts what was followed, patches
+  // decide which of the two is right.
   void CheckInBackground(TrackedFrame& tracked) {
-    constexpr int64_t kJoinAfter = 6;  // frames
-    constexpr int64_t kCalmInterval = 150;
+    constexpr int64_t kJoinAfter = 6;      // frames
+    constexpr int64_t kCalmInterval = 60;  // the error's life; some 30 ms of another thread each
     constexpr int64_t kDoubtInterval = 30;
     constexpr double kCalmShare = 0.5;
     const int64_t index = tracked.frame.index;
@@ -337,39 +339,39 @@ class Tracker final : public PoseSource {
     } else if (index >= checked_index_ + interval || index < checked_index_) {
       checked_index_ = index;
       checked_pose_ = *tracked.camera_from_map;
-      checked_map_ = map_;
       background_->Begin(tracked.frame.grey, tracked.camera);
     }
   }
 
+  // located: of the frame that was checked.
   void Compare(const Located& located, TrackedFrame& tracked) {
-    if (!located.location.camera_from_map || !tracked.followed) {
-      return;
+    if (!located.location.camera_from_map || !checked_pose_) {
+      return;  // nothing found, or following began anew since
     }
     const Rigid3& found = *located.location.camera_from_map;
-    if (located.map == checked_map_ &&
-        DistancePx(tracked.camera, checked_pose_, found, depth_) <
-            kTwoMeaningsPx + 4.0 * located.location.expected_error_px) {
+    if (located.map == map_ && DistancePx(tracked.camera, *checked_pose_, found, depth_) <
+                                   kTwoMeaningsPx + 4.0 * located.location.expected_error_px) {
       return;
     }
-    if (checked_map_ != map_) {
-      return;  // following began anew since
-    }
+    // Both begin anew: what was followed has long let go of the patches that
+    // contradict it.
     const Rigid3 ours = *tracked.camera_from_map;
-    const double our_share = share_;
-    const Rigid3 theirs = ours * checked_pose_.Inverse() * found;
-    Follower& follower = *followers_[located.map];
-    follower.Start(tracked.camera, theirs);
-    const FollowedPose followed =
-        follower.Follow(pyramid_, tracked.camera, std::span(&theirs, 1), nullptr, 1.0);
+    const Rigid3 theirs = ours * checked_pose_->Inverse() * found;
+    const double our_share = FollowAnew(map_, tracked.camera, ours).share();
+    const FollowedPose followed = FollowAnew(located.map, tracked.camera, theirs);
     if (followed.honest && followed.share() > our_share) {
       map_ = located.map;
       Report(followed, tracked);
-      motion_.Forget();
-      motion_.Add(static_cast<double>(tracked.frame.index), followed.camera_from_map);
+      tracked.followed = false;
+      motion_.Correct(followed.camera_from_map);
     } else if (located.map == map_) {
-      follower.Start(tracked.camera, ours);
+      followers_[map_]->Start(tracked.camera, ours);
     }
+  }
+
+  FollowedPose FollowAnew(uint32_t map, const CameraModel& camera, const Rigid3& pose) {
+    followers_[map]->Start(camera, pose);
+    return followers_[map]->Follow(pyramid_, camera, std::span(&pose, 1), nullptr, 1.0);
   }
 
   TrackerOptions options_;
@@ -388,8 +390,7 @@ class Tracker final : public PoseSource {
   bool had_pose_ = false;
 
   int64_t checked_index_ = 0;
-  Rigid3 checked_pose_;
-  uint32_t checked_map_ = 0;
+  std::optional<Rigid3> checked_pose_;  // that was followed; none where following began anew since
   std::unique_ptr<BackgroundFinder> background_;
 };
 

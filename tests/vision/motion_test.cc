@@ -30,6 +30,18 @@ TEST(MotionModel, GoesOnAsBefore) {
   EXPECT_FALSE(model.has_pose());
 }
 
+TEST(MotionModel, KeepsTheMotionWhenThePoseIsCorrected) {
+  const Rigid3 step{geometry::RotationFromVector({0.02, 0.05, -0.01}), {0.1, 0.0, -0.05}};
+  const Rigid3 right{geometry::RotationFromVector({-0.4, 0.2, 0.1}), {0.5, -1.0, 2.0}};
+  MotionModel model;
+  model.Add(4.0, Rigid3());
+  model.Add(5.0, step);
+  model.Correct(right);
+  EXPECT_EQ(model.last_pose().Matrix3x4(), right.Matrix3x4());
+  EXPECT_EQ(model.last_time(), 5.0);
+  EXPECT_LT((model.Motion(1.0).Matrix3x4() - step.Matrix3x4()).norm(), 1e-12);
+}
+
 const CameraModel kSmall = {
     .width = 40, .height = 30, .fx = 35.0, .fy = 35.0, .cx = 19.5, .cy = 14.5};
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "shared/core/random.h"
@@ -25,6 +26,21 @@ Eigen::Matrix3d MapFromPoster() {
   return m;
 }
 
+// An ellipse somewhere in the image, repeated so many times to the right, around the end.
+void DrawBlob(Random& random, cv::Mat& image, int repeats) {
+  const int period = image.cols / repeats;
+  const cv::Point centre(static_cast<int>(random.Below(period)),
+                         static_cast<int>(random.Below(image.rows)));
+  const cv::Size axes(2 + static_cast<int>(random.Below(16)),
+                      2 + static_cast<int>(random.Below(16)));
+  const double angle = random.Uniform(0.0, 180.0);
+  const cv::Scalar grey(random.Uniform(20.0, 235.0));
+  for (int i = 0; i < repeats; ++i) {
+    cv::ellipse(image, centre + cv::Point(i * period, 0), axes, angle, 0.0, 360.0, grey,
+                cv::FILLED);
+  }
+}
+
 }  // namespace
 
 using geometry::CameraModel;
@@ -39,15 +55,31 @@ cv::Mat MakePoster() {
   Random random(5);
   cv::Mat poster(kPosterHeight, kPosterWidth, CV_8UC1, cv::Scalar(128));
   for (int i = 0; i < 3000; ++i) {
-    const cv::Point centre(static_cast<int>(random.Below(kPosterWidth)),
-                           static_cast<int>(random.Below(kPosterHeight)));
-    const cv::Size axes(2 + static_cast<int>(random.Below(16)),
-                        2 + static_cast<int>(random.Below(16)));
-    cv::ellipse(poster, centre, axes, random.Uniform(0.0, 180.0), 0.0, 360.0,
-                cv::Scalar(random.Uniform(20.0, 235.0)), cv::FILLED);
+    DrawBlob(random, poster, 1);
   }
   cv::GaussianBlur(poster, poster, cv::Size(), 1.0);
   return poster;
+}
+
+cv::Mat MakePeriodicWall() {
+  Random random(6);
+  const auto period = static_cast<int>(std::lround(kWallPeriod / kMetresPerPixel));
+  cv::Mat wall(kPosterHeight, kPosterWidth + 2 * period, CV_8UC1, cv::Scalar(128));
+  for (int i = 0; i < 600; ++i) {
+    DrawBlob(random, wall, wall.cols / period);
+  }
+  wall = wall.colRange(period, period + kPosterWidth).clone();
+  constexpr int kMark = 80;
+  for (int y = 40; y + kMark <= wall.rows; y += 160) {
+    for (int x = 30; x + kMark <= wall.cols; x += 240) {
+      cv::Mat mark = wall(cv::Rect(x, y, kMark, kMark));
+      for (int i = 0; i < 60; ++i) {
+        DrawBlob(random, mark, 1);
+      }
+    }
+  }
+  cv::GaussianBlur(wall, wall, cv::Size(), 1.0);
+  return wall;
 }
 
 Frame PhotographPoster(const cv::Mat& poster, const Rigid3& camera_from_map, int64_t index) {

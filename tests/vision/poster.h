@@ -17,6 +17,10 @@ inline const geometry::CameraModel kPosterCamera = {
 
 cv::Mat MakePoster();  // CV_8UC1
 
+// A poster that repeats itself to the right, but for a few marks.
+inline constexpr double kWallPeriod = 0.25;  // metres
+cv::Mat MakePeriodicWall();                  // CV_8UC1
+
 // The poster as a camera sees it, four rays for each pixel.
 geometry::Frame PhotographPoster(const cv::Mat& poster,
                                  const geometry::Rigid3& camera_from_map,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -188,6 +189,67 @@ TEST_F(Tracker, GivesTheSamePosesAgain) {
     ASSERT_TRUE(a.camera_from_map && b.camera_from_map);
     EXPECT_EQ(a.camera_from_map->Matrix3x4(), b.camera_from_map->Matrix3x4());
     EXPECT_EQ(a.covariance, b.covariance);
+  }
+}
+
+// A walk along a wall that repeats itself; after kLeap the camera stands a period
+// farther, which following cannot see.
+class TrackerAtAPeriodicWall : public testing::Test {
+ protected:
+  static constexpr int kLeap = 10;
+
+  TrackerAtAPeriodicWall() : wall_(test::MakePeriodicWall()), map_(MapOfPoster(wall_)) {}
+
+  static Rigid3 Pose(int frame) {
+    const double way = 0.002 * std::min(frame, 80) + (frame >= kLeap ? test::kWallPeriod : 0.0);
+    return PosterPose(0.0, 0.0, 1.1) * Rigid3{Eigen::Quaterniond::Identity(), {0.15 - way, 0, 0}};
+  }
+  Frame Photograph(int frame) const { return PhotographPoster(wall_, Pose(frame), frame); }
+  std::unique_ptr<PoseSource> Create(BackgroundWork background) const {
+    TrackerOptions options;
+    options.background = background;
+    return *CreateTracker({map_}, kCamera, options);
+  }
+
+  cv::Mat wall_;
+  std::shared_ptr<const SceneDatabase> map_;
+};
+
+TEST_F(TrackerAtAPeriodicWall, IsPutRightByTheBackgroundAtAReproducibleFrame) {
+  constexpr int kChecked = 60;
+  constexpr int kJoined = kChecked + 6;
+  const auto tracker = Create(BackgroundWork::kJoined);
+  const Rigid3 period{Eigen::Quaterniond::Identity(), {test::kWallPeriod, 0.0, 0.0}};
+  for (int i = 0; i < kJoined + 10; ++i) {
+    const TrackedFrame tracked = tracker->Track(Photograph(i));
+    ASSERT_TRUE(tracked.camera_from_map.has_value()) << i;
+    EXPECT_EQ(tracked.followed, i != 0 && i != kJoined) << i;
+    const bool astray = i >= kLeap && i < kJoined;  // the leap goes unseen
+    const Rigid3 expected = astray ? Pose(i) * period : Pose(i);
+    EXPECT_LT(CornerError(*tracked.camera_from_map, expected), 0.2) << i;
+  }
+}
+
+TEST_F(TrackerAtAPeriodicWall, IsPutRightWhenTheBackgroundIsDone) {
+  const auto tracker = Create(BackgroundWork::kFree);
+  bool right = false;
+  for (int i = 0; i < 1000 && !right; ++i) {
+    const TrackedFrame tracked = tracker->Track(Photograph(i));
+    ASSERT_TRUE(tracked.camera_from_map.has_value()) << i;
+    right = i > kLeap && CornerError(*tracked.camera_from_map, Pose(i)) < 0.1;
+    EXPECT_EQ(tracked.followed, i > 0 && !right) << i;
+    EXPECT_FALSE(right && i <= 60) << i;  // not before it was checked
+  }
+  EXPECT_TRUE(right);
+}
+
+TEST_F(TrackerAtAPeriodicWall, GoesOnWhereTheBackgroundAgrees) {
+  const auto tracker = Create(BackgroundWork::kJoined);
+  for (int i = kLeap; i < kLeap + 70; ++i) {
+    const TrackedFrame tracked = tracker->Track(Photograph(i));
+    ASSERT_TRUE(tracked.camera_from_map.has_value()) << i;
+    EXPECT_EQ(tracked.followed, i != kLeap) << i;
+    EXPECT_LT(CornerError(*tracked.camera_from_map, Pose(i)), 0.1) << i;
   }
 }
 
