@@ -1,17 +1,16 @@
 #include "shared/vision/tracker.h"
 
 #include <array>
-#include <condition_variable>
 #include <limits>
-#include <mutex>
 #include <opencv2/core.hpp>
-#include <thread>
+#include <optional>
+#include <span>
 
 #include "shared/core/check.h"
+#include "shared/vision/background_finder.h"
+#include "shared/vision/finder.h"
 #include "shared/vision/follower.h"
 #include "shared/vision/gain_estimator.h"
-#include "shared/vision/level_of_detail.h"
-#include "shared/vision/map_locator.h"
 #include "shared/vision/motion_model.h"
 #include "shared/vision/rotation_estimator.h"
 
@@ -21,17 +20,7 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-constexpr double kDarkMean = 8.0;  // grey level of 0..255 below which nothing shows
-
-LocalizerOptions LocalizerOptionsOf(const TrackerOptions& options) {
-  return {.search_checks = options.search_checks,
-          .ratio = options.ratio,
-          .inlier_threshold_px = options.inlier_threshold_px,
-          .hypotheses = options.hypotheses,
-          .min_inliers = options.min_inliers,
-          .seed = options.seed};
-}
-
+constexpr double kDarkMean = 8.0;       // grey level of 0..255 below which nothing shows
 constexpr int64_t kLongestGap = 8;      // frames without a pose after which prediction is vain
 constexpr double kLeapPx = 30.0;        // between frames: the view changed
 constexpr double kFewAgree = 0.5;       // share of the patches
@@ -56,101 +45,6 @@ double DistancePx(const CameraModel& camera, const Rigid3& a, const Rigid3& b, d
   }
   return sum / (kSteps * kSteps);
 }
-
-// Finds images without a prior.
-class Finder {
- public:
-  Finder(std::span<const std::shared_ptr<const SceneDatabase>> maps, const TrackerOptions& options)
-      : locator_(maps, LocalizerOptionsOf(options)), detail_(options.feature_budget) {}
-
-  // The level of detail may save work but never cost a pose: where it fails, the
-  // finest level has the last word on the same frame.
-  Located Find(const cv::Mat& grey, const CameraModel& camera) {
-    const bool finest = detail_.finest();
-    Located located = Locate(grey, camera, detail_.options());
-    detail_.Observe(features_.size());
-    if (!located.location.camera_from_map && !finest) {
-      located = Locate(grey, camera, detail_.finest_options());
-    }
-    return located;
-  }
-
-  // Of the last image.
-  int features() const { return static_cast<int>(features_.size()); }
-
- private:
-  Located Locate(const cv::Mat& grey, const CameraModel& camera, const FeatureOptions& options) {
-    CHECK(extractor_.Extract(grey, options, features_).ok());
-    return locator_.Locate(features_, camera);
-  }
-
-  MapLocator locator_;
-  FeatureExtractor extractor_;
-  Features features_;
-  LevelOfDetail detail_;
-};
-
-// Finds a frame beside the others, in a thread of its own or in the caller's when
-// the answer is wanted.
-class BackgroundFinder {
- public:
-  BackgroundFinder(std::span<const std::shared_ptr<const SceneDatabase>> maps,
-                   const TrackerOptions& options)
-      : finder_(maps, options) {
-    if (options.threads != 1) {
-      thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
-    }
-  }
-
-  // !busy(). The pixels are shared, never copied.
-  void Begin(const cv::Mat& grey, const CameraModel& camera) {
-    const std::lock_guard lock(mutex_);
-    grey_ = grey;
-    camera_ = camera;
-    located_.reset();
-    busy_ = true;
-    changed_.notify_all();
-  }
-  bool busy() const { return busy_; }
-
-  // busy(). The answer; nullopt where it is not ready and wait is false.
-  std::optional<Located> Take(bool wait) {
-    std::unique_lock lock(mutex_);
-    if (!thread_.joinable()) {
-      located_ = finder_.Find(grey_, camera_);
-    } else if (wait) {
-      changed_.wait(lock, [this] { return located_.has_value(); });
-    }
-    if (located_) {
-      busy_ = false;
-      grey_.release();
-    }
-    return located_;
-  }
-
- private:
-  void Work(const std::stop_token& stop) {
-    std::unique_lock lock(mutex_);
-    while (changed_.wait(lock, stop, [this] { return busy_ && !located_; })) {
-      const cv::Mat grey = grey_;
-      const CameraModel camera = camera_;
-      lock.unlock();
-      const Located located = finder_.Find(grey, camera);
-      lock.lock();
-      located_ = located;
-      changed_.notify_all();
-    }
-  }
-
-  Finder finder_;
-  std::mutex mutex_;
-  std::condition_variable_any changed_;
-  cv::Mat grey_;
-  CameraModel camera_;
-  std::optional<Located> located_;
-  bool busy_ = false;    // changed by the caller only
-  std::jthread thread_;  // last: stops before what it uses goes
-};
 
 class Tracker final : public PoseSource {
  public:

@@ -1,0 +1,42 @@
+#include "shared/vision/finder.h"
+
+#include "shared/core/check.h"
+
+namespace lararium::vision {
+namespace {
+
+LocalizerOptions LocalizerOptionsOf(const TrackerOptions& options) {
+  return {.search_checks = options.search_checks,
+          .ratio = options.ratio,
+          .inlier_threshold_px = options.inlier_threshold_px,
+          .hypotheses = options.hypotheses,
+          .min_inliers = options.min_inliers,
+          .seed = options.seed};
+}
+
+}  // namespace
+
+using geometry::CameraModel;
+
+Finder::Finder(std::span<const std::shared_ptr<const SceneDatabase>> maps,
+               const TrackerOptions& options)
+    : locator_(maps, LocalizerOptionsOf(options)), detail_(options.feature_budget) {}
+
+Located Finder::Find(const cv::Mat& grey, const CameraModel& camera) {
+  const bool finest = detail_.finest();
+  Located located = Locate(grey, camera, detail_.options());
+  detail_.Observe(features_.size());
+  if (!located.location.camera_from_map && !finest) {
+    located = Locate(grey, camera, detail_.finest_options());
+  }
+  return located;
+}
+
+Located Finder::Locate(const cv::Mat& grey,
+                       const CameraModel& camera,
+                       const FeatureOptions& options) {
+  CHECK(extractor_.Extract(grey, options, features_).ok());
+  return locator_.Locate(features_, camera);
+}
+
+}  // namespace lararium::vision
