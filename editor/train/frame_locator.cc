@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/train/matching.h"
-#include "editor/train/resection.h"
-#include "shared/core/check.h"
+#include "shared/core/median.h"
+#include "shared/core/parallel.h"
+#include "shared/vision/guided_matcher.h"
+#include "shared/vision/localizer.h"
 
 namespace lararium::train {
 namespace {
 
-constexpr size_t kKeyframes = 4;  // that a frame is matched with
-
-double Median(std::vector<double> values) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr size_t kWorkers = 8;
+constexpr double kLargestErrorPx = 2.0;  // of a sight that counts
 
 }  // namespace
 
@@ -41,70 +34,69 @@ LocatedView DescribeImage(const Reconstruction& reconstruction, uint32_t image) 
   return view;
 }
 
-FrameLocator::FrameLocator(const Reconstruction& reconstruction,
-                           std::span<const TrainingImage> images)
-    : reconstruction_(reconstruction) {
-  CHECK(images.size() == reconstruction.image_count());
-  for (const uint32_t image : reconstruction.LocatedImages()) {
-    View& view = views_.emplace_back();
-    view.frame_index = images[image].frame_index;
-    for (const uint32_t element : reconstruction.ElementsOf(image)) {
-      if (reconstruction.Observed(element)) {
-        const uint32_t feature = reconstruction.tracks().elements[element].feature;
-        view.descriptors.push_back(images[image].features.descriptors[feature]);
-        view.tracks.push_back(reconstruction.TrackOf(element));
+// Memory for one image at a time.
+class FrameLocator::Worker {
+ public:
+  explicit Worker(const vision::SceneDatabase& database)
+      : database_(database), localizer_(database, {}), matcher_(database) {}
+
+  LocatedView Locate(const cv::Mat& grey) {
+    vision::FeatureOptions options;
+    options.first_octave = 0;
+    options.max_features = 1500;
+    LocatedView view;
+    if (!extractor_.Extract(grey, options, features_).ok()) {
+      return view;
+    }
+    view.features = static_cast<int>(features_.size());
+    view.camera_from_map = localizer_.Locate(features_, database_.camera).camera_from_map;
+    if (view.camera_from_map) {
+      std::vector<double> errors = ErrorsOfSights(*view.camera_from_map);
+      view.observations = static_cast<int>(errors.size());
+      view.median_error_px = Median(std::move(errors));
+    }
+    return view;
+  }
+
+ private:
+  std::vector<double> ErrorsOfSights(const geometry::Rigid3& camera_from_map) {
+    matcher_.Match(database_.camera, camera_from_map, features_, kLargestErrorPx, matches_);
+    std::vector<double> errors;
+    for (const vision::FeatureMatch& match : matches_) {
+      const vision::Keypoint& keypoint = features_.keypoints[match.feature];
+      const auto projected =
+          database_.camera.Project(camera_from_map * database_.points[match.point].cast<double>());
+      if (projected) {
+        errors.push_back((*projected - Eigen::Vector2d(keypoint.x, keypoint.y)).norm());
       }
     }
+    return errors;
+  }
+
+  const vision::SceneDatabase& database_;
+  vision::FeatureExtractor extractor_;
+  vision::Features features_;
+  vision::Localizer localizer_;
+  vision::GuidedMatcher matcher_;
+  std::vector<vision::FeatureMatch> matches_;
+};
+
+FrameLocator::FrameLocator(const vision::SceneDatabase& database) {
+  for (size_t i = 0; i < kWorkers; ++i) {
+    workers_.push_back(std::make_unique<Worker>(database));
   }
 }
 
-LocatedView FrameLocator::Locate(const cv::Mat& grey, int64_t frame_index) const {
-  LocatedView view;
-  vision::FeatureOptions options;
-  options.first_octave = 0;
-  options.max_features = 1500;
-  const Result<vision::Features> features = vision::ExtractFeatures(grey, options);
-  if (!features.ok()) {
-    return view;
-  }
-  view.features = static_cast<int>(features->size());
-  const auto after =
-      std::lower_bound(views_.begin(), views_.end(), frame_index,
-                       [](const View& view, int64_t index) { return view.frame_index < index; });
-  const auto position = static_cast<size_t>(after - views_.begin());
-  const size_t begin = position - std::min(position, kKeyframes / 2);
-  const size_t end = std::min(views_.size(), begin + kKeyframes);
+FrameLocator::~FrameLocator() = default;
 
-  std::vector<Eigen::Vector2d> pixels;
-  std::vector<Eigen::Vector3d> points;
-  std::vector<std::pair<uint32_t, uint32_t>> seen;  // feature, track
-  for (size_t i = begin; i < end; ++i) {
-    for (const FeatureMatch& match :
-         MatchDescriptors(features->descriptors, views_[i].descriptors, 0.8f)) {
-      seen.emplace_back(match.a, views_[i].tracks[match.b]);
+std::vector<LocatedView> FrameLocator::Locate(std::span<const geometry::Frame> frames) {
+  std::vector<LocatedView> views(frames.size());
+  ParallelFor(kWorkers, [&](size_t worker) {
+    for (size_t i = worker; i < frames.size(); i += kWorkers) {
+      views[i] = workers_[worker]->Locate(frames[i].grey);
     }
-  }
-  std::sort(seen.begin(), seen.end());
-  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-  for (const auto& [feature, track] : seen) {
-    const vision::Keypoint& keypoint = features->keypoints[feature];
-    pixels.emplace_back(keypoint.x, keypoint.y);
-    points.push_back(reconstruction_.Point(track));
-  }
-  const std::optional<Resection> resection =
-      LocateImage(reconstruction_.camera(), pixels, points, ResectionOptions());
-  if (!resection) {
-    return view;
-  }
-  view.camera_from_map = resection->camera_from_map;
-  view.observations = static_cast<int>(resection->inliers.size());
-  std::vector<double> errors;
-  for (const uint32_t i : resection->inliers) {
-    const auto projected = reconstruction_.camera().Project(resection->camera_from_map * points[i]);
-    errors.push_back(projected ? (*projected - pixels[i]).norm() : 0.0);
-  }
-  view.median_error_px = Median(std::move(errors));
-  return view;
+  });
+  return views;
 }
 
 }  // namespace lararium::train

@@ -1,15 +1,17 @@
 #pragma once
 
-// Locates further frames of the source in the finished map.
+// What the finished map knows of the source's frames: of those that shaped it,
+// and of the others, which are located in it.
 
 #include <cstdint>
-#include <opencv2/core/mat.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "editor/train/database_builder.h"
 #include "editor/train/reconstruction.h"
+#include "shared/geometry/frame.h"
+#include "shared/vision/scene_database.h"
 
 namespace lararium::train {
 
@@ -24,24 +26,21 @@ struct LocatedView {
 // What the reconstruction knows of its own image; features is left 0.
 LocatedView DescribeImage(const Reconstruction& reconstruction, uint32_t image);
 
+// Locates images in a map by vision::Localizer: the time that an image takes
+// hardly grows with the map or with the number of its keyframes.
 class FrameLocator {
  public:
-  // Borrows reconstruction; images[i] is its image i.
-  FrameLocator(const Reconstruction& reconstruction, std::span<const TrainingImage> images);
+  // Borrows the database; the images are its camera's.
+  explicit FrameLocator(const vision::SceneDatabase& database);
+  ~FrameLocator();
 
-  // By matches with the keyframes nearest in the source. May run on several threads.
-  LocatedView Locate(const cv::Mat& grey, int64_t frame_index) const;
+  // views[i] of frames[i]. On all cores; the same frame gives the same view,
+  // whatever came before.
+  std::vector<LocatedView> Locate(std::span<const geometry::Frame> frames);
 
  private:
-  // What a keyframe sees of the map.
-  struct View {
-    int64_t frame_index = -1;
-    std::vector<vision::Descriptor> descriptors;
-    std::vector<uint32_t> tracks;  // [descriptors]
-  };
-
-  const Reconstruction& reconstruction_;
-  std::vector<View> views_;  // in order of frame_index
+  class Worker;
+  std::vector<std::unique_ptr<Worker>> workers_;
 };
 
 }  // namespace lararium::train

@@ -163,9 +163,6 @@ Status ForOtherFrames(capture::FrameSource& source,
                       Progress& progress,
                       Log& log,
                       const std::function<void(std::span<const Frame>)>& visit) {
-  if (survey.keyframes.size() == survey.frames.size()) {
-    return Status();
-  }
   FrameReader reader(source, log);
   LARARIUM_RETURN_IF_ERROR(reader.Rewind());
   constexpr size_t kBatch = 16;

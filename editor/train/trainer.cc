@@ -9,7 +9,6 @@
 #include "editor/train/frame_locator.h"
 #include "editor/train/image_mapping.h"
 #include "editor/train/survey.h"
-#include "shared/core/parallel.h"
 
 namespace lararium::train {
 namespace {
@@ -28,9 +27,9 @@ class Trainer {
     }));
     LARARIUM_RETURN_IF_ERROR(Timed("matching", [&] { return Match(); }));
     LARARIUM_RETURN_IF_ERROR(Timed("mapping", [&] { return Map(); }));
-    LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(); }));
     TrainResult result;
     LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
+    LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
     FillReport(result.database);
     result.report = std::move(report_);
     return result;
@@ -99,21 +98,22 @@ class Trainer {
     return Status();
   }
 
-  Status LocateOthers() {
-    const FrameLocator locator(*map_.reconstruction, survey_.keyframes);
+  Status LocateOthers(const vision::SceneDatabase& database) {
+    if (survey_.keyframes.size() == survey_.frames.size()) {
+      return Status();
+    }
+    FrameLocator locator(database);
     size_t next = 0;  // frame report
-    return ForOtherFrames(
-        source_, survey_, progress_, log_, [&](std::span<const geometry::Frame> batch) {
-          std::vector<LocatedView> views(batch.size());
-          ParallelFor(batch.size(),
-                      [&](size_t i) { views[i] = locator.Locate(batch[i].grey, batch[i].index); });
-          for (size_t i = 0; i < batch.size(); ++i) {
-            while (report_.frame_reports[next].frame_index != batch[i].index) {
-              ++next;
-            }
-            Fill(report_.frame_reports[next], views[i]);
-          }
-        });
+    return ForOtherFrames(source_, survey_, progress_, log_,
+                          [&](std::span<const geometry::Frame> batch) {
+                            const std::vector<LocatedView> views = locator.Locate(batch);
+                            for (size_t i = 0; i < batch.size(); ++i) {
+                              while (report_.frame_reports[next].frame_index != batch[i].index) {
+                                ++next;
+                              }
+                              Fill(report_.frame_reports[next], views[i]);
+                            }
+                          });
   }
 
   static void Fill(FrameReport& report, const LocatedView& view) {

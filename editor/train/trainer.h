@@ -53,7 +53,7 @@ struct FrameReport {
   bool keyframe = false;
   std::optional<geometry::Rigid3> camera_from_map;  // where it was located
   int features = 0;
-  int observations = 0;          // of points of the map, before the budget thins these out
+  int observations = 0;  // of points of the map; of keyframes before the budget thins it out
   double median_error_px = 0.0;  // of the observations, reprojection
   FrameMotion motion;            // since the frame before, and sharpness
 };
