@@ -17,8 +17,7 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
                                          const PlaceDocument& place,
                                          const MapBudget& budget) {
   exporter::PlaceContent content;
-  LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database,
-                            vision::LoadSceneDatabase(paths.Scene(place.name)));
+  LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database, LoadMap(paths, place.name));
   content.scene = vision::SerializeSceneDatabase(
       train::Prune(database, {.max_points = budget.max_points,
                               .max_descriptors_per_point = budget.max_descriptors_per_point,
@@ -42,6 +41,11 @@ Status ExportProject(const ProjectPaths& paths,
   content.credits = document.credits;
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
   for (const PlaceDocument& place : document.places) {
+    progress.Report("packing", static_cast<double>(content.places.size()) /
+                                   static_cast<double>(document.places.size()));
+    if (progress.Cancelled()) {
+      return Status::Error("export", "cancelled");
+    }
     LARARIUM_ASSIGN_OR_RETURN(exporter::PlaceContent packed, PackPlace(paths, place, budget));
     content.places.push_back(std::move(packed));
   }

@@ -41,7 +41,9 @@ struct Runner {
   Result<CommandResult> operator()(const ExportColmapOptions& options) {
     return RunExportColmap(options);
   }
-  Result<CommandResult> operator()(const PruneOptions& options) { return RunPrune(options); }
+  Result<CommandResult> operator()(const PruneOptions& options) {
+    return RunPrune(options, progress);
+  }
   Result<CommandResult> operator()(const CastOptions& options) { return RunCast(options); }
   Result<CommandResult> operator()(const BakeOptions& options) {
     return RunBake(options, progress);

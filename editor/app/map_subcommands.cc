@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -35,6 +38,16 @@ Result<PlaceDocument*> PlaceToTrain(ProjectDocument& document, const std::string
     document.places.push_back(std::move(place));
   }
   return document.FindPlace(name);
+}
+
+// Training takes minutes: what could not be written after it is refused before.
+Status CanBeWritten(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!file.empty() && !std::filesystem::is_directory(folder, ignored)) {
+    return Status::Error(folder.string(), "is not a folder", "make it, or name another");
+  }
+  return Status();
 }
 
 // The recording that the options name; records a camera for it. file: where to.
@@ -167,19 +180,18 @@ std::string BudgetText(const std::vector<train::BudgetRow>& rows) {
 std::vector<train::BudgetOptions> BudgetsFor(const SceneDatabase& database,
                                              const std::optional<int>& points) {
   constexpr int kFewPoints = 1000;
-  std::vector<train::BudgetOptions> budgets;
-  bool asked = !points.has_value();
-  for (int count = static_cast<int>(database.points.size()); count >= kFewPoints; count /= 2) {
-    if (!asked && *points >= count) {
-      budgets.push_back({.max_points = *points});
-      asked = true;
-    }
-    if (budgets.empty() || budgets.back().max_points != count) {
-      budgets.push_back({.max_points = count});
-    }
+  constexpr int kFewest = 100;  // that a budget may ask for
+  const int all = std::max(static_cast<int>(database.points.size()), kFewest);
+  std::set<int, std::greater<>> counts = {all};
+  for (int count = all / 2; count >= kFewPoints; count /= 2) {
+    counts.insert(count);
   }
-  if (!asked) {
-    budgets.push_back({.max_points = *points});
+  if (points) {
+    counts.insert(std::min(*points, all));
+  }
+  std::vector<train::BudgetOptions> budgets;
+  for (const int count : counts) {
+    budgets.push_back({.max_points = count});
   }
   return budgets;
 }
@@ -190,6 +202,8 @@ Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, 
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
   LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, PlaceToTrain(document, options.place));
+  LARARIUM_RETURN_IF_ERROR(CanBeWritten(options.report));
+  LARARIUM_RETURN_IF_ERROR(CanBeWritten(options.poses_out));
   if (options.tag_size) {
     const train::TagOptions tags{options.tag_family, *options.tag_size};
     LARARIUM_RETURN_IF_ERROR(tags.Validate());
@@ -239,8 +253,7 @@ Result<CommandResult> RunExportColmap(const ExportColmapOptions& options) {
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
   LARARIUM_ASSIGN_OR_RETURN(const std::string place, ChoosePlace(paths, document, options.place));
-  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database,
-                            vision::LoadSceneDatabase(paths.Scene(place)));
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database, LoadMap(paths, place));
   LARARIUM_RETURN_IF_ERROR(
       train::ExportColmap(database, options.model,
                           options.text ? train::ColmapFormat::kText : train::ColmapFormat::kBinary,
@@ -251,16 +264,15 @@ Result<CommandResult> RunExportColmap(const ExportColmapOptions& options) {
                         {"points", database.points.size()}}};
 }
 
-Result<CommandResult> RunPrune(const PruneOptions& options) {
+Result<CommandResult> RunPrune(const PruneOptions& options, Progress& progress) {
   constexpr size_t kStride = 4;  // every fourth view is held out
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
   LARARIUM_ASSIGN_OR_RETURN(const std::string name, ChoosePlace(paths, document, options.place));
-  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database,
-                            vision::LoadSceneDatabase(paths.Scene(name)));
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database, LoadMap(paths, name));
   LARARIUM_ASSIGN_OR_RETURN(
       const std::vector<train::BudgetRow> rows,
-      train::MeasureBudgets(database, BudgetsFor(database, options.points), kStride));
+      train::MeasureBudgets(database, BudgetsFor(database, options.points), kStride, progress));
   CommandResult result{BudgetText(rows), {{"place", name}, {"budgets", BudgetJson(rows)}}};
   if (options.points) {
     const SceneDatabase pruned = train::Prune(database, {.max_points = *options.points});

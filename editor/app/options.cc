@@ -45,11 +45,14 @@ void AddIntrinsics(CLI::App* command, std::vector<double>& intrinsics) {
 void AddTrain(CLI::App& app, TrainOptions& train) {
   CLI::App* command = AddSubcommand(app, "train", "Learn a place from a recording", train.project);
   CLI::Option_group* source = command->add_option_group("source", "The recording");
-  source->add_option("--video", train.video, "Video file")->check(CLI::ExistingFile);
-  source->add_option("--images", train.images, "Folder of images")->check(CLI::ExistingDirectory);
+  CLI::Option* video = source->add_option("--video", train.video, "Video file");
+  video->check(CLI::ExistingFile);
+  CLI::Option* images = source->add_option("--images", train.images, "Folder of images");
+  images->check(CLI::ExistingDirectory)->excludes(video);
   source->add_option("--camera", train.camera, "Record this camera first")
-      ->check(CLI::NonNegativeNumber);
-  source->require_option(0, 1);
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(video)
+      ->excludes(images);
   command->add_option("--seconds", train.seconds, "How long to record the camera")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();

@@ -148,8 +148,7 @@ std::string StageText(const PlaceDocument& place,
 }
 
 Result<StageReport> ReportStage(const ProjectPaths& paths, const PlaceDocument& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database,
-                            vision::LoadSceneDatabase(paths.Scene(place.name)));
+  LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database, LoadMap(paths, place.name));
   const MapMeasures measures = MeasureMap(place, database);
   const ResolvedPicks resolved = ResolvePicks(place, database, measures);
   return StageReport{StageText(place, measures, resolved), StageJson(place, measures, resolved)};

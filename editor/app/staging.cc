@@ -166,13 +166,21 @@ Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
   if (place == nullptr) {
     return Status::Error(paths.Project().string(), "has no place \"" + place_name + "\"");
   }
-  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database,
-                            vision::LoadSceneDatabase(paths.Scene(place->name)));
+  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, LoadMap(paths, place->name));
   const ResolvedPicks picks = ResolvePicks(*place, database, MeasureMap(*place, database));
   LARARIUM_RETURN_IF_ERROR(picks.problem);
   return AssembleShow(paths, document, *place,
                       std::make_shared<const vision::SceneDatabase>(std::move(database)),
                       picks.map_from_picked);
+}
+
+Result<vision::SceneDatabase> LoadMap(const ProjectPaths& paths, const std::string& place) {
+  const std::filesystem::path file = paths.Scene(place);
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    return Status::Error(file.string(), "is not there", "train the place \"" + place + "\"");
+  }
+  return vision::LoadSceneDatabase(file);
 }
 
 Result<std::unique_ptr<capture::FrameSource>> OpenSource(const ProjectPaths& paths,

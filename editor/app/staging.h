@@ -28,6 +28,9 @@ struct MapMeasures {
   Status tag_problem;                   // why they give no scale
 };
 
+// The map that training gave a place.
+Result<vision::SceneDatabase> LoadMap(const ProjectPaths& paths, const std::string& place);
+
 // Takes seconds where tags are looked for, milliseconds otherwise.
 MapMeasures MeasureMap(const PlaceDocument& place, const vision::SceneDatabase& database);
 

@@ -31,7 +31,7 @@ Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
                                       Progress& progress,
                                       Log& log);
 Result<CommandResult> RunExportColmap(const ExportColmapOptions& options);
-Result<CommandResult> RunPrune(const PruneOptions& options);
+Result<CommandResult> RunPrune(const PruneOptions& options, Progress& progress);
 Result<CommandResult> RunCast(const CastOptions& options);
 Result<CommandResult> RunBake(const BakeOptions& options, Progress& progress);
 Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress);

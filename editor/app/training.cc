@@ -120,8 +120,7 @@ Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
                                         const TrainingOptions& options,
                                         Progress& progress,
                                         Log& log) {
-  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase map,
-                            vision::LoadSceneDatabase(paths.Scene(place.name)));
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase map, LoadMap(paths, place.name));
   LARARIUM_ASSIGN_OR_RETURN(train::TrainResult result,
                             MergeSession(paths, place, map, session, options, progress, log));
   return Finish(paths, place, session.source, std::move(result), options);

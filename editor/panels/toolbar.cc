@@ -74,7 +74,8 @@ void EditMenu(app::Workspace& workspace) {
 }
 
 void PlaceMenu(app::Workspace& workspace, EditorState& state) {
-  if (ImGui::MenuItem("Train\xe2\x80\xa6")) {
+  const bool training = workspace.tasks().Running(app::Workspace::kTraining);
+  if (ImGui::MenuItem("Train\xe2\x80\xa6", nullptr, false, !training)) {
     OpenTrainDialog(workspace, state);
   }
   if (ImGui::MenuItem("Add a session\xe2\x80\xa6", nullptr, false, CanAddSession(workspace))) {

@@ -488,16 +488,23 @@ SceneDatabase Prune(const SceneDatabase& database, const BudgetOptions& options)
 
 Result<std::vector<BudgetRow>> MeasureBudgets(const SceneDatabase& database,
                                               std::span<const BudgetOptions> budgets,
-                                              size_t stride) {
+                                              size_t stride,
+                                              Progress& progress) {
   CHECK(stride >= 2);
   for (const BudgetOptions& options : budgets) {
     LARARIUM_RETURN_IF_ERROR(options.Validate());
   }
+  progress.Report("views", 0.0);
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<HeldOutView> views, HeldOutViews(database, stride));
   SceneDatabase rest = WithoutViews(database, views);
   rest.forest = vision::BuildForest(rest.descriptors, vision::ForestOptions());
   std::vector<BudgetRow> rows;
   for (const BudgetOptions& options : budgets) {
+    if (progress.Cancelled()) {
+      return Status::Error("budget", "cancelled");
+    }
+    progress.Report("measuring",
+                    static_cast<double>(rows.size()) / static_cast<double>(budgets.size()));
     rows.push_back(MeasureBudget(database, rest, views, options));
   }
   return rows;

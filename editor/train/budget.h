@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/vision/features.h"
 #include "shared/vision/scene_database.h"
@@ -55,9 +56,11 @@ struct BudgetRow {
 
 // How well smaller maps work: for each of budgets, prunes the map that never saw
 // the appearance of every stride-th keyframe with an image, and locates these.
-// They must be views between others, or recall says little: stride >= 2.
+// They must be views between others, or recall says little: stride >= 2. Fails
+// where too few keyframes have an image, or when cancelled.
 Result<std::vector<BudgetRow>> MeasureBudgets(const vision::SceneDatabase& database,
                                               std::span<const BudgetOptions> budgets,
-                                              size_t stride);
+                                              size_t stride,
+                                              Progress& progress);
 
 }  // namespace lararium::train

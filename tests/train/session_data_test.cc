@@ -137,7 +137,7 @@ TEST(MeasureBudgetsOnMaquette, SmallerMapsWeighLessAndHaveLessInReserve) {
   ASSERT_TRUE(map.ok()) << map.message();
   const std::vector<BudgetOptions> budgets = {
       {}, {.max_points = 1500, .image_coverage = 0.95}, {.max_points = 300, .image_coverage = 0.9}};
-  const auto rows = MeasureBudgets(map->database, budgets, 4);
+  const auto rows = MeasureBudgets(map->database, budgets, 4, progress);
   ASSERT_TRUE(rows.ok()) << rows.message();
   EXPECT_EQ((*rows)[0].recall, 1.0);
   EXPECT_LT((*rows)[0].median_difference_px, 0.3);
