@@ -134,13 +134,13 @@ std::string StageText(const PlaceDocument& place,
   }
   if (measures.floor) {
     const geometry::Similarity3 map_from_stage = resolved.map_from_picked * place.picked_from_stage;
+    const double height = StageHeight(map_from_stage, *measures.floor);
     text += Format(
         "floor: %d points, spread %.1f mm, level to %.2f deg; the stage lies %.1f mm "
-        "above it, tilted by %.2f deg\n",
+        "%s it, tilted by %.2f deg\n",
         measures.floor->points, kMillimetres * measures.floor->spread / map_from_stage.scale,
-        kDegrees * measures.floor->tilt_deviation,
-        kMillimetres * StageHeight(map_from_stage, *measures.floor),
-        kDegrees * StageTilt(map_from_stage, *measures.floor));
+        kDegrees * measures.floor->tilt_deviation, kMillimetres * std::abs(height),
+        height < 0.0 ? "below" : "above", kDegrees * StageTilt(map_from_stage, *measures.floor));
   } else {
     text += "floor: none found\n";
   }

@@ -123,6 +123,8 @@ TEST(StageReport, MeasuresTheStageAgainstTheFloor) {
   EXPECT_NEAR(json["floor"]["stage_tilt_deg"].get<double>(), 5.7296, 1e-3);
   EXPECT_NEAR(json["floor"]["stage_height_mm"].get<double>(), 250.0, 1e-6);
   EXPECT_THAT(StageText(place, measures, resolved), HasSubstr("the stage lies 250.0 mm above it"));
+  place.picked_from_stage.translation.y() = -0.25;
+  EXPECT_THAT(StageText(place, measures, resolved), HasSubstr("the stage lies 250.0 mm below it"));
 }
 
 TEST(StageReport, SaysWhatAPlaceLacks) {
