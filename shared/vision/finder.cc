@@ -1,5 +1,7 @@
 #include "shared/vision/finder.h"
 
+#include <optional>
+
 #include "shared/core/check.h"
 
 namespace lararium::vision {
@@ -25,10 +27,18 @@ Finder::Finder(std::span<const std::shared_ptr<const SceneDatabase>> maps,
 Located Finder::Find(const cv::Mat& grey, const CameraModel& camera) {
   const bool finest = detail_.finest();
   Located located = Locate(grey, camera, detail_.options());
-  detail_.Observe(features_.size());
-  if (!located.location.camera_from_map && !finest) {
+  const size_t features = features_.size();
+  const bool again = !located.location.camera_from_map && !finest;
+  if (again) {
     located = Locate(grey, camera, detail_.finest_options());
   }
+  const Location& location = located.location;
+  std::optional<PoseQuality> pose;
+  if (location.camera_from_map) {
+    // A pose that only the finest options found says how little the others gave.
+    pose = again ? PoseQuality{} : PoseQuality{location.inliers, location.expected_error_px};
+  }
+  detail_.Observe(features, pose);
   return located;
 }
 

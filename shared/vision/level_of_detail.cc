@@ -1,6 +1,7 @@
 #include "shared/vision/level_of_detail.h"
 
 #include <array>
+#include <cmath>
 
 namespace lararium::vision {
 namespace {
@@ -37,6 +38,30 @@ constexpr double kTooMany = 1.4;
 // octave only where that still fills the budget.
 constexpr double kTooManyForOctave = 5.0;
 
+// A pose that wants more features, however many there are.
+constexpr int kFewInliers = 40;
+constexpr double kLargeErrorPx = 1.0;
+// More than a pose needs: then features may be fewer than the budget.
+constexpr int kManyInliers = 300;
+constexpr double kSmallErrorPx = 0.25;
+// Inliers fall with the features, at most to these parts, and the error rises by the
+// inverse root.
+constexpr double kPartOfStep = 0.6;
+constexpr double kPartOfOctave = 0.15;
+
+bool IsPoor(const PoseQuality& pose) {
+  return pose.inliers < kFewInliers || pose.expected_error_px > kLargeErrorPx;
+}
+
+bool IsPlenty(const PoseQuality& pose) {
+  return pose.inliers > kManyInliers && pose.expected_error_px < kSmallErrorPx;
+}
+
+// At worst, from a part of the inliers.
+PoseQuality FromPart(const PoseQuality& pose, double part) {
+  return {static_cast<int>(part * pose.inliers), pose.expected_error_px / std::sqrt(part)};
+}
+
 FeatureOptions OptionsAt(int level, int max_features) {
   FeatureOptions options;
   options.first_octave = kLevels[level].first_octave;
@@ -53,13 +78,24 @@ FeatureOptions LevelOfDetail::options() const { return OptionsAt(level_, 6 * bud
 
 FeatureOptions LevelOfDetail::finest_options() const { return OptionsAt(0, 6 * budget_); }
 
-void LevelOfDetail::Observe(size_t features) {
+void LevelOfDetail::Observe(size_t features, const std::optional<PoseQuality>& pose) {
   const auto count = static_cast<double>(features);
-  if (count < kTooFew * budget_ && level_ > 0) {
-    --level_;
-  } else if (level_ + 1 < static_cast<int>(kLevels.size())) {
-    const bool same_octave = kLevels[level_ + 1].first_octave == kLevels[level_].first_octave;
-    level_ += count > (same_octave ? kTooMany : kTooManyForOctave) * budget_ ? 1 : 0;
+  const bool poor = pose && IsPoor(*pose);
+  const bool too_few = count < kTooFew * budget_ && !(pose && IsPlenty(*pose));
+  if (poor || too_few) {
+    level_ -= level_ > 0 ? 1 : 0;
+    return;
+  }
+  if (level_ + 1 == static_cast<int>(kLevels.size())) {
+    return;
+  }
+  const bool same_octave = kLevels[level_ + 1].first_octave == kLevels[level_].first_octave;
+  const std::optional<PoseQuality> then =
+      pose ? std::optional(FromPart(*pose, same_octave ? kPartOfStep : kPartOfOctave))
+           : std::nullopt;
+  const bool too_many = count > (same_octave ? kTooMany : kTooManyForOctave) * budget_;
+  if ((too_many && !(then && IsPoor(*then))) || (then && IsPlenty(*then))) {
+    ++level_;
   }
 }
 
