@@ -4,58 +4,10 @@
 #include "editor/train/session_merge.h"
 #include "shared/vision/localizer.h"
 #include "tests/support/test_files.h"
+#include "tests/train/part_of_video.h"
 
 namespace lararium::train {
 namespace {
-
-// Every step-th frame of a video, from first to last.
-class PartOfVideo : public capture::FrameSource {
- public:
-  PartOfVideo(std::unique_ptr<FrameSource> video, int64_t first, int64_t last, int64_t step)
-      : video_(std::move(video)), first_(first), last_(last), step_(step) {}
-
-  Result<std::optional<geometry::Frame>> Next() override {
-    while (true) {
-      auto frame = video_->Next();
-      if (!frame.ok() || !*frame) {
-        return frame;
-      }
-      const int64_t index = (*frame)->index;
-      if (index > last_) {
-        return std::optional<geometry::Frame>();
-      }
-      if (index >= first_ && (index - first_) % step_ == 0) {
-        return frame;
-      }
-    }
-  }
-  Status Seek(int64_t index) override { return video_->Seek(index); }
-  std::optional<int64_t> frame_count() const override { return (last_ - first_) / step_ + 1; }
-  int width() const override { return video_->width(); }
-  int height() const override { return video_->height(); }
-  double frames_per_second() const override { return video_->frames_per_second(); }
-  bool live() const override { return false; }
-  std::string FrameName(int64_t index) const override { return video_->FrameName(index); }
-
- private:
-  std::unique_ptr<FrameSource> video_;
-  int64_t first_;
-  int64_t last_;
-  int64_t step_;
-};
-
-struct Part {
-  std::filesystem::path video;
-  int64_t first;
-  int64_t last;
-  int64_t step;
-
-  std::unique_ptr<PartOfVideo> Open() const {
-    auto source = capture::OpenVideo(video);
-    EXPECT_TRUE(source.ok());
-    return std::make_unique<PartOfVideo>(std::move(*source), first, last, step);
-  }
-};
 
 TrainOptions Options() {
   TrainOptions options;
