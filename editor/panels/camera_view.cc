@@ -155,7 +155,7 @@ void ShowEmpty(const app::Workspace& workspace, const ImVec2& origin, const ImVe
     text = "This project has no place yet. Train one from a recording.";
   } else if (workspace.loaded().database == nullptr && workspace.tasks_empty()) {
     text = "This place is not trained yet. Choose Train\xe2\x80\xa6 above.";
-  } else if (workspace.tasks_empty() && !workspace.recording()) {
+  } else if (workspace.tasks_empty() && !workspace.recording() && !workspace.messages().empty()) {
     text = "No picture. The messages below say why.";
   }
   const ImVec2 extent = ImGui::CalcTextSize(text);

@@ -170,7 +170,7 @@ void TrainDialog(app::Workspace& workspace, EditorState& state) {
 void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
-      "Films the place again in other light and merges what it sees into the map, so that "
+      "Merges a recording of the place in other light into the map, so that "
       "visitors are located in both. The stage stays where it is.");
   if (BeginProperties("add session")) {
     RecordingFields(workspace, fields, "as the map's camera; or fx, fy, cx, cy, k1, k2, p1, p2");
