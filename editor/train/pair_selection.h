@@ -18,7 +18,7 @@ struct ImagePair {
 };
 
 struct PairOptions {
-  uint32_t exhaustive_up_to = 25;  // images; so few are all matched with one another
+  uint32_t exhaustive_up_to = 50;  // images; so few are all matched with one another
   // Of an ordered source:
   std::vector<uint32_t> gaps = {1, 2, 4, 7};  // to following images, ascending
   uint32_t apart = 5;    // images, between any two that are taken as similar to a third

@@ -126,13 +126,20 @@ bool Contains(const std::vector<ImagePair>& pairs, uint32_t a, uint32_t b) {
   return std::binary_search(pairs.begin(), pairs.end(), ImagePair{std::min(a, b), std::max(a, b)});
 }
 
+// Not all images with all others.
+PairOptions Choosing() {
+  PairOptions options;
+  options.exhaustive_up_to = 25;
+  return options;
+}
+
 TEST(SelectPairs, TakesAllOfFewImages) {
   EXPECT_EQ(SelectPairs(ImagesOfWall({0, 100, 200, 300}), {}).size(), 6u);
 }
 
 TEST(SelectPairs, TakesNeighboursInAVideoAndWhereItComesBack) {
   const std::vector<vision::Features> images = ImagesOfWall(ThereAndBack());
-  const std::vector<ImagePair> pairs = SelectPairs(images, {});
+  const std::vector<ImagePair> pairs = SelectPairs(images, Choosing());
   for (uint32_t i = 0; i + 2 < images.size(); ++i) {
     EXPECT_TRUE(Contains(pairs, i, i + 1)) << i;
     EXPECT_TRUE(Contains(pairs, i, i + 2)) << i;
@@ -142,7 +149,7 @@ TEST(SelectPairs, TakesNeighboursInAVideoAndWhereItComesBack) {
   }
   EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
   EXPECT_LT(pairs.size(), images.size() * 9);
-  EXPECT_EQ(pairs, SelectPairs(images, {}));
+  EXPECT_EQ(pairs, SelectPairs(images, Choosing()));
 }
 
 TEST(SelectPairs, FindsWhatBelongsTogetherInAShuffledHeap) {
@@ -151,7 +158,7 @@ TEST(SelectPairs, FindsWhatBelongsTogetherInAShuffledHeap) {
   for (size_t i = 0; i < starts.size(); ++i) {
     shuffled.push_back(starts[(17 * i + 5) % starts.size()]);  // 17 and 40 share no factor
   }
-  PairOptions options;
+  PairOptions options = Choosing();
   options.similar_unordered = 8;
   const std::vector<ImagePair> pairs = SelectPairs(ImagesOfWall(shuffled), options);
   for (uint32_t i = 0; i < shuffled.size(); ++i) {
@@ -167,8 +174,8 @@ TEST(SelectPairs, FindsWhatBelongsTogetherInAShuffledHeap) {
 TEST(SelectPairs, CopesWithImagesWithoutFeatures) {
   std::vector<vision::Features> images = ImagesOfWall(ThereAndBack());
   images[2] = {};
-  EXPECT_TRUE(Contains(SelectPairs(images, {}), 1, 2));
-  EXPECT_LE(SelectPairs(std::vector<vision::Features>(30), {}).size(), 30u * 29u / 2u);
+  EXPECT_TRUE(Contains(SelectPairs(images, Choosing()), 1, 2));
+  EXPECT_LE(SelectPairs(std::vector<vision::Features>(30), Choosing()).size(), 30u * 29u / 2u);
 }
 
 TEST(AngleBesidesTurning, IsNoughtForATurnAndNotForASidestep) {
