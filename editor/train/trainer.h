@@ -33,7 +33,7 @@ struct TrainOptions {
   uint32_t session = 0;     // written to keyframes and points, below 32
   uint64_t seed = 1;        // the same images and seed give the same bytes
   int max_keyframes = 160;  // a longer source is thinned out to so many; the rest is located after
-  int max_features = 5500;  // of each keyframe
+  int max_features = 6500;  // of each keyframe
   int max_points = 60'000;  // of the database; those of most observations stay
 
   Status Validate() const;
