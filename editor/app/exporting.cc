@@ -17,14 +17,13 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
                                          const PlaceDocument& place,
                                          const MapBudget& budget) {
   exporter::PlaceContent content;
-  LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database, LoadMap(paths, place.name));
+  LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
+  LARARIUM_RETURN_IF_ERROR(map.picks.problem);
   content.scene = vision::SerializeSceneDatabase(
-      train::Prune(database, {.max_points = budget.max_points,
-                              .max_descriptors_per_point = budget.max_descriptors_per_point,
-                              .image_coverage = budget.image_coverage}));
-  const ResolvedPicks picks = ResolvePicks(place, database, MeasureMap(place, database));
-  LARARIUM_RETURN_IF_ERROR(picks.problem);
-  LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, place, picks.map_from_picked));
+      train::Prune(*map.database, {.max_points = budget.max_points,
+                                   .max_descriptors_per_point = budget.max_descriptors_per_point,
+                                   .image_coverage = budget.image_coverage}));
+  LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, place, map.picks.map_from_picked));
   return content;
 }
 

@@ -147,11 +147,8 @@ std::string StageText(const PlaceDocument& place,
   return text;
 }
 
-Result<StageReport> ReportStage(const ProjectPaths& paths, const PlaceDocument& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase database, LoadMap(paths, place.name));
-  const MapMeasures measures = MeasureMap(place, database);
-  const ResolvedPicks resolved = ResolvePicks(place, database, measures);
-  return StageReport{StageText(place, measures, resolved), StageJson(place, measures, resolved)};
+StageReport ReportStage(const PlaceDocument& place, const StagedMap& map) {
+  return {StageText(place, map.measures, map.picks), StageJson(place, map.measures, map.picks)};
 }
 
 }  // namespace lararium::app

@@ -8,7 +8,6 @@
 #include "editor/app/project.h"
 #include "editor/app/staging.h"
 #include "shared/core/json.h"
-#include "shared/core/status.h"
 
 namespace lararium::app {
 
@@ -28,8 +27,6 @@ struct StageReport {
   Json json;
 };
 
-// Reads the map of a place and measures. Fails where the place is not trained;
-// picks and tags that give nothing are part of the report.
-Result<StageReport> ReportStage(const ProjectPaths& paths, const PlaceDocument& place);
+StageReport ReportStage(const PlaceDocument& place, const StagedMap& map);
 
 }  // namespace lararium::app

@@ -166,12 +166,18 @@ Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
   if (place == nullptr) {
     return Status::Error(paths.Project().string(), "has no place \"" + place_name + "\"");
   }
-  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, LoadMap(paths, place->name));
-  const ResolvedPicks picks = ResolvePicks(*place, database, MeasureMap(*place, database));
-  LARARIUM_RETURN_IF_ERROR(picks.problem);
-  return AssembleShow(paths, document, *place,
-                      std::make_shared<const vision::SceneDatabase>(std::move(database)),
-                      picks.map_from_picked);
+  LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, *place));
+  LARARIUM_RETURN_IF_ERROR(map.picks.problem);
+  return AssembleShow(paths, document, *place, map.database, map.picks.map_from_picked);
+}
+
+Result<StagedMap> LoadStagedMap(const ProjectPaths& paths, const PlaceDocument& place) {
+  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, LoadMap(paths, place.name));
+  StagedMap map;
+  map.measures = MeasureMap(place, database);
+  map.picks = ResolvePicks(place, database, map.measures);
+  map.database = std::make_shared<const vision::SceneDatabase>(std::move(database));
+  return map;
 }
 
 Result<vision::SceneDatabase> LoadMap(const ProjectPaths& paths, const std::string& place) {

@@ -65,6 +65,17 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
                                 const PlaceDocument& place,
                                 const geometry::Similarity3& map_from_picked);
 
+// A trained place with what its map says and where its picks put the stage.
+struct StagedMap {
+  std::shared_ptr<const vision::SceneDatabase> database;
+  MapMeasures measures;
+  ResolvedPicks picks;
+};
+
+// Reads and measures the map. Fails where the place is not trained; picks and tags
+// that give nothing are in picks.problem.
+Result<StagedMap> LoadStagedMap(const ProjectPaths& paths, const PlaceDocument& place);
+
 // Everything that a show needs at one place, whose map is at hand and whose picks
 // are resolved. Fails where something was not baked.
 Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,

@@ -63,18 +63,18 @@ std::vector<std::string> DryRun(const ProjectPaths& paths,
   return problems;
 }
 
-// Of every place that is trained.
-StageReport ReportStages(const ProjectPaths& paths, const ProjectDocument& document) {
-  StageReport stages;
-  stages.json = Json::object();
-  for (const PlaceDocument& place : document.places) {
-    const Result<StageReport> stage = ReportStage(paths, place);
-    if (stage.ok()) {
-      stages.text += place.name + ":\n" + stage->text;
-      stages.json[place.name] = stage->json;
-    }
-  }
-  return stages;
+// What keeps a place from being shown; adds how well its stage is known to stages
+// where it is trained.
+Status CheckPlace(const ProjectPaths& paths,
+                  const ProjectDocument& document,
+                  const PlaceDocument& place,
+                  StageReport& stages) {
+  LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
+  const StageReport stage = ReportStage(place, map);
+  stages.text += place.name + ":\n" + stage.text;
+  stages.json[place.name] = stage.json;
+  LARARIUM_RETURN_IF_ERROR(map.picks.problem);
+  return AssembleShow(paths, document, place, map.database, map.picks.map_from_picked).status();
 }
 
 }  // namespace
@@ -164,10 +164,12 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   if (document.places.empty()) {
     problems.push_back(paths.Project().string() + ": has no place; train one");
   }
+  StageReport stages;
+  stages.json = Json::object();
   for (const PlaceDocument& place : document.places) {
-    const auto content = LoadShowContent(paths, document, place.name);
-    if (!content.ok()) {
-      problems.push_back(content.message());
+    const Status problem = CheckPlace(paths, document, place, stages);
+    if (!problem.ok()) {
+      problems.push_back(problem.message());
     }
   }
   for (std::string& problem : DryRun(paths, document, options.seconds, progress)) {
@@ -179,7 +181,6 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   // What several parts need is reported by each of them.
   std::sort(problems.begin(), problems.end());
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
-  const StageReport stages = ReportStages(paths, document);
   CommandResult result;
   result.text = stages.text;
   for (const std::string& problem : problems) {

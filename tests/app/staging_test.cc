@@ -127,11 +127,11 @@ TEST(StageReport, MeasuresTheStageAgainstTheFloor) {
   EXPECT_THAT(StageText(place, measures, resolved), HasSubstr("the stage lies 250.0 mm below it"));
 }
 
-TEST(StageReport, SaysWhatAPlaceLacks) {
+TEST(LoadStagedMap, SaysWhatAPlaceLacks) {
   const test::TemporaryFolder folder;
   PlaceDocument place;
   place.name = "tavern";
-  EXPECT_THAT(ReportStage({folder.path()}, place).message(), HasSubstr("scene.larscene"));
+  EXPECT_THAT(LoadStagedMap({folder.path()}, place).message(), HasSubstr("scene.larscene"));
 }
 
 // Frames whose every pixel is their index.

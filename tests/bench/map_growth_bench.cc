@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "shared/core/check.h"
+#include "shared/core/median.h"
 #include "shared/core/parallel.h"
 #include "shared/core/random.h"
 #include "shared/core/statistics.h"
@@ -135,11 +136,6 @@ SceneDatabase Grown(const SceneDatabase& map, size_t count) {
   }
   grown.descriptor_begin.push_back(static_cast<uint32_t>(grown.descriptors.size()));
   return grown;
-}
-
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 struct Cost {

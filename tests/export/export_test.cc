@@ -6,26 +6,13 @@
 #include "shared/stage/mesh_file.h"
 #include "shared/vision/scene_database.h"
 #include "tests/stage/test_human.h"
+#include "tests/support/synthetic_world.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::exporter {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::vector<std::byte> SmallScene(double focal = 50.0) {
-  vision::SceneDatabase database;
-  database.camera = {64, 48, focal, focal, 32.0, 24.0};
-  database.points = {{0.0f, 0.0f, 2.0f}};
-  database.normals = {{0.0f, 0.0f, -1.0f}};
-  database.observation_counts = {2};
-  database.session_masks = {1};
-  database.descriptor_begin = {0, 1};
-  database.descriptors.resize(1);
-  database.descriptor_point = {0};
-  database.forest = vision::BuildForest(database.descriptors, {});
-  return vision::SerializeSceneDatabase(database);
-}
 
 ExportContent SmallShow() {
   human::Human human = *test::MakeTestHuman();
@@ -42,7 +29,7 @@ ExportContent SmallShow() {
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.indices = {0, 1, 2};
   place.place.occluders = {{"counter", mesh, {}}, {"wall", mesh, {}}};
-  place.scene = SmallScene();
+  place.scene = test::OnePointScene(50.0);
   content.places = {place};
   content.cast = {{"keeper", human::SerializeHuman(human)},
                   {"guest", human::SerializeHuman(human)}};
@@ -81,7 +68,7 @@ TEST(Export, PacksEveryPlaceWithItsOwnMapAndOccluders) {
   content.places[1].place.name = "yard";
   content.places[1].place.occluders.pop_back();
   content.places[1].place.map_from_stage.scale = 3.0;
-  content.places[1].scene = SmallScene(60.0);
+  content.places[1].scene = test::OnePointScene(60.0);
   NoProgress progress;
   ASSERT_TRUE(ExportBundle(content, folder / "a.larshow", progress).ok());
   const auto opened = bundle::Bundle::Open(folder / "a.larshow");

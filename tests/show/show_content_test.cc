@@ -5,27 +5,13 @@
 #include "shared/bundle/bundle_writer.h"
 #include "shared/core/file.h"
 #include "shared/stage/mesh_file.h"
+#include "tests/support/synthetic_world.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::show {
 namespace {
 
 using ::testing::HasSubstr;
-
-// One point, seen by nobody; focal tells one scene from another.
-std::vector<std::byte> Scene(double focal) {
-  vision::SceneDatabase database;
-  database.camera = {64, 48, focal, focal, 32.0, 24.0};
-  database.points = {{0.0f, 0.0f, 2.0f}};
-  database.normals = {{0.0f, 0.0f, -1.0f}};
-  database.observation_counts = {2};
-  database.session_masks = {1};
-  database.descriptor_begin = {0, 1};
-  database.descriptors.resize(1);
-  database.descriptor_point = {0};
-  database.forest = vision::BuildForest(database.descriptors, {});
-  return vision::SerializeSceneDatabase(database);
-}
 
 class ShowContentTest : public ::testing::Test {
  protected:
@@ -62,8 +48,8 @@ class ShowContentTest : public ::testing::Test {
 
   test::TemporaryFolder folder_;
   bundle::ShowManifest manifest_;
-  std::vector<std::byte> bar_ = Scene(50.0);
-  std::vector<std::byte> yard_ = Scene(60.0);
+  std::vector<std::byte> bar_ = test::OnePointScene(50.0);
+  std::vector<std::byte> yard_ = test::OnePointScene(60.0);
   std::vector<std::byte> wall_;
 };
 
@@ -97,7 +83,7 @@ TEST_F(ShowContentTest, OneBrokenPlaceIsAnErrorUnlessItIsNotWanted) {
   yard_.resize(yard_.size() / 2);
   EXPECT_THAT(Load().message(), HasSubstr("yard.larscene"));
   EXPECT_TRUE(Load("bar").ok());
-  yard_ = Scene(60.0);
+  yard_ = test::OnePointScene(60.0);
   wall_.resize(20);
   EXPECT_THAT(Load().message(), HasSubstr("wall.larmesh"));
 }

@@ -165,4 +165,24 @@ vision::SceneDatabase MakeSceneDatabase(const SyntheticWorld& world) {
   return db;
 }
 
+std::vector<std::byte> OnePointScene(double focal) {
+  vision::SceneDatabase database;
+  database.camera = {64, 48, focal, focal, 32.0, 24.0};
+  database.points = {{0.0f, 0.0f, 2.0f}};
+  database.normals = {{0.0f, 0.0f, -1.0f}};
+  database.observation_counts = {2};
+  database.session_masks = {1};
+  database.descriptor_begin = {0, 1};
+  database.descriptors.resize(1);
+  database.descriptor_point = {0};
+  database.forest = vision::BuildForest(database.descriptors, {});
+  return vision::SerializeSceneDatabase(database);
+}
+
+void Append(const vision::Features& more, vision::Features& features) {
+  features.keypoints.insert(features.keypoints.end(), more.keypoints.begin(), more.keypoints.end());
+  features.descriptors.insert(features.descriptors.end(), more.descriptors.begin(),
+                              more.descriptors.end());
+}
+
 }  // namespace lararium::test

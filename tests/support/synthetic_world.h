@@ -4,6 +4,7 @@
 // descriptors that tell them apart, and cameras on an arc around them.
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
@@ -50,9 +51,15 @@ SyntheticView RenderView(const SyntheticWorld& world,
                          const geometry::Rigid3& camera_from_world,
                          const SyntheticViewOptions& options);
 
+// The features of more after those of features.
+void Append(const vision::Features& more, vision::Features& features);
+
 // What training would give with exact poses and places: every camera of the path
 // is a keyframe.
 vision::SceneDatabase MakeSceneDatabase(const SyntheticWorld& world);
+
+// The smallest .larscene: one point that nobody saw; focal tells one from another.
+std::vector<std::byte> OnePointScene(double focal);
 
 // The pose at a camera centre in world coordinates, looking at target, with the
 // world's +y upwards in the image.

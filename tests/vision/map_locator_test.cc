@@ -54,11 +54,7 @@ TEST(MapLocator, FindsTheRoomOfAViewThatHalfShowsAnother) {
                                {.noise_px = 0.3, .outlier_share = 1.0});
   view.features.keypoints.resize(view.features.size() / 3);
   view.features.descriptors.resize(view.features.keypoints.size());
-  view.features.keypoints.insert(view.features.keypoints.end(), seen.features.keypoints.begin(),
-                                 seen.features.keypoints.end());
-  view.features.descriptors.insert(view.features.descriptors.end(),
-                                   seen.features.descriptors.begin(),
-                                   seen.features.descriptors.end());
+  test::Append(seen.features, view.features);
   const Located located = locator.Locate(view.features, house.rooms[2].camera);
   EXPECT_EQ(located.map, 2u);
   EXPECT_TRUE(located.location.camera_from_map.has_value());
@@ -74,12 +70,7 @@ TEST(MapLocator, TriesTheOtherMapsWhereThatOfMostVotesGivesNoPose) {
   view.features.descriptors.resize(100);
   const auto scattered = test::RenderView(house.rooms[0], house.rooms[0].cameras_from_world[5],
                                           {.outlier_share = 1.0});
-  view.features.keypoints.insert(view.features.keypoints.end(),
-                                 scattered.features.keypoints.begin(),
-                                 scattered.features.keypoints.end());
-  view.features.descriptors.insert(view.features.descriptors.end(),
-                                   scattered.features.descriptors.begin(),
-                                   scattered.features.descriptors.end());
+  test::Append(scattered.features, view.features);
   const Located located = locator.Locate(view.features, house.rooms[1].camera);
   EXPECT_EQ(located.map, 1u);
   EXPECT_TRUE(located.location.camera_from_map.has_value());
