@@ -5,11 +5,14 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "shared/human/skeleton.h"
 
 namespace lararium::human {
+
+inline bool Finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 
 inline bool Finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -21,23 +21,55 @@ bool AreWeights(const glm::vec4& w) {
          std::abs(w.x + w.y + w.z + w.w - 1.0f) < 1e-3f;
 }
 
+bool AreTriangles(const std::vector<uint32_t>& indices, size_t vertex_count) {
+  return indices.size() % 3 == 0 &&
+         std::all_of(indices.begin(), indices.end(),
+                     [vertex_count](uint32_t i) { return i < vertex_count; });
+}
+
+// At most one cloth moves a part.
+bool EachHasItsMesh(const std::vector<Cloth>& cloths) {
+  for (size_t i = 0; i < cloths.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
+      if (cloths[i].mesh == cloths[k].mesh) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
-Status SkinnedMesh::Validate(size_t joint_count, const std::string& place) const {
+Status SkinnedMesh::Validate(size_t joint_count,
+                             size_t material_count,
+                             const std::string& place) const {
   const std::string part = place + ": part '" + name + "'";
   const size_t count = positions.size();
   if (normals.size() != count || albedo.size() != count || joints.size() != count ||
-      weights.size() != count) {
+      weights.size() != count || (!uvs.empty() && uvs.size() != count)) {
     return Status::Error(part, "its vertex arrays differ in length");
   }
-  if (indices.size() % 3 != 0 ||
-      std::any_of(indices.begin(), indices.end(), [count](uint32_t i) { return i >= count; })) {
+  const auto can_be_detail = [](const LevelOfDetail& level) {
+    return std::isfinite(level.error) && level.error >= 0.0f;
+  };
+  if (!AreTriangles(indices, count) ||
+      std::any_of(coarser.begin(), coarser.end(), [count](const LevelOfDetail& level) {
+        return !AreTriangles(level.indices, count);
+      })) {
     return Status::Error(part, "its triangles name vertices that do not exist");
+  }
+  if (!std::all_of(coarser.begin(), coarser.end(), can_be_detail)) {
+    return Status::Error(part, "a level of detail has no possible error");
+  }
+  if (material != Material::kNone && (material < 0 || size_t(material) >= material_count)) {
+    return Status::Error(part, "names a material that does not exist");
   }
   if (!std::all_of(positions.begin(), positions.end(),
                    [](const glm::vec3& p) { return Finite(p); }) ||
-      !std::all_of(normals.begin(), normals.end(), IsUnit)) {
-    return Status::Error(part, "a position or normal is not a possible one");
+      !std::all_of(normals.begin(), normals.end(), IsUnit) ||
+      !std::all_of(uvs.begin(), uvs.end(), [](const glm::vec2& uv) { return Finite(uv); })) {
+    return Status::Error(part, "a position, normal or texture coordinate is not a possible one");
   }
   if (!std::all_of(albedo.begin(), albedo.end(), IsAlbedo)) {
     return Status::Error(part, "an albedo is outside 0..1");
@@ -57,8 +89,35 @@ Status SkinnedMesh::Validate(size_t joint_count, const std::string& place) const
 
 Status Human::Validate(const std::string& place) const {
   LARARIUM_RETURN_IF_ERROR(skeleton.Validate(place));
+  if (skinning != Skinning::kLinear && skinning != Skinning::kDualQuaternion) {
+    return Status::Error(place, "its kind of skinning is not known");
+  }
+  for (const Texture& texture : textures) {
+    LARARIUM_RETURN_IF_ERROR(texture.Validate(place));
+  }
+  for (const Material& material : materials) {
+    LARARIUM_RETURN_IF_ERROR(material.Validate(textures.size(), place));
+  }
   for (const SkinnedMesh& mesh : meshes) {
-    LARARIUM_RETURN_IF_ERROR(mesh.Validate(skeleton.size(), place));
+    LARARIUM_RETURN_IF_ERROR(mesh.Validate(skeleton.size(), materials.size(), place));
+  }
+  for (const MorphTarget& morph : morphs) {
+    LARARIUM_RETURN_IF_ERROR(morph.Validate(meshes, place));
+  }
+  for (const FaceShape& shape : face) {
+    LARARIUM_RETURN_IF_ERROR(shape.Validate(morphs.size(), skeleton.size(), place));
+  }
+  if (!EachHasItsMesh(cloths)) {
+    return Status::Error(place, "two cloths move one part");
+  }
+  for (const Cloth& cloth : cloths) {
+    LARARIUM_RETURN_IF_ERROR(cloth.Validate(meshes, skeleton.size(), place));
+  }
+  for (const SpringChain& spring : springs) {
+    LARARIUM_RETURN_IF_ERROR(spring.Validate(skeleton.parents, place));
+  }
+  for (const BodyCapsule& capsule : capsules) {
+    LARARIUM_RETURN_IF_ERROR(capsule.Validate(skeleton.size(), place));
   }
   for (const Clip& clip : clips) {
     LARARIUM_RETURN_IF_ERROR(clip.Validate(skeleton.size(), place));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
@@ -14,9 +15,18 @@
 
 #include "shared/core/status.h"
 #include "shared/human/clip.h"
+#include "shared/human/face_shape.h"
+#include "shared/human/material.h"
 #include "shared/human/skeleton.h"
+#include "shared/human/soft_parts.h"
 
 namespace lararium::human {
+
+// Fewer triangles over the same vertices.
+struct LevelOfDetail {
+  float error = 0.0f;  // metres, from the full detail
+  std::vector<uint32_t> indices;
+};
 
 // A skinned part with one material. Arrays are parallel over its vertices.
 struct SkinnedMesh {
@@ -24,17 +34,30 @@ struct SkinnedMesh {
   std::vector<glm::vec3> positions;            // metres, actor frame, bind pose
   std::vector<glm::vec3> normals;              // unit
   std::vector<glm::vec3> albedo;               // linear RGB, 0..1
+  std::vector<glm::vec2> uvs;                  // (0, 0) is the image's top left; may be empty
   std::vector<std::array<uint8_t, 4>> joints;  // of the four strongest influences
   std::vector<glm::vec4> weights;              // sum 1
   std::vector<uint32_t> indices;               // three for each triangle
+  std::vector<LevelOfDetail> coarser;          // each coarser than the one before
+  int16_t material = Material::kNone;          // index into Human::materials; none: plain albedo
 
-  Status Validate(size_t joint_count, const std::string& place) const;
+  Status Validate(size_t joint_count, size_t material_count, const std::string& place) const;
 };
+
+enum class Skinning : uint8_t { kLinear, kDualQuaternion };
 
 struct Human {
   std::string name;
   Skeleton skeleton;
+  Skinning skinning = Skinning::kLinear;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
   std::vector<SkinnedMesh> meshes;
+  std::vector<MorphTarget> morphs;
+  std::vector<FaceShape> face;
+  std::vector<Cloth> cloths;  // at most one for each mesh
+  std::vector<SpringChain> springs;
+  std::vector<BodyCapsule> capsules;
   std::vector<Clip> clips;
   std::string credits;  // authors and licences of what it is made of
 

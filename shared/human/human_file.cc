@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "blocks are copied as they are");
 
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr char kRemedy[] = "bake or export it again";
 
 // Copies the vectors of one file. An honest file uses each of its bytes once, so
@@ -51,6 +51,16 @@ class BlockReader {
     }
   }
 
+  void Read(const flatbuffers::Vector<const fb::JointTurn*>* from,
+            std::vector<FaceShape::Turn>& to) {
+    if (Take(from == nullptr ? 0 : from->size() * sizeof(fb::JointTurn)) && from != nullptr) {
+      for (const fb::JointTurn* item : *from) {
+        const fb::Quaternion& q = item->rotation();
+        to.push_back({item->joint(), glm::quat(q.w(), q.x(), q.y(), q.z())});
+      }
+    }
+  }
+
   void Read(const flatbuffers::String* from, std::string& to) {
     if (Take(from == nullptr ? 0 : from->size()) && from != nullptr) {
       to = from->str();
@@ -76,6 +86,16 @@ class BlockReader {
   bool ok_ = true;
 };
 
+template <typename From, typename To>
+void ReadTables(const flatbuffers::Vector<flatbuffers::Offset<From>>* from,
+                BlockReader& reader,
+                std::vector<To>& to,
+                void (*read)(const From&, BlockReader&, To&)) {
+  for (flatbuffers::uoffset_t i = 0; reader.ok() && from != nullptr && i < from->size(); ++i) {
+    read(*from->Get(i), reader, to.emplace_back());
+  }
+}
+
 void ReadSkeleton(const fb::Skeleton* from, BlockReader& reader, Skeleton& to) {
   if (from != nullptr) {
     reader.Read(from->names(), to.names);
@@ -85,14 +105,86 @@ void ReadSkeleton(const fb::Skeleton* from, BlockReader& reader, Skeleton& to) {
   }
 }
 
+glm::vec3 Read(const fb::Vec3* from) {
+  return from == nullptr ? glm::vec3(0.0f) : glm::vec3(from->x(), from->y(), from->z());
+}
+
+void ReadTexture(const fb::Texture& from, BlockReader& reader, Texture& to) {
+  reader.Read(from.name(), to.name);
+  reader.Read(from.encoded(), to.encoded);
+}
+
+void ReadMaterial(const fb::Material& from, BlockReader& reader, Material& to) {
+  reader.Read(from.name(), to.name);
+  to.surface = static_cast<Surface>(from.surface());
+  to.colour_texture = from.colour_texture();
+  to.normal_texture = from.normal_texture();
+  to.colour = Read(from.colour());
+  to.roughness = from.roughness();
+  to.alpha_cutoff = from.alpha_cutoff();
+  to.two_sided = from.two_sided();
+}
+
+void ReadLevel(const fb::LevelOfDetail& from, BlockReader& reader, LevelOfDetail& to) {
+  to.error = from.error();
+  reader.Read(from.indices(), to.indices);
+}
+
 void ReadMesh(const fb::SkinnedMesh& from, BlockReader& reader, SkinnedMesh& to) {
   reader.Read(from.name(), to.name);
   reader.Read(from.positions(), to.positions);
   reader.Read(from.normals(), to.normals);
   reader.Read(from.albedo(), to.albedo);
+  reader.Read(from.uvs(), to.uvs);
   reader.Read(from.joints(), to.joints);
   reader.Read(from.weights(), to.weights);
   reader.Read(from.indices(), to.indices);
+  ReadTables(from.coarser(), reader, to.coarser, ReadLevel);
+  to.material = from.material();
+}
+
+void ReadMorphPart(const fb::MorphPart& from, BlockReader& reader, MorphTarget::Part& to) {
+  to.mesh = from.mesh();
+  reader.Read(from.vertices(), to.vertices);
+  reader.Read(from.position_deltas(), to.position_deltas);
+  reader.Read(from.normal_deltas(), to.normal_deltas);
+}
+
+void ReadMorph(const fb::MorphTarget& from, BlockReader& reader, MorphTarget& to) {
+  reader.Read(from.name(), to.name);
+  ReadTables(from.parts(), reader, to.parts, ReadMorphPart);
+}
+
+void ReadFaceShape(const fb::FaceShape& from, BlockReader& reader, FaceShape& to) {
+  reader.Read(from.name(), to.name);
+  reader.Read(from.morphs(), to.morphs);
+  reader.Read(from.turns(), to.turns);
+}
+
+void ReadCloth(const fb::Cloth& from, BlockReader& reader, Cloth& to) {
+  reader.Read(from.name(), to.name);
+  to.mesh = from.mesh();
+  reader.Read(from.positions(), to.positions);
+  reader.Read(from.joints(), to.joints);
+  reader.Read(from.weights(), to.weights);
+  reader.Read(from.reach(), to.reach);
+  reader.Read(from.triangles(), to.triangles);
+  reader.Read(from.vertex_triangle(), to.vertex_triangle);
+  reader.Read(from.vertex_weights(), to.vertex_weights);
+  to.density = from.density();
+  to.stretch_compliance = from.stretch_compliance();
+  to.bend_compliance = from.bend_compliance();
+  to.friction = from.friction();
+  to.thickness = from.thickness();
+}
+
+void ReadSpring(const fb::SpringChain& from, BlockReader& reader, SpringChain& to) {
+  reader.Read(from.name(), to.name);
+  reader.Read(from.joints(), to.joints);
+  to.stiffness = from.stiffness();
+  to.drag = from.drag();
+  to.gravity = from.gravity();
+  to.radius = from.radius();
 }
 
 void ReadClip(const fb::Clip& from, BlockReader& reader, Clip& to) {
@@ -111,12 +203,16 @@ Result<Human> ReadHuman(const fb::Human& from, size_t file_size, const std::stri
   reader.Read(from.name(), human.name);
   reader.Read(from.credits(), human.credits);
   ReadSkeleton(from.skeleton(), reader, human.skeleton);
-  for (size_t i = 0; reader.ok() && from.meshes() != nullptr && i < from.meshes()->size(); ++i) {
-    ReadMesh(*from.meshes()->Get(i), reader, human.meshes.emplace_back());
-  }
-  for (size_t i = 0; reader.ok() && from.clips() != nullptr && i < from.clips()->size(); ++i) {
-    ReadClip(*from.clips()->Get(i), reader, human.clips.emplace_back());
-  }
+  human.skinning = static_cast<Skinning>(from.skinning());
+  ReadTables(from.textures(), reader, human.textures, ReadTexture);
+  ReadTables(from.materials(), reader, human.materials, ReadMaterial);
+  ReadTables(from.meshes(), reader, human.meshes, ReadMesh);
+  ReadTables(from.morphs(), reader, human.morphs, ReadMorph);
+  ReadTables(from.face(), reader, human.face, ReadFaceShape);
+  ReadTables(from.cloths(), reader, human.cloths, ReadCloth);
+  ReadTables(from.springs(), reader, human.springs, ReadSpring);
+  reader.Read(from.capsules(), human.capsules);
+  ReadTables(from.clips(), reader, human.clips, ReadClip);
   if (!reader.ok()) {
     return Status::Error(place, "the file is damaged: its parts overlap", kRemedy);
   }
@@ -155,15 +251,99 @@ auto WriteSkeleton(flatbuffers::FlatBufferBuilder& builder, const Skeleton& skel
   return fb::CreateSkeleton(builder, names, parents, rest, joint_from_actor);
 }
 
+// One table for each of a list.
+template <typename From, typename Write>
+auto WriteTables(flatbuffers::FlatBufferBuilder& builder,
+                 const std::vector<From>& from,
+                 Write write) {
+  std::vector<decltype(write(builder, std::declval<const From&>()))> tables;
+  tables.reserve(from.size());
+  for (const From& item : from) {
+    tables.push_back(write(builder, item));
+  }
+  return builder.CreateVector(tables);
+}
+
+fb::Vec3 Write(const glm::vec3& v) { return fb::Vec3(v.x, v.y, v.z); }
+
+auto WriteTexture(flatbuffers::FlatBufferBuilder& builder, const Texture& texture) {
+  const auto name = builder.CreateString(texture.name);
+  const auto encoded = builder.CreateVector(
+      reinterpret_cast<const uint8_t*>(texture.encoded.data()), texture.encoded.size());
+  return fb::CreateTexture(builder, name, encoded);
+}
+
+auto WriteMaterial(flatbuffers::FlatBufferBuilder& builder, const Material& material) {
+  const auto name = builder.CreateString(material.name);
+  const fb::Vec3 colour = Write(material.colour);
+  return fb::CreateMaterial(builder, name, static_cast<uint8_t>(material.surface),
+                            material.colour_texture, material.normal_texture, &colour,
+                            material.roughness, material.alpha_cutoff, material.two_sided);
+}
+
+auto WriteLevel(flatbuffers::FlatBufferBuilder& builder, const LevelOfDetail& level) {
+  const auto indices = builder.CreateVector(level.indices);
+  return fb::CreateLevelOfDetail(builder, level.error, indices);
+}
+
 auto WriteMesh(flatbuffers::FlatBufferBuilder& builder, const SkinnedMesh& mesh) {
   const auto name = builder.CreateString(mesh.name);
   const auto positions = WriteBlock<fb::Vec3>(builder, mesh.positions);
   const auto normals = WriteBlock<fb::Vec3>(builder, mesh.normals);
   const auto albedo = WriteBlock<fb::Vec3>(builder, mesh.albedo);
+  const auto uvs = WriteBlock<fb::Vec2>(builder, mesh.uvs);
   const auto joints = WriteBlock<fb::JointIndices>(builder, mesh.joints);
   const auto weights = WriteBlock<fb::Vec4>(builder, mesh.weights);
   const auto indices = builder.CreateVector(mesh.indices);
-  return fb::CreateSkinnedMesh(builder, name, positions, normals, albedo, joints, weights, indices);
+  const auto coarser = WriteTables(builder, mesh.coarser, WriteLevel);
+  return fb::CreateSkinnedMesh(builder, name, positions, normals, albedo, uvs, joints, weights,
+                               indices, coarser, mesh.material);
+}
+
+auto WriteMorphPart(flatbuffers::FlatBufferBuilder& builder, const MorphTarget::Part& part) {
+  const auto vertices = builder.CreateVector(part.vertices);
+  const auto positions = WriteBlock<fb::Vec3>(builder, part.position_deltas);
+  const auto normals = WriteBlock<fb::Vec3>(builder, part.normal_deltas);
+  return fb::CreateMorphPart(builder, part.mesh, vertices, positions, normals);
+}
+
+auto WriteMorph(flatbuffers::FlatBufferBuilder& builder, const MorphTarget& morph) {
+  const auto name = builder.CreateString(morph.name);
+  const auto parts = WriteTables(builder, morph.parts, WriteMorphPart);
+  return fb::CreateMorphTarget(builder, name, parts);
+}
+
+auto WriteFaceShape(flatbuffers::FlatBufferBuilder& builder, const FaceShape& shape) {
+  const auto name = builder.CreateString(shape.name);
+  const auto morphs = WriteBlock<fb::MorphWeight>(builder, shape.morphs);
+  std::vector<fb::JointTurn> items;
+  for (const FaceShape::Turn& turn : shape.turns) {
+    const glm::quat& q = turn.rotation;
+    items.emplace_back(turn.joint, fb::Quaternion(q.w, q.x, q.y, q.z));
+  }
+  const auto turns = builder.CreateVectorOfStructs(items);
+  return fb::CreateFaceShape(builder, name, morphs, turns);
+}
+
+auto WriteCloth(flatbuffers::FlatBufferBuilder& builder, const Cloth& cloth) {
+  const auto name = builder.CreateString(cloth.name);
+  const auto positions = WriteBlock<fb::Vec3>(builder, cloth.positions);
+  const auto joints = WriteBlock<fb::JointIndices>(builder, cloth.joints);
+  const auto weights = WriteBlock<fb::Vec4>(builder, cloth.weights);
+  const auto reach = builder.CreateVector(cloth.reach);
+  const auto triangles = builder.CreateVector(cloth.triangles);
+  const auto vertex_triangle = builder.CreateVector(cloth.vertex_triangle);
+  const auto vertex_weights = WriteBlock<fb::Vec3>(builder, cloth.vertex_weights);
+  return fb::CreateCloth(builder, name, cloth.mesh, positions, joints, weights, reach, triangles,
+                         vertex_triangle, vertex_weights, cloth.density, cloth.stretch_compliance,
+                         cloth.bend_compliance, cloth.friction, cloth.thickness);
+}
+
+auto WriteSpring(flatbuffers::FlatBufferBuilder& builder, const SpringChain& spring) {
+  const auto name = builder.CreateString(spring.name);
+  const auto joints = builder.CreateVector(spring.joints);
+  return fb::CreateSpringChain(builder, name, joints, spring.stiffness, spring.drag, spring.gravity,
+                               spring.radius);
 }
 
 auto WriteClip(flatbuffers::FlatBufferBuilder& builder, const Clip& clip) {
@@ -207,21 +387,22 @@ Result<Human> LoadHuman(const std::filesystem::path& file) {
 
 std::vector<std::byte> SerializeHuman(const Human& human) {
   flatbuffers::FlatBufferBuilder builder(size_t{1} << 20);
-  std::vector<flatbuffers::Offset<fb::SkinnedMesh>> meshes;
-  for (const SkinnedMesh& mesh : human.meshes) {
-    meshes.push_back(WriteMesh(builder, mesh));
-  }
-  std::vector<flatbuffers::Offset<fb::Clip>> clips;
-  for (const Clip& clip : human.clips) {
-    clips.push_back(WriteClip(builder, clip));
-  }
   const auto name = builder.CreateString(human.name);
   const auto credits = builder.CreateString(human.credits);
   const auto skeleton = WriteSkeleton(builder, human.skeleton);
-  const auto mesh_vector = builder.CreateVector(meshes);
-  const auto clip_vector = builder.CreateVector(clips);
-  fb::FinishHumanBuffer(builder, fb::CreateHuman(builder, kVersion, name, credits, skeleton,
-                                                 mesh_vector, clip_vector));
+  const auto textures = WriteTables(builder, human.textures, WriteTexture);
+  const auto materials = WriteTables(builder, human.materials, WriteMaterial);
+  const auto meshes = WriteTables(builder, human.meshes, WriteMesh);
+  const auto morphs = WriteTables(builder, human.morphs, WriteMorph);
+  const auto face = WriteTables(builder, human.face, WriteFaceShape);
+  const auto cloths = WriteTables(builder, human.cloths, WriteCloth);
+  const auto springs = WriteTables(builder, human.springs, WriteSpring);
+  const auto capsules = WriteBlock<fb::BodyCapsule>(builder, human.capsules);
+  const auto clips = WriteTables(builder, human.clips, WriteClip);
+  fb::FinishHumanBuffer(
+      builder, fb::CreateHuman(builder, kVersion, name, credits, skeleton,
+                               static_cast<uint8_t>(human.skinning), textures, materials, meshes,
+                               morphs, face, cloths, springs, capsules, clips));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
   return {bytes.begin(), bytes.end()};
 }
