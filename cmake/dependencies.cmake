@@ -56,3 +56,12 @@ find_library(LZ4_LIBRARY lz4 REQUIRED)
 add_library(flann_imported INTERFACE)
 target_include_directories(flann_imported SYSTEM INTERFACE ${FLANN_INCLUDE_DIR})
 target_link_libraries(flann_imported INTERFACE ${FLANN_LIBRARY} ${LZ4_LIBRARY})
+
+# Recast (navigation meshes) and Detour (paths and crowds).
+find_path(RECAST_INCLUDE_DIR Recast.h PATH_SUFFIXES recastnavigation REQUIRED)
+add_library(recast_imported INTERFACE)
+target_include_directories(recast_imported SYSTEM INTERFACE ${RECAST_INCLUDE_DIR})
+foreach(module Recast Detour DetourCrowd)
+  find_library(RECAST_${module}_LIBRARY ${module} REQUIRED)
+  target_link_libraries(recast_imported INTERFACE ${RECAST_${module}_LIBRARY})
+endforeach()

@@ -1,0 +1,98 @@
+#include "shared/stage/prop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "shared/human/finite.h"
+
+namespace lararium::stage {
+namespace {
+
+constexpr float kMaxEmission = 1e6f;
+
+bool IsUnit(const glm::vec3& v) { return std::abs(glm::dot(v, v) - 1.0f) < 1e-2f; }
+
+bool LiesBetween(const glm::vec3& v, float low, float high) {
+  return v.x >= low && v.y >= low && v.z >= low && v.x <= high && v.y <= high && v.z <= high;
+}
+
+Status ValidatePart(const Prop& prop, size_t index, const std::string& place) {
+  const PropPart& part = prop.parts[index];
+  const std::string at = place + ": part '" + part.name + "'";
+  if (part.name.empty()) {
+    return Status::Error(place, "a part has no name");
+  }
+  if (prop.FindPart(part.name) != static_cast<int>(index)) {
+    return Status::Error(at, "two parts have this name");
+  }
+  if (part.parent != PropPart::kNoParent &&
+      (part.parent < 0 || static_cast<size_t>(part.parent) >= index)) {
+    return Status::Error(at, "its parent must be an earlier part");
+  }
+  if (!human::Finite(part.parent_from_part.position) ||
+      !(std::abs(glm::length(part.parent_from_part.rotation) - 1.0f) < 1e-3f)) {
+    return Status::Error(at, "its place is not a rigid transform");
+  }
+  for (const PropMesh& mesh : part.meshes) {
+    LARARIUM_RETURN_IF_ERROR(mesh.Validate(prop.materials.size(), at));
+  }
+  return Status();
+}
+
+}  // namespace
+
+Status PropMesh::Validate(size_t material_count, const std::string& place) const {
+  const size_t count = positions.size();
+  if (normals.size() != count || albedo.size() != count || (!uvs.empty() && uvs.size() != count)) {
+    return Status::Error(place, "its vertex arrays differ in length");
+  }
+  if (indices.size() % 3 != 0 ||
+      std::any_of(indices.begin(), indices.end(), [count](uint32_t i) { return i >= count; })) {
+    return Status::Error(place, "its triangles name vertices that do not exist");
+  }
+  if (!std::all_of(positions.begin(), positions.end(),
+                   [](const glm::vec3& p) { return human::Finite(p); }) ||
+      !std::all_of(normals.begin(), normals.end(), IsUnit) ||
+      !std::all_of(uvs.begin(), uvs.end(), [](const glm::vec2& uv) {
+        return std::isfinite(uv.x) && std::isfinite(uv.y);
+      })) {
+    return Status::Error(place, "a position, normal or texture coordinate is not a possible one");
+  }
+  if (!std::all_of(albedo.begin(), albedo.end(),
+                   [](const glm::vec3& a) { return LiesBetween(a, 0.0f, 1.0f); })) {
+    return Status::Error(place, "an albedo is outside 0..1");
+  }
+  if (!LiesBetween(emission, 0.0f, kMaxEmission)) {
+    return Status::Error(place, "its emission is no possible radiance");
+  }
+  if (material != human::Material::kNone &&
+      (material < 0 || static_cast<size_t>(material) >= material_count)) {
+    return Status::Error(place, "names a material that does not exist");
+  }
+  return Status();
+}
+
+int Prop::FindPart(std::string_view part) const {
+  const auto found = std::find_if(parts.begin(), parts.end(),
+                                  [part](const PropPart& p) { return p.name == part; });
+  return found == parts.end() ? -1 : static_cast<int>(found - parts.begin());
+}
+
+Status Prop::Validate(const std::string& place) const {
+  if (parts.empty() || parts.size() > kMaxParts) {
+    return Status::Error(place, "it must have from 1 to " + std::to_string(kMaxParts) + " parts");
+  }
+  for (const human::Texture& texture : textures) {
+    LARARIUM_RETURN_IF_ERROR(texture.Validate(place));
+  }
+  for (const human::Material& material : materials) {
+    LARARIUM_RETURN_IF_ERROR(material.Validate(textures.size(), place));
+  }
+  for (size_t i = 0; i < parts.size(); ++i) {
+    LARARIUM_RETURN_IF_ERROR(ValidatePart(*this, i, place));
+  }
+  return Status();
+}
+
+}  // namespace lararium::stage
