@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "editor/app/options.h"
+#include "editor/app/portrait.h"
 #include "editor/app/subcommands.h"
 #include "editor/app/terminal.h"
 #include "editor/app/window.h"
@@ -54,6 +55,7 @@ struct Runner {
   Result<CommandResult> operator()(const RenderOptions& options) {
     return RunRender(options, progress, log);
   }
+  Result<CommandResult> operator()(const PortraitOptions& options) { return RunPortrait(options); }
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);
   }

@@ -1,6 +1,8 @@
 #include "editor/app/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 
 #include "editor/app/project.h"
 
@@ -22,6 +24,8 @@ struct AllOptions {
   BakeOptions bake;
   CheckOptions check;
   RenderOptions render;
+  PortraitOptions portrait;
+  std::string portrait_size;
   ExportOptions export_;
 };
 
@@ -109,6 +113,26 @@ void AddRender(CLI::App& app, RenderOptions& render) {
   AddIntrinsics(command, render.intrinsics);
 }
 
+void AddPortrait(CLI::App& app, PortraitOptions& portrait, std::string& size) {
+  CLI::App* command = app.add_subcommand("portrait", "Picture people in a studio");
+  command->fallthrough();
+  command->add_option("FILE", portrait.humans, "The people (.larhuman)")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--out", portrait.out, "The picture (.png, .jpg)")->required();
+  command->add_option("--view", portrait.view, "From where")
+      ->check(CLI::IsMember({"front", "side", "back", "face", "three-quarter"}))
+      ->capture_default_str();
+  command->add_option("--shape", portrait.shapes, "NAME=weight of the face; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--clip", portrait.clip, "The clip to pose by; the rest pose otherwise");
+  command->add_option("--time", portrait.time, "Seconds into the clip")
+      ->check(CLI::Range(0.0, 3600.0));
+  command->add_option("--size", size, "WxH in pixels, of each person");
+  command->add_flag("--sheet", portrait.sheet, "A contact sheet: all views, faces and shapes");
+}
+
 void AddOthers(CLI::App& app, AllOptions& options) {
   CLI::App* create = AddSubcommand(app, "new", "Make an empty project", options.create.project);
   create->add_option("--title", options.create.title, "Title; the folder's name otherwise");
@@ -136,6 +160,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
       ->capture_default_str();
 
   AddRender(app, options.render);
+  AddPortrait(app, options.portrait, options.portrait_size);
 
   CLI::App* pack = AddSubcommand(app, "export", "Pack the show", options.export_.project);
   pack->add_option("--out", options.export_.out, "The bundle (.larshow)")->required();
@@ -153,6 +178,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("bake")) return options.bake;
   if (app.got_subcommand("check")) return options.check;
   if (app.got_subcommand("render")) return options.render;
+  if (app.got_subcommand("portrait")) return options.portrait;
   if (app.got_subcommand("export")) return options.export_;
   return options.window;
 }
@@ -160,6 +186,19 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
 void CheckIntrinsics(const std::vector<double>& intrinsics) {
   if (!intrinsics.empty() && intrinsics.size() != 4 && intrinsics.size() != 8) {
     throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
+  }
+}
+
+void ParseSize(const std::string& text, PortraitOptions& portrait) {
+  constexpr int kLargest = 4096;
+  if (text.empty()) {
+    return;
+  }
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%4dx%4d%c", &portrait.width, &portrait.height, &rest) != 2 ||
+      std::clamp(portrait.width, 16, kLargest) != portrait.width ||
+      std::clamp(portrait.height, 16, kLargest) != portrait.height) {
+    throw CLI::ValidationError("--size", "takes WxH, from 16 to 4096 pixels");
   }
 }
 
@@ -186,6 +225,7 @@ std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* arg
     CheckIntrinsics(options.train.intrinsics);
     CheckIntrinsics(options.render.intrinsics);
     CheckSession(options.train);
+    ParseSize(options.portrait_size, options.portrait);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;
   }

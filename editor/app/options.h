@@ -84,6 +84,19 @@ struct RenderOptions {
   std::filesystem::path out;
 };
 
+// People in a studio; several side by side.
+struct PortraitOptions {
+  std::vector<std::filesystem::path> humans;  // .larhuman, at least one
+  std::filesystem::path out;                  // .png or .jpg
+  std::string view = "front";                 // front, side, back, face, three-quarter
+  std::vector<std::string> shapes;            // NAME or NAME=weight, of the face
+  std::string clip;                           // empty: the rest pose
+  double time = 0.0;                          // seconds into the clip
+  int width = 720;                            // pixels, of each person
+  int height = 1080;
+  bool sheet = false;  // everyone from several sides, and each shape of the first face
+};
+
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
@@ -100,6 +113,7 @@ using Subcommand = std::variant<WindowOptions,
                                 BakeOptions,
                                 CheckOptions,
                                 RenderOptions,
+                                PortraitOptions,
                                 ExportOptions>;
 
 struct CommandLine {

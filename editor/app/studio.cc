@@ -1,0 +1,251 @@
+#include "editor/app/studio.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "shared/human/morph.h"
+#include "shared/light/spherical_harmonics.h"
+#include "shared/render/clip_space.h"
+#include "shared/render/render_target.h"
+
+namespace lararium::app {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr double kFieldOfView = 20.0 * std::numbers::pi / 180.0;  // a portrait lens
+constexpr float kMargin = 1.06f;                                  // around what is shown
+
+struct PosedPerson {
+  human::Human morphed;
+  std::vector<glm::mat4> actor_from_joint;
+  std::vector<glm::mat4> skin;
+  std::vector<std::vector<glm::vec3>> positions;  // of each mesh, posed
+};
+
+std::vector<float> MorphWeights(const human::Human& human, const StudioPose& pose) {
+  std::vector<float> weights(human.morphs.size(), 0.0f);
+  for (const StudioPose::Shape& shape : pose.shapes) {
+    for (const human::FaceShape::Morph& morph : human.face[shape.shape].morphs) {
+      weights[morph.morph] += shape.weight * morph.weight;
+    }
+  }
+  return weights;
+}
+
+void ApplyMorphs(const human::Human& human, std::span<const float> weights, human::Human& morphed) {
+  for (const human::MeshMorphs& morphs : human::FindMeshMorphs(human)) {
+    human::SkinnedMesh& mesh = morphed.meshes[morphs.mesh];
+    human::MorphJob{human.meshes[morphs.mesh], morphs, weights, mesh.positions, mesh.normals}.Run();
+  }
+}
+
+std::vector<human::JointTransform> PoseJoints(const human::Human& human, const StudioPose& pose) {
+  std::vector<human::JointTransform> joints = human.skeleton.rest;
+  if (pose.clip >= 0) {
+    human::SampleClip(human.clips[static_cast<size_t>(pose.clip)], pose.time, joints);
+  }
+  for (const StudioPose::Shape& shape : pose.shapes) {
+    for (const human::FaceShape::Turn& turn : human.face[shape.shape].turns) {
+      glm::quat& rotation = joints[turn.joint].rotation;
+      const glm::quat none(1.0f, 0.0f, 0.0f, 0.0f);
+      rotation = rotation * glm::slerp(none, turn.rotation, shape.weight);
+    }
+  }
+  return joints;
+}
+
+PosedPerson PosePerson(const human::Human& human, const StudioPose& pose) {
+  PosedPerson person;
+  person.morphed = human;
+  ApplyMorphs(human, MorphWeights(human, pose), person.morphed);
+  const std::vector<human::JointTransform> joints = PoseJoints(human, pose);
+  person.actor_from_joint.resize(human.skeleton.size());
+  person.skin.resize(human.skeleton.size());
+  human::ComputeActorFromJoint(human.skeleton, joints, person.actor_from_joint);
+  human::ComputeSkinMatrices(human.skeleton, person.actor_from_joint, person.skin);
+  for (const human::SkinnedMesh& mesh : person.morphed.meshes) {
+    person.positions.emplace_back(mesh.positions.size());
+    std::vector<glm::vec3> normals(mesh.positions.size());
+    human::SkinMesh(mesh, person.skin, person.positions.back(), normals);
+  }
+  return person;
+}
+
+// What the picture must hold, actor frame, metres.
+struct Subject {
+  glm::vec3 centre = glm::vec3(0.0f);
+  float half_height = 1.0f;
+  float half_width = 0.5f;
+};
+
+Subject WholeFigure(const PosedPerson& person) {
+  glm::vec3 low(1e9f);
+  glm::vec3 high(-1e9f);
+  for (const std::vector<glm::vec3>& positions : person.positions) {
+    for (const glm::vec3& position : positions) {
+      low = glm::min(low, position);
+      high = glm::max(high, position);
+    }
+  }
+  const glm::vec3 half = 0.5f * (high - low);
+  return {low + half, half.y, std::max(half.x, half.z)};
+}
+
+// The head's joint with those below it.
+std::vector<bool> HeadJoints(const human::Skeleton& skeleton, size_t skull) {
+  std::vector<bool> head(skeleton.size(), false);
+  head[skull] = true;
+  for (size_t joint = skull + 1; joint < skeleton.size(); ++joint) {
+    const int16_t parent = skeleton.parents[joint];
+    head[joint] = parent != human::Skeleton::kNoParent && head[static_cast<size_t>(parent)];
+  }
+  return head;
+}
+
+// From a little below the chin to above the crown, around the head's joint.
+Subject Head(const human::Human& human, const PosedPerson& person) {
+  const std::optional<size_t> skull = human.skeleton.Find("skullbase");
+  const Subject whole = WholeFigure(person);
+  if (!skull) {
+    const float top = whole.centre.y + whole.half_height;
+    const float half = 0.16f * whole.half_height;
+    return {{whole.centre.x, top - half, whole.centre.z}, half, half};
+  }
+  const glm::vec3 base = person.actor_from_joint[*skull][3];
+  const std::vector<bool> head = HeadJoints(human.skeleton, *skull);
+  glm::vec3 sum(0.0f);
+  float count = 0.0f;
+  float top = base.y;
+  for (size_t mesh = 0; mesh < person.positions.size(); ++mesh) {
+    for (size_t v = 0; v < person.positions[mesh].size(); ++v) {
+      if (head[human.meshes[mesh].joints[v][0]]) {
+        sum += person.positions[mesh][v];
+        count += 1.0f;
+        top = std::max(top, person.positions[mesh][v].y);
+      }
+    }
+  }
+  if (count == 0.0f) {
+    return {base, 0.2f, 0.2f};
+  }
+  const float height =
+      std::clamp(top - base.y, 0.05f * whole.half_height, 0.2f * whole.half_height);
+  const glm::vec3 middle = sum / count;
+  return {{middle.x, base.y + 0.38f * height, middle.z}, 0.8f * height, 0.62f * height};
+}
+
+// Light from one direction as spherical harmonics. irradiance: of a surface that
+// faces it.
+void AddLight(const glm::vec3& direction, const glm::vec3& irradiance, light::ShRgb& light) {
+  const auto basis = light::EvaluateShBasis(glm::normalize(direction));
+  for (int i = 0; i < light::kShCount; ++i) {
+    light[i] += irradiance * basis[i];
+  }
+}
+
+// A key light from the viewer's left, a fill from the right, one behind, and the
+// room itself; turned with the viewer.
+light::ShRgb StudioLight(float azimuth) {
+  light::ShRgb light = {};
+  light[0] = glm::vec3(0.34f) * std::sqrt(4.0f * kPi);
+  // Seen from the front the viewer stands towards -Z and has +X on the left.
+  const auto turned = [azimuth](float to_left, float up, float to_viewer) {
+    const glm::quat turn = glm::angleAxis(azimuth, glm::vec3(0.0f, 1.0f, 0.0f));
+    return turn * glm::vec3(to_left, up, -to_viewer);
+  };
+  AddLight(turned(0.7f, 0.8f, 0.9f), kPi * glm::vec3(0.62f, 0.59f, 0.55f), light);
+  AddLight(turned(-0.9f, 0.2f, 0.7f), kPi * glm::vec3(0.14f, 0.15f, 0.17f), light);
+  AddLight(turned(-0.5f, 0.7f, -1.0f), kPi * glm::vec3(0.30f, 0.31f, 0.33f), light);
+  return light;
+}
+
+// Neutral grey, darker towards the corners.
+cv::Mat Backdrop(cv::Size size) {
+  cv::Mat backdrop(size, CV_8UC3);
+  const float half_width = 0.5f * static_cast<float>(size.width);
+  const float half_height = 0.5f * static_cast<float>(size.height);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const float dx = (static_cast<float>(x) - half_width) / half_width;
+      const float dy = (static_cast<float>(y) - half_height) / half_height;
+      const auto grey = static_cast<uint8_t>(150.0f - 18.0f * (dx * dx + dy * dy));
+      backdrop.at<cv::Vec3b>(y, x) = {grey, grey, grey};
+    }
+  }
+  return backdrop;
+}
+
+geometry::CameraModel Lens(cv::Size size) {
+  const double focal = 0.5 * size.height / std::tan(0.5 * kFieldOfView);
+  return {.width = size.width,
+          .height = size.height,
+          .fx = focal,
+          .fy = focal,
+          .cx = 0.5 * (size.width - 1),
+          .cy = 0.5 * (size.height - 1)};
+}
+
+// Far enough away for the subject to fit.
+geometry::Rigid3 PlaceCamera(const Subject& subject, const StudioView& view, cv::Size size) {
+  const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+  const float half = kMargin * std::max(subject.half_height, subject.half_width / aspect);
+  const float distance =
+      half / static_cast<float>(std::tan(0.5 * kFieldOfView)) + subject.half_width;
+  const float level = std::cos(view.elevation);
+  // The person faces -Z and has their left at -X.
+  const glm::vec3 direction(-std::sin(view.azimuth) * level, std::sin(view.elevation),
+                            -std::cos(view.azimuth) * level);
+  const glm::vec3 eye = subject.centre + distance * direction;
+  return render::LookAt({eye.x, eye.y, eye.z},
+                        {subject.centre.x, subject.centre.y, subject.centre.z},
+                        Eigen::Vector3d::UnitY());
+}
+
+}  // namespace
+
+Result<StudioView> ParseStudioView(std::string_view name) {
+  constexpr float kQuarter = 0.5f * kPi;
+  if (name == "front") return StudioView{};
+  if (name == "side") return StudioView{.azimuth = kQuarter};
+  if (name == "back") return StudioView{.azimuth = 2.0f * kQuarter};
+  if (name == "face") return StudioView{.face = true};
+  if (name == "three-quarter") return StudioView{.azimuth = 0.4f * kQuarter, .elevation = 0.1f};
+  return Status::Error("--view " + std::string(name), "is no view",
+                       "use front, side, back, face or three-quarter");
+}
+
+Result<std::unique_ptr<Studio>> Studio::Create() {
+  LARARIUM_ASSIGN_OR_RETURN(render::OffscreenContext context, render::CreateOffscreenContext());
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Renderer> renderer, render::Renderer::Create());
+  return std::unique_ptr<Studio>(new Studio(std::move(context), std::move(renderer)));
+}
+
+Result<cv::Mat> Studio::Shoot(const human::Human& human,
+                              const StudioPose& pose,
+                              const StudioView& view,
+                              cv::Size size) {
+  const PosedPerson person = PosePerson(human, pose);
+  LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
+                            render::RenderTarget::Create(size.width, size.height));
+  render::SceneHuman shown;
+  shown.human = renderer_->AddHuman(person.morphed);
+  shown.skin = person.skin;
+  render::RenderScene scene;
+  scene.background = Backdrop(size);
+  scene.camera = scene.display = Lens(size);
+  scene.camera_from_stage =
+      PlaceCamera(view.face ? Head(human, person) : WholeFigure(person), view, size);
+  scene.humans = {&shown, 1};
+  scene.light = StudioLight(view.azimuth);
+  const Status drawn = renderer_->Draw(scene, target);
+  renderer_->RemoveHuman(shown.human);
+  LARARIUM_RETURN_IF_ERROR(drawn);
+  cv::Mat picture;
+  target.ReadPixels(picture);
+  return picture;
+}
+
+}  // namespace lararium::app
