@@ -1,0 +1,152 @@
+// What the kitchen's people sit on, put things on, and go through.
+
+#include <cmath>
+#include <numbers>
+
+#include "editor/import/objects/workshop.h"
+
+namespace lararium::import::model {
+namespace {
+
+// A sawn board between two corners in centimetres.
+stage::PropMesh Board(const glm::vec3& low_cm, const glm::vec3& high_cm, int grain, uint32_t seed) {
+  return Block(0.01f * low_cm, 0.01f * high_cm, 0.004f, WoodPaint(kOak, grain, seed));
+}
+
+// A turned leg, leaning outward at its foot.
+void AddLeg(const glm::vec3& top_cm, const glm::vec3& foot_cm, uint32_t seed, stage::PropMesh& to) {
+  const glm::vec3 top = 0.01f * top_cm;
+  const glm::vec3 way = 0.01f * (foot_cm - top_cm);
+  Append(Rod(std::vector<PathPoint>{{top, 0.018f},
+                                    {top + 0.15f * way, 0.026f},
+                                    {top + 0.3f * way, 0.017f},
+                                    {top + 0.7f * way, 0.021f},
+                                    {top + 0.9f * way, 0.015f},
+                                    {top + way, 0.022f}},
+             WoodPaint(kDarkOak, 1, seed)),
+         to);
+}
+
+}  // namespace
+
+// A mensa tripes: round, on three legs.
+stage::Prop Table() {
+  stage::PropMesh mesh =
+      Potted({{0, 70}, {36, 70, true}, {38, 71}, {38, 72.6f}, {37, 73.5f, true}, {0, 73.5f}},
+             WoodPaint(kOak, 0, 201));
+  for (int leg = 0; leg < 3; ++leg) {
+    const float angle = 2.0f * std::numbers::pi_v<float> * (static_cast<float>(leg) + 0.25f) / 3.0f;
+    const glm::vec3 out(std::cos(angle), 0.0f, std::sin(angle));
+    AddLeg(24.0f * out + glm::vec3(0, 70, 0), 32.0f * out, 202 + leg, mesh);
+  }
+  return OnePiece("table", std::move(mesh));
+}
+
+stage::Prop Stool() {
+  stage::PropMesh mesh = Board({-19, 42, -17}, {19, 46, 17}, 0, 211);
+  for (const float x : {-1.0f, 1.0f}) {
+    for (const float z : {-1.0f, 1.0f}) {
+      AddLeg({14 * x, 42, 12 * z}, {18 * x, 0, 15 * z}, 212, mesh);
+    }
+    Append(BentRod({{16 * x, 18, -13.5f}, {16 * x, 18, 13.5f}}, 1.2f, WoodPaint(kDarkOak, 2, 213)),
+           mesh);
+  }
+  return OnePiece("stool", std::move(mesh));
+}
+
+stage::Prop Bench() {
+  stage::PropMesh mesh = Board({-60, 42, -16}, {60, 46.5f, 16}, 0, 221);
+  for (const float x : {-1.0f, 1.0f}) {
+    Append(Board({x * 46 - 2.5f, 0, -14}, {x * 46 + 2.5f, 42, 14}, 1, 222), mesh);
+  }
+  Append(Board({-46, 20, -2}, {46, 27, 2}, 0, 223), mesh);
+  return OnePiece("bench", std::move(mesh));
+}
+
+// An arca: iron bands on oak; the lid turns about its back edge.
+stage::Prop Chest() {
+  const Paint iron = MetalPaint(kIron, kRust, 231);
+  stage::PropMesh body;
+  Append(Board({-40, 4, -24}, {40, 8, 24}, 0, 232), body);
+  Append(Board({-40, 8, -24}, {40, 42, -21.5f}, 0, 233), body);
+  Append(Board({-40, 8, 21.5f}, {40, 42, 24}, 0, 234), body);
+  for (const float x : {-1.0f, 1.0f}) {
+    Append(Board({x * 38.7f - 1.3f, 8, -21.5f}, {x * 38.7f + 1.3f, 42, 21.5f}, 2, 235), body);
+    for (const float z : {-1.0f, 1.0f}) {
+      Append(Board({x * 37 - 4, 0, z * 21 - 4}, {x * 37 + 4, 6, z * 21 + 4}, 1, 236), body);
+    }
+    Append(Block({0.01f * (x * 26 - 2), 0.06f, -0.2435f}, {0.01f * (x * 26 + 2), 0.42f, 0.2435f},
+                 0.001f, iron),
+           body);
+  }
+  Append(Block({-0.05f, 0.28f, -0.248f}, {0.05f, 0.38f, -0.238f}, 0.002f, iron), body);
+  stage::Prop prop = OnePiece("chest", std::move(body));
+  // In the frame of its hinge: the front edge lies towards -z.
+  stage::PropMesh lid = Board({-41, 0, -49}, {41, 3.2f, 0}, 0, 237);
+  for (const float x : {-1.0f, 1.0f}) {
+    Append(Block({0.01f * (x * 26 - 2), -0.001f, -0.4935f}, {0.01f * (x * 26 + 2), 0.035f, 0.002f},
+                 0.001f, iron),
+           lid);
+  }
+  AddPart("lid", {0.0f, 0.42f, 0.245f}, std::move(lid), prop);
+  return prop;
+}
+
+// A leaf of boards in its frame; it turns about its left post as seen from the front.
+stage::Prop Door() {
+  stage::PropMesh frame;
+  for (const float x : {-1.0f, 1.0f}) {
+    Append(Board({x * 48 - 6, 0, -7}, {x * 48 + 6, 212, 7}, 1, 241), frame);
+  }
+  Append(Board({-54, 200, -7}, {54, 214, 7}, 0, 242), frame);
+  Append(Block({-0.54f, 0.0f, -0.09f}, {0.54f, 0.02f, 0.09f}, 0.006f,
+               StonePaint(glm::vec3(0.36f, 0.34f, 0.31f), 243)),
+         frame);
+  stage::Prop prop = OnePiece("door", std::move(frame));
+  const Paint iron = MetalPaint(kIron, kRust, 244);
+  stage::PropMesh leaf;
+  for (int board = 0; board < 5; ++board) {
+    const float low = 0.4f + 16.6f * static_cast<float>(board);
+    Append(Board({low, 2.5f, -2}, {low + 16.2f, 199, 2}, 1, 245 + board), leaf);
+  }
+  for (const float height : {28.0f, 100.0f, 172.0f}) {
+    Append(Board({1, height, -4}, {82, height + 12, -1.5f}, 0, 250), leaf);
+    for (int nail = 0; nail < 5; ++nail) {
+      const float x = 0.087f + 0.166f * static_cast<float>(nail);
+      Append(Rod(std::vector<PathPoint>{{{x, 0.01f * height + 0.06f, -0.038f}, 0.012f},
+                                        {{x, 0.01f * height + 0.06f, -0.046f}, 0.006f}},
+                 iron),
+             leaf);
+    }
+  }
+  Append(BentRod({{74, 100, -4}, {74, 101, -8}, {74, 112, -8}, {74, 113, -4}}, 0.8f, iron), leaf);
+  AddPart("leaf", {-0.418f, 0.0f, 0.0f}, std::move(leaf), prop);
+  return prop;
+}
+
+stage::Prop Basket() {
+  const Paint wicker = WickerPaint(glm::vec3(0.36f, 0.24f, 0.12f), 261);
+  stage::PropMesh mesh = Potted({{0, 0},
+                                 {14, 0, true},
+                                 {17, 8},
+                                 {19, 20},
+                                 {20.4f, 21.5f},
+                                 {19.6f, 23},
+                                 {18, 21.5f},
+                                 {16, 8},
+                                 {13, 1.5f, true},
+                                 {0, 1.5f}},
+                                wicker);
+  for (const float side : {-1.0f, 1.0f}) {
+    Append(BentRod({{side * 18.5f, 20, -6},
+                    {side * 20, 27, -4.5f},
+                    {side * 20.3f, 29, 0},
+                    {side * 20, 27, 4.5f},
+                    {side * 18.5f, 20, 6}},
+                   0.9f, wicker),
+           mesh);
+  }
+  return OnePiece("basket", std::move(mesh));
+}
+
+}  // namespace lararium::import::model

@@ -1,0 +1,59 @@
+#include "editor/import/objects/object_models.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "editor/import/objects/workshop.h"
+
+namespace lararium::import {
+namespace {
+
+struct ObjectModelEntry {
+  std::string_view name;
+  stage::Prop (*build)();
+};
+
+constexpr std::array<ObjectModelEntry, 22> kModels = {{
+    {"amphora", model::Amphora},  {"basket", model::Basket},
+    {"beaker", model::Beaker},    {"bench", model::Bench},
+    {"bowl", model::Bowl},        {"brazier", model::Brazier},
+    {"bucket", model::Bucket},    {"chest", model::Chest},
+    {"coins", model::Coins},      {"cup", model::Cup},
+    {"door", model::Door},        {"jug", model::Jug},
+    {"ladle", model::Ladle},      {"lamp_stand", model::LampStand},
+    {"loaf", model::Loaf},        {"mortar", model::Mortar},
+    {"oil_lamp", model::OilLamp}, {"plate", model::Plate},
+    {"stool", model::Stool},      {"storage_jar", model::StorageJar},
+    {"table", model::Table},      {"tablet", model::Tablet},
+}};
+
+constexpr auto kNames = [] {
+  std::array<std::string_view, kModels.size()> names;
+  std::transform(kModels.begin(), kModels.end(), names.begin(),
+                 [](const ObjectModelEntry& entry) { return entry.name; });
+  return names;
+}();
+static_assert(std::is_sorted(kNames.begin(), kNames.end()));
+
+}  // namespace
+
+std::span<const std::string_view> ObjectModelNames() { return kNames; }
+
+Result<stage::Prop> BuildObjectModel(std::string_view name) {
+  const auto entry = std::lower_bound(kNames.begin(), kNames.end(), name);
+  if (entry == kNames.end() || *entry != name) {
+    std::string known;
+    for (const std::string_view other : kNames) {
+      known += (known.empty() ? "" : ", ") + std::string(other);
+    }
+    return Status::Error("object model \"" + std::string(name) + "\"",
+                         "is not among the built-in ones", "name one of " + known);
+  }
+  stage::Prop prop = kModels[static_cast<size_t>(entry - kNames.begin())].build();
+  prop.use = ObjectModelUse(name);
+  prop.credits = "Modelled for Lararium after finds in Pompeii";
+  return prop;
+}
+
+}  // namespace lararium::import
