@@ -1,0 +1,622 @@
+#include "shared/human/cloth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "shared/core/check.h"
+#include "shared/human/cloth_data.h"
+#include "shared/human/finite.h"
+
+namespace lararium::human {
+namespace {
+
+using Model = ClothModel::Data;
+using State = ClothState::Data;
+
+constexpr float kLongestFrame = 0.25f;    // seconds; a longer one is a cut
+constexpr float kLeapSpeed = 6.0f;        // m/s, of the body as a whole
+constexpr float kLeap = 0.08f;            // metres beyond that speed
+constexpr float kSamePose = 0.03f;        // metres by which the skin may differ within the actor
+constexpr float kFarthestPlace = 1e4f;    // metres from the origin: not a possible one
+constexpr float kOriginRange = 4.0f;      // metres after which the origin follows the actor
+constexpr float kFastest = 12.0f;         // m/s, of cloth relative to its wearer
+constexpr float kQuietSpeed = 0.02f;      // m/s
+constexpr float kSettlingDamping = 8.0f;  // 1/s
+constexpr float kSettlingSeconds = 1.0f;
+constexpr float kFadeSeconds = 0.4f;     // between cloth and plain skin
+constexpr float kContactMargin = 0.02f;  // metres, for what moves within a beat
+constexpr int64_t kBeatsBetweenPairs = 4;
+constexpr float kSelfFriction = 0.3f;
+
+int StepsPerBeat(ClothDetail detail) {
+  switch (detail) {
+    case ClothDetail::kFull:
+      return 4;
+    case ClothDetail::kReduced:
+      return 2;
+    case ClothDetail::kCoarse:
+    case ClothDetail::kSkinned:
+      return 1;
+  }
+  return 1;
+}
+
+// What one step of constraints needs to know.
+struct StepContext {
+  float seconds = 0.0f;
+  float inverse_square = 0.0f;  // 1/s^2
+  float damping = 0.0f;         // share of the relative velocity that remains
+  float floor = 0.0f;           // local
+  bool touches_itself = false;
+};
+
+// --- The body -----------------------------------------------------------------
+
+bool IsPossible(const ClothStep& step) {
+  const glm::mat4& m = step.stage_from_actor;
+  const float scale = glm::length(glm::vec3(m[0]));
+  return Finite(m) && std::isfinite(step.elapsed) && scale > 1e-4f && scale < 1e4f &&
+         glm::length(glm::vec3(m[3])) < 1e6f &&
+         std::all_of(step.actor_from_joint.begin(), step.actor_from_joint.end(),
+                     [](const glm::mat4& joint) { return Finite(joint); });
+}
+
+void ShiftBy(const Float4& shift, std::vector<Float4>& places) {
+  for (Float4& place : places) {
+    place += shift;
+  }
+}
+
+// Keeps coordinates small, so that floats stay exact to micrometres.
+void FollowActor(const glm::vec3& actor_in_stage, State& state) {
+  if (state.started &&
+      glm::length(actor_in_stage - state.origin_in_stage) < kOriginRange * state.scale) {
+    return;
+  }
+  const glm::vec3 shift = (state.origin_in_stage - actor_in_stage) / state.scale;
+  state.origin_in_stage = actor_in_stage;
+  if (state.started) {
+    ShiftBy(Float4(shift), state.positions);
+    for (ClothBody* body : {&state.frame, &state.beat}) {
+      ShiftBy(Float4(shift), body->skin);
+      ShiftBy(Float4(shift), body->ends);
+      body->place += shift;
+    }
+  }
+}
+
+void SkinParticles(const Model& model, const glm::mat4& local_from_actor, State& state) {
+  struct Columns {
+    Float4 column[4];
+  };
+  const auto row = [](const glm::vec4& c) { return Float4(Float4::Lanes{c.x, c.y, c.z, 0.0f}); };
+  for (size_t i = 0; i < model.rest.size(); ++i) {
+    Columns blended;
+    for (int k = 0; k < 4; ++k) {
+      const float weight = model.weights[i][k];
+      if (weight == 0.0f) {
+        continue;
+      }
+      const glm::mat4& skin = state.skin_matrices[model.joints[i][k]];
+      for (int c = 0; c < 4; ++c) {
+        blended.column[c] += row(skin[c]) * weight;
+      }
+    }
+    const Float4 rest = model.rest[i];
+    const Float4 actor = blended.column[0] * rest.lanes[0] + blended.column[1] * rest.lanes[1] +
+                         blended.column[2] * rest.lanes[2] + blended.column[3];
+    state.next.skin[i] = row(local_from_actor[0]) * actor.lanes[0] +
+                         row(local_from_actor[1]) * actor.lanes[1] +
+                         row(local_from_actor[2]) * actor.lanes[2] + row(local_from_actor[3]);
+  }
+}
+
+// Reads the pose into state.next. False where it leads out of any possible place.
+bool TakePose(const Model& model, const ClothStep& step, State& state) {
+  const glm::mat4& stage_from_actor = step.stage_from_actor;
+  state.scale = glm::length(glm::vec3(stage_from_actor[0]));
+  FollowActor(glm::vec3(stage_from_actor[3]), state);
+  glm::mat3 turn(stage_from_actor);
+  turn /= state.scale;
+  state.next.turn = glm::normalize(glm::quat_cast(turn));
+  state.next.place = (glm::vec3(stage_from_actor[3]) - state.origin_in_stage) / state.scale;
+  glm::mat4 local_from_actor(turn);
+  local_from_actor[3] = glm::vec4(state.next.place, 1.0f);
+  for (size_t j = 0; j < state.skin_matrices.size(); ++j) {
+    state.skin_matrices[j] = step.actor_from_joint[j] * model.joint_from_actor[j];
+  }
+  SkinParticles(model, local_from_actor, state);
+  for (size_t c = 0; c < model.capsules.size(); ++c) {
+    const ClothCapsule& capsule = model.capsules[c];
+    const glm::mat4 local_from_joint = local_from_actor * step.actor_from_joint[capsule.joint];
+    state.next.ends[2 * c] = Float4(glm::vec3(local_from_joint * glm::vec4(capsule.a, 1.0f)));
+    state.next.ends[2 * c + 1] = Float4(glm::vec3(local_from_joint * glm::vec4(capsule.b, 1.0f)));
+  }
+  const auto is_far = [](const Float4& p) {
+    return !(Dot(p, p) < kFarthestPlace * kFarthestPlace);
+  };
+  return std::none_of(state.next.skin.begin(), state.next.skin.end(), is_far) &&
+         std::none_of(state.next.ends.begin(), state.next.ends.end(), is_far);
+}
+
+void MixInto(const std::vector<Float4>& from,
+             const std::vector<Float4>& to,
+             float share,
+             std::vector<Float4>& result) {
+  for (size_t i = 0; i < result.size(); ++i) {
+    result[i] = Mix(from[i], to[i], share);
+  }
+}
+
+// The body between the last frame and this one.
+void AimAt(float share, State& state) {
+  MixInto(state.frame.skin, state.next.skin, share, state.target.skin);
+  MixInto(state.frame.ends, state.next.ends, share, state.target.ends);
+  state.target.turn = glm::slerp(state.frame.turn, state.next.turn, share);
+}
+
+float MeanDistance(const std::vector<Float4>& a, const std::vector<Float4>& b) {
+  float sum = 0.0f;
+  for (size_t i = 0; i < a.size(); ++i) {
+    sum += Length(b[i] - a[i]);
+  }
+  return a.empty() ? 0.0f : sum / static_cast<float>(a.size());
+}
+
+// The body moved further than people do.
+bool HasLeapt(float elapsed, const State& state) {
+  return MeanDistance(state.frame.skin, state.next.skin) > kLeap + kLeapSpeed * elapsed;
+}
+
+// --- One step -----------------------------------------------------------------
+
+void Predict(const Model& model, const StepContext& context, State& state) {
+  const float inverse_seconds = 1.0f / context.seconds;
+  const Float4 gravity(glm::vec3(0.0f, -model.settings.gravity, 0.0f));
+  for (const uint32_t i : model.free) {
+    const Float4 skin_velocity = state.skin_steps[i] * inverse_seconds;
+    Float4 relative = (state.velocities[i] - skin_velocity) * context.damping;
+    const float square = Dot(relative, relative);
+    if (square > kFastest * kFastest) {
+      relative = relative * (kFastest / std::sqrt(square));
+    }
+    const Float4 velocity =
+        skin_velocity + relative + (gravity + state.accelerations[i]) * context.seconds;
+    state.before[i] = state.positions[i];
+    state.positions[i] += velocity * context.seconds;
+  }
+  for (const uint32_t i : model.pinned) {
+    state.before[i] = state.positions[i];
+    state.positions[i] = state.beat.skin[i];
+  }
+}
+
+void SolveHinges(const Model& model, const StepContext& context, State& state) {
+  Float4* x = state.positions.data();
+  for (size_t h = 0; h < model.hinges.size(); ++h) {
+    const ClothHinge& hinge = model.hinges[h];
+    Float4& x0 = x[hinge.particles[0]];
+    Float4& x1 = x[hinge.particles[1]];
+    Float4& x2 = x[hinge.particles[2]];
+    Float4& x3 = x[hinge.particles[3]];
+    const Float4 chord =
+        (x0 - x3) * hinge.pull[0] + (x1 - x3) * hinge.pull[1] + (x2 - x3) * hinge.pull[2];
+    const Float4 change = (state.hinge_targets[h] - chord) *
+                          (1.0f / (hinge.weight + hinge.compliance * context.inverse_square));
+    x0 += change * hinge.push[0];
+    x1 += change * hinge.push[1];
+    x2 += change * hinge.push[2];
+    x3 += change * hinge.push[3];
+  }
+}
+
+void SolveEdges(const Model& model, const StepContext& context, State& state) {
+  Float4* x = state.positions.data();
+  const float* w = model.inverse_mass.data();
+  for (const ClothEdge& edge : model.edges) {
+    const Float4 along = x[edge.b] - x[edge.a];
+    const float length = std::sqrt(Dot(along, along)) + 1e-12f;
+    const float weight = w[edge.a] + w[edge.b] + edge.compliance * context.inverse_square;
+    const Float4 pull = along * ((length - edge.length) / (length * weight));
+    x[edge.a] += pull * w[edge.a];
+    x[edge.b] -= pull * w[edge.b];
+  }
+}
+
+// Draws a particle onto a ball that it has left.
+void KeepWithin(const Float4& centre, float radius, Float4& position) {
+  const Float4 out = position - centre;
+  const float square = Dot(out, out);
+  if (square > radius * radius) {
+    position = centre + out * (radius / std::sqrt(square));
+  }
+}
+
+void SolveTethersAndReach(const Model& model, State& state) {
+  Float4* x = state.positions.data();
+  for (const ClothTether& tether : model.tethers) {
+    KeepWithin(x[tether.pin], tether.length, x[tether.particle]);
+  }
+  for (const uint32_t i : model.free) {
+    KeepWithin(state.beat.skin[i], model.reach[i], x[i]);
+  }
+}
+
+// Two particles that touch: kept apart, and rubbing (Coulomb).
+void SolvePairs(const Model& model, State& state) {
+  Float4* x = state.positions.data();
+  Float4* before = state.before.data();
+  const float* w = model.inverse_mass.data();
+  for (const ClothPair& pair : state.pairs) {
+    const Float4 apart = x[pair.b] - x[pair.a];
+    const float square = Dot(apart, apart);
+    const float weight = w[pair.a] + w[pair.b];
+    if (square >= pair.distance * pair.distance || square < 1e-12f || weight == 0.0f) {
+      continue;
+    }
+    const float distance = std::sqrt(square);
+    const Float4 normal = apart * (1.0f / distance);
+    const float depth = pair.distance - distance;
+    const Float4 motion = (x[pair.b] - before[pair.b]) - (x[pair.a] - before[pair.a]);
+    const Float4 slide = motion - normal * Dot(motion, normal);
+    const float length = Length(slide);
+    const float kept = length > 0.0f ? std::min(kSelfFriction * depth / length, 1.0f) : 0.0f;
+    const Float4 change = (normal * depth - slide * kept) * (1.0f / weight);
+    x[pair.a] -= change * w[pair.a];
+    x[pair.b] += change * w[pair.b];
+  }
+}
+
+// Puts a particle onto a surface that moved by `motion` and along whose normal it lies
+// `depth` too deep. Friction is Coulomb's, the impact inelastic: what pushes it out
+// gives it no speed beyond the surface's.
+void PushOut(const Float4& normal,
+             float depth,
+             const Float4& motion,
+             float friction,
+             Float4& position,
+             Float4& before) {
+  position += normal * depth;
+  const Float4 relative = position - before - motion;
+  const float leaving = Dot(relative, normal);
+  const Float4 slide = relative - normal * leaving;
+  const float length = Length(slide);
+  if (length > 0.0f) {
+    position -= slide * std::min(friction * depth / length, 1.0f);
+  }
+  if (leaving > 0.0f) {
+    before += normal * std::min(leaving, depth);
+  }
+}
+
+void SolveContacts(const Model& model, const StepContext& context, State& state) {
+  for (const ClothContact& contact : state.contacts) {
+    const uint32_t i = contact.particle;
+    const RoundCone& cone = state.cones[contact.capsule];
+    const NearestSphere sphere = FindNearestSphere(cone, state.positions[i]);
+    const float depth =
+        sphere.radius + model.thickness[i] - contact.allowed_depth - sphere.distance;
+    if (depth > 0.0f && sphere.distance > 1e-6f) {
+      PushOut(sphere.from_centre * (1.0f / sphere.distance), depth,
+              Mix(cone.motion_a, cone.motion_b, sphere.along), model.friction[i],
+              state.positions[i], state.before[i]);
+    }
+  }
+  const Float4 up(glm::vec3(0.0f, 1.0f, 0.0f));
+  for (const uint32_t i : model.free) {
+    const float depth = context.floor + model.thickness[i] - state.positions[i].y();
+    if (depth > 0.0f) {
+      PushOut(up, depth, Float4(), model.friction[i], state.positions[i], state.before[i]);
+    }
+  }
+}
+
+// The body moves on by one of the steps that are left of this beat.
+void MoveBody(const Model& model, int steps_left, State& state) {
+  const float share = 1.0f / static_cast<float>(steps_left);
+  for (size_t i = 0; i < state.skin_steps.size(); ++i) {
+    state.skin_steps[i] = (state.target.skin[i] - state.beat.skin[i]) * share;
+    state.beat.skin[i] += state.skin_steps[i];
+  }
+  for (size_t c = 0; c < model.capsules.size(); ++c) {
+    const Float4 motion_a = (state.target.ends[2 * c] - state.beat.ends[2 * c]) * share;
+    const Float4 motion_b = (state.target.ends[2 * c + 1] - state.beat.ends[2 * c + 1]) * share;
+    state.beat.ends[2 * c] += motion_a;
+    state.beat.ends[2 * c + 1] += motion_b;
+    state.cones[c] = MakeRoundCone(state.beat.ends[2 * c], state.beat.ends[2 * c + 1],
+                                   model.capsules[c].radius_a, model.capsules[c].radius_b);
+    state.cones[c].motion_a = motion_a;
+    state.cones[c].motion_b = motion_b;
+  }
+}
+
+void TakeVelocities(const Model& model, float seconds, State& state) {
+  const float inverse = 1.0f / seconds;
+  for (size_t i = 0; i < model.rest.size(); ++i) {
+    state.velocities[i] = (state.positions[i] - state.before[i]) * inverse;
+  }
+}
+
+void StepOnce(const Model& model, const StepContext& context, int steps_left, State& state) {
+  MoveBody(model, steps_left, state);
+  Predict(model, context, state);
+  SolveHinges(model, context, state);
+  SolveEdges(model, context, state);
+  if (context.touches_itself) {
+    SolvePairs(model, state);
+  }
+  SolveTethersAndReach(model, state);
+  SolveContacts(model, context, state);
+  TakeVelocities(model, context.seconds, state);
+}
+
+// --- One beat -----------------------------------------------------------------
+
+// Which particles may touch which capsules during this beat.
+void FindContacts(const Model& model, State& state) {
+  state.contacts.clear();
+  const size_t count = model.rest.size();
+  for (size_t c = 0; c < model.capsules.size(); ++c) {
+    const Float4 a = Mix(state.beat.ends[2 * c], state.target.ends[2 * c], 0.5f);
+    const Float4 b = Mix(state.beat.ends[2 * c + 1], state.target.ends[2 * c + 1], 0.5f);
+    const Float4 axis = b - a;
+    const float inverse_square = 1.0f / std::max(Dot(axis, axis), 1e-12f);
+    const float radius =
+        std::max(model.capsules[c].radius_a, model.capsules[c].radius_b) + kContactMargin +
+        0.5f * std::max(Length(state.target.ends[2 * c] - state.beat.ends[2 * c]),
+                        Length(state.target.ends[2 * c + 1] - state.beat.ends[2 * c + 1]));
+    for (const uint32_t i : model.free) {
+      const Float4 from_a = state.positions[i] + state.velocities[i] * (0.5f * kBeat) - a;
+      const float along = std::clamp(Dot(from_a, axis) * inverse_square, 0.0f, 1.0f);
+      const Float4 apart = from_a - axis * along;
+      const float reach = radius + model.thickness[i];
+      if (Dot(apart, apart) < reach * reach) {
+        state.contacts.push_back({i, static_cast<uint32_t>(c), model.allowed_depth[c * count + i]});
+      }
+    }
+  }
+}
+
+// The chord that a hinge rests at, along its normal as it is now.
+void AimHinges(const Model& model, State& state) {
+  const Float4* x = state.positions.data();
+  for (size_t h = 0; h < model.hinges.size(); ++h) {
+    const ClothHinge& hinge = model.hinges[h];
+    const Float4 origin = x[hinge.particles[0]];
+    const Float4 edge = x[hinge.particles[1]] - origin;
+    const Float4 left = Cross(edge, x[hinge.particles[2]] - origin);
+    const Float4 right = Cross(x[hinge.particles[3]] - origin, edge);
+    const Float4 normal =
+        left * (1.0f / (Length(left) + 1e-12f)) + right * (1.0f / (Length(right) + 1e-12f));
+    const float length = Length(normal);
+    state.hinge_targets[h] = length > 1e-3f ? normal * (hinge.rest / length) : Float4();
+  }
+}
+
+void ResetToSkin(State& state) {
+  state.positions = state.beat.skin;
+  std::fill(state.velocities.begin(), state.velocities.end(), Float4());
+  std::fill(state.accelerations.begin(), state.accelerations.end(), Float4());
+  std::fill(state.offsets.begin(), state.offsets.end(), glm::vec3(0.0f));
+  std::fill(state.offsets_before.begin(), state.offsets_before.end(), glm::vec3(0.0f));
+  state.pairs.clear();
+}
+
+bool IsWhole(const State& state) {
+  Float4 sum;
+  for (size_t i = 0; i < state.positions.size(); ++i) {
+    sum += (state.positions[i] + state.velocities[i]) * 0.0f;
+  }
+  return Dot(sum, sum) == 0.0f;
+}
+
+void TakeOffsets(State& state) {
+  std::swap(state.offsets_before, state.offsets);
+  const glm::mat3 actor_from_local = glm::mat3_cast(glm::conjugate(state.target.turn));
+  for (size_t i = 0; i < state.offsets.size(); ++i) {
+    state.offsets[i] = actor_from_local * (state.positions[i] - state.beat.skin[i]).xyz();
+  }
+}
+
+// Runs from the last beat to state.target. False where the cloth had to be reset.
+bool Beat(
+    const Model& model, const ClothStep& step, ClothDetail detail, float damping, State& state) {
+  const int steps = StepsPerBeat(detail);
+  StepContext context;
+  context.seconds = kBeat / static_cast<float>(steps);
+  context.inverse_square = 1.0f / (context.seconds * context.seconds);
+  context.damping = std::exp(-damping * context.seconds);
+  context.floor = std::isfinite(step.floor_height)
+                      ? (step.floor_height - state.origin_in_stage.y) / state.scale
+                      : -2.0f * kFarthestPlace;
+  context.touches_itself = steps > 1;
+  Wind wind = step.wind;
+  wind.velocity = Finite(wind.velocity) ? wind.velocity / state.scale : glm::vec3(0.0f);
+  AddAir(model, wind, static_cast<float>(double(state.beats) * double(kBeat)), state);
+  FindContacts(model, state);
+  if (context.touches_itself && state.beats % kBeatsBetweenPairs == 0) {
+    FindPairs(model, state);
+  }
+  AimHinges(model, state);
+  for (int left = steps; left > 0; --left) {
+    StepOnce(model, context, left, state);
+  }
+  ++state.beats;
+  const bool whole = IsWhole(state);
+  if (!whole) {
+    ResetToSkin(state);
+  }
+  TakeOffsets(state);
+  return whole;
+}
+
+float FastestParticle(const State& state) {
+  float square = 0.0f;
+  for (const Float4& velocity : state.velocities) {
+    square = std::max(square, Dot(velocity, velocity));
+  }
+  return std::sqrt(square);
+}
+
+// The body holds still at state.next.
+bool Settle(const Model& model, const ClothStep& step, float seconds, State& state) {
+  state.frame = state.next;
+  state.beat = state.next;
+  state.target = state.next;
+  bool whole = true;
+  const int beats = static_cast<int>(std::clamp(seconds, 0.0f, 60.0f) / kBeat);
+  for (int i = 0, quiet = 0; i < beats && quiet < 4; ++i) {
+    whole = Beat(model, step, ClothDetail::kReduced, kSettlingDamping, state) && whole;
+    quiet = FastestParticle(state) < kQuietSpeed ? quiet + 1 : 0;
+  }
+  std::fill(state.velocities.begin(), state.velocities.end(), Float4());
+  state.offsets_before = state.offsets;
+  state.pending = 0.0;
+  state.adopts_motion = true;
+  return whole;
+}
+
+// Carries the cloth to a new place of its wearer, or, where the pose is another one
+// too, back to the skin.
+void Carry(State& state) {
+  std::fill(state.velocities.begin(), state.velocities.end(), Float4());
+  if (!state.started) {
+    state.positions = state.next.skin;
+    return;
+  }
+  const glm::quat turn = state.next.turn * glm::conjugate(state.frame.turn);
+  float difference = 0.0f;
+  const auto carried = [&](const Float4& p) {
+    return Float4(turn * (p.xyz() - state.frame.place) + state.next.place);
+  };
+  for (size_t i = 0; i < state.positions.size(); ++i) {
+    difference += Length(state.next.skin[i] - carried(state.frame.skin[i]));
+  }
+  const bool same = difference < kSamePose * static_cast<float>(state.positions.size());
+  for (size_t i = 0; i < state.positions.size(); ++i) {
+    state.positions[i] = same ? carried(state.positions[i]) : state.next.skin[i];
+  }
+}
+
+// After a cut the body has no motion yet; the first frame gives it one.
+void AdoptMotion(float elapsed, State& state) {
+  for (size_t i = 0; i < state.velocities.size(); ++i) {
+    state.velocities[i] = (state.next.skin[i] - state.frame.skin[i]) * (1.0f / elapsed);
+  }
+  state.adopts_motion = false;
+}
+
+// --- One frame ----------------------------------------------------------------
+
+bool Advance(const Model& model, const ClothStep& step, State& state) {
+  const double before = state.pending;
+  state.pending += step.elapsed;
+  const int beats = static_cast<int>(state.pending / double(kBeat) + 1e-3);
+  const ClothDetail detail =
+      step.detail == ClothDetail::kSkinned ? ClothDetail::kCoarse : step.detail;
+  bool whole = true;
+  for (int k = 1; k <= beats; ++k) {
+    const double at = (double(k) * double(kBeat) - before) / double(step.elapsed);
+    AimAt(static_cast<float>(std::clamp(at, 0.0, 1.0)), state);
+    whole = Beat(model, step, detail, model.settings.damping, state) && whole;
+  }
+  state.pending -= double(beats) * double(kBeat);
+  return whole;
+}
+
+void DrawNormals(const Model& model, State& state) {
+  std::fill(state.drawn_normals.begin(), state.drawn_normals.end(), glm::vec3(0.0f));
+  for (const std::array<uint32_t, 3>& t : model.triangles) {
+    const glm::vec3& origin = state.drawn[t[0]];
+    const glm::vec3 normal = glm::cross(state.drawn[t[1]] - origin, state.drawn[t[2]] - origin);
+    for (const uint32_t corner : t) {
+      state.drawn_normals[corner] += normal;
+    }
+  }
+  for (glm::vec3& normal : state.drawn_normals) {
+    normal = UnitOr(normal, glm::vec3(0.0f, 1.0f, 0.0f));
+  }
+}
+
+void Draw(const Model& model, State& state) {
+  const float share = std::clamp(static_cast<float>(state.pending / double(kBeat)), 0.0f, 1.0f);
+  const glm::mat3 actor_from_local = glm::mat3_cast(glm::conjugate(state.frame.turn));
+  const float smooth = state.weight * state.weight * (3.0f - 2.0f * state.weight);
+  for (size_t i = 0; i < state.drawn.size(); ++i) {
+    const glm::vec3 skin = actor_from_local * (state.frame.skin[i].xyz() - state.frame.place);
+    const glm::vec3 offset =
+        state.offsets_before[i] + (state.offsets[i] - state.offsets_before[i]) * share;
+    state.drawn[i] = skin + smooth * offset;
+  }
+  DrawNormals(model, state);
+}
+
+void Fade(const ClothStep& step, State& state) {
+  const float change = step.elapsed / kFadeSeconds;
+  const float towards = step.detail == ClothDetail::kSkinned ? -change : change;
+  state.weight = std::clamp(state.weight + towards, 0.0f, 1.0f);
+}
+
+// Plain skin: the cloth waits there, ready to move with it.
+void FollowSkin(State& state) {
+  state.frame = state.next;
+  state.beat = state.next;
+  state.target = state.next;
+  ResetToSkin(state);
+  state.pending = 0.0;
+  state.adopts_motion = true;
+}
+
+}  // namespace
+
+ClothReport StepCloth(const ClothModel& model, const ClothStep& step, ClothState& cloth_state) {
+  const Model& data = model.data();
+  State& state = cloth_state.data();
+  CHECK(step.actor_from_joint.size() == data.joint_from_actor.size());
+  ClothReport report;
+  if (data.rest.empty() || !IsPossible(step) || !TakePose(data, step, state)) {
+    return report;
+  }
+  const bool cut = !state.started || step.elapsed < 0.0f || step.elapsed > kLongestFrame ||
+                   HasLeapt(step.elapsed, state);
+  if (step.detail == ClothDetail::kSkinned && (cut || state.weight == 0.0f)) {
+    state.weight = 0.0f;
+    FollowSkin(state);
+  } else if (cut) {
+    Carry(state);
+    report.reset = !Settle(data, step, kSettlingSeconds, state);
+    report.jumped = true;
+    state.weight = 1.0f;
+  } else {
+    if (step.elapsed > 0.0f) {
+      if (state.adopts_motion) {
+        AdoptMotion(step.elapsed, state);
+      }
+      report.reset = !Advance(data, step, state);
+      Fade(step, state);
+    }
+    std::swap(state.frame, state.next);
+  }
+  state.started = true;
+  Draw(data, state);
+  return report;
+}
+
+void SettleCloth(const ClothModel& model,
+                 const ClothStep& step,
+                 float seconds,
+                 ClothState& cloth_state) {
+  State& state = cloth_state.data();
+  CHECK(step.actor_from_joint.size() == model.data().joint_from_actor.size());
+  if (model.data().rest.empty() || !IsPossible(step) || !TakePose(model.data(), step, state)) {
+    return;
+  }
+  Carry(state);
+  Settle(model.data(), step, seconds, state);
+  state.started = true;
+  Draw(model.data(), state);
+}
+
+}  // namespace lararium::human

@@ -1,0 +1,179 @@
+#pragma once
+
+// What ClothModel and ClothState hold; private to the cloth's own files.
+
+#include <array>
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "shared/human/cloth.h"
+#include "shared/human/float4.h"
+#include "shared/human/round_cone.h"
+
+namespace lararium::human {
+
+inline constexpr float kBeat = 1.0f / 120.0f;  // seconds
+
+// Two particles that keep their distance.
+struct ClothEdge {
+  uint32_t a = 0;
+  uint32_t b = 0;
+  float length = 0.0f;
+  float compliance = 0.0f;  // m/N
+};
+
+// Two triangles that share the edge (particles 0, 1); 2 and 3 lie opposite. The sum of
+// pull[i] * position[i] has the length 2 sin(angle / 2) and points along the hinge's
+// normal.
+struct ClothHinge {
+  std::array<uint32_t, 4> particles = {};
+  std::array<float, 4> pull = {};  // 1/m
+  std::array<float, 4> push = {};  // pull / mass
+  float weight = 0.0f;             // sum of pull * push
+  float compliance = 0.0f;         // rad/(N m)
+  float rest = 0.0f;               // signed chord of the angle at rest
+};
+
+// A particle and the nearest pin along the cloth.
+struct ClothTether {
+  uint32_t particle = 0;
+  uint32_t pin = 0;
+  float length = 0.0f;
+};
+
+// A vertex of the drawn mesh. Its normal is given in the frame of the corners' mean
+// normal and the triangle's first edge, so that it turns with the cloth.
+struct ClothVertex {
+  uint32_t vertex = 0;
+  std::array<uint32_t, 3> corners = {};
+  glm::vec3 weights = glm::vec3(0.0f);
+  float offset = 0.0f;
+  glm::vec3 normal = glm::vec3(0.0f);
+};
+
+// The particles and vertices of one cloth.
+struct ClothRange {
+  uint32_t first = 0;
+  uint32_t count = 0;
+  std::vector<ClothVertex> vertices;
+  std::vector<uint32_t> skinned_vertices;  // those that follow no triangle
+};
+
+struct ClothCapsule {
+  uint32_t joint = 0;
+  glm::vec3 a = glm::vec3(0.0f);  // joint frame
+  glm::vec3 b = glm::vec3(0.0f);
+  float radius_a = 0.0f;
+  float radius_b = 0.0f;
+};
+
+struct ClothModel::Data {
+  ClothSettings settings;
+  std::vector<glm::mat4> joint_from_actor;
+  std::vector<ClothCapsule> capsules;
+  std::vector<ClothRange> cloths;
+
+  // [particle], all cloths one after the other
+  std::vector<Float4> rest;  // bind pose, actor frame
+  std::vector<std::array<uint8_t, 4>> joints;
+  std::vector<glm::vec4> weights;
+  std::vector<float> inverse_mass;  // 1/kg; 0: pinned
+  std::vector<float> reach;
+  std::vector<float> thickness;
+  std::vector<float> friction;
+  std::vector<uint32_t> pinned;
+  std::vector<uint32_t> free;
+
+  // Constraints in batches in which no two share a particle, one batch after the other.
+  std::vector<ClothEdge> edges;
+  std::vector<ClothHinge> hinges;
+  std::vector<ClothTether> tethers;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<float> triangle_density;  // kg/m^2
+
+  // How deep a particle lies in a capsule as bound, thickness included: a capsule is a
+  // rough body, and what lies in it from the start may stay as deep. [capsule][particle]
+  std::vector<float> allowed_depth;
+
+  float contact_distance = 0.0f;  // metres kept between two places of cloth
+};
+
+struct ClothContact {
+  uint32_t particle = 0;
+  uint32_t capsule = 0;
+  float allowed_depth = 0.0f;
+};
+
+struct ClothPair {
+  uint32_t a = 0;
+  uint32_t b = 0;
+  float distance = 0.0f;
+};
+
+// The body at one moment, in the frame of simulation.
+struct ClothBody {
+  std::vector<Float4> skin;                            // [particle]: as plain skin
+  std::vector<Float4> ends;                            // [2 * capsule]
+  glm::quat turn = glm::quat(1.0f, 0.0f, 0.0f, 0.0f);  // local_from_actor
+  glm::vec3 place = glm::vec3(0.0f);
+};
+
+struct ClothState::Data {
+  // Frame of simulation ("local"): stage axes, actor's metres, about an origin near the
+  // actor.
+  glm::vec3 origin_in_stage = glm::vec3(0.0f);
+  float scale = 1.0f;  // stage metres in one of the actor's
+  bool started = false;
+  bool adopts_motion = false;  // of the body, at the next frame
+
+  std::vector<Float4> positions;
+  std::vector<Float4> before;  // at the start of a step
+  std::vector<Float4> velocities;
+  std::vector<Float4> accelerations;  // by the air
+  std::vector<Float4> hinge_targets;
+
+  ClothBody frame;                 // at the last frame
+  ClothBody beat;                  // at the last beat
+  ClothBody next;                  // at the end of this frame
+  ClothBody target;                // at the end of this beat
+  std::vector<Float4> skin_steps;  // motion of the skin in one step
+  std::vector<RoundCone> cones;
+  std::vector<glm::mat4> skin_matrices;
+
+  std::vector<ClothContact> contacts;
+  std::vector<ClothPair> pairs;
+  std::vector<uint32_t> cells;  // particles, cell by cell
+  std::vector<uint32_t> bucket_starts;
+  std::vector<std::array<int32_t, 3>> cell_of;
+
+  double pending = 0.0;  // seconds since the last beat
+  int64_t beats = 0;
+  float weight = 1.0f;  // of the simulation in what is drawn
+
+  std::vector<glm::vec3> offsets_before;  // from the skin, actor axes, one beat ago
+  std::vector<glm::vec3> offsets;         // at the last beat
+  std::vector<glm::vec3> drawn;           // actor frame
+  std::vector<glm::vec3> drawn_normals;
+
+  std::vector<uint32_t> first_particles;  // of each cloth, and the end
+};
+
+// v as a unit vector, or another where v has no length.
+glm::vec3 UnitOr(const glm::vec3& v, const glm::vec3& otherwise);
+
+// Right-handed axes: along the edge as seen on the cloth, across it, and the normal.
+glm::mat3 ClothFrame(const glm::vec3& normal, const glm::vec3& edge);
+
+// Adds what moving air does to the accelerations (cloth_air.cc).
+void AddAir(const ClothModel::Data& model, const Wind& wind, float time, ClothState::Data& state);
+
+// Finds pairs of particles that may touch within the next beats (cloth_pairs.cc).
+void FindPairs(const ClothModel::Data& model, ClothState::Data& state);
+
+// Buckets of the grid in which pairs are sought, for so many particles.
+size_t BucketCount(size_t particle_count);
+
+}  // namespace lararium::human

@@ -1,0 +1,393 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "shared/human/cloth_data.h"
+
+namespace lararium::human {
+namespace {
+
+constexpr uint32_t kNone = 0xffffffffu;
+constexpr float kTetherSlack = 1.01f;
+// A diagonal of a quad of threads: cloth shears far more easily than it stretches.
+constexpr float kDiagonalRatio = 1.15f;
+constexpr float kShearCompliance = 2e-3f;  // m/N
+// A hinge of flatter triangles says nothing about the cloth's shape.
+constexpr float kLeastHeight = 0.05f;  // of the edge
+
+struct MeshEdge {
+  uint32_t a = 0;
+  uint32_t b = 0;
+  std::array<uint32_t, 2> opposite = {kNone, kNone};
+};
+
+std::vector<MeshEdge> FindEdges(const std::vector<std::array<uint32_t, 3>>& triangles) {
+  std::map<std::pair<uint32_t, uint32_t>, MeshEdge> edges;
+  for (const std::array<uint32_t, 3>& t : triangles) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = std::min(t[k], t[(k + 1) % 3]);
+      const uint32_t b = std::max(t[k], t[(k + 1) % 3]);
+      if (a == b) {
+        continue;
+      }
+      MeshEdge& edge = edges.try_emplace({a, b}, MeshEdge{a, b}).first->second;
+      const uint32_t opposite = t[(k + 2) % 3];
+      (edge.opposite[0] == kNone ? edge.opposite[0] : edge.opposite[1]) = opposite;
+    }
+  }
+  std::vector<MeshEdge> list;
+  for (const auto& [key, edge] : edges) {
+    list.push_back(edge);
+  }
+  return list;
+}
+
+// Reorders constraints into batches that share no particle (greedy colouring), so
+// that the processor works on several at once. particles(c): those of a constraint.
+template <typename Constraint, typename Particles>
+void SortIntoBatches(std::vector<Constraint>& constraints, size_t count, Particles particles) {
+  std::vector<uint64_t> used(count, 0);  // colours taken at a particle
+  std::vector<std::pair<uint32_t, Constraint>> coloured;
+  for (const Constraint& constraint : constraints) {
+    uint64_t taken = 0;
+    for (const uint32_t p : particles(constraint)) {
+      taken |= used[p];
+    }
+    uint32_t colour = 0;
+    while (colour < 63 && (taken >> colour & 1u) != 0) {
+      ++colour;
+    }
+    for (const uint32_t p : particles(constraint)) {
+      used[p] |= uint64_t{1} << colour;
+    }
+    coloured.emplace_back(colour, constraint);
+  }
+  std::stable_sort(coloured.begin(), coloured.end(),
+                   [](const auto& l, const auto& r) { return l.first < r.first; });
+  for (size_t i = 0; i < constraints.size(); ++i) {
+    constraints[i] = coloured[i].second;
+  }
+}
+
+// The part of Human's cloths that Build turns into constraints.
+class Builder {
+ public:
+  Builder(const Human& human, ClothModel::Data& model) : human_(human), model_(model) {}
+
+  void Build() {
+    model_.joint_from_actor = human_.skeleton.joint_from_actor;
+    for (const BodyCapsule& c : human_.capsules) {
+      model_.capsules.push_back({c.joint, c.a, c.b, c.radius_a, c.radius_b});
+    }
+    for (const Cloth& cloth : human_.cloths) {
+      AddCloth(cloth);
+    }
+    const size_t count = model_.rest.size();
+    SortIntoBatches(model_.edges, count, [](const ClothEdge& e) {
+      return std::array<uint32_t, 2>{e.a, e.b};
+    });
+    SortIntoBatches(model_.hinges, count, [](const ClothHinge& h) { return h.particles; });
+    MeasureAllowedDepths();
+    MeasureContactDistance();
+  }
+
+ private:
+  void AddCloth(const Cloth& cloth) {
+    ClothRange range;
+    range.first = static_cast<uint32_t>(model_.rest.size());
+    range.count = static_cast<uint32_t>(cloth.positions.size());
+    const size_t first_triangle = model_.triangles.size();
+    for (size_t t = 0; t + 2 < cloth.triangles.size(); t += 3) {
+      model_.triangles.push_back({range.first + cloth.triangles[t],
+                                  range.first + cloth.triangles[t + 1],
+                                  range.first + cloth.triangles[t + 2]});
+      model_.triangle_density.push_back(cloth.density);
+    }
+    AddParticles(cloth, range, first_triangle);
+    const std::vector<std::array<uint32_t, 3>> triangles(
+        model_.triangles.begin() + static_cast<ptrdiff_t>(first_triangle), model_.triangles.end());
+    const std::vector<MeshEdge> edges = FindEdges(triangles);
+    AddEdges(cloth, edges);
+    AddHinges(cloth, edges);
+    AddTethers(edges, range);
+    Bind(cloth, range, first_triangle);
+    model_.cloths.push_back(std::move(range));
+  }
+
+  float Distance(uint32_t a, uint32_t b) const { return Length(model_.rest[b] - model_.rest[a]); }
+
+  float Area(const std::array<uint32_t, 3>& t) const {
+    const Float4 origin = model_.rest[t[0]];
+    return 0.5f * Length(Cross(model_.rest[t[1]] - origin, model_.rest[t[2]] - origin));
+  }
+
+  void AddParticles(const Cloth& cloth, const ClothRange& range, size_t first_triangle) {
+    for (const glm::vec3& p : cloth.positions) {
+      model_.rest.emplace_back(p);
+    }
+    model_.joints.insert(model_.joints.end(), cloth.joints.begin(), cloth.joints.end());
+    model_.weights.insert(model_.weights.end(), cloth.weights.begin(), cloth.weights.end());
+    model_.reach.insert(model_.reach.end(), cloth.reach.begin(), cloth.reach.end());
+    model_.thickness.resize(model_.rest.size(), cloth.thickness);
+    model_.friction.resize(model_.rest.size(), cloth.friction);
+    std::vector<float> mass(range.count, 0.0f);
+    for (size_t t = first_triangle; t < model_.triangles.size(); ++t) {
+      for (const uint32_t corner : model_.triangles[t]) {
+        mass[corner - range.first] += cloth.density * Area(model_.triangles[t]) / 3.0f;
+      }
+    }
+    for (uint32_t i = 0; i < range.count; ++i) {
+      // What no triangle holds has no mass and stays with the skin.
+      const bool is_free = cloth.reach[i] > 0.0f && mass[i] > 1e-9f;
+      model_.inverse_mass.push_back(is_free ? 1.0f / mass[i] : 0.0f);
+      (is_free ? model_.free : model_.pinned).push_back(range.first + i);
+    }
+  }
+
+  // The longest side of both its triangles.
+  bool IsDiagonal(const MeshEdge& e) const {
+    if (e.opposite[1] == kNone) {
+      return false;
+    }
+    const float length = Distance(e.a, e.b);
+    for (const uint32_t opposite : e.opposite) {
+      if (length < kDiagonalRatio * std::max(Distance(e.a, opposite), Distance(e.b, opposite))) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void AddEdges(const Cloth& cloth, const std::vector<MeshEdge>& edges) {
+    for (const MeshEdge& e : edges) {
+      if (model_.inverse_mass[e.a] + model_.inverse_mass[e.b] == 0.0f) {
+        continue;
+      }
+      const float compliance = IsDiagonal(e) ? std::max(kShearCompliance, cloth.stretch_compliance)
+                                             : cloth.stretch_compliance;
+      model_.edges.push_back({e.a, e.b, Distance(e.a, e.b), compliance});
+    }
+  }
+
+  void AddHinges(const Cloth& cloth, const std::vector<MeshEdge>& edges) {
+    for (const MeshEdge& e : edges) {
+      if (e.opposite[1] != kNone && e.opposite[0] != e.opposite[1]) {
+        AddHinge(cloth, {e.a, e.b, e.opposite[0], e.opposite[1]});
+      }
+    }
+  }
+
+  // The foot of each opposite corner on the edge lies at share[i]; from corner to foot,
+  // over the height, is a unit vector. The two cancel where the hinge is flat.
+  void AddHinge(const Cloth& cloth, const std::array<uint32_t, 4>& particles) {
+    const std::vector<Float4>& x = model_.rest;
+    const Float4 edge = x[particles[1]] - x[particles[0]];
+    const float length = Length(edge);
+    ClothHinge hinge;
+    hinge.particles = particles;
+    float height_sum = 0.0f;
+    Float4 normal;
+    for (size_t side = 0; side < 2; ++side) {
+      const Float4 arm = x[particles[2 + side]] - x[particles[0]];
+      const float share = Dot(arm, edge) / (length * length);
+      const float height = Length(arm - edge * share);
+      if (!(height > kLeastHeight * length)) {
+        return;
+      }
+      hinge.pull[0] += (1.0f - share) / height;
+      hinge.pull[1] += share / height;
+      hinge.pull[2 + side] = -1.0f / height;
+      height_sum += height;
+      const Float4 up = Cross(edge, arm);
+      normal += up * ((side == 0 ? 1.0f : -1.0f) / Length(up));
+    }
+    Float4 chord;
+    for (size_t i = 0; i < 4; ++i) {
+      chord += x[particles[i]] * hinge.pull[i];
+      hinge.push[i] = hinge.pull[i] * model_.inverse_mass[particles[i]];
+      hinge.weight += hinge.pull[i] * hinge.push[i];
+    }
+    if (hinge.weight == 0.0f) {
+      return;
+    }
+    const float steepness = Length(normal);
+    hinge.rest = steepness > 1e-3f ? Dot(chord, normal) / steepness : 0.0f;
+    // Stiffness grows with edge^2 / area (Bergou et al.); 1 for equilateral triangles.
+    hinge.compliance =
+        cloth.bend_compliance * std::clamp(0.57735f * height_sum / length, 0.1f, 10.0f);
+    model_.hinges.push_back(hinge);
+  }
+
+  // Dijkstra from all pins at once, along edges and across flattened hinges.
+  void AddTethers(const std::vector<MeshEdge>& edges, const ClothRange& range) {
+    std::vector<std::vector<std::pair<uint32_t, float>>> ways(range.count);
+    const auto connect = [&](uint32_t a, uint32_t b, float length) {
+      ways[a - range.first].emplace_back(b, length);
+      ways[b - range.first].emplace_back(a, length);
+    };
+    for (const MeshEdge& e : edges) {
+      connect(e.a, e.b, Distance(e.a, e.b));
+      if (e.opposite[1] != kNone) {
+        connect(e.opposite[0], e.opposite[1], DistanceAcross(e));
+      }
+    }
+    std::vector<float> length(range.count, std::numeric_limits<float>::infinity());
+    std::vector<uint32_t> pin(range.count, kNone);
+    using Visit = std::pair<float, uint32_t>;
+    std::priority_queue<Visit, std::vector<Visit>, std::greater<>> open;
+    for (const uint32_t p : model_.pinned) {
+      if (p >= range.first && p < range.first + range.count) {
+        length[p - range.first] = 0.0f;
+        pin[p - range.first] = p;
+        open.emplace(0.0f, p);
+      }
+    }
+    while (!open.empty()) {
+      const auto [distance, p] = open.top();
+      open.pop();
+      if (distance > length[p - range.first]) {
+        continue;
+      }
+      for (const auto& [q, step] : ways[p - range.first]) {
+        if (distance + step < length[q - range.first]) {
+          length[q - range.first] = distance + step;
+          pin[q - range.first] = pin[p - range.first];
+          open.emplace(distance + step, q);
+        }
+      }
+    }
+    for (uint32_t i = 0; i < range.count; ++i) {
+      if (pin[i] != kNone && model_.inverse_mass[range.first + i] > 0.0f) {
+        model_.tethers.push_back({range.first + i, pin[i], kTetherSlack * length[i]});
+      }
+    }
+  }
+
+  // Between the opposite corners of an edge whose triangles are laid into one plane;
+  // infinite where the straight way does not cross the edge.
+  float DistanceAcross(const MeshEdge& e) const {
+    const float edge = std::max(Distance(e.a, e.b), 1e-9f);
+    std::array<float, 2> along, aside;
+    for (size_t side = 0; side < 2; ++side) {
+      const float from_a = Distance(e.a, e.opposite[side]);
+      const float from_b = Distance(e.b, e.opposite[side]);
+      along[side] = (from_a * from_a - from_b * from_b + edge * edge) / (2.0f * edge);
+      aside[side] = std::sqrt(std::max(from_a * from_a - along[side] * along[side], 0.0f));
+    }
+    const float width = aside[0] + aside[1];
+    const float crossing = along[0] * aside[1] + along[1] * aside[0];  // times width
+    if (crossing < 0.0f || crossing > edge * width) {
+      return std::numeric_limits<float>::infinity();
+    }
+    return std::hypot(along[1] - along[0], width);
+  }
+
+  void Bind(const Cloth& cloth, ClothRange& range, size_t first_triangle) {
+    const std::vector<glm::vec3> normals = ParticleNormals(range, first_triangle);
+    const SkinnedMesh& mesh = human_.meshes[cloth.mesh];
+    for (uint32_t v = 0; v < cloth.vertex_triangle.size(); ++v) {
+      if (cloth.vertex_triangle[v] == Cloth::kUnbound) {
+        range.skinned_vertices.push_back(v);
+        continue;
+      }
+      ClothVertex vertex;
+      vertex.vertex = v;
+      const std::array<uint32_t, 3>& corners =
+          model_.triangles[first_triangle + cloth.vertex_triangle[v]];
+      glm::vec3 mean(0.0f);
+      const glm::vec3 w = cloth.vertex_weights[v];
+      vertex.weights = {w.x, w.y, 1.0f - w.x - w.y};
+      vertex.offset = w.z;
+      for (int k = 0; k < 3; ++k) {
+        vertex.corners[k] = corners[k] - range.first;
+        mean += vertex.weights[k] * normals[vertex.corners[k]];
+      }
+      const glm::mat3 actor_from_cloth =
+          ClothFrame(mean, (model_.rest[corners[1]] - model_.rest[corners[0]]).xyz());
+      vertex.normal = glm::transpose(actor_from_cloth) * mesh.normals[v];
+      range.vertices.push_back(vertex);
+    }
+  }
+
+  std::vector<glm::vec3> ParticleNormals(const ClothRange& range, size_t first_triangle) const {
+    std::vector<glm::vec3> normals(range.count, glm::vec3(0.0f));
+    for (size_t t = first_triangle; t < model_.triangles.size(); ++t) {
+      const std::array<uint32_t, 3>& corners = model_.triangles[t];
+      const Float4 origin = model_.rest[corners[0]];
+      const Float4 normal =
+          Cross(model_.rest[corners[1]] - origin, model_.rest[corners[2]] - origin);
+      for (const uint32_t corner : corners) {
+        normals[corner - range.first] += normal.xyz();
+      }
+    }
+    for (glm::vec3& normal : normals) {
+      normal = UnitOr(normal, glm::vec3(0.0f, 1.0f, 0.0f));
+    }
+    return normals;
+  }
+
+  void MeasureAllowedDepths() {
+    const std::vector<glm::mat4>& joint_from_actor = model_.joint_from_actor;
+    for (const ClothCapsule& capsule : model_.capsules) {
+      const glm::mat4 actor_from_joint = glm::inverse(joint_from_actor[capsule.joint]);
+      const auto to_actor = [&](const glm::vec3& p) {
+        return Float4(glm::vec3(actor_from_joint * glm::vec4(p, 1.0f)));
+      };
+      const RoundCone cone = MakeRoundCone(to_actor(capsule.a), to_actor(capsule.b),
+                                           capsule.radius_a, capsule.radius_b);
+      for (size_t i = 0; i < model_.rest.size(); ++i) {
+        const NearestSphere sphere = FindNearestSphere(cone, model_.rest[i]);
+        const float depth = sphere.radius + model_.thickness[i] - sphere.distance;
+        model_.allowed_depth.push_back(std::isfinite(depth) ? std::max(depth, 0.0f) : 0.0f);
+      }
+    }
+  }
+
+  // Places of cloth keep a little more than half an edge apart, so that a particle
+  // hardly slips between others.
+  void MeasureContactDistance() {
+    double sum = 0.0;
+    for (const ClothEdge& edge : model_.edges) {
+      sum += edge.length;
+    }
+    if (!model_.edges.empty()) {
+      model_.contact_distance = 0.5f * static_cast<float>(sum / double(model_.edges.size()));
+    }
+  }
+
+  const Human& human_;
+  ClothModel::Data& model_;
+};
+
+}  // namespace
+
+glm::vec3 UnitOr(const glm::vec3& v, const glm::vec3& otherwise) {
+  const float length = glm::length(v);
+  return length > 1e-12f ? v / length : otherwise;
+}
+
+glm::mat3 ClothFrame(const glm::vec3& normal, const glm::vec3& edge) {
+  const glm::vec3 n = UnitOr(normal, glm::vec3(0.0f, 1.0f, 0.0f));
+  const glm::vec3 fallback = std::abs(n.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+  const glm::vec3 across = UnitOr(glm::cross(n, edge), glm::cross(n, fallback));
+  return {glm::cross(across, n), across, n};
+}
+
+ClothModel::ClothModel(const Human& human, const ClothSettings& settings)
+    : data_(std::make_unique<Data>()) {
+  data_->settings = settings;
+  Builder(human, *data_).Build();
+}
+
+ClothModel::ClothModel(ClothModel&&) noexcept = default;
+ClothModel& ClothModel::operator=(ClothModel&&) noexcept = default;
+ClothModel::~ClothModel() = default;
+
+size_t ClothModel::cloth_count() const { return data_->cloths.size(); }
+size_t ClothModel::particle_count() const { return data_->rest.size(); }
+
+}  // namespace lararium::human

@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include "shared/core/check.h"
+#include "shared/human/cloth_data.h"
+
+namespace lararium::human {
+namespace {
+
+constexpr size_t kPairsPerParticle = 16;
+
+void Resize(ClothBody& body, size_t particles, size_t capsules) {
+  body.skin.resize(particles);
+  body.ends.resize(2 * capsules);
+}
+
+std::span<const glm::vec3> OfCloth(const std::vector<glm::vec3>& all,
+                                   const std::vector<uint32_t>& first_particles,
+                                   size_t cloth) {
+  CHECK(cloth + 1 < first_particles.size());
+  const uint32_t first = first_particles[cloth];
+  return std::span<const glm::vec3>(all).subspan(first, first_particles[cloth + 1] - first);
+}
+
+}  // namespace
+
+// All that a step ever needs, so that none allocates.
+ClothState::ClothState(const ClothModel& model) : data_(std::make_unique<Data>()) {
+  const ClothModel::Data& m = model.data();
+  Data& d = *data_;
+  const size_t count = m.rest.size();
+  for (std::vector<Float4>* particles :
+       {&d.positions, &d.before, &d.velocities, &d.accelerations, &d.skin_steps}) {
+    particles->resize(count);
+  }
+  d.hinge_targets.resize(m.hinges.size());
+  for (ClothBody* body : {&d.frame, &d.beat, &d.next, &d.target}) {
+    Resize(*body, count, m.capsules.size());
+  }
+  d.cones.resize(m.capsules.size());
+  d.skin_matrices.resize(m.joint_from_actor.size());
+  d.contacts.reserve(count * m.capsules.size());
+  d.pairs.reserve(count * kPairsPerParticle);
+  d.cells.resize(count);
+  d.cell_of.resize(count);
+  d.bucket_starts.resize(BucketCount(count) + 1);
+  d.offsets_before.resize(count);
+  d.offsets.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    d.drawn.push_back(m.rest[i].xyz());
+  }
+  d.drawn_normals.assign(count, glm::vec3(0.0f, 1.0f, 0.0f));
+  for (const ClothRange& cloth : m.cloths) {
+    d.first_particles.push_back(cloth.first);
+  }
+  d.first_particles.push_back(static_cast<uint32_t>(count));
+}
+
+ClothState::ClothState(const ClothState& other) : data_(std::make_unique<Data>(*other.data_)) {
+  data_->contacts.reserve(other.data_->contacts.capacity());
+  data_->pairs.reserve(other.data_->pairs.capacity());
+}
+
+ClothState& ClothState::operator=(const ClothState& other) {
+  if (this != &other) {
+    *this = ClothState(other);
+  }
+  return *this;
+}
+
+ClothState::ClothState(ClothState&&) noexcept = default;
+ClothState& ClothState::operator=(ClothState&&) noexcept = default;
+ClothState::~ClothState() = default;
+
+std::span<const glm::vec3> ClothState::particles(size_t cloth) const {
+  return OfCloth(data_->drawn, data_->first_particles, cloth);
+}
+
+std::span<const glm::vec3> ClothState::normals(size_t cloth) const {
+  return OfCloth(data_->drawn_normals, data_->first_particles, cloth);
+}
+
+}  // namespace lararium::human
