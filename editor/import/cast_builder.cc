@@ -1,0 +1,203 @@
+#include "editor/import/cast_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/import/cast_paint.h"
+#include "editor/import/cast_parts.h"
+#include "editor/import/cast_rig.h"
+#include "editor/import/cast_shape.h"
+#include "shared/core/file.h"
+
+namespace lararium::import {
+namespace {
+
+// How the parts of each kind look.
+struct Look {
+  human::Surface surface;
+  float roughness;
+  float alpha_cutoff;
+  bool two_sided;
+  int texture_size;
+};
+
+Look LookOf(CastPart part) {
+  switch (part) {
+    case CastPart::kEyes:
+      return {human::Surface::kEye, 0.15f, 0.5f, false, 256};
+    case CastPart::kTeeth:
+      return {human::Surface::kPlain, 0.35f, 0.0f, false, 256};
+    case CastPart::kTongue:
+      return {human::Surface::kSkin, 0.4f, 0.0f, false, 128};
+    case CastPart::kEyebrows:
+    case CastPart::kEyelashes:
+      return {human::Surface::kHair, 0.7f, 0.3f, true, 512};
+    case CastPart::kHair:
+      return {human::Surface::kHair, 0.6f, 0.4f, true, 512};
+  }
+  return {human::Surface::kPlain, 0.8f, 0.0f, false, 512};
+}
+
+BaseShape ShapeOf(const CastLibrary& library,
+                  std::vector<glm::vec3> positions,
+                  const human::Skeleton& skeleton) {
+  BaseShape shape;
+  shape.positions = std::move(positions);
+  CastWeights weights = WeightsOf(library, skeleton);
+  shape.joints = std::move(weights.joints);
+  shape.weights = std::move(weights.weights);
+  const CastMesh& mesh = library.base().mesh;
+  for (const CastMaterial& material : mesh.materials) {
+    shape.groups.push_back({material.name, {}});
+  }
+  for (const CastFace& face : mesh.faces) {
+    shape.groups[face.material].quads.push_back(face.vertices);
+  }
+  return shape;
+}
+
+// One person in the making.
+class CastBuilder {
+ public:
+  CastBuilder(const CastLibrary& library, const CastRecipe& recipe)
+      : library_(library), recipe_(recipe) {}
+
+  Result<human::Human> Build() {
+    LARARIUM_ASSIGN_OR_RETURN(body_, FitBody(library_, recipe_));
+    human_.name = recipe_.name;
+    human_.skeleton = body_.skeleton;
+    human_.credits = "base mesh, rig, targets and skins: MakeHuman Team; AGPL3\n";
+    LARARIUM_RETURN_IF_ERROR(AddSkin());
+    LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kEyes, {"HighPolyEyes", {}}));
+    LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kTeeth, {recipe_.teeth, {}}));
+    LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kTongue, {recipe_.tongue, {}}));
+    LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kEyelashes, {recipe_.eyelashes, {}}));
+    LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kEyebrows, recipe_.eyebrows));
+    if (recipe_.hair) {
+      LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kHair, *recipe_.hair));
+    }
+    for (const CastDyed& beard : recipe_.beard) {
+      LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kHair, beard));
+    }
+    for (CastPiece& piece : pieces_) {
+      human_.meshes.push_back(std::move(piece.mesh));
+    }
+    human_.capsules = body_.capsules;
+    LARARIUM_RETURN_IF_ERROR(human_.Validate(recipe_.name));
+    return std::move(human_);
+  }
+
+ private:
+  std::string SkinName() const {
+    if (!recipe_.skin.empty()) {
+      return recipe_.skin;
+    }
+    const char* age = recipe_.age < 38.0f ? "young" : recipe_.age < 60.0f ? "middleage" : "old";
+    const glm::vec3& e = recipe_.ethnicity;
+    const char* ethnicity = e.x >= e.y && e.x >= e.z ? "caucasian"
+                            : e.y >= e.z             ? "african"
+                                                     : "asian";
+    return std::string(age) + "_" + ethnicity + (recipe_.sex >= 0.5f ? "_male" : "_female");
+  }
+
+  int16_t AddTexture(human::Texture texture) {
+    human_.textures.push_back(std::move(texture));
+    return static_cast<int16_t>(human_.textures.size() - 1);
+  }
+
+  Status AddSkin() {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, library_.LoadSkin(SkinName()));
+    LARARIUM_ASSIGN_OR_RETURN(human::Texture texture, OpaqueTexture("skin", picture, 1024));
+    human::Material material;
+    material.name = "skin";
+    material.surface = human::Surface::kSkin;
+    material.roughness = 0.55f;
+    material.colour_texture = AddTexture(std::move(texture));
+    CastPiece piece = SkinPiece(library_, body_.base);
+    AddPiece(std::move(piece), std::move(material));
+    return Status();
+  }
+
+  Status AddPart(CastPart part, const CastDyed& chosen) {
+    if (chosen.name.empty()) {
+      return Status();
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const CastProxy proxy, library_.LoadPart(part, chosen.name));
+    const Look look = LookOf(part);
+    human::Material material;
+    material.name = chosen.name;
+    material.surface = look.surface;
+    material.roughness = look.roughness;
+    material.alpha_cutoff = look.alpha_cutoff;
+    material.two_sided = look.two_sided;
+    LARARIUM_ASSIGN_OR_RETURN(const std::string file, TextureFile(part, proxy));
+    if (!file.empty()) {
+      LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> picture,
+                                ReadBytes(proxy.folder / file));
+      auto texture = look.alpha_cutoff > 0.0f
+                         ? DyedTexture(chosen.name, picture, chosen.colour, look.texture_size)
+                         : OpaqueTexture(chosen.name, picture, look.texture_size);
+      LARARIUM_RETURN_IF_ERROR(texture.status());
+      material.colour_texture = AddTexture(*std::move(texture));
+    }
+    human_.credits += proxy.credits + "\n";
+    AddPiece(FitPart(library_, proxy, body_.base), std::move(material));
+    return Status();
+  }
+
+  // Eyes come in several colours.
+  Result<std::string> TextureFile(CastPart part, const CastProxy& proxy) const {
+    if (part != CastPart::kEyes) {
+      return proxy.mesh.materials.empty() ? std::string() : proxy.mesh.materials[0].colour_texture;
+    }
+    std::string known;
+    for (const CastMaterial& material : proxy.mesh.materials) {
+      if (material.name == recipe_.eye_colour) {
+        return material.colour_texture;
+      }
+      known += (known.empty() ? "" : ", ") + material.name;
+    }
+    return Status::Error(recipe_.name + ": eyes", "there is no colour '" + recipe_.eye_colour + "'",
+                         "choose one of: " + known);
+  }
+
+  void AddPiece(CastPiece piece, human::Material material) {
+    piece.mesh.material = static_cast<int16_t>(human_.materials.size());
+    human_.materials.push_back(std::move(material));
+    pieces_.push_back(std::move(piece));
+  }
+
+  const CastLibrary& library_;
+  const CastRecipe& recipe_;
+  FittedBody body_;
+  human::Human human_;
+  std::vector<CastPiece> pieces_;
+};
+
+}  // namespace
+
+const BaseGroup* BaseShape::FindGroup(std::string_view name) const {
+  const auto found = std::find_if(groups.begin(), groups.end(),
+                                  [name](const BaseGroup& group) { return group.name == name; });
+  return found == groups.end() ? nullptr : &*found;
+}
+
+Result<FittedBody> FitBody(const CastLibrary& library, const CastRecipe& recipe) {
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<glm::vec3> positions, ShapeBase(library, recipe));
+  FittedBody body;
+  LARARIUM_ASSIGN_OR_RETURN(body.skeleton, CastSkeleton(library, positions));
+  body.base = ShapeOf(library, std::move(positions), body.skeleton);
+  CastPiece skin = SkinPiece(library, body.base);
+  body.skin = std::move(skin.mesh);
+  body.base_of_skin = std::move(skin.source);
+  for (const glm::vec3& p : body.skin.positions) {
+    body.height = std::max(body.height, p.y);
+  }
+  return body;
+}
+
+Result<human::Human> BuildCast(const CastLibrary& library, const CastRecipe& recipe) {
+  return CastBuilder(library, recipe).Build();
+}
+
+}  // namespace lararium::import
