@@ -48,6 +48,12 @@ void SetActorRotation(const Skeleton& skeleton,
                       const glm::quat& actor_from_joint,
                       std::span<JointTransform> pose);
 
+// Moves a joint, and with it all below, to a place in the actor frame.
+void SetActorPosition(const Skeleton& skeleton,
+                      JointIndex joint,
+                      const glm::vec3& position,
+                      std::span<JointTransform> pose);
+
 // Turns a joint, and with it all below, by a rotation given in actor axes.
 void TurnInActor(const Skeleton& skeleton,
                  JointIndex joint,

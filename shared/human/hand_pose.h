@@ -33,10 +33,9 @@ std::string_view NameOf(HandPose pose);
 
 // All that one hand remembers; plain values.
 struct HandState {
-  HandPose pose = HandPose::kRelaxed;
-  HandPose previous = HandPose::kRelaxed;
-  float weight = 1.0f;  // of pose against previous
-  float weight_per_second = 0.0f;
+  HandPose pose = HandPose::kRelaxed;                 // where it goes
+  std::array<float, kHandPoseCount> shares = {1.0f};  // of each pose now, together 1
+  float change_per_second = 4.0f;
   float strength = 1.0f;  // against what a clip does with the fingers, 0..1
 
   friend bool operator==(const HandState&, const HandState&) = default;
@@ -53,6 +52,7 @@ struct HandModel {
     JointIndex joint = kNoJoint;
     uint8_t finger = 0;                                      // Body::kThumb ...
     uint8_t segment = 0;                                     // 0 at the knuckle
+    bool last = false;                                       // of its finger
     glm::quat straight = glm::quat(1.0f, 0.0f, 0.0f, 0.0f);  // parent_from_joint, stretched
     glm::vec3 flexion = glm::vec3(1.0f, 0.0f, 0.0f);         // axes in the joint's frame
     glm::vec3 spread = glm::vec3(0.0f, 1.0f, 0.0f);

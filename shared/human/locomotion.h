@@ -55,6 +55,7 @@ struct Locomotion {
     Footprint goal;                            // in swing: the next print, foretold
     glm::vec3 lifted_ankle = glm::vec3(0.0f);  // where the ankle left
     float lifted_pitch = 0.0f;
+    float lift_phase = 0.0f;            // of its own stride, when it left
     float swing = 0.0f;                 // 0..1 of the swing
     glm::vec3 ankle = glm::vec3(0.0f);  // where the ankle joint is to be
     float pitch = 0.0f;                 // toes up, of the sole against the print
@@ -70,8 +71,10 @@ struct Locomotion {
   glm::vec3 velocity = glm::vec3(0.0f);      // m/s, smoothed
   float turn_rate = 0.0f;                    // rad/s, smoothed
   glm::vec3 acceleration = glm::vec3(0.0f);  // m/s^2, smoothed
-  double phase = 0.0;   // of the stride, in strides; whole when the right heel strikes
-  float amount = 0.0f;  // of walking: 0 stands, 1 at a comfortable speed, more beyond
+  double phase = 0.0;  // of the stride, in strides; whole when the right heel strikes
+  bool stepping = false;
+  float settled = 0.0f;  // 1 when it has stood for a while: weight may shift
+  float amount = 0.0f;   // of walking: 0 stands, 1 at a comfortable speed, more beyond
   std::array<Foot, 2> feet;
 
   friend bool operator==(const Locomotion&, const Locomotion&) = default;

@@ -31,7 +31,6 @@ struct Performance {
   double time = 0.0;    // seconds of life
   float vigour = 1.0f;  // of life, 0..1
   Animation animation;
-  BodyPart clip_part = BodyPart::kWhole;  // what the clip moves
   Locomotion locomotion;
   Gaze gaze;
   std::array<Reach, 2> reaches;  // by side: kRight, kLeft
@@ -86,11 +85,12 @@ class Performer {
 
  private:
   void PoseBody(const Performance& performance, const LifeSample& life);
+  void LayClip(int clip, double time, BodyPart part, std::span<JointTransform> pose);
 
   std::shared_ptr<const PerformanceModel> model_;
   std::vector<JointTransform> pose_;
+  std::vector<JointTransform> previous_pose_;
   std::vector<JointTransform> clip_pose_;
-  std::vector<JointTransform> faded_in_;
   std::vector<glm::mat4> actor_from_joint_;
   std::vector<glm::mat4> skin_;
   std::vector<float> face_weights_;

@@ -1,0 +1,169 @@
+#include "shared/human/gait.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+#include "shared/human/turns.h"
+
+namespace lararium::human {
+namespace {
+
+constexpr int kSamples = 20;  // one for each 5 % of the stride
+constexpr int kHarmonics = 6;
+using Samples = std::array<float, kSamples>;  // degrees
+
+constexpr Samples kThigh = {20,  20,  18.5f, 14, 8,  2,  -3.5f, -9, -14, -18,
+                            -20, -18, -10,   1,  11, 18, 23,    25, 24,  22};
+constexpr Samples kKnee = {4,  11, 16, 18, 16, 13, 10, 8,  7,  8,
+                           12, 23, 38, 53, 61, 61, 52, 37, 19, 6};
+constexpr Samples kAnkle = {0, -5, -3,  1,   4,   6,  7.5f, 9, 10, 9,
+                            4, -5, -15, -18, -13, -6, -2,   0, 0,  0};
+
+class FourierCurve {
+ public:
+  explicit FourierCurve(const Samples& samples) {
+    for (int h = 0; h <= kHarmonics; ++h) {
+      const float scale = (h == 0 ? 1.0f : 2.0f) / static_cast<float>(kSamples);
+      for (int i = 0; i < kSamples; ++i) {
+        const float angle = 2.0f * kPi * static_cast<float>(h * i) / static_cast<float>(kSamples);
+        const float value = scale * glm::radians(samples[static_cast<size_t>(i)]);
+        cosine_[static_cast<size_t>(h)] += value * std::cos(angle);
+        sine_[static_cast<size_t>(h)] += value * std::sin(angle);
+      }
+    }
+  }
+
+  float At(float phase) const {
+    float sum = 0.0f;
+    for (size_t h = 0; h <= kHarmonics; ++h) {
+      const float angle = 2.0f * kPi * static_cast<float>(h) * phase;
+      sum += cosine_[h] * std::cos(angle) + sine_[h] * std::sin(angle);
+    }
+    return sum;
+  }
+
+ private:
+  std::array<float, kHarmonics + 1> cosine_ = {}, sine_ = {};
+};
+
+// Share of the stride in which the curves have the foot on the floor.
+constexpr float kCurveStance = 0.61f;
+// Segments of the leg (Drillis & Contini, 1966, in Winter, 2009), over hip height.
+constexpr float kThighLength = 0.245f / 0.53f;
+constexpr float kShankLength = 0.246f / 0.53f;
+// Of the flat foot through a stance: fitted to the curves (the line through the ankle's
+// way against the hip between 3 % and 58 %, the foot's roll taken out).
+constexpr float kStrideLength = 1.547f;
+constexpr float kAheadShare = 0.333f;
+constexpr float kHipRise = 0.02f;  // half of its motion
+
+constexpr int kTableSize = 33;
+template <typename T>
+using Table = std::array<T, kTableSize>;
+
+template <typename T>
+struct Between {
+  const T& a;
+  const T& b;
+  float t;
+};
+template <typename T>
+Between<T> Lookup(const Table<T>& table, float x) {
+  const float position = std::clamp(x, 0.0f, 1.0f) * (kTableSize - 1);
+  const size_t first = std::min(static_cast<size_t>(position), size_t{kTableSize - 2});
+  return {table[first], table[first + 1], position - static_cast<float>(first)};
+}
+
+template <typename T, typename F>
+Table<T> Tabulate(const F& function) {
+  Table<T> table;
+  for (size_t i = 0; i < kTableSize; ++i) {
+    table[i] = function(static_cast<float>(i) / (kTableSize - 1));
+  }
+  return table;
+}
+
+// The ankle against where the hip was at phase 0: forward and up.
+struct Planar {
+  float forward, up;
+};
+Planar AnkleWay(float phase) {
+  const float thigh = ThighInclination(phase);
+  const float shank = thigh - KneeFlexion(phase);
+  const float hip = kHipRise * std::cos(4.0f * kPi * (phase - 0.8f));
+  return {kThighLength * std::sin(thigh) + kShankLength * std::sin(shank) + kStrideLength * phase,
+          hip - kThighLength * std::cos(thigh) - kShankLength * std::cos(shank)};
+}
+
+SwingPoint ComputeSwing(float swing) {
+  const float phase = glm::mix(kCurveStance, 1.0f, swing);
+  const Planar from = AnkleWay(kCurveStance), to = AnkleWay(1.0f), now = AnkleWay(phase);
+  const float pitch_from = SolePitch(kCurveStance), pitch_to = SolePitch(1.0f);
+  return {(now.forward - from.forward) / (to.forward - from.forward),
+          now.up - glm::mix(from.up, to.up, swing),
+          (SolePitch(phase) - pitch_from) / (pitch_to - pitch_from)};
+}
+
+float ComputeStancePitch(float stance) {
+  const float pitch = SolePitch(kCurveStance * stance);
+  return pitch * glm::smoothstep(glm::radians(4.0f), glm::radians(14.0f), std::abs(pitch));
+}
+
+}  // namespace
+
+float ThighInclination(float phase) {
+  static const FourierCurve curve(kThigh);
+  return curve.At(phase);
+}
+
+float KneeFlexion(float phase) {
+  static const FourierCurve curve(kKnee);
+  return curve.At(phase);
+}
+
+float AnkleFlexion(float phase) {
+  static const FourierCurve curve(kAnkle);
+  return curve.At(phase);
+}
+
+float SolePitch(float phase) {
+  return ThighInclination(phase) - KneeFlexion(phase) + AnkleFlexion(phase);
+}
+
+Stride StrideAt(float speed, float turn_rate, float leg_length, const GaitStyle& style) {
+  constexpr float kGravity = 9.81f;
+  constexpr float kWalkRatio = 0.838f;   // 6.4 mm per step a minute with legs of 0.9 m
+  constexpr float kTurnRadius = 0.3f;    // of leg length: what turning counts as speed
+  constexpr float kStepInPlace = 0.24f;  // strides per sqrt(leg length / g)
+  const float pace =
+      std::hypot(speed, kTurnRadius * leg_length * turn_rate) / std::sqrt(kGravity * leg_length);
+  const float straight = speed / std::sqrt(kGravity * leg_length);
+  const float by_speed = 0.5f * kWalkRatio * std::sqrt(pace);
+  const float in_place = kStepInPlace * std::max(0.0f, 1.0f - pace / 0.1f);
+  const float rate = style.cadence * std::max(by_speed, in_place);
+  Stride stride;
+  stride.per_second = rate * std::sqrt(kGravity / leg_length);
+  // 62 % at a comfortable speed, less when faster (Murray et al., 1964, 1966).
+  stride.stance_share = std::clamp(0.62f - 0.16f * (pace - 0.43f), 0.56f, 0.68f);
+  const float length = rate > 0.0f ? straight / rate : 0.0f;
+  const float begins = glm::smoothstep(0.02f, 0.12f, straight);
+  stride.amount = std::min(begins * length / kStrideLength, 1.3f);
+  stride.ahead_share = glm::mix(0.5f, kAheadShare, std::min(stride.amount, 1.1f));
+  return stride;
+}
+
+float StancePitch(float stance) {
+  static const Table<float> table = Tabulate<float>(ComputeStancePitch);
+  const auto at = Lookup(table, stance);
+  return glm::mix(at.a, at.b, at.t);
+}
+
+SwingPoint SwingAt(float swing) {
+  static const Table<SwingPoint> table = Tabulate<SwingPoint>(ComputeSwing);
+  const auto at = Lookup(table, swing);
+  return {glm::mix(at.a.progress, at.b.progress, at.t), glm::mix(at.a.height, at.b.height, at.t),
+          glm::mix(at.a.pitch, at.b.pitch, at.t)};
+}
+
+}  // namespace lararium::human

@@ -1,0 +1,228 @@
+#include "shared/human/hand_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "shared/human/palm.h"
+#include "shared/human/turns.h"
+
+namespace lararium::human {
+namespace {
+
+constexpr std::array<std::string_view, kHandPoseCount> kNames = {
+    "relaxed", "flat", "fist", "cylinder", "pinch", "point", "ladle", "bowl"};
+
+// Flexion from the knuckle outward and the spread at the knuckle, degrees. Of the
+// thumb: flexion of its three joints, and its opposition.
+struct FingerPose {
+  std::array<float, 3> flexion;
+  float spread;
+};
+using HandAngles = std::array<FingerPose, Body::kFingers>;
+
+// Set by eye, within the ranges of healthy fingers (90, 100, 70 degrees).
+constexpr std::array<HandAngles, kHandPoseCount> kPoses = {{
+    {{{{4, 8, 10}, 8},
+      {{18, 22, 14}, 2},
+      {{22, 27, 17}, 0},
+      {{26, 30, 18}, -2},
+      {{28, 32, 18}, -4}}},
+    {{{{0, 0, 0}, 0}, {{2, 2, 2}, 2}, {{2, 2, 2}, 0}, {{2, 2, 2}, -2}, {{2, 2, 2}, -4}}},
+    {{{{14, 35, 45}, 38},
+      {{82, 95, 60}, 0},
+      {{85, 98, 62}, 0},
+      {{86, 98, 62}, 0},
+      {{86, 96, 60}, 0}}},
+    {{{{4, 14, 22}, 46},
+      {{46, 50, 30}, 2},
+      {{50, 52, 32}, 0},
+      {{54, 54, 32}, -1},
+      {{58, 54, 32}, -2}}},
+    {{{{6, 16, 24}, 44},
+      {{50, 46, 18}, 0},
+      {{56, 50, 22}, 0},
+      {{62, 60, 30}, 0},
+      {{66, 62, 32}, 0}}},
+    {{{{12, 30, 40}, 36}, {{4, 4, 2}, 0}, {{70, 92, 55}, 0}, {{78, 95, 58}, 0}, {{80, 95, 58}, 0}}},
+    {{{{6, 18, 20}, 36},
+      {{36, 34, 14}, 0},
+      {{74, 84, 48}, 0},
+      {{80, 88, 50}, 0},
+      {{82, 88, 50}, 0}}},
+    {{{{0, 4, 6}, 6}, {{16, 14, 8}, 5}, {{18, 16, 9}, 1}, {{20, 17, 9}, -4}, {{22, 18, 9}, -9}}},
+}};
+
+// The mean of all poses by their shares, degrees.
+HandAngles Blend(const std::array<float, kHandPoseCount>& shares) {
+  HandAngles sum = {};
+  for (size_t pose = 0; pose < kPoses.size(); ++pose) {
+    if (shares[pose] <= 0.0f) {
+      continue;
+    }
+    for (size_t finger = 0; finger < sum.size(); ++finger) {
+      for (size_t i = 0; i < 3; ++i) {
+        sum[finger].flexion[i] += shares[pose] * kPoses[pose][finger].flexion[i];
+      }
+      sum[finger].spread += shares[pose] * kPoses[pose][finger].spread;
+    }
+  }
+  return sum;
+}
+
+// Radians. What a figure with fewer joints lacks, its last ones take over in part.
+float FlexionOf(const FingerPose& finger, const HandModel::Joint& joint) {
+  float flexion = finger.flexion[joint.segment];
+  for (size_t i = joint.segment + 1u; joint.last && i < finger.flexion.size(); ++i) {
+    flexion += 0.5f * finger.flexion[i];
+  }
+  return glm::radians(flexion);
+}
+
+class HandMeasurer {
+ public:
+  HandMeasurer(const Skeleton& skeleton, const Body& body, int side)
+      : skeleton_(skeleton), body_(body), palm_(FindPalm(body, side)), side_(side) {}
+
+  std::vector<HandModel::Joint> Measure() const {
+    std::vector<HandModel::Joint> joints;
+    for (int finger = 0; finger < Body::kFingers; ++finger) {
+      MeasureFinger(finger, joints);
+    }
+    return joints;
+  }
+
+ private:
+  const JointFrame& Rest(JointIndex joint) const { return body_.rest[static_cast<size_t>(joint)]; }
+
+  // Towards the finger's next joint, or its end; the way before where there is neither.
+  glm::vec3 Segment(JointIndex joint, const glm::vec3& before) const {
+    for (size_t i = 0; i < skeleton_.size(); ++i) {
+      if (skeleton_.parents[i] == joint) {
+        return Direction(Rest(static_cast<JointIndex>(i)).position - Rest(joint).position, before);
+      }
+    }
+    return before;
+  }
+
+  void MeasureFinger(int finger, std::vector<HandModel::Joint>& joints) const {
+    const auto& chain =
+        body_.fingers[static_cast<size_t>(side_)][static_cast<size_t>(finger)].joints;
+    glm::vec3 before = palm_.along;
+    if (finger == Body::kThumb && chain[0] != kNoJoint) {
+      before = Direction(
+          Rest(chain[0]).position - Rest(body_.arms[static_cast<size_t>(side_)].wrist).position,
+          palm_.along);
+    }
+    for (size_t segment = 0; segment < chain.size() && chain[segment] != kNoJoint; ++segment) {
+      const glm::vec3 direction = Segment(chain[segment], before);
+      HandModel::Joint joint;
+      joint.joint = chain[segment];
+      joint.finger = static_cast<uint8_t>(finger);
+      joint.segment = static_cast<uint8_t>(segment);
+      joint.last = segment + 1 == chain.size() || chain[segment + 1] == kNoJoint;
+      SetAxes(direction, before, joint);
+      joints.push_back(joint);
+      before = direction;
+    }
+  }
+
+  void SetAxes(const glm::vec3& direction, const glm::vec3& before, HandModel::Joint& joint) const {
+    const glm::quat joint_from_actor = glm::conjugate(Rest(joint.joint).rotation);
+    const glm::quat rest = skeleton_.rest[static_cast<size_t>(joint.joint)].rotation;
+    glm::vec3 flexed = -palm_.back, spread = palm_.thumb;
+    if (joint.finger == Body::kThumb) {
+      // Thumbs bend across the palm and oppose towards it.
+      flexed = glm::normalize(-palm_.thumb - 0.5f * palm_.back);
+      spread = glm::normalize(-palm_.back - 0.4f * palm_.thumb);
+    }
+    const glm::vec3 axis = Direction(glm::cross(direction, flexed), AnyAcross(direction));
+    joint.flexion = joint_from_actor * axis;
+    joint.spread =
+        joint_from_actor * Direction(glm::cross(direction, spread), AnyAcross(direction));
+    joint.straight = rest;
+    if (joint.finger != Body::kThumb) {
+      const glm::vec3 a = Direction(Across(before, axis), direction);
+      const glm::vec3 b = Direction(Across(direction, axis), direction);
+      const float bent = std::atan2(glm::dot(glm::cross(a, b), axis), glm::dot(a, b));
+      joint.straight = rest * glm::angleAxis(-bent, joint.flexion);
+    }
+  }
+
+  const Skeleton& skeleton_;
+  const Body& body_;
+  Palm palm_;
+  int side_;
+};
+
+}  // namespace
+
+std::optional<HandPose> HandPoseNamed(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  return found == kNames.end() ? std::nullopt
+                               : std::optional(static_cast<HandPose>(found - kNames.begin()));
+}
+
+std::string_view NameOf(HandPose pose) { return kNames[static_cast<size_t>(pose)]; }
+
+void SetHandPose(HandState& hand, HandPose pose, float seconds) {
+  hand.pose = pose;
+  hand.change_per_second = seconds > 0.0f ? 1.0f / seconds : 1e6f;
+}
+
+void UpdateHand(HandState& hand, float seconds) {
+  float& goal = hand.shares[static_cast<size_t>(hand.pose)];
+  const float missing = 1.0f - goal;
+  if (missing <= 0.0f) {
+    return;
+  }
+  const float left = std::max(missing - seconds * hand.change_per_second, 0.0f) / missing;
+  for (float& share : hand.shares) {
+    share *= left;
+  }
+  goal = 1.0f - left * missing;
+}
+
+HandState Interpolate(const HandState& previous, const HandState& current, float alpha) {
+  HandState mixed = current;
+  for (size_t i = 0; i < mixed.shares.size(); ++i) {
+    mixed.shares[i] = glm::mix(previous.shares[i], current.shares[i], alpha);
+  }
+  mixed.strength = glm::mix(previous.strength, current.strength, alpha);
+  return mixed;
+}
+
+HandModel MakeHandModel(const Skeleton& skeleton, const Body& body) {
+  HandModel model;
+  for (const int side : {kRight, kLeft}) {
+    if (body.arms[static_cast<size_t>(side)].whole()) {
+      model.joints[static_cast<size_t>(side)] = HandMeasurer(skeleton, body, side).Measure();
+    }
+  }
+  return model;
+}
+
+void ApplyHand(const HandModel& model,
+               const HandState& state,
+               const LifeSample& life,
+               int side,
+               std::span<JointTransform> pose) {
+  if (state.strength <= 0.0f) {
+    return;
+  }
+  const HandAngles angles = Blend(state.shares);
+  for (const HandModel::Joint& joint : model.joints[static_cast<size_t>(side)]) {
+    const FingerPose& finger = angles[joint.finger];
+    const float small = life.fingers[static_cast<size_t>(side)][joint.finger];
+    const float flexion = FlexionOf(finger, joint) + small;
+    const float spread = joint.segment == 0 ? glm::radians(finger.spread) : 0.0f;
+    const glm::quat turned = joint.straight * glm::angleAxis(spread, joint.spread) *
+                             glm::angleAxis(flexion, joint.flexion);
+    glm::quat& rotation = pose[static_cast<size_t>(joint.joint)].rotation;
+    rotation = state.strength >= 1.0f ? turned : glm::slerp(rotation, turned, state.strength);
+  }
+}
+
+}  // namespace lararium::human

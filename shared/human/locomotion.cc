@@ -1,0 +1,395 @@
+#include "shared/human/locomotion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "shared/human/gait.h"
+#include "shared/human/turns.h"
+
+namespace lararium::human {
+namespace {
+
+using Foot = Locomotion::Foot;
+using Footprint = Locomotion::Footprint;
+
+constexpr float kToeOut = 0.12f;  // radians; 7 degrees (Murray et al., 1964)
+// Half the distance between the lines of the ankles, shares of leg length: walking
+// (Murray et al., 1964: 8 cm between the heels' middles, and wider for comfort), and
+// the least that two feet keep.
+constexpr float kHalfStepWidth = 0.068f;
+constexpr float kLeastWidth = 0.09f;
+
+struct RootPose {
+  glm::vec3 position;
+  float heading;
+
+  glm::vec3 Stage(const glm::vec3& actor) const { return position + TurnY(heading) * actor; }
+};
+
+// One tick of one walking body.
+class Walker {
+ public:
+  Walker(const Body& body, const FloorHeight& floor, float seconds, Locomotion& state)
+      : body_(body), floor_(floor), seconds_(seconds), state_(state) {
+    const float speed = glm::length(glm::vec2(state.velocity.x, state.velocity.z));
+    speed_ = speed;
+    stride_ = StrideAt(speed, state.turn_rate, body.leg_length(), state.style);
+  }
+
+  void Place() {
+    state_.velocity = state_.acceleration = glm::vec3(0.0f);
+    state_.turn_rate = state_.amount = 0.0f;
+    state_.stepping = false;
+    state_.settled = 1.0f;
+    state_.placed = true;
+    for (const int side : {kRight, kLeft}) {
+      FootOf(side) = Foot();
+      FootOf(side).print = NeutralPrint(side, Root(), 0.0f);
+      Stand(side);
+    }
+  }
+
+  void Update() {
+    UpdateAmount();
+    AdvanceClock();
+    for (const int side : {kRight, kLeft}) {
+      UpdateFoot(side);
+    }
+  }
+
+ private:
+  Foot& FootOf(int side) { return state_.feet[static_cast<size_t>(side)]; }
+  const Body::Leg& Leg(int side) const { return body_.legs[static_cast<size_t>(side)]; }
+  RootPose Root() const { return {state_.position, state_.heading}; }
+
+  // Of the leg's own stride, 0..1.
+  float OwnPhase(int side) const {
+    const double phase = state_.phase + (side == kRight ? 0.0 : 0.5);
+    return static_cast<float>(phase - std::floor(phase));
+  }
+  bool Moving() const { return speed_ > 0.07f * std::sqrt(body_.leg_length()); }
+  bool Swinging() const { return !state_.feet[0].planted || !state_.feet[1].planted; }
+
+  // How alike to forward walking this is: sidling and backing swing feet flatly.
+  float Forwardness() const {
+    if (speed_ < 1e-3f) {
+      return 1.0f;
+    }
+    const glm::vec3 ahead = TurnY(state_.heading) * glm::vec3(0.0f, 0.0f, -1.0f);
+    return std::max(glm::dot(ahead, state_.velocity) / speed_, 0.0f);
+  }
+
+  void UpdateAmount() {
+    const float forward = Forwardness();
+    const float goal = stride_.amount * (0.25f + 0.75f * forward * forward);
+    state_.amount += Approach(seconds_, 0.12f) * (goal - state_.amount);
+  }
+
+  // ---- Prints ----
+
+  float FloorAt(const glm::vec3& at) const {
+    return floor_ ? floor_(at.x, at.z) : state_.position.y;
+  }
+
+  // Of a flat foot whose ankle is above this place.
+  Footprint PrintAt(const glm::vec3& at, float heading, int side) const {
+    Footprint print;
+    print.heading = heading;
+    print.position = glm::vec3(at.x, FloorAt(at), at.z);
+    if (floor_) {
+      constexpr float kSteepest = 0.45f;
+      const float length = Leg(side).heel.z - Leg(side).ball.z;
+      const glm::quat turn = TurnY(heading);
+      const glm::vec3 ahead = turn * glm::vec3(0.0f, 0.0f, -0.5f * length);
+      const glm::vec3 right = turn * glm::vec3(0.25f * length, 0.0f, 0.0f);
+      const float rise = FloorAt(at + ahead) - FloorAt(at - ahead);
+      const float tilt = FloorAt(at + right) - FloorAt(at - right);
+      print.slope_pitch = std::clamp(std::atan2(rise, length), -kSteepest, kSteepest);
+      print.slope_roll = std::clamp(std::atan2(tilt, 0.5f * length), -kSteepest, kSteepest);
+    }
+    return print;
+  }
+
+  float HalfWidth(float amount) const {
+    const float walking = kHalfStepWidth * body_.leg_length() * state_.style.step_width;
+    const float standing = std::max(0.55f * body_.hip_width * state_.style.step_width, walking);
+    return glm::mix(standing, walking, std::min(2.0f * amount, 1.0f));
+  }
+
+  // Where a foot stands below a root.
+  Footprint NeutralPrint(int side, const RootPose& root, float amount) const {
+    const float back = body_.rest[static_cast<size_t>(Leg(side).ankle)].position.z;
+    const glm::vec3 at = root.Stage(glm::vec3(SideSign(side) * HalfWidth(amount), 0.0f, back));
+    return PrintAt(at, root.heading - SideSign(side) * kToeOut, side);
+  }
+
+  // Where the root will be, if it goes on as it does.
+  RootPose Foretell(float seconds) const {
+    constexpr float kFurthest = 0.8f;  // radians: a foot cannot turn in more
+    const float turn = std::clamp(state_.turn_rate * seconds, -kFurthest, kFurthest);
+    const glm::vec3 way = TurnY(0.5f * state_.turn_rate * seconds) * state_.velocity;
+    return {state_.position + seconds * way, state_.heading + turn};
+  }
+
+  // Where the foot in swing will land: at the middle of its stance the root is above it.
+  Footprint Goal(int side) {
+    const Foot& foot = FootOf(side);
+    const float swing_seconds = (1.0f - foot.lift_phase) / stride_.per_second;
+    const float stance_seconds = stride_.stance_share / stride_.per_second;
+    const float ahead = (1.0f - foot.swing) * swing_seconds +
+                        (Moving() ? stride_.ahead_share * stance_seconds : 0.0f);
+    Footprint goal = NeutralPrint(side, Foretell(ahead), state_.amount);
+    return PrintAt(KeepApart(side, goal.position), goal.heading, side);
+  }
+
+  // Not across the other foot.
+  glm::vec3 KeepApart(int side, glm::vec3 goal) const {
+    const Foot& other = state_.feet[static_cast<size_t>(1 - side)];
+    const glm::vec3 right = TurnY(state_.heading) * glm::vec3(1.0f, 0.0f, 0.0f);
+    const float apart = SideSign(side) * glm::dot(goal - other.print.position, right);
+    const float least = kLeastWidth * body_.leg_length();
+    // Feet far ahead of one another may be in one line.
+    const float along = glm::length(Across(goal - other.print.position, right));
+    const float needed = least * (1.0f - glm::smoothstep(0.2f, 0.5f, along / body_.leg_length()));
+    return goal + SideSign(side) * std::max(needed - apart, 0.0f) * right;
+  }
+
+  // ---- The clock ----
+
+  // How far a foot is from where it would stand; beyond 1 it should step.
+  float Misplacement(int side) const {
+    const Footprint& print = state_.feet[static_cast<size_t>(side)].print;
+    const Footprint neutral = NeutralPrint(side, Root(), 0.0f);
+    const glm::vec3 way = print.position - neutral.position;
+    const float aside = glm::length(glm::vec2(way.x, way.z)) / body_.leg_length();
+    const float turned = std::abs(std::remainder(print.heading - neutral.heading, 2.0f * kPi));
+    // Who stands tolerates more than who is on the move anyway.
+    const float leeway = state_.stepping ? 1.0f : 1.8f;
+    return std::max(aside / (0.055f * leeway), turned / (0.20f * leeway));
+  }
+
+  bool WantsStep(int side) const { return Moving() || Misplacement(side) > 1.0f; }
+
+  void AdvanceClock() {
+    const bool wanted = WantsStep(kRight) || WantsStep(kLeft);
+    if (!state_.stepping && wanted) {
+      Begin();
+    }
+    state_.stepping = wanted || Swinging();
+    const float settled = state_.stepping ? 0.0f : 1.0f;
+    state_.settled +=
+        Approach(seconds_, state_.stepping ? 0.2f : 0.9f) * (settled - state_.settled);
+    if (state_.stepping) {
+      state_.phase += static_cast<double>(stride_.per_second) * seconds_;
+    }
+  }
+
+  // The clock is set so that one foot may leave at once.
+  void Begin() {
+    const int first = FirstFoot();
+    const double offset = first == kRight ? 0.0 : 0.5;
+    state_.phase = std::floor(state_.phase) + stride_.stance_share - offset;
+  }
+
+  int FirstFoot() const {
+    if (!Moving()) {
+      return Misplacement(kRight) >= Misplacement(kLeft) ? kRight : kLeft;
+    }
+    const auto behind = [&](int side) {
+      return -glm::dot(state_.feet[static_cast<size_t>(side)].print.position - state_.position,
+                       state_.velocity);
+    };
+    const float difference = (behind(kRight) - behind(kLeft)) / speed_;
+    if (std::abs(difference) > 0.03f) {
+      return difference > 0.0f ? kRight : kLeft;
+    }
+    return state_.turn_rate > 0.1f ? kLeft : kRight;
+  }
+
+  // ---- Feet ----
+
+  void UpdateFoot(int side) {
+    Foot& foot = FootOf(side);
+    const float phase = OwnPhase(side);
+    const bool other_stands = FootOf(1 - side).planted;
+    if (foot.planted && state_.stepping && other_stands && MayLeave(side, phase)) {
+      Lift(foot, std::max(phase, 0.5f));
+    }
+    if (foot.planted) {
+      UpdateStance(side, phase);
+    } else if (phase < 0.5f && phase < foot.lift_phase) {
+      Land(side);
+    } else {
+      UpdateSwing(side, phase);
+    }
+  }
+
+  bool MayLeave(int side, float phase) const {
+    return phase >= stride_.stance_share && phase < 0.95f && WantsStep(side);
+  }
+
+  static void Lift(Foot& foot, float phase) {
+    foot.planted = false;
+    foot.lift_phase = phase;
+    foot.swing = 0.0f;
+    foot.lifted_from = foot.goal = foot.print;
+    foot.lifted_ankle = foot.ankle;
+    foot.lifted_pitch = foot.pitch;
+  }
+
+  void Land(int side) {
+    Foot& foot = FootOf(side);
+    foot.planted = true;
+    foot.swing = 0.0f;
+    foot.print = foot.goal;
+    UpdateStance(side, OwnPhase(side));
+  }
+
+  void UpdateStance(int side, float phase) {
+    Foot& foot = FootOf(side);
+    const float stance = phase / stride_.stance_share;
+    const float goal = stance < 1.0f ? state_.amount * StancePitch(stance) : 0.0f;
+    constexpr float kFastest = 11.0f;  // rad/s
+    foot.pitch += std::clamp(goal - foot.pitch, -kFastest * seconds_, kFastest * seconds_);
+    Stand(side);
+  }
+
+  // The ankle of a planted foot; the toes stay on the floor while the heel is up.
+  void Stand(int side) {
+    Foot& foot = FootOf(side);
+    foot.ankle = AnkleOver(side, foot.print, foot.pitch);
+    foot.toe_bend = std::max(-foot.pitch, 0.0f);
+  }
+
+  // The foot rolls over its heel while the toes are up, over its ball while they are down.
+  glm::vec3 AnkleOver(int side, const Footprint& print, float pitch) const {
+    const Body::Leg& leg = Leg(side);
+    const glm::vec3 pivot = pitch > 0.0f ? leg.heel : leg.ball;
+    const glm::vec3 rolled =
+        TurnX(pitch) * (glm::vec3(0.0f, leg.ankle_height, 0.0f) - pivot) + pivot;
+    const glm::quat slope = TurnX(print.slope_pitch) * TurnZ(print.slope_roll);
+    return print.position + TurnY(print.heading) * (slope * rolled);
+  }
+
+  void UpdateSwing(int side, float phase) {
+    Foot& foot = FootOf(side);
+    constexpr float kDecided = 0.85f;  // of the swing: the place is chosen
+    if (foot.swing < kDecided) {
+      foot.goal = Goal(side);
+    }
+    foot.swing = std::clamp((phase - foot.lift_phase) / (1.0f - foot.lift_phase), 0.0f, 1.0f);
+    const SwingPoint point = SwingAt(foot.swing);
+    const float turned = glm::smoothstep(0.0f, 1.0f, foot.swing);
+    const float landing = state_.amount * StancePitch(0.0f);
+    foot.pitch = glm::mix(foot.lifted_pitch, landing, point.pitch);
+    const float straightened = 1.0f - glm::smoothstep(0.0f, 0.4f, foot.swing);
+    foot.toe_bend = straightened * std::max(-foot.lifted_pitch, 0.0f);
+    const Footprint& from = foot.lifted_from;
+    foot.print.position = glm::mix(from.position, foot.goal.position, point.progress);
+    foot.print.heading = MixAngles(from.heading, foot.goal.heading, turned);
+    foot.print.slope_pitch = glm::mix(from.slope_pitch, foot.goal.slope_pitch, turned);
+    foot.print.slope_roll = glm::mix(from.slope_roll, foot.goal.slope_roll, turned);
+    foot.ankle = glm::mix(foot.lifted_ankle, AnkleOver(side, foot.goal, landing), point.progress);
+    const float straight_up =
+        glm::mix(foot.lifted_ankle.y, AnkleOver(side, foot.goal, landing).y, foot.swing);
+    foot.ankle.y =
+        straight_up + body_.leg_length() * Rise(foot.swing, point.height) + StepRise(foot);
+  }
+
+  // Over the straight way, in leg lengths: a wide step's, or a small one's.
+  float Rise(float swing, float height) const {
+    const float wide = std::min(state_.amount, 1.0f);
+    const float bump = std::pow(std::sin(kPi * swing), 2.0f);
+    return state_.style.lift * (wide * height + glm::mix(0.045f, 0.016f, wide) * bump);
+  }
+
+  // A step up or down is taken from above.
+  static float StepRise(const Foot& foot) {
+    const float step = std::abs(foot.goal.position.y - foot.lifted_from.position.y);
+    return 0.6f * step * std::sin(kPi * foot.swing);
+  }
+
+  const Body& body_;
+  const FloorHeight& floor_;
+  float seconds_;
+  Locomotion& state_;
+  float speed_ = 0.0f;
+  Stride stride_;
+};
+
+// Velocity and turn rate, smoothed over a few ticks: what moves the root may be jerky.
+void MeasureMotion(const glm::vec3& position, float heading, float seconds, Locomotion& state) {
+  const glm::vec3 velocity = (position - state.position) / seconds;
+  const float rate = std::remainder(heading - state.heading, 2.0f * kPi) / seconds;
+  const float share = Approach(seconds, 0.07f);
+  const glm::vec3 before = state.velocity;
+  state.velocity += share * (velocity - state.velocity);
+  state.turn_rate += share * (rate - state.turn_rate);
+  const glm::vec3 acceleration = (state.velocity - before) / seconds;
+  state.acceleration += Approach(seconds, 0.15f) * (acceleration - state.acceleration);
+}
+
+Footprint Mix(const Footprint& a, const Footprint& b, float t) {
+  return {glm::mix(a.position, b.position, t), MixAngles(a.heading, b.heading, t),
+          glm::mix(a.slope_pitch, b.slope_pitch, t), glm::mix(a.slope_roll, b.slope_roll, t)};
+}
+
+Foot Mix(const Foot& a, const Foot& b, float t) {
+  Foot mixed = b;
+  mixed.print = Mix(a.print, b.print, t);
+  mixed.ankle = glm::mix(a.ankle, b.ankle, t);
+  mixed.pitch = glm::mix(a.pitch, b.pitch, t);
+  mixed.toe_bend = glm::mix(a.toe_bend, b.toe_bend, t);
+  return mixed;
+}
+
+}  // namespace
+
+void UpdateLocomotion(const LocomotionModel& model,
+                      const glm::vec3& position,
+                      float heading,
+                      float seconds,
+                      const FloorHeight& floor,
+                      Locomotion& state) {
+  const bool jumps = !state.placed || glm::distance(position, state.position) > kTeleport;
+  if (!jumps && seconds > 0.0f) {
+    MeasureMotion(position, heading, seconds, state);
+  }
+  state.position = position;
+  state.heading = heading;
+  if (!model.body.walks()) {
+    state.placed = true;
+    return;
+  }
+  Walker walker(model.body, floor, seconds, state);
+  if (jumps) {
+    walker.Place();
+  } else if (seconds > 0.0f) {
+    walker.Update();
+  }
+}
+
+Locomotion Interpolate(const Locomotion& previous, const Locomotion& current, float alpha) {
+  if (!previous.placed || glm::distance(previous.position, current.position) > kTeleport) {
+    return current;
+  }
+  Locomotion mixed = current;
+  mixed.position = glm::mix(previous.position, current.position, alpha);
+  mixed.heading = MixAngles(previous.heading, current.heading, alpha);
+  mixed.velocity = glm::mix(previous.velocity, current.velocity, alpha);
+  mixed.acceleration = glm::mix(previous.acceleration, current.acceleration, alpha);
+  mixed.turn_rate = glm::mix(previous.turn_rate, current.turn_rate, alpha);
+  mixed.amount = glm::mix(previous.amount, current.amount, alpha);
+  mixed.settled = glm::mix(previous.settled, current.settled, alpha);
+  if (std::abs(current.phase - previous.phase) < 0.1) {
+    mixed.phase = glm::mix(previous.phase, current.phase, static_cast<double>(alpha));
+  }
+  for (size_t side = 0; side < 2; ++side) {
+    mixed.feet[side] = Mix(previous.feet[side], current.feet[side], alpha);
+  }
+  return mixed;
+}
+
+}  // namespace lararium::human

@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "shared/human/locomotion.h"
+#include "shared/human/turns.h"
+#include "shared/human/two_bone_ik.h"
+
+namespace lararium::human {
+namespace {
+
+constexpr glm::vec3 kDown(0.0f, -1.0f, 0.0f);
+constexpr glm::vec3 kForward(0.0f, 0.0f, -1.0f);
+
+// How the segments of the trunk are turned from rest, actor frame.
+struct Trunk {
+  glm::vec3 hips = glm::vec3(0.0f);  // shift of the root, metres
+  glm::quat pelvis = kNoTurn;
+  glm::quat chest = kNoTurn;
+  glm::quat head = kNoTurn;
+};
+
+// At most the smaller, without a kink; metres.
+float SoftMin(float a, float b) {
+  constexpr float kSoftness = 0.008f;
+  return std::min(a, b) - kSoftness * std::log1p(std::exp(-std::abs(a - b) / kSoftness));
+}
+
+class WalkingPose {
+ public:
+  WalkingPose(const Body& body,
+              const Skeleton& skeleton,
+              const Locomotion& state,
+              const LifeSample& life,
+              std::span<JointTransform> pose)
+      : body_(body), skeleton_(skeleton), state_(state), life_(life), pose_(pose) {
+    turn_ = 2.0f * kPi * static_cast<float>(state.phase - std::floor(state.phase));
+    amount_ = state.amount;
+    leg_ = body.leg_length();
+  }
+
+  void Apply() {
+    std::copy(skeleton_.rest.begin(), skeleton_.rest.end(), pose_.begin());
+    Trunk trunk = TrunkOfWalk();
+    if (body_.walks()) {
+      SetPelvis(trunk);
+    }
+    SetChain(body_.spine, trunk.pelvis, trunk.chest);
+    SetChain(body_.neck, trunk.chest, trunk.head);
+    for (const int side : {kRight, kLeft}) {
+      SetArm(side, trunk.chest);
+      if (body_.walks()) {
+        SetLeg(side);
+      }
+    }
+  }
+
+ private:
+  const Body::Leg& Leg(int side) const { return body_.legs[static_cast<size_t>(side)]; }
+  const Locomotion::Foot& Foot(int side) const { return state_.feet[static_cast<size_t>(side)]; }
+  const JointFrame& Rest(JointIndex joint) const { return body_.rest[static_cast<size_t>(joint)]; }
+  glm::vec3 Actor(const glm::vec3& stage) const {
+    return TurnY(-state_.heading) * (stage - state_.position);
+  }
+
+  // Angles and shifts by phase after Perry & Burnfield (2010): the pelvis turns 4
+  // degrees forward with the leg that strikes, drops 4 degrees on the side that swings,
+  // and moves 2 cm towards the leg that stands; the chest turns against it; the trunk is
+  // highest over either leg.
+  Trunk TrunkOfWalk() const {
+    const float walking = std::min(amount_, 1.2f);
+    const float sway = state_.style.sway;
+    Trunk trunk;
+    const float yaw = 0.070f * walking * std::cos(turn_);
+    const float list = sway * 0.060f * walking * std::cos(turn_ - 0.9f);
+    const float side_step = SideStep();
+    const float shift = life_.weight_shift * state_.settled;
+    trunk.hips.x = leg_ * (sway * 0.024f * walking * std::cos(turn_ - 0.6f * kPi) +
+                           0.035f * side_step + 0.022f * shift);
+    const float bounce = std::cos(2.0f * (turn_ - 0.6f * kPi));
+    trunk.hips.y = leg_ * (-0.004f - walking * walking * (0.030f - 0.022f * bounce));
+    const float lean = Lean();
+    const float bank = Bank();
+    trunk.pelvis = TurnY(yaw) * TurnZ(list + 0.030f * shift + bank) * TurnX(-0.02f - 0.5f * lean);
+    const float stoop = state_.style.stoop + lean + 0.03f * walking;
+    trunk.chest = TurnY(-0.9f * yaw) *
+                  TurnZ(-0.35f * list - 0.028f * shift + bank + 0.03f * side_step) *
+                  TurnX(-0.01f - stoop);
+    // The head stays level, and leads into turns (Grasso et al., 1998).
+    const float lead = std::clamp(0.28f * state_.turn_rate, -0.5f, 0.5f);
+    trunk.head = TurnY(0.2f * yaw + lead) * TurnZ(0.3f * bank) *
+                 TurnX(-0.25f * state_.style.stoop - 0.3f * lean -
+                       0.008f * walking * std::cos(2.0f * turn_));
+    return trunk;
+  }
+
+  // Stepping in place takes the weight to the other foot first: -1 .. 1, right.
+  float SideStep() const {
+    const float in_place = std::max(1.0f - 2.0f * amount_, 0.0f);
+    float step = 0.0f;
+    for (const int side : {kRight, kLeft}) {
+      step -= Foot(side).planted ? 0.0f : SideSign(side) * std::sin(kPi * Foot(side).swing);
+    }
+    return in_place * step;
+  }
+
+  // Forwards when the body gains speed, radians.
+  float Lean() const {
+    const glm::vec3 acceleration = TurnY(-state_.heading) * state_.acceleration;
+    return std::clamp(-0.03f * acceleration.z, -0.08f, 0.10f);
+  }
+
+  // Into a curve: half of what would balance it.
+  float Bank() const {
+    const glm::vec3 velocity = TurnY(-state_.heading) * state_.velocity;
+    return std::clamp(0.5f * std::atan(-velocity.z * state_.turn_rate / 9.81f), -0.15f, 0.15f);
+  }
+
+  void SetPelvis(const Trunk& trunk) {
+    const size_t root = static_cast<size_t>(body_.root);
+    const JointFrame& rest = body_.rest[root];
+    SetActorRotation(skeleton_, body_.root, trunk.pelvis * rest.rotation, pose_);
+    glm::vec3 position = rest.position + trunk.hips;
+    position.y = SoftMin(position.y, SoftMin(HighestRoot(trunk, position, kRight),
+                                             HighestRoot(trunk, position, kLeft)));
+    SetActorPosition(skeleton_, body_.root, position, pose_);
+  }
+
+  // Where a leg, all but straight, reaches its ankle.
+  float HighestRoot(const Trunk& trunk, const glm::vec3& root, int side) const {
+    const Body::Leg& leg = Leg(side);
+    const glm::vec3 hip_offset =
+        trunk.pelvis * (Rest(leg.hip).position - Rest(body_.root).position);
+    const glm::vec3 hip = root + hip_offset;
+    const glm::vec3 ankle = Actor(Foot(side).ankle);
+    const float across = glm::length(glm::vec2(ankle.x - hip.x, ankle.z - hip.z));
+    const float length = 0.9985f * TwoBoneIk::kExact * (leg.upper_length + leg.lower_length);
+    const float rise = std::sqrt(std::max(length * length - across * across, 0.0f));
+    return ankle.y + rise - hip_offset.y;
+  }
+
+  // From one turn below the chain to another at its end.
+  void SetChain(const std::vector<JointIndex>& chain, const glm::quat& from, const glm::quat& to) {
+    for (size_t i = 0; i < chain.size(); ++i) {
+      const float share = static_cast<float>(i + 1) / static_cast<float>(chain.size());
+      SetActorRotation(skeleton_, chain[i], glm::slerp(from, to, share) * Rest(chain[i]).rotation,
+                       pose_);
+    }
+  }
+
+  // Arms hang, and swing against the legs: 24 degrees back to 8 forward at a
+  // comfortable speed, the elbow 20 to 45 degrees (Murray et al., 1967).
+  void SetArm(int side, const glm::quat& chest) {
+    const Body::Arm& arm = body_.arms[static_cast<size_t>(side)];
+    if (!arm.whole()) {
+      return;
+    }
+    const float swing_amount = state_.style.arm_swing * std::min(amount_, 1.3f);
+    const float own = turn_ + (side == kRight ? 0.0f : kPi);
+    const float swing = 0.04f - 0.13f * swing_amount - 0.28f * swing_amount * std::cos(own) +
+                        0.8f * state_.style.stoop;
+    const float elbow =
+        0.24f + 0.10f * swing_amount + 0.18f * swing_amount * std::cos(own - 1.1f * kPi);
+    const glm::vec3 elbow_rest = Rest(arm.elbow).position;
+    const glm::vec3 upper = glm::normalize(elbow_rest - Rest(arm.shoulder).position);
+    const glm::vec3 lower = glm::normalize(Rest(arm.wrist).position - elbow_rest);
+    const float spread = 0.12f + state_.style.arm_spread;
+    const glm::quat hang = Arc(upper, kDown);
+    const glm::quat straight = Arc(hang * lower, kDown) * hang;
+    const glm::quat upper_turn = TurnX(swing) * TurnZ(SideSign(side) * spread) * hang;
+    const glm::quat lower_turn =
+        TurnX(swing + elbow) * TurnZ(SideSign(side) * 0.35f * spread) * straight;
+    SetActorRotation(skeleton_, arm.shoulder, chest * upper_turn * Rest(arm.shoulder).rotation,
+                     pose_);
+    SetActorRotation(skeleton_, arm.elbow, chest * lower_turn * Rest(arm.elbow).rotation, pose_);
+  }
+
+  void SetLeg(int side) {
+    const Body::Leg& leg = Leg(side);
+    const Locomotion::Foot& foot = Foot(side);
+    const float heading = std::remainder(foot.print.heading - state_.heading, 2.0f * kPi);
+    TwoBoneIk ik;
+    ik.upper = leg.hip;
+    ik.lower = leg.knee;
+    ik.end = leg.ankle;
+    ik.target = Actor(foot.ankle);
+    // The knee points between where the body faces and where the foot points.
+    ik.pole = TurnY(0.6f * heading) * kForward;
+    ik.hinge = glm::vec3(1.0f, 0.0f, 0.0f);
+    ik.Solve(skeleton_, body_, pose_);
+    const glm::quat sole = TurnY(heading) * TurnX(foot.print.slope_pitch) *
+                           TurnZ(foot.print.slope_roll) * TurnX(foot.pitch);
+    const glm::quat straight = TurnY(-leg.toe_out);
+    SetActorRotation(skeleton_, leg.ankle, sole * straight * Rest(leg.ankle).rotation, pose_);
+    const glm::quat toes = sole * TurnX(foot.toe_bend) * straight;
+    for (const JointIndex toe : leg.toes) {
+      SetActorRotation(skeleton_, toe, toes * Rest(toe).rotation, pose_);
+    }
+  }
+
+  const Body& body_;
+  const Skeleton& skeleton_;
+  const Locomotion& state_;
+  const LifeSample& life_;
+  std::span<JointTransform> pose_;
+  float turn_ = 0.0f;  // of the stride, radians
+  float amount_ = 0.0f;
+  float leg_ = 0.0f;
+};
+
+}  // namespace
+
+void ApplyLocomotion(const LocomotionModel& model,
+                     const Skeleton& skeleton,
+                     const Locomotion& state,
+                     const LifeSample& life,
+                     std::span<JointTransform> pose) {
+  WalkingPose(model.body, skeleton, state, life, pose).Apply();
+}
+
+}  // namespace lararium::human

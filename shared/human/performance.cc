@@ -1,0 +1,120 @@
+#include "shared/human/performance.h"
+
+#include <algorithm>
+
+#include "shared/human/human.h"
+
+namespace lararium::human {
+
+std::shared_ptr<const PerformanceModel> MakePerformanceModel(std::shared_ptr<const Human> human) {
+  CHECK(human != nullptr);
+  auto model = std::make_shared<PerformanceModel>();
+  const Body body = MakeBody(human->skeleton);
+  model->locomotion = {body};
+  model->gaze = MakeGazeModel(body);
+  model->reach = MakeReachModel(body);
+  model->hands = MakeHandModel(human->skeleton, body);
+  model->face = MakeFaceModel(*human);
+  model->masks = MakeJointMasks(human->skeleton, body);
+  model->human = std::move(human);
+  return model;
+}
+
+void UpdatePerformance(const PerformanceModel& model,
+                       const glm::vec3& position,
+                       float heading,
+                       float seconds,
+                       const FloorHeight& floor,
+                       Performance& performance) {
+  performance.time += static_cast<double>(seconds);
+  UpdateAnimation(performance.animation, static_cast<double>(seconds));
+  UpdateLocomotion(model.locomotion, position, heading, seconds, floor, performance.locomotion);
+  UpdateGaze(model.gaze, position, heading, performance.seed, seconds, performance.gaze);
+  for (size_t side = 0; side < 2; ++side) {
+    UpdateReach(performance.reaches[side], seconds);
+    UpdateHand(performance.hands[side], seconds);
+  }
+  UpdateFace(performance.face, seconds);
+}
+
+Performance Interpolate(const Performance& previous, const Performance& current, float alpha) {
+  Performance mixed = current;
+  mixed.time = previous.time + static_cast<double>(alpha) * (current.time - previous.time);
+  mixed.animation = Interpolate(previous.animation, current.animation, alpha);
+  mixed.locomotion = Interpolate(previous.locomotion, current.locomotion, alpha);
+  mixed.gaze = Interpolate(previous.gaze, current.gaze, alpha);
+  for (size_t side = 0; side < 2; ++side) {
+    mixed.reaches[side] = Interpolate(previous.reaches[side], current.reaches[side], alpha);
+    mixed.hands[side] = Interpolate(previous.hands[side], current.hands[side], alpha);
+  }
+  mixed.face = Interpolate(previous.face, current.face, alpha);
+  return mixed;
+}
+
+Performer::Performer(std::shared_ptr<const PerformanceModel> model) : model_(std::move(model)) {
+  const size_t joints = human().skeleton.size();
+  pose_.resize(joints);
+  previous_pose_.resize(joints);
+  clip_pose_.resize(joints);
+  actor_from_joint_.resize(joints, glm::mat4(1.0f));
+  skin_.resize(joints, glm::mat4(1.0f));
+  face_weights_.resize(human().face.size());
+  morph_weights_.resize(human().morphs.size());
+}
+
+void Performer::Pose(const Performance& performance) {
+  const Skeleton& skeleton = human().skeleton;
+  const Body& body = model_->locomotion.body;
+  const Locomotion& at = performance.locomotion;
+  const LifeSample life = SampleLife(performance.seed, performance.time, performance.vigour);
+  PoseBody(performance, life);
+  ApplyLife(skeleton, body, life, pose_);
+  ApplyReachPosture(model_->reach, skeleton, performance.reaches, pose_);
+  ApplyGaze(model_->gaze, skeleton, performance.gaze, at.position, at.heading, pose_);
+  for (const int side : {kRight, kLeft}) {
+    ApplyReach(model_->reach, skeleton, performance.reaches[static_cast<size_t>(side)], side,
+               pose_);
+    ApplyHand(model_->hands, performance.hands[static_cast<size_t>(side)], life, side, pose_);
+  }
+  ComputeFaceWeights(model_->face, human(), performance.face, performance.gaze.lids, face_weights_,
+                     morph_weights_);
+  ApplyFaceTurns(human(), face_weights_, pose_);
+  ComputeActorFromJoint(skeleton, pose_, actor_from_joint_);
+  ComputeSkinMatrices(skeleton, actor_from_joint_, skin_);
+}
+
+// Clips lie over what the body does by itself; one that moves all of it hides it.
+void Performer::PoseBody(const Performance& performance, const LifeSample& life) {
+  const Animation& animation = performance.animation;
+  const bool fades = animation.weight < 1.0f;
+  const bool hidden =
+      !fades && animation.clip != Animation::kNoClip && animation.part == BodyPart::kWhole;
+  if (!hidden) {
+    ApplyLocomotion(model_->locomotion, human().skeleton, performance.locomotion, life, pose_);
+  }
+  if (fades) {
+    std::copy(pose_.begin(), pose_.end(), previous_pose_.begin());
+    LayClip(animation.previous_clip, animation.previous_time, animation.previous_part,
+            previous_pose_);
+  }
+  LayClip(animation.clip, animation.clip_time, animation.part, pose_);
+  if (fades) {
+    BlendPose(pose_, previous_pose_, 1.0f - animation.weight);
+  }
+}
+
+void Performer::LayClip(int clip, double time, BodyPart part, std::span<JointTransform> pose) {
+  if (clip == Animation::kNoClip) {
+    return;
+  }
+  CHECK(clip >= 0 && static_cast<size_t>(clip) < human().clips.size());
+  const Clip& source = human().clips[static_cast<size_t>(clip)];
+  if (part == BodyPart::kWhole) {
+    SampleClip(source, time, pose);
+    return;
+  }
+  SampleClip(source, time, clip_pose_);
+  BlendPose(pose, clip_pose_, 1.0f, model_->masks[static_cast<size_t>(part)]);
+}
+
+}  // namespace lararium::human

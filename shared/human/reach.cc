@@ -1,0 +1,372 @@
+#include "shared/human/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "shared/human/palm.h"
+#include "shared/human/turns.h"
+#include "shared/human/two_bone_ik.h"
+
+namespace lararium::human {
+namespace {
+
+constexpr glm::vec3 kUp(0.0f, 1.0f, 0.0f);
+
+// What brings one hand somewhere.
+class Reacher {
+ public:
+  Reacher(const ReachModel& model,
+          const Skeleton& skeleton,
+          int side,
+          std::span<JointTransform> pose)
+      : body_(model.body),
+        arm_(body_.arms[static_cast<size_t>(side)]),
+        wrist_from_grip_(model.wrist_from_grip[static_cast<size_t>(side)]),
+        skeleton_(skeleton),
+        side_(side),
+        pose_(pose) {}
+
+  float Length() const { return arm_.upper_length + arm_.lower_length; }
+  glm::vec3 Position(JointIndex joint) const {
+    return ActorFromJoint(skeleton_, pose_, joint).position;
+  }
+
+  GripFrame ActorFromWrist(const GripFrame& actor_from_grip) const {
+    const glm::quat rotation = actor_from_grip.rotation * glm::conjugate(wrist_from_grip_.rotation);
+    const glm::vec3 scale = ActorFromJoint(skeleton_, pose_, arm_.wrist).scale;
+    return {actor_from_grip.position - rotation * (scale * wrist_from_grip_.position), rotation};
+  }
+
+  GripFrame ActorFromPalm() const {
+    const JointFrame wrist = ActorFromJoint(skeleton_, pose_, arm_.wrist);
+    return {wrist * wrist_from_grip_.position, wrist.rotation * wrist_from_grip_.rotation};
+  }
+
+  void Bring(const ReachGoal& goal) {
+    const GripFrame palm = Mix(ActorFromPalm(), goal.actor_from_grip, goal.weight);
+    const GripFrame wrist = ActorFromWrist(palm);
+    const glm::vec3 elbow_way = ElbowWay();
+    RaiseShoulder(wrist.position, goal.weight);
+    TwoBoneIk ik;
+    ik.upper = arm_.shoulder;
+    ik.lower = arm_.elbow;
+    ik.end = arm_.wrist;
+    ik.target = wrist.position;
+    ik.pole = glm::mix(elbow_way, NaturalElbow(wrist.position), goal.weight);
+    ik.hinge = RestHinge();
+    ik.Solve(skeleton_, body_, pose_);
+    SetActorRotation(skeleton_, arm_.wrist, wrist.rotation, pose_);
+    ShareTwist(goal.weight);
+    SetActorRotation(skeleton_, arm_.wrist, wrist.rotation, pose_);
+  }
+
+ private:
+  const JointFrame& Rest(JointIndex joint) const { return body_.rest[static_cast<size_t>(joint)]; }
+  glm::quat Turned(JointIndex joint) const {
+    return ActorFromJoint(skeleton_, pose_, joint).rotation * glm::conjugate(Rest(joint).rotation);
+  }
+
+  // At rest elbows point backwards.
+  glm::vec3 RestHinge() const {
+    const glm::vec3 upper = Rest(arm_.elbow).position - Rest(arm_.shoulder).position;
+    return glm::cross(glm::vec3(0.0f, 0.0f, 1.0f), -upper);
+  }
+
+  // Where the elbow is now, off the line from shoulder to wrist: that of the arm's hinge
+  // where the arm is straight.
+  glm::vec3 ElbowWay() const {
+    const glm::vec3 shoulder = Position(arm_.shoulder), elbow = Position(arm_.elbow);
+    const glm::vec3 line = Direction(Position(arm_.wrist) - shoulder, -kUp);
+    const glm::vec3 hinge = Turned(arm_.shoulder) * RestHinge();
+    const glm::vec3 straight = glm::cross(line, Direction(hinge, kUp));
+    return Direction(Across(elbow - shoulder, line) / Length() - 0.02f * straight, straight);
+  }
+
+  // Elbows hang down and out; of a hand held high they point out.
+  glm::vec3 NaturalElbow(const glm::vec3& wrist) const {
+    const glm::vec3 way = (wrist - Position(arm_.shoulder)) / Length();
+    const float high = glm::smoothstep(-0.2f, 0.6f, way.y);
+    const glm::vec3 out(SideSign(side_), 0.0f, 0.0f);
+    const glm::quat chest = body_.chest() == kNoJoint ? kNoTurn : Turned(body_.chest());
+    const glm::vec3 back(0.0f, 0.0f, 1.0f);
+    return Direction(chest * ((0.45f + 0.4f * high) * out + 0.45f * (1.0f - high) * back) - kUp,
+                     -kUp);
+  }
+
+  // The clavicle turns up to 20 degrees towards what is far.
+  void RaiseShoulder(const glm::vec3& wrist, float weight) {
+    if (arm_.clavicle == kNoJoint) {
+      return;
+    }
+    const glm::vec3 at = Position(arm_.clavicle);
+    const glm::vec3 shoulder = Position(arm_.shoulder);
+    const float stretch = glm::distance(wrist, shoulder) / Length();
+    const float high = glm::smoothstep(0.0f, 0.7f, (wrist.y - shoulder.y) / Length());
+    const float angle =
+        0.35f * weight * std::max(glm::smoothstep(0.80f, 1.08f, stretch), 0.8f * high);
+    const glm::vec3 axis = glm::cross(shoulder - at, wrist - at);
+    if (angle > 0.0f && glm::length(axis) > 1e-6f) {
+      TurnInActor(skeleton_, arm_.clavicle, TurnBy(angle * glm::normalize(axis)), pose_);
+    }
+  }
+
+  // The hand's twist against the forearm lies along the whole forearm, as radius and
+  // ulna turn about one another.
+  void ShareTwist(float weight) {
+    const glm::vec3 along = glm::normalize(Rest(arm_.wrist).position - Rest(arm_.elbow).position);
+    const glm::quat hand = glm::conjugate(Turned(arm_.elbow)) * Turned(arm_.wrist);
+    const float twist = weight * TwistAngle(hand, along);
+    const float elbow_share = arm_.forearm_twist.empty() ? 0.35f : 0.15f;
+    TwistBy(arm_.elbow, elbow_share * twist);
+    for (const JointIndex joint : arm_.forearm_twist) {
+      TwistBy(joint, 0.5f * twist / static_cast<float>(arm_.forearm_twist.size()));
+    }
+  }
+
+  // About the line to the wrist, which stays where it is.
+  void TwistBy(JointIndex joint, float angle) {
+    const glm::vec3 axis = Direction(Position(arm_.wrist) - Position(joint), kUp);
+    TurnInActor(skeleton_, joint, glm::angleAxis(angle, axis), pose_);
+  }
+
+  const Body& body_;
+  const Body::Arm& arm_;
+  const GripFrame& wrist_from_grip_;
+  const Skeleton& skeleton_;
+  int side_;
+  std::span<JointTransform> pose_;
+};
+
+// Of an arm's length: what lies further needs the trunk's help.
+constexpr float kComfortable = 0.92f;
+
+// By how far, and which way, the trunk turns so that a shoulder comes near enough.
+class TrunkHelp {
+ public:
+  TrunkHelp(const Body& body, const Skeleton& skeleton, std::span<JointTransform> pose)
+      : body_(body), skeleton_(skeleton), pose_(pose) {
+    for (const JointIndex joint : body.spine) {
+      pivot_ +=
+          ActorFromJoint(skeleton, pose, joint).position / static_cast<float>(body.spine.size());
+    }
+  }
+
+  // Metres that stay missing after the trunk's turn, and the turn.
+  struct Result {
+    glm::vec3 turn = glm::vec3(0.0f);
+    float missing = 0.0f;
+  };
+  Result Towards(const glm::vec3& wrist, const glm::vec3& shoulder, float arm_length) const {
+    constexpr float kMost = 0.9f;  // radians
+    constexpr int kRounds = 4;
+    Result result;
+    glm::quat turn = kNoTurn;
+    for (int round = 0; round < kRounds; ++round) {
+      const glm::vec3 lever = turn * (shoulder - pivot_);
+      const glm::vec3 way = wrist - (pivot_ + lever);
+      result.missing = std::max(glm::length(way) - kComfortable * arm_length, 0.0f);
+      const glm::vec3 axis = glm::cross(lever, way);
+      const float sine = glm::length(axis) / std::max(glm::length(lever) * glm::length(way), 1e-6f);
+      if (result.missing <= 0.0f || sine < 1e-3f || body_.spine.empty()) {
+        break;
+      }
+      const float angle = result.missing / (glm::length(lever) * std::max(sine, 0.35f));
+      turn = TurnBy(std::min(angle, 0.5f) * glm::normalize(axis)) * turn;
+      const float whole = 2.0f * std::acos(std::min(std::abs(turn.w), 1.0f));
+      turn = Share(turn, std::min(1.0f, kMost / std::max(whole, 1e-6f)));
+    }
+    turn = ShorterArc(turn);
+    const glm::vec3 axis(turn.x, turn.y, turn.z);
+    const float sine = glm::length(axis);
+    result.turn = sine > 1e-6f ? 2.0f * std::atan2(sine, turn.w) / sine * axis : glm::vec3(0.0f);
+    return result;
+  }
+
+  void Turn(const glm::vec3& turn) {
+    const glm::quat share =
+        TurnBy(turn / static_cast<float>(std::max<size_t>(body_.spine.size(), 1)));
+    for (const JointIndex joint : body_.spine) {
+      TurnInActor(skeleton_, joint, share, pose_);
+    }
+  }
+
+  // The pelvis goes down, the feet stay.
+  void Crouch(float drop) {
+    if (!body_.walks() || drop < 1e-4f) {
+      return;
+    }
+    std::array<JointFrame, 2> ankles;
+    for (size_t side = 0; side < 2; ++side) {
+      ankles[side] = ActorFromJoint(skeleton_, pose_, body_.legs[side].ankle);
+    }
+    const glm::vec3 root = ActorFromJoint(skeleton_, pose_, body_.root).position;
+    SetActorPosition(skeleton_, body_.root, root - drop * kUp, pose_);
+    for (size_t side = 0; side < 2; ++side) {
+      const Body::Leg& leg = body_.legs[side];
+      TwoBoneIk ik;
+      ik.upper = leg.hip;
+      ik.lower = leg.knee;
+      ik.end = leg.ankle;
+      ik.target = ankles[side].position;
+      ik.pole = ankles[side].rotation *
+                (glm::conjugate(body_.rest[static_cast<size_t>(leg.ankle)].rotation) *
+                 (TurnY(leg.toe_out) * glm::vec3(0.0f, 0.0f, -1.0f)));
+      ik.hinge = glm::vec3(1.0f, 0.0f, 0.0f);
+      ik.Solve(skeleton_, body_, pose_);
+      SetActorRotation(skeleton_, leg.ankle, ankles[side].rotation, pose_);
+    }
+  }
+
+ private:
+  const Body& body_;
+  const Skeleton& skeleton_;
+  std::span<JointTransform> pose_;
+  glm::vec3 pivot_ = glm::vec3(0.0f);
+};
+
+float MinimumJerk(float t) { return t * t * t * (10.0f + t * (6.0f * t - 15.0f)); }
+
+void Begin(Reach& reach, float to_weight, float seconds) {
+  const ReachGoal now = Goal(reach);
+  reach.from = now.actor_from_grip;
+  reach.from_weight = now.weight;
+  reach.to_weight = to_weight;
+  reach.time = 0.0f;
+  reach.duration = std::max(seconds, 0.0f);
+}
+
+}  // namespace
+
+GripFrame Mix(const GripFrame& a, const GripFrame& b, float weight) {
+  return {glm::mix(a.position, b.position, weight), glm::slerp(a.rotation, b.rotation, weight)};
+}
+
+void StartReach(Reach& reach, const GripFrame& actor_from_grip, float seconds) {
+  Begin(reach, 1.0f, seconds);
+  reach.to = actor_from_grip;
+}
+
+void MoveGrip(Reach& reach, const GripFrame& actor_from_grip) {
+  if (reach.to_weight > 0.0f) {
+    reach.to = actor_from_grip;
+  }
+}
+
+void EndReach(Reach& reach, float seconds) {
+  Begin(reach, 0.0f, seconds);
+  reach.to = reach.from;
+}
+
+void UpdateReach(Reach& reach, float seconds) {
+  reach.time = std::min(reach.time + seconds, reach.duration);
+}
+
+Reach Interpolate(const Reach& previous, const Reach& current, float alpha) {
+  const bool continues = previous.from == current.from && previous.to_weight == current.to_weight &&
+                         previous.time <= current.time;
+  if (!continues) {
+    return current;
+  }
+  Reach mixed = current;
+  mixed.to = Mix(previous.to, current.to, alpha);
+  mixed.time = glm::mix(previous.time, current.time, alpha);
+  return mixed;
+}
+
+float Progress(const Reach& reach) {
+  return reach.duration > 0.0f ? MinimumJerk(reach.time / reach.duration) : 1.0f;
+}
+
+// The hand is at body, from and to by shares that sum to 1.
+ReachGoal Goal(const Reach& reach) {
+  const float progress = Progress(reach);
+  const float from = reach.from_weight * (1.0f - progress);
+  const float to = reach.to_weight * progress;
+  ReachGoal goal;
+  goal.weight = std::min(from + to, 1.0f);
+  goal.actor_from_grip =
+      Mix(reach.from, reach.to, goal.weight > 0.0f ? to / (from + to) : progress);
+  return goal;
+}
+
+float ReachSeconds(float metres) {
+  // Hands reach a comfortable peak of about 1.2 m/s at 1.9 times the mean (minimum jerk).
+  return std::clamp(0.35f + metres / 0.8f, 0.45f, 1.6f);
+}
+
+ReachModel MakeReachModel(const Body& body) {
+  ReachModel model;
+  model.body = body;
+  for (const int side : {kRight, kLeft}) {
+    const size_t s = static_cast<size_t>(side);
+    if (!body.arms[s].whole()) {
+      continue;
+    }
+    const Palm palm = FindPalm(body, side);
+    const JointFrame& wrist = body.rest[static_cast<size_t>(body.arms[s].wrist)];
+    const glm::vec3 right = side == kRight ? -palm.thumb : palm.thumb;
+    const glm::quat rotation = glm::quat_cast(glm::mat3(right, palm.back, -palm.along));
+    // The middle of the palm's surface, by the proportions of hands.
+    const glm::vec3 middle = palm.length * (0.70f * palm.along - 0.24f * palm.back);
+    model.wrist_from_grip[s] = {(glm::conjugate(wrist.rotation) * middle) / wrist.scale,
+                                glm::conjugate(wrist.rotation) * rotation};
+  }
+  return model;
+}
+
+GripFrame ActorFromPalm(const ReachModel& model,
+                        const Skeleton& skeleton,
+                        std::span<const JointTransform> pose,
+                        int side) {
+  const size_t s = static_cast<size_t>(side);
+  if (!model.body.arms[s].whole()) {
+    return {};
+  }
+  const JointFrame wrist = ActorFromJoint(skeleton, pose, model.body.arms[s].wrist);
+  return {wrist * model.wrist_from_grip[s].position,
+          wrist.rotation * model.wrist_from_grip[s].rotation};
+}
+
+void ApplyReachPosture(const ReachModel& model,
+                       const Skeleton& skeleton,
+                       const std::array<Reach, 2>& reaches,
+                       std::span<JointTransform> pose) {
+  TrunkHelp trunk(model.body, skeleton, pose);
+  glm::vec3 turn(0.0f);
+  float drop = 0.0f;
+  for (const int side : {kRight, kLeft}) {
+    const size_t s = static_cast<size_t>(side);
+    const ReachGoal goal = Goal(reaches[s]);
+    if (goal.weight <= 0.0f || !model.body.arms[s].whole()) {
+      continue;
+    }
+    const Reacher reacher(model, skeleton, side, pose);
+    const GripFrame wrist = reacher.ActorFromWrist(goal.actor_from_grip);
+    const glm::vec3 shoulder = reacher.Position(model.body.arms[s].shoulder);
+    const auto help = trunk.Towards(wrist.position, shoulder, reacher.Length());
+    turn += goal.weight * help.turn;
+    const bool low = wrist.position.y < shoulder.y - 0.5f * reacher.Length();
+    const float most = 0.55f * model.body.leg_length();
+    drop = std::max(drop, low ? goal.weight * std::min(1.3f * help.missing, most) : 0.0f);
+  }
+  if (glm::length(turn) > 1e-5f) {
+    trunk.Turn(turn * std::min(1.0f, 1.0f / glm::length(turn)));
+  }
+  trunk.Crouch(drop);
+}
+
+void ApplyReach(const ReachModel& model,
+                const Skeleton& skeleton,
+                const Reach& reach,
+                int side,
+                std::span<JointTransform> pose) {
+  const ReachGoal goal = Goal(reach);
+  if (goal.weight > 0.0f && model.body.arms[static_cast<size_t>(side)].whole()) {
+    Reacher(model, skeleton, side, pose).Bring(goal);
+  }
+}
+
+}  // namespace lararium::human
