@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/import/cast_face.h"
 #include "editor/import/cast_paint.h"
 #include "editor/import/cast_parts.h"
 #include "editor/import/cast_rig.h"
@@ -79,6 +80,7 @@ class CastBuilder {
     for (const CastDyed& beard : recipe_.beard) {
       LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kHair, beard));
     }
+    AddFace(library_, recipe_, body_.base, pieces_, human_);
     for (CastPiece& piece : pieces_) {
       human_.meshes.push_back(std::move(piece.mesh));
     }
