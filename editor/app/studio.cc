@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shared/human/morph.h"
+#include "shared/human/skinning.h"
 #include "shared/light/spherical_harmonics.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/render_target.h"

@@ -11,6 +11,7 @@
 #include "editor/panels/widgets.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/human.h"
+#include "shared/human/skinning.h"
 
 namespace lararium::panels {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 
 #include "shared/human/finite.h"
 
@@ -123,23 +122,6 @@ Status Human::Validate(const std::string& place) const {
     LARARIUM_RETURN_IF_ERROR(clip.Validate(skeleton.size(), place));
   }
   return Status();
-}
-
-void SkinMesh(const SkinnedMesh& mesh,
-              std::span<const glm::mat4> skin,
-              std::span<glm::vec3> positions,
-              std::span<glm::vec3> normals) {
-  CHECK(positions.size() == mesh.positions.size() && normals.size() == mesh.normals.size());
-  for (size_t v = 0; v < mesh.positions.size(); ++v) {
-    glm::mat4 blended(0.0f);
-    for (int k = 0; k < 4; ++k) {
-      blended += mesh.weights[v][k] * skin[mesh.joints[v][k]];
-    }
-    positions[v] = glm::vec3(blended * glm::vec4(mesh.positions[v], 1.0f));
-    const glm::vec3 normal = glm::mat3(blended) * mesh.normals[v];
-    const float length = glm::length(normal);
-    normals[v] = length > 0.0f ? normal / length : mesh.normals[v];
-  }
 }
 
 }  // namespace lararium::human

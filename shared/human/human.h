@@ -69,10 +69,4 @@ Result<Human> LoadHuman(const std::filesystem::path& file);
 std::vector<std::byte> SerializeHuman(const Human& human);
 Status SaveHuman(const std::filesystem::path& file, const Human& human);
 
-// Linear blend skinning on the CPU: the oracle of the GPU's, and for baking.
-void SkinMesh(const SkinnedMesh& mesh,
-              std::span<const glm::mat4> skin,
-              std::span<glm::vec3> positions,
-              std::span<glm::vec3> normals);
-
 }  // namespace lararium::human

@@ -9,6 +9,7 @@
 
 #include "shared/core/random.h"
 #include "shared/human/human.h"
+#include "shared/human/skinning.h"
 
 namespace lararium::human {
 namespace {

@@ -8,6 +8,7 @@
 #include "editor/import/model_import.h"
 #include "shared/core/file.h"
 #include "shared/core/random.h"
+#include "shared/human/skinning.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::import {

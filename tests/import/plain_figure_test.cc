@@ -9,6 +9,7 @@
 
 #include "editor/import/plain_motion.h"
 #include "editor/import/plain_skeleton.h"
+#include "shared/human/skinning.h"
 #include "tests/import/closed_surface.h"
 
 namespace lararium::import {

@@ -9,6 +9,7 @@
 
 #include "shared/core/random.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/human/skinning.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/renderer.h"
 #include "tests/golden/compare_images.h"
