@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/import/cast_capsules.h"
 #include "editor/import/cast_face.h"
 #include "editor/import/cast_paint.h"
 #include "editor/import/cast_parts.h"
 #include "editor/import/cast_rig.h"
 #include "editor/import/cast_shape.h"
+#include "editor/import/levels_of_detail.h"
 #include "shared/core/file.h"
 
 namespace lararium::import {
@@ -82,6 +84,7 @@ class CastBuilder {
     }
     AddFace(library_, recipe_, body_.base, pieces_, human_);
     for (CastPiece& piece : pieces_) {
+      AddLevelsOfDetail(piece.mesh);
       human_.meshes.push_back(std::move(piece.mesh));
     }
     human_.capsules = body_.capsules;
@@ -163,7 +166,10 @@ class CastBuilder {
                          "choose one of: " + known);
   }
 
+  // In an order that drawing likes, before anything counts its vertices.
   void AddPiece(CastPiece piece, human::Material material) {
+    OrderTriangles(piece.mesh);
+    RemoveHidden(piece, std::vector<bool>(piece.mesh.positions.size(), false));
     piece.mesh.material = static_cast<int16_t>(human_.materials.size());
     human_.materials.push_back(std::move(material));
     pieces_.push_back(std::move(piece));
@@ -195,6 +201,7 @@ Result<FittedBody> FitBody(const CastLibrary& library, const CastRecipe& recipe)
   for (const glm::vec3& p : body.skin.positions) {
     body.height = std::max(body.height, p.y);
   }
+  body.capsules = MeasureCapsules(body.skeleton, body.skin);
   return body;
 }
 
