@@ -80,10 +80,10 @@ void AddAir(const ClothModel::Data& model, const Wind& wind, float time, ClothSt
     const float speed = Length(flow);
     const Float4 across = normal * (Dot(flow, normal) / square);
     const Float4 drag = across * kNormalDrag + (flow - across) * kTangentDrag;
-    // The air's pull over the beat can at most stop the flow.
-    const float rate = half_density * speed / model.triangle_density[t];
+    // The pull of one beat must not turn the flow around.
+    const float rate = half_density * speed * kNormalDrag / model.triangle_density[t];
     const float area = 0.5f * std::sqrt(square);
-    const Float4 force = drag * (half_density * speed * area / (1.0f + rate * kNormalDrag * kBeat));
+    const Float4 force = drag * (half_density * speed * area / std::max(2.0f * rate * kBeat, 1.0f));
     for (const uint32_t i : corner) {
       state.accelerations[i] += force * (model.inverse_mass[i] * (1.0f / 3.0f));
     }

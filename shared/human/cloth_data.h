@@ -84,6 +84,7 @@ struct ClothModel::Data {
   std::vector<float> reach;
   std::vector<float> thickness;
   std::vector<float> friction;
+  std::vector<uint16_t> cloth_of;
   std::vector<uint32_t> pinned;
   std::vector<uint32_t> free;
 
@@ -111,6 +112,17 @@ struct ClothPair {
   uint32_t a = 0;
   uint32_t b = 0;
   float distance = 0.0f;
+};
+
+// Particles sorted into cubic cells, found by hashing.
+struct ClothGrid {
+  static constexpr uint32_t kFree = 0xffffffffu;
+
+  std::vector<uint32_t> slots;                // of the hash table: index of a cell
+  std::vector<std::array<int32_t, 3>> cells;  // that hold a particle
+  std::vector<uint32_t> starts;               // of each cell in particles, and the end
+  std::vector<uint32_t> particles;
+  std::vector<uint32_t> cell_of;  // [particle]
 };
 
 // The body at one moment, in the frame of simulation.
@@ -145,9 +157,7 @@ struct ClothState::Data {
 
   std::vector<ClothContact> contacts;
   std::vector<ClothPair> pairs;
-  std::vector<uint32_t> cells;  // particles, cell by cell
-  std::vector<uint32_t> bucket_starts;
-  std::vector<std::array<int32_t, 3>> cell_of;
+  ClothGrid grid;
 
   double pending = 0.0;  // seconds since the last beat
   int64_t beats = 0;
@@ -173,7 +183,7 @@ void AddAir(const ClothModel::Data& model, const Wind& wind, float time, ClothSt
 // Finds pairs of particles that may touch within the next beats (cloth_pairs.cc).
 void FindPairs(const ClothModel::Data& model, ClothState::Data& state);
 
-// Buckets of the grid in which pairs are sought, for so many particles.
-size_t BucketCount(size_t particle_count);
+// Slots of the grid for so many particles.
+size_t SlotCount(size_t particle_count);
 
 }  // namespace lararium::human

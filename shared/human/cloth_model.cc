@@ -18,6 +18,8 @@ constexpr float kDiagonalRatio = 1.15f;
 constexpr float kShearCompliance = 2e-3f;  // m/N
 // A hinge of flatter triangles says nothing about the cloth's shape.
 constexpr float kLeastHeight = 0.05f;  // of the edge
+// Stiffer hinges than those of felt would fight the edges, and gain nothing.
+constexpr float kStiffestHinge = 10.0f;  // rad/(N m)
 
 struct MeshEdge {
   uint32_t a = 0;
@@ -134,6 +136,7 @@ class Builder {
     model_.reach.insert(model_.reach.end(), cloth.reach.begin(), cloth.reach.end());
     model_.thickness.resize(model_.rest.size(), cloth.thickness);
     model_.friction.resize(model_.rest.size(), cloth.friction);
+    model_.cloth_of.resize(model_.rest.size(), static_cast<uint16_t>(model_.cloths.size()));
     std::vector<float> mass(range.count, 0.0f);
     for (size_t t = first_triangle; t < model_.triangles.size(); ++t) {
       for (const uint32_t corner : model_.triangles[t]) {
@@ -217,8 +220,8 @@ class Builder {
     const float steepness = Length(normal);
     hinge.rest = steepness > 1e-3f ? Dot(chord, normal) / steepness : 0.0f;
     // Stiffness grows with edge^2 / area (Bergou et al.); 1 for equilateral triangles.
-    hinge.compliance =
-        cloth.bend_compliance * std::clamp(0.57735f * height_sum / length, 0.1f, 10.0f);
+    hinge.compliance = std::max(cloth.bend_compliance, kStiffestHinge) *
+                       std::clamp(0.57735f * height_sum / length, 0.1f, 10.0f);
     model_.hinges.push_back(hinge);
   }
 

@@ -7,38 +7,59 @@ namespace lararium::human {
 namespace {
 
 constexpr float kPairMargin = 0.01f;  // metres, for what moves until the next search
-// Neighbours in the cloth may come as close as they lie at rest.
-constexpr float kRestShare = 0.9f;
+// What lies closer together at rest is left to bending: pushed apart, a small crease
+// would lock.
+constexpr float kNearAtRest = 6.0f;  // contact distances
 
 using Cell = std::array<int32_t, 3>;
 
 // Teschner et al., "Optimized Spatial Hashing for Collision Detection of Deformable
 // Objects", VMV 2003.
-uint32_t BucketOf(const Cell& cell, uint32_t mask) {
-  const uint32_t hash = static_cast<uint32_t>(cell[0]) * 73856093u ^
-                        static_cast<uint32_t>(cell[1]) * 19349663u ^
-                        static_cast<uint32_t>(cell[2]) * 83492791u;
-  return hash & mask;
+uint32_t Hash(const Cell& cell) {
+  return static_cast<uint32_t>(cell[0]) * 73856093u ^ static_cast<uint32_t>(cell[1]) * 19349663u ^
+         static_cast<uint32_t>(cell[2]) * 83492791u;
 }
 
-// Counting sort of the particles by bucket.
-void FillBuckets(float cell_size, uint32_t mask, ClothState::Data& state) {
+// The slot of a cell, or the free one where it would be.
+uint32_t SlotOf(const Cell& cell, const ClothGrid& grid) {
+  const auto mask = static_cast<uint32_t>(grid.slots.size() - 1);
+  uint32_t slot = Hash(cell) & mask;
+  while (grid.slots[slot] != ClothGrid::kFree && grid.cells[grid.slots[slot]] != cell) {
+    slot = (slot + 1) & mask;
+  }
+  return slot;
+}
+
+uint32_t FindOrAddCell(const Cell& cell, ClothGrid& grid) {
+  uint32_t& slot = grid.slots[SlotOf(cell, grid)];
+  if (slot == ClothGrid::kFree) {
+    slot = static_cast<uint32_t>(grid.cells.size());
+    grid.cells.push_back(cell);
+  }
+  return slot;
+}
+
+// Sorts the particles by cell (counting sort).
+void FillGrid(const std::vector<Float4>& positions, float cell_size, ClothGrid& grid) {
   const float inverse = 1.0f / cell_size;
-  std::fill(state.bucket_starts.begin(), state.bucket_starts.end(), 0u);
-  for (size_t i = 0; i < state.positions.size(); ++i) {
+  std::fill(grid.slots.begin(), grid.slots.end(), ClothGrid::kFree);
+  std::fill(grid.starts.begin(), grid.starts.end(), 0u);
+  grid.cells.clear();
+  for (size_t i = 0; i < positions.size(); ++i) {
+    Cell cell;
     for (int axis = 0; axis < 3; ++axis) {
-      state.cell_of[i][axis] =
-          static_cast<int32_t>(std::floor(state.positions[i].lanes[axis] * inverse));
+      cell[axis] = static_cast<int32_t>(std::floor(positions[i].lanes[axis] * inverse));
     }
-    ++state.bucket_starts[BucketOf(state.cell_of[i], mask)];
+    grid.cell_of[i] = FindOrAddCell(cell, grid);
+    ++grid.starts[grid.cell_of[i]];
   }
   uint32_t sum = 0;
-  for (uint32_t& start : state.bucket_starts) {
+  for (uint32_t& start : grid.starts) {
     sum += start;
     start = sum;
   }
-  for (size_t i = state.positions.size(); i-- > 0;) {
-    state.cells[--state.bucket_starts[BucketOf(state.cell_of[i], mask)]] = static_cast<uint32_t>(i);
+  for (size_t i = positions.size(); i-- > 0;) {
+    grid.particles[--grid.starts[grid.cell_of[i]]] = static_cast<uint32_t>(i);
   }
 }
 
@@ -49,34 +70,29 @@ void AddPair(const ClothModel::Data& model, uint32_t i, uint32_t j, ClothState::
       model.inverse_mass[i] + model.inverse_mass[j] == 0.0f) {
     return;
   }
-  const float at_rest = kRestShare * Length(model.rest[j] - model.rest[i]);
-  state.pairs.push_back({i, j, std::min(model.contact_distance, at_rest)});
+  const Float4 at_rest = model.rest[j] - model.rest[i];
+  const float near = kNearAtRest * model.contact_distance;
+  const bool is_same = model.cloth_of[i] == model.cloth_of[j];
+  const float square = Dot(at_rest, at_rest);
+  if (is_same && square < near * near) {
+    return;
+  }
+  state.pairs.push_back({i, j, std::min(model.contact_distance, std::sqrt(square))});
 }
 
-// Pairs of i with particles of one cell; each pair of a cell with itself once.
-void PairWithCell(const ClothModel::Data& model,
-                  uint32_t i,
-                  const Cell& cell,
-                  bool is_own,
-                  uint32_t mask,
-                  ClothState::Data& state) {
-  const uint32_t bucket = BucketOf(cell, mask);
-  for (uint32_t k = state.bucket_starts[bucket]; k < state.bucket_starts[bucket + 1]; ++k) {
-    const uint32_t j = state.cells[k];
-    if (state.cell_of[j] == cell && (!is_own || j > i)) {
-      AddPair(model, i, j, state);
-    }
-  }
+std::span<const uint32_t> ParticlesIn(uint32_t cell, const ClothGrid& grid) {
+  return std::span<const uint32_t>(grid.particles)
+      .subspan(grid.starts[cell], grid.starts[cell + 1] - grid.starts[cell]);
 }
 
 }  // namespace
 
-size_t BucketCount(size_t particle_count) {
-  size_t buckets = 64;
-  while (buckets < 2 * particle_count) {
-    buckets *= 2;
+size_t SlotCount(size_t particle_count) {
+  size_t slots = 64;
+  while (slots < 2 * particle_count) {
+    slots *= 2;
   }
-  return buckets;
+  return slots;
 }
 
 void FindPairs(const ClothModel::Data& model, ClothState::Data& state) {
@@ -84,15 +100,28 @@ void FindPairs(const ClothModel::Data& model, ClothState::Data& state) {
   if (model.contact_distance <= 0.0f) {
     return;
   }
-  const auto mask = static_cast<uint32_t>(state.bucket_starts.size() - 2);
-  FillBuckets(model.contact_distance + kPairMargin, mask, state);
-  for (uint32_t i = 0; i < state.positions.size(); ++i) {
-    const Cell& own = state.cell_of[i];
-    PairWithCell(model, i, own, true, mask, state);
+  ClothGrid& grid = state.grid;
+  FillGrid(state.positions, 2.0f * (model.contact_distance + kPairMargin), grid);
+  for (uint32_t c = 0; c < grid.cells.size(); ++c) {
+    const std::span<const uint32_t> own = ParticlesIn(c, grid);
+    for (size_t k = 0; k < own.size(); ++k) {
+      for (size_t l = k + 1; l < own.size(); ++l) {
+        AddPair(model, own[k], own[l], state);
+      }
+    }
     // Half of the 26 neighbours: the others find this one.
     for (int n = 14; n < 27; ++n) {
-      PairWithCell(model, i, {own[0] + n % 3 - 1, own[1] + n / 3 % 3 - 1, own[2] + n / 9 - 1},
-                   false, mask, state);
+      const Cell& at = grid.cells[c];
+      const uint32_t other =
+          grid.slots[SlotOf({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1}, grid)];
+      if (other == ClothGrid::kFree) {
+        continue;
+      }
+      for (const uint32_t i : own) {
+        for (const uint32_t j : ParticlesIn(other, grid)) {
+          AddPair(model, i, j, state);
+        }
+      }
     }
   }
 }

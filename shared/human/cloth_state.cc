@@ -40,9 +40,11 @@ ClothState::ClothState(const ClothModel& model) : data_(std::make_unique<Data>()
   d.skin_matrices.resize(m.joint_from_actor.size());
   d.contacts.reserve(count * m.capsules.size());
   d.pairs.reserve(count * kPairsPerParticle);
-  d.cells.resize(count);
-  d.cell_of.resize(count);
-  d.bucket_starts.resize(BucketCount(count) + 1);
+  d.grid.slots.resize(SlotCount(count));
+  d.grid.cells.reserve(count);
+  d.grid.starts.resize(count + 1);
+  d.grid.particles.resize(count);
+  d.grid.cell_of.resize(count);
   d.offsets_before.resize(count);
   d.offsets.resize(count);
   for (size_t i = 0; i < count; ++i) {
@@ -58,6 +60,7 @@ ClothState::ClothState(const ClothModel& model) : data_(std::make_unique<Data>()
 ClothState::ClothState(const ClothState& other) : data_(std::make_unique<Data>(*other.data_)) {
   data_->contacts.reserve(other.data_->contacts.capacity());
   data_->pairs.reserve(other.data_->pairs.capacity());
+  data_->grid.cells.reserve(data_->positions.size());
 }
 
 ClothState& ClothState::operator=(const ClothState& other) {

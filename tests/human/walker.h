@@ -1,0 +1,40 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/human/human.h"
+
+namespace lararium::human {
+
+// One joint at the origin and nothing else: what hangs from it hangs in the world.
+Human OneJointHuman();
+
+// A sheet of columns x rows quads in the plane z = 0 of the first joint, from (0, top)
+// to the right and down; each quad is cut along alternating diagonals. Nothing is
+// pinned; reach is 100 m.
+Cloth Sheet(int columns, int rows, float cell, float top);
+
+// A walker of capsules (pelvis, chest, legs, arms) in a skirt from waist to shins.
+// Joints: 0 pelvis, 1 chest, 2 l_thigh, 3 l_shin, 4 r_thigh, 5 r_shin, 6 l_arm,
+// 7 l_forearm, 8 r_arm, 9 r_forearm.
+Human SkirtedWalker(int columns, int rows);
+
+// The walker's pose at a time: walks at 1.3 m/s, in a circle of 2 m, and every ten
+// seconds bows, crouches and lifts its arms.
+struct WalkerPose {
+  std::vector<JointTransform> pose;
+  std::vector<glm::mat4> actor_from_joint;
+  glm::mat4 stage_from_actor = glm::mat4(1.0f);
+};
+void PoseWalker(const Human& human, double time, WalkerPose& walker);
+
+// The deepest that a particle lies in a capsule, in metres, beyond `allowed` (of
+// [capsule][particle]; may be empty).
+float DeepestPenetration(const Human& human,
+                         std::span<const glm::vec3> particles,
+                         std::span<const glm::mat4> actor_from_joint,
+                         std::span<const float> allowed);
+
+}  // namespace lararium::human
