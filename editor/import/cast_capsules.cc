@@ -10,14 +10,31 @@
 namespace lararium::import {
 namespace {
 
-// A limb from one joint to another, measured on the vertices that its joint moves most.
+// A limb from one joint to another, measured on the vertices that its joint and the
+// others named move.
 struct Limb {
-  const char* joint;
-  const char* end;
+  std::string joint;
+  std::string end;
+  std::vector<std::string> with;
 };
-constexpr Limb kMiddleLimbs[] = {{"vc7", "skullbase"}};
-constexpr Limb kLimbs[] = {{"shoulder", "elbow"}, {"elbow", "wrist"}, {"wrist", "middle2"},
-                           {"hip", "knee"},       {"knee", "ankle"},  {"ankle", "midtarsal"}};
+
+std::vector<Limb> Limbs() {
+  std::vector<Limb> limbs = {{"vc7", "skullbase", {"vc4", "vc2"}}};
+  for (const std::string side : {"l_", "r_"}) {
+    limbs.push_back(
+        {side + "sternoclavicular", side + "shoulder", {"vt1", side + "acromioclavicular"}});
+    limbs.push_back({side + "shoulder", side + "elbow", {}});
+    limbs.push_back({side + "elbow", side + "wrist", {}});
+    limbs.push_back({side + "wrist",
+                     side + "middle3",
+                     {side + "index0", side + "middle0", side + "ring0", side + "pinky0",
+                      side + "middle1", side + "ring1", side + "middle2", side + "ring2"}});
+    limbs.push_back({side + "hip", side + "knee", {}});
+    limbs.push_back({side + "knee", side + "ankle", {}});
+    limbs.push_back({side + "ankle", side + "midtarsal", {}});
+  }
+  return limbs;
+}
 
 // A slice across the trunk: at a share of the way from one joint up to another.
 struct Slice {
@@ -33,7 +50,19 @@ constexpr Slice kSlices[] = {
     {"vt1", "vt4", "vt1", 0.95f},
 };
 
+constexpr const char* kTrunkJoints[] = {"sacroiliac", "humanoid_root", "vl5",   "vl1",  "vt10",
+                                        "vt4",        "vt1",           "l_hip", "r_hip"};
 constexpr float kSliceHalfHeight = 0.02f;  // metres
+
+struct Box {
+  glm::vec3 low{1e9f};
+  glm::vec3 high{-1e9f};
+
+  void Add(const glm::vec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+};
 
 class CapsuleMaker {
  public:
@@ -41,13 +70,8 @@ class CapsuleMaker {
       : skeleton_(skeleton), skin_(skin) {}
 
   std::vector<human::BodyCapsule> Make() {
-    for (const Limb& limb : kMiddleLimbs) {
-      AddLimb(limb.joint, limb.end);
-    }
-    for (const char* side : {"l_", "r_"}) {
-      for (const Limb& limb : kLimbs) {
-        AddLimb(side + std::string(limb.joint), side + std::string(limb.end));
-      }
+    for (const Limb& limb : Limbs()) {
+      AddLimb(limb);
     }
     for (const Slice& slice : kSlices) {
       AddSlice(slice);
@@ -59,10 +83,12 @@ class CapsuleMaker {
  private:
   glm::vec3 Place(const std::string& joint) const { return RestPosition(skeleton_, joint); }
 
-  float WeightOf(size_t vertex, size_t joint) const {
+  float WeightOf(size_t vertex, std::span<const size_t> joints) const {
     float weight = 0.0f;
     for (int k = 0; k < 4; ++k) {
-      weight += skin_.joints[vertex][k] == joint ? skin_.weights[vertex][k] : 0.0f;
+      if (std::find(joints.begin(), joints.end(), skin_.joints[vertex][k]) != joints.end()) {
+        weight += skin_.weights[vertex][k];
+      }
     }
     return weight;
   }
@@ -84,13 +110,16 @@ class CapsuleMaker {
 
   // The axis runs through the middle of the flesh at both ends, which is not where the
   // joints are: the shin lies behind its bone.
-  void AddLimb(const std::string& joint, const std::string& end) {
-    const size_t index = JointIndex(skeleton_, joint);
-    const glm::vec3 from = Place(joint);
-    const glm::vec3 to = Place(end);
-    const End near = MeasureEnd(index, from, to, 0.05f, 0.35f);
-    const End far = MeasureEnd(index, from, to, 0.65f, 0.95f);
-    Add(joint, from + near.shift, to + far.shift, near.radius, far.radius);
+  void AddLimb(const Limb& limb) {
+    std::vector<size_t> joints = {JointIndex(skeleton_, limb.joint)};
+    for (const std::string& name : limb.with) {
+      joints.push_back(JointIndex(skeleton_, name));
+    }
+    const glm::vec3 from = Place(limb.joint);
+    const glm::vec3 to = Place(limb.end);
+    const End near = MeasureEnd(joints, from, to, 0.05f, 0.35f);
+    const End far = MeasureEnd(joints, from, to, 0.65f, 0.95f);
+    Add(limb.joint, from + near.shift, to + far.shift, near.radius, far.radius);
   }
 
   struct End {
@@ -99,27 +128,28 @@ class CapsuleMaker {
   };
 
   // Of the vertices between two shares of the way from one joint to the next.
-  End MeasureEnd(
-      size_t joint, const glm::vec3& from, const glm::vec3& to, float first, float last) const {
+  End MeasureEnd(std::span<const size_t> joints,
+                 const glm::vec3& from,
+                 const glm::vec3& to,
+                 float first,
+                 float last) const {
     const glm::vec3 axis = to - from;
     const float squared = glm::dot(axis, axis);
     std::vector<glm::vec3> across;
-    glm::vec3 low(1e9f);
-    glm::vec3 high(-1e9f);
+    Box box;
     for (size_t v = 0; v < skin_.positions.size(); ++v) {
       const glm::vec3 offset = skin_.positions[v] - from;
       const float share = glm::dot(offset, axis) / squared;
-      if (share >= first && share <= last && WeightOf(v, joint) > 0.5f) {
+      if (share >= first && share <= last && WeightOf(v, joints) > 0.5f) {
         across.push_back(offset - share * axis);
-        low = glm::min(low, across.back());
-        high = glm::max(high, across.back());
+        box.Add(across.back());
       }
     }
     End end;
     if (across.empty()) {
       return end;
     }
-    end.shift = 0.5f * (low + high);
+    end.shift = 0.5f * (box.low + box.high);
     float sum = 0.0f;
     for (const glm::vec3& p : across) {
       sum += glm::distance(p, end.shift);
@@ -129,54 +159,54 @@ class CapsuleMaker {
   }
 
   bool IsOfTrunk(size_t vertex) const {
-    float weight = 0.0f;
-    for (const char* joint :
-         {"sacroiliac", "humanoid_root", "vl5", "vl1", "vt10", "vt4", "vt1", "l_hip", "r_hip"}) {
-      weight += WeightOf(vertex, JointIndex(skeleton_, joint));
+    std::vector<size_t> joints;
+    for (const char* joint : kTrunkJoints) {
+      joints.push_back(JointIndex(skeleton_, joint));
     }
-    return weight > 0.6f;
+    return WeightOf(vertex, joints) > 0.6f;
   }
 
   void AddSlice(const Slice& slice) {
     const float height = glm::mix(Place(slice.from).y, Place(slice.to).y, slice.share);
-    glm::vec3 low(1e9f);
-    glm::vec3 high(-1e9f);
+    Box box;
     for (size_t v = 0; v < skin_.positions.size(); ++v) {
-      const glm::vec3& p = skin_.positions[v];
-      if (std::abs(p.y - height) < kSliceHalfHeight && IsOfTrunk(v)) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
+      if (std::abs(skin_.positions[v].y - height) < kSliceHalfHeight && IsOfTrunk(v)) {
+        box.Add(skin_.positions[v]);
       }
     }
-    if (low.x > high.x) {
+    if (box.low.x > box.high.x) {
       return;
     }
-    const glm::vec3 size = high - low;
+    const glm::vec3 size = box.high - box.low;
     const float radius = 0.5f * std::min(size.x, size.z);
-    const glm::vec3 middle(0.5f * (low.x + high.x), height, 0.5f * (low.z + high.z));
+    const glm::vec3 middle(0.5f * (box.low.x + box.high.x), height,
+                           0.5f * (box.low.z + box.high.z));
     const glm::vec3 along = size.x > size.z ? glm::vec3(0.5f * size.x - radius, 0.0f, 0.0f)
                                             : glm::vec3(0.0f, 0.0f, 0.5f * size.z - radius);
     Add(slice.joint, middle - along, middle + along, radius, radius);
   }
 
-  // The skull behind and above the face.
+  // The skull above the eyes, and the face from there down to the chin.
   void AddHead() {
-    const size_t joint = JointIndex(skeleton_, "skullbase");
+    const size_t skull[] = {JointIndex(skeleton_, "skullbase")};
+    const size_t jaw[] = {JointIndex(skeleton_, "temporomandibular")};
     const float eyes = 0.5f * (Place("l_eyeball_joint").y + Place("r_eyeball_joint").y);
-    glm::vec3 low(1e9f);
-    glm::vec3 high(-1e9f);
+    Box cranium;
+    Box chin;
     for (size_t v = 0; v < skin_.positions.size(); ++v) {
-      if (skin_.positions[v].y > eyes && WeightOf(v, joint) > 0.5f) {
-        low = glm::min(low, skin_.positions[v]);
-        high = glm::max(high, skin_.positions[v]);
+      if (skin_.positions[v].y > eyes && WeightOf(v, skull) > 0.5f) {
+        cranium.Add(skin_.positions[v]);
+      } else if (WeightOf(v, jaw) > 0.5f) {
+        chin.Add(skin_.positions[v]);
       }
     }
-    if (low.x > high.x) {
-      return;
-    }
-    const float radius = 0.5f * (high.x - low.x);  // ears stand off: half of them counts
-    const float y = high.y - radius;
-    Add("skullbase", {0.0f, y, low.z + radius}, {0.0f, y, high.z - radius}, radius, radius);
+    const float radius = 0.5f * (cranium.high.x - cranium.low.x);
+    const float y = cranium.high.y - radius;
+    Add("skullbase", {0.0f, y, cranium.low.z + radius}, {0.0f, y, cranium.high.z - radius}, radius,
+        radius);
+    const float face = 0.7f * radius;
+    Add("skullbase", {0.0f, eyes, cranium.low.z + face},
+        {0.0f, chin.low.y + 0.6f * face, chin.low.z + 0.6f * face}, face, 0.6f * face);
   }
 
   const human::Skeleton& skeleton_;
