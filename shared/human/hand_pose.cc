@@ -25,34 +25,42 @@ using HandAngles = std::array<FingerPose, Body::kFingers>;
 
 // Set by eye, within the ranges of healthy fingers (90, 100, 70 degrees).
 constexpr std::array<HandAngles, kHandPoseCount> kPoses = {{
-    {{{{4, 8, 10}, 8},
-      {{18, 22, 14}, 2},
+    {{{{4, 8, 12}, -10},
+      {{18, 22, 14}, 3},
       {{22, 27, 17}, 0},
-      {{26, 30, 18}, -2},
-      {{28, 32, 18}, -4}}},
-    {{{{0, 0, 0}, 0}, {{2, 2, 2}, 2}, {{2, 2, 2}, 0}, {{2, 2, 2}, -2}, {{2, 2, 2}, -4}}},
-    {{{{14, 35, 45}, 38},
+      {{26, 30, 18}, -3},
+      {{28, 32, 18}, -5}}},
+    {{{{-6, 0, 0}, -32}, {{2, 2, 2}, 4}, {{2, 2, 2}, 1}, {{2, 2, 2}, -2}, {{2, 2, 2}, -6}}},
+    {{{{26, 42, 52}, -8},
       {{82, 95, 60}, 0},
       {{85, 98, 62}, 0},
-      {{86, 98, 62}, 0},
-      {{86, 96, 60}, 0}}},
-    {{{{4, 14, 22}, 46},
-      {{46, 50, 30}, 2},
-      {{50, 52, 32}, 0},
-      {{54, 54, 32}, -1},
-      {{58, 54, 32}, -2}}},
-    {{{{6, 16, 24}, 44},
-      {{50, 46, 18}, 0},
+      {{86, 98, 62}, -1},
+      {{86, 96, 60}, -2}}},
+    {{{{14, 14, 22}, 8},
+      {{46, 50, 30}, 4},
+      {{50, 52, 32}, 1},
+      {{54, 54, 32}, -2},
+      {{58, 54, 32}, -5}}},
+    {{{{22, 16, 14}, 2},
+      {{50, 46, 18}, 2},
       {{56, 50, 22}, 0},
-      {{62, 60, 30}, 0},
-      {{66, 62, 32}, 0}}},
-    {{{{12, 30, 40}, 36}, {{4, 4, 2}, 0}, {{70, 92, 55}, 0}, {{78, 95, 58}, 0}, {{80, 95, 58}, 0}}},
-    {{{{6, 18, 20}, 36},
-      {{36, 34, 14}, 0},
+      {{62, 60, 30}, -1},
+      {{66, 62, 32}, -3}}},
+    {{{{22, 36, 45}, -8},
+      {{4, 4, 2}, 1},
+      {{70, 92, 55}, 0},
+      {{78, 95, 58}, -2},
+      {{80, 95, 58}, -3}}},
+    {{{{20, 18, 14}, 0},
+      {{36, 34, 14}, 2},
       {{74, 84, 48}, 0},
-      {{80, 88, 50}, 0},
-      {{82, 88, 50}, 0}}},
-    {{{{0, 4, 6}, 6}, {{16, 14, 8}, 5}, {{18, 16, 9}, 1}, {{20, 17, 9}, -4}, {{22, 18, 9}, -9}}},
+      {{80, 88, 50}, -1},
+      {{82, 88, 50}, -3}}},
+    {{{{-4, 2, 6}, -14},
+      {{16, 14, 8}, 8},
+      {{18, 16, 9}, 2},
+      {{20, 17, 9}, -5},
+      {{22, 18, 9}, -11}}},
 }};
 
 // The mean of all poses by their shares, degrees.
@@ -135,7 +143,7 @@ class HandMeasurer {
     glm::vec3 flexed = -palm_.back, spread = palm_.thumb;
     if (joint.finger == Body::kThumb) {
       // Thumbs bend across the palm and oppose towards it.
-      flexed = glm::normalize(-palm_.thumb - 0.5f * palm_.back);
+      flexed = glm::normalize(-palm_.thumb - 0.25f * palm_.back);
       spread = glm::normalize(-palm_.back - 0.4f * palm_.thumb);
     }
     const glm::vec3 axis = Direction(glm::cross(direction, flexed), AnyAcross(direction));
@@ -143,11 +151,20 @@ class HandMeasurer {
     joint.spread =
         joint_from_actor * Direction(glm::cross(direction, spread), AnyAcross(direction));
     joint.straight = rest;
-    if (joint.finger != Body::kThumb) {
-      const glm::vec3 a = Direction(Across(before, axis), direction);
-      const glm::vec3 b = Direction(Across(direction, axis), direction);
-      const float bent = std::atan2(glm::dot(glm::cross(a, b), axis), glm::dot(a, b));
-      joint.straight = rest * glm::angleAxis(-bent, joint.flexion);
+    if (joint.finger == Body::kThumb) {
+      return;
+    }
+    const glm::vec3 a = Direction(Across(before, axis), direction);
+    const glm::vec3 b = Direction(Across(direction, axis), direction);
+    const float bent = std::atan2(glm::dot(glm::cross(a, b), axis), glm::dot(a, b));
+    const glm::quat flexed_at_rest = glm::angleAxis(bent, joint.flexion);
+    joint.straight = rest * glm::conjugate(flexed_at_rest);
+    if (joint.segment == 0) {
+      // Fingers that are spread at rest are closed first.
+      const float aside =
+          std::atan2(glm::dot(direction, palm_.thumb), glm::dot(direction, palm_.along));
+      joint.spread = flexed_at_rest * (joint_from_actor * glm::cross(palm_.along, palm_.thumb));
+      joint.straight = joint.straight * glm::angleAxis(-aside, joint.spread);
     }
   }
 
