@@ -3,28 +3,50 @@
 #include <cmath>
 #include <numbers>
 
+#include "editor/import/objects/grain.h"
 #include "editor/import/objects/workshop.h"
 
 namespace lararium::import::model {
 namespace {
 
+// No two boards are of one colour.
+glm::vec3 Tone(uint32_t seed) {
+  return kOak * (1.25f + 0.22f * ValueNoise(glm::vec3(3.7f * static_cast<float>(seed)), 9));
+}
+
 // A sawn board between two corners in centimetres.
 stage::PropMesh Board(const glm::vec3& low_cm, const glm::vec3& high_cm, int grain, uint32_t seed) {
-  return Block(0.01f * low_cm, 0.01f * high_cm, 0.004f, WoodPaint(kOak, grain, seed));
+  stage::PropMesh board = Block(0.01f * low_cm, 0.01f * high_cm, 0.004f, PlainPaint(Tone(seed)));
+  PanelWithWood(grain, board);
+  // Each board from elsewhere in the tree.
+  for (glm::vec2& uv : board.uvs) {
+    uv += glm::vec2(0.37f, 0.61f) * static_cast<float>(seed);
+  }
+  return board;
+}
+
+// What is made of boards and legs; they share the picture of wood.
+stage::Prop Wooden(std::string name, stage::PropMesh mesh) {
+  stage::Prop prop = OnePiece(std::move(name), std::move(mesh));
+  prop.textures.push_back(WoodGrain());
+  prop.materials.push_back({.name = "wood", .colour_texture = 0, .roughness = 0.7f});
+  prop.parts[0].meshes[0].material = 0;
+  return prop;
 }
 
 // A turned leg, leaning outward at its foot.
 void AddLeg(const glm::vec3& top_cm, const glm::vec3& foot_cm, uint32_t seed, stage::PropMesh& to) {
   const glm::vec3 top = 0.01f * top_cm;
   const glm::vec3 way = 0.01f * (foot_cm - top_cm);
-  Append(Rod(std::vector<PathPoint>{{top, 0.018f},
-                                    {top + 0.15f * way, 0.026f},
-                                    {top + 0.3f * way, 0.017f},
-                                    {top + 0.7f * way, 0.021f},
-                                    {top + 0.9f * way, 0.015f},
-                                    {top + way, 0.022f}},
-             WoodPaint(kDarkOak, 1, seed)),
-         to);
+  stage::PropMesh leg = Rod(std::vector<PathPoint>{{top, 0.018f},
+                                                   {top + 0.15f * way, 0.026f},
+                                                   {top + 0.3f * way, 0.017f},
+                                                   {top + 0.7f * way, 0.021f},
+                                                   {top + 0.9f * way, 0.015f},
+                                                   {top + way, 0.022f}},
+                            PlainPaint(0.85f * Tone(seed)));
+  PanelWithWood(1, leg);
+  Append(leg, to);
 }
 
 }  // namespace
@@ -33,13 +55,14 @@ void AddLeg(const glm::vec3& top_cm, const glm::vec3& foot_cm, uint32_t seed, st
 stage::Prop Table() {
   stage::PropMesh mesh =
       Potted({{0, 70}, {36, 70, true}, {38, 71}, {38, 72.6f}, {37, 73.5f, true}, {0, 73.5f}},
-             WoodPaint(kOak, 0, 201));
+             PlainPaint(Tone(201)));
+  PanelWithWood(0, mesh);
   for (int leg = 0; leg < 3; ++leg) {
     const float angle = 2.0f * std::numbers::pi_v<float> * (static_cast<float>(leg) + 0.25f) / 3.0f;
     const glm::vec3 out(std::cos(angle), 0.0f, std::sin(angle));
     AddLeg(24.0f * out + glm::vec3(0, 70, 0), 32.0f * out, 202 + leg, mesh);
   }
-  return OnePiece("table", std::move(mesh));
+  return Wooden("table", std::move(mesh));
 }
 
 stage::Prop Stool() {
@@ -48,10 +71,12 @@ stage::Prop Stool() {
     for (const float z : {-1.0f, 1.0f}) {
       AddLeg({14 * x, 42, 12 * z}, {18 * x, 0, 15 * z}, 212, mesh);
     }
-    Append(BentRod({{16 * x, 18, -13.5f}, {16 * x, 18, 13.5f}}, 1.2f, WoodPaint(kDarkOak, 2, 213)),
-           mesh);
+    stage::PropMesh rung =
+        BentRod({{16 * x, 18, -13.5f}, {16 * x, 18, 13.5f}}, 1.2f, PlainPaint(Tone(213)));
+    PanelWithWood(2, rung);
+    Append(rung, mesh);
   }
-  return OnePiece("stool", std::move(mesh));
+  return Wooden("stool", std::move(mesh));
 }
 
 stage::Prop Bench() {
@@ -60,13 +85,14 @@ stage::Prop Bench() {
     Append(Board({x * 46 - 2.5f, 0, -14}, {x * 46 + 2.5f, 42, 14}, 1, 222), mesh);
   }
   Append(Board({-46, 20, -2}, {46, 27, 2}, 0, 223), mesh);
-  return OnePiece("bench", std::move(mesh));
+  return Wooden("bench", std::move(mesh));
 }
 
 // An arca: iron bands on oak; the lid turns about its back edge.
 stage::Prop Chest() {
   const Paint iron = MetalPaint(kIron, kRust, 231);
   stage::PropMesh body;
+  stage::PropMesh bands;
   Append(Board({-40, 4, -24}, {40, 8, 24}, 0, 232), body);
   Append(Board({-40, 8, -24}, {40, 42, -21.5f}, 0, 233), body);
   Append(Board({-40, 8, 21.5f}, {40, 42, 24}, 0, 234), body);
@@ -77,34 +103,41 @@ stage::Prop Chest() {
     }
     Append(Block({0.01f * (x * 26 - 2), 0.06f, -0.2435f}, {0.01f * (x * 26 + 2), 0.42f, 0.2435f},
                  0.001f, iron),
-           body);
+           bands);
   }
-  Append(Block({-0.05f, 0.28f, -0.248f}, {0.05f, 0.38f, -0.238f}, 0.002f, iron), body);
-  stage::Prop prop = OnePiece("chest", std::move(body));
+  Append(Block({-0.05f, 0.28f, -0.248f}, {0.05f, 0.38f, -0.238f}, 0.002f, iron), bands);
+  stage::Prop prop = Wooden("chest", std::move(body));
+  prop.parts[0].meshes.push_back(std::move(bands));
   // In the frame of its hinge: the front edge lies towards -z.
+  stage::PropMesh lid_bands;
   stage::PropMesh lid = Board({-41, 0, -49}, {41, 3.2f, 0}, 0, 237);
   for (const float x : {-1.0f, 1.0f}) {
     Append(Block({0.01f * (x * 26 - 2), -0.001f, -0.4935f}, {0.01f * (x * 26 + 2), 0.035f, 0.002f},
                  0.001f, iron),
-           lid);
+           lid_bands);
   }
   AddPart("lid", {0.0f, 0.42f, 0.245f}, std::move(lid), prop);
+  prop.parts[1].meshes[0].material = 0;
+  prop.parts[1].meshes.push_back(std::move(lid_bands));
   return prop;
 }
 
 // A leaf of boards in its frame; it turns about its left post as seen from the front.
 stage::Prop Door() {
   stage::PropMesh frame;
+  stage::PropMesh sill;
   for (const float x : {-1.0f, 1.0f}) {
     Append(Board({x * 48 - 6, 0, -7}, {x * 48 + 6, 212, 7}, 1, 241), frame);
   }
   Append(Board({-54, 200, -7}, {54, 214, 7}, 0, 242), frame);
   Append(Block({-0.54f, 0.0f, -0.09f}, {0.54f, 0.02f, 0.09f}, 0.006f,
                StonePaint(glm::vec3(0.36f, 0.34f, 0.31f), 243)),
-         frame);
-  stage::Prop prop = OnePiece("door", std::move(frame));
+         sill);
+  stage::Prop prop = Wooden("door", std::move(frame));
+  prop.parts[0].meshes.push_back(std::move(sill));
   const Paint iron = MetalPaint(kIron, kRust, 244);
   stage::PropMesh leaf;
+  stage::PropMesh fittings;
   for (int board = 0; board < 5; ++board) {
     const float low = 0.4f + 16.6f * static_cast<float>(board);
     Append(Board({low, 2.5f, -2}, {low + 16.2f, 199, 2}, 1, 245 + board), leaf);
@@ -116,16 +149,19 @@ stage::Prop Door() {
       Append(Rod(std::vector<PathPoint>{{{x, 0.01f * height + 0.06f, -0.038f}, 0.012f},
                                         {{x, 0.01f * height + 0.06f, -0.046f}, 0.006f}},
                  iron),
-             leaf);
+             fittings);
     }
   }
-  Append(BentRod({{74, 100, -4}, {74, 101, -8}, {74, 112, -8}, {74, 113, -4}}, 0.8f, iron), leaf);
+  Append(BentRod({{74, 100, -4}, {74, 101, -8}, {74, 112, -8}, {74, 113, -4}}, 0.8f, iron),
+         fittings);
   AddPart("leaf", {-0.418f, 0.0f, 0.0f}, std::move(leaf), prop);
+  prop.parts[1].meshes[0].material = 0;
+  prop.parts[1].meshes.push_back(std::move(fittings));
   return prop;
 }
 
 stage::Prop Basket() {
-  const Paint wicker = WickerPaint(glm::vec3(0.36f, 0.24f, 0.12f), 261);
+  const Paint wicker = PlainPaint(glm::vec3(0.48f, 0.32f, 0.16f));
   stage::PropMesh mesh = Potted({{0, 0},
                                  {14, 0, true},
                                  {17, 8},
@@ -146,7 +182,12 @@ stage::Prop Basket() {
                    0.9f, wicker),
            mesh);
   }
-  return OnePiece("basket", std::move(mesh));
+  WeaveOfWicker(mesh);
+  stage::Prop prop = OnePiece("basket", std::move(mesh));
+  prop.textures.push_back(WickerWeave());
+  prop.materials.push_back({.name = "wicker", .colour_texture = 0, .roughness = 0.9f});
+  prop.parts[0].meshes[0].material = 0;
+  return prop;
 }
 
 }  // namespace lararium::import::model

@@ -48,21 +48,27 @@ glm::vec3 SheetNormal(std::span<const Ring> rings, size_t row, size_t column) {
 }
 
 // Closed rings, one after the other, which turn left about the way from ring to ring.
+// Texture coordinates: turns round, and metres along.
 void AppendSheet(std::span<const Ring> rings, const Paint& paint, PropMesh& mesh) {
   const auto begin = static_cast<uint32_t>(mesh.positions.size());
-  const auto columns = static_cast<uint32_t>(rings[0].size());
+  const auto segments = static_cast<uint32_t>(rings[0].size());
+  const uint32_t columns = segments + 1;  // the first again, for its other coordinate
+  float along = 0.0f;
   for (size_t row = 0; row < rings.size(); ++row) {
+    along += row == 0 ? 0.0f : glm::distance(rings[row][0], rings[row - 1][0]);
     for (uint32_t column = 0; column < columns; ++column) {
-      mesh.positions.push_back(rings[row][column]);
-      mesh.normals.push_back(SheetNormal(rings, row, column));
-      mesh.albedo.push_back(paint(rings[row][column]));
+      const glm::vec3& position = rings[row][column % segments];
+      mesh.positions.push_back(position);
+      mesh.normals.push_back(SheetNormal(rings, row, column % segments));
+      mesh.albedo.push_back(paint(position));
+      mesh.uvs.emplace_back(static_cast<float>(column) / static_cast<float>(segments), along);
     }
   }
   for (uint32_t row = 0; row + 1 < rings.size(); ++row) {
-    for (uint32_t column = 0; column < columns; ++column) {
+    for (uint32_t column = 0; column < segments; ++column) {
       const uint32_t a = begin + row * columns + column;
-      const uint32_t b = begin + row * columns + (column + 1) % columns;
-      mesh.indices.insert(mesh.indices.end(), {a, b, a + columns, b, b + columns, a + columns});
+      mesh.indices.insert(mesh.indices.end(),
+                          {a, a + 1, a + columns, a + 1, a + columns + 1, a + columns});
     }
   }
 }
@@ -210,6 +216,7 @@ PropMesh Block(const glm::vec3& low, const glm::vec3& high, float edge, const Pa
         mesh.positions.push_back(center + inner + round * normal);
         mesh.normals.push_back(normal);
         mesh.albedo.push_back(paint(mesh.positions.back()));
+        mesh.uvs.emplace_back(on_box[u], on_box[v]);
       }
     }
     const auto step = static_cast<uint32_t>(grid);
@@ -233,6 +240,7 @@ void Append(const PropMesh& mesh, PropMesh& to, const stage::Pose& to_from_mesh)
     to.normals.push_back(to_from_mesh.rotation * normal);
   }
   to.albedo.insert(to.albedo.end(), mesh.albedo.begin(), mesh.albedo.end());
+  to.uvs.insert(to.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
   for (const uint32_t index : mesh.indices) {
     to.indices.push_back(begin + index);
   }

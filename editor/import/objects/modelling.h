@@ -1,7 +1,8 @@
 #pragma once
 
 // A small workshop: surfaces turned on a wheel, drawn along a path, or sawn from
-// wood, each painted vertex by vertex. All in metres, Y up.
+// wood, each painted vertex by vertex. All in metres, Y up; texture coordinates are
+// metres, or turns round what is round.
 
 #include <glm/vec3.hpp>
 #include <span>

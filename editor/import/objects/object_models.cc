@@ -36,6 +36,16 @@ constexpr auto kNames = [] {
 }();
 static_assert(std::is_sorted(kNames.begin(), kNames.end()));
 
+void DropUnusedCoordinates(stage::Prop& prop) {
+  for (stage::PropPart& part : prop.parts) {
+    for (stage::PropMesh& mesh : part.meshes) {
+      if (mesh.material == human::Material::kNone) {
+        mesh.uvs.clear();
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::span<const std::string_view> ObjectModelNames() { return kNames; }
@@ -51,6 +61,7 @@ Result<stage::Prop> BuildObjectModel(std::string_view name) {
                          "is not among the built-in ones", "name one of " + known);
   }
   stage::Prop prop = kModels[static_cast<size_t>(entry - kNames.begin())].build();
+  DropUnusedCoordinates(prop);
   prop.use = ObjectModelUse(name);
   prop.credits = "Modelled for Lararium after finds in Pompeii";
   return prop;

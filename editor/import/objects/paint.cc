@@ -96,16 +96,4 @@ Paint StonePaint(const glm::vec3& colour, uint32_t seed) {
   };
 }
 
-Paint WickerPaint(const glm::vec3& colour, uint32_t seed) {
-  return [=](const glm::vec3& p) {
-    const float angle = std::atan2(p.z, p.x);
-    // Rods go round and change sides of the stakes from row to row.
-    const float row = std::floor(p.y / 0.012f);
-    const float weave = std::sin(28.0f * angle + 3.14159265f * row);
-    const float gap = std::abs(std::sin(3.14159265f * p.y / 0.012f));
-    const float rod = FractalNoise(glm::vec3(8.0f * angle, row, 0.0f), seed);
-    return Shade(colour, (0.55f + 0.45f * gap) * (1.0f + 0.25f * weave + 0.2f * rod));
-  };
-}
-
 }  // namespace lararium::import

@@ -27,6 +27,5 @@ Paint MetalPaint(const glm::vec3& metal, const glm::vec3& patina, uint32_t seed)
 // A crust: darker where it stands highest.
 Paint CrustPaint(const glm::vec3& crumb, const glm::vec3& crust, float height, uint32_t seed);
 Paint StonePaint(const glm::vec3& colour, uint32_t seed);
-Paint WickerPaint(const glm::vec3& colour, uint32_t seed);
 
 }  // namespace lararium::import

@@ -20,7 +20,6 @@ inline const glm::vec3 kPatina(0.16f, 0.14f, 0.07f);
 inline const glm::vec3 kIron(0.10f, 0.09f, 0.085f);
 inline const glm::vec3 kRust(0.15f, 0.075f, 0.04f);
 inline const glm::vec3 kOak(0.26f, 0.155f, 0.08f);
-inline const glm::vec3 kDarkOak(0.17f, 0.095f, 0.048f);
 
 // A prop of one part with one mesh.
 stage::Prop OnePiece(std::string name, stage::PropMesh mesh);

@@ -1,0 +1,96 @@
+#include "editor/import/objects/grain.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "editor/import/objects/paint.h"
+#include "shared/core/check.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr int kSize = 256;
+constexpr float kWoodLength = 1.0f;  // metres of the picture
+constexpr float kWoodWidth = 0.25f;
+constexpr float kRod = 0.012f;  // metres from rod to rod
+constexpr int kRodsInPicture = 4;
+constexpr int kStakes = 32;  // round the basket
+constexpr int kStakesInPicture = 4;
+
+// Noise that repeats after one unit of u and v: a torus in the noise's space.
+float TilingNoise(float u, float v, const glm::vec2& radii, uint32_t seed) {
+  const float a = 2.0f * kPi * u;
+  const float b = 2.0f * kPi * v;
+  // Two circles need four dimensions: two noises of three share the work.
+  const glm::vec3 first(radii.x * std::cos(a), radii.x * std::sin(a), radii.y * std::cos(b));
+  const glm::vec3 second(radii.x * std::cos(a), radii.x * std::sin(a),
+                         radii.y * std::sin(b) + 31.7f);
+  return 0.5f * (FractalNoise(first, seed) + FractalNoise(second, seed + 19));
+}
+
+template <typename Shade>
+human::Texture Picture(const char* name, Shade shade) {
+  cv::Mat image(kSize, kSize, CV_8UC3);
+  for (int row = 0; row < kSize; ++row) {
+    for (int column = 0; column < kSize; ++column) {
+      const float u = (static_cast<float>(column) + 0.5f) / kSize;
+      const float v = (static_cast<float>(row) + 0.5f) / kSize;
+      const glm::vec3 rgb = glm::clamp(shade(u, v), 0.0f, 1.0f);
+      const auto byte = [](float value) {  // near enough to sRGB for what is invented
+        return static_cast<uint8_t>(std::lround(255.0f * std::pow(value, 1.0f / 2.2f)));
+      };
+      image.at<cv::Vec3b>(row, column) = {byte(rgb.z), byte(rgb.y), byte(rgb.x)};
+    }
+  }
+  std::vector<uint8_t> encoded;
+  CHECK(cv::imencode(".jpg", image, encoded, {cv::IMWRITE_JPEG_QUALITY, 88}));
+  const auto bytes = std::as_bytes(std::span(encoded));
+  return {name, {bytes.begin(), bytes.end()}};
+}
+
+glm::vec3 Wood(float u, float v) {
+  // Year rings cut lengthwise: bands that waver along the grain, with pores in them.
+  const float waver = TilingNoise(u, v, {0.35f, 1.2f}, 401);
+  const float rings = 0.5f + 0.5f * std::sin(2.0f * kPi * (7.0f * v + 2.2f * waver));
+  const float pores = TilingNoise(u, v, {1.6f, 26.0f}, 433);
+  const float value = 0.86f - 0.28f * rings * rings + 0.55f * glm::min(pores, 0.0f);
+  return value * glm::mix(glm::vec3(1.0f), glm::vec3(1.0f, 0.94f, 0.86f), rings);
+}
+
+glm::vec3 Wicker(float u, float v) {
+  const float row = std::floor(v * kRodsInPicture);
+  const float in_rod = v * kRodsInPicture - row;
+  const float side = std::fmod(row, 2.0f) * kPi;
+  const float over = std::cos(kPi * kStakesInPicture * u + side);  // in front of a stake or behind
+  const float roundness = std::sqrt(std::max(0.0f, 1.0f - std::pow(2.0f * in_rod - 1.0f, 2.0f)));
+  const float fibre = TilingNoise(u, v, {2.0f, 20.0f}, 457);
+  return glm::vec3(0.18f + roundness * (0.55f + 0.22f * over) + 0.25f * fibre);
+}
+
+}  // namespace
+
+human::Texture WoodGrain() { return Picture("wood", Wood); }
+
+human::Texture WickerWeave() { return Picture("wicker", Wicker); }
+
+void PanelWithWood(int grain_axis, stage::PropMesh& mesh) {
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::vec3& p = mesh.positions[i];
+    // On a face of a board one of the two other coordinates stays the same.
+    const float across = p[(grain_axis + 1) % 3] + p[(grain_axis + 2) % 3];
+    mesh.uvs[i] = {p[grain_axis] / kWoodLength, across / kWoodWidth};
+  }
+}
+
+void WeaveOfWicker(stage::PropMesh& mesh) {
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    mesh.uvs[i].x *= static_cast<float>(kStakes) / kStakesInPicture;
+    mesh.uvs[i].y = mesh.positions[i].y / (kRod * kRodsInPicture);
+  }
+}
+
+}  // namespace lararium::import
