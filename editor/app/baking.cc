@@ -1,5 +1,6 @@
 #include "editor/app/baking.h"
 
+#include <cstdlib>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <span>
@@ -7,7 +8,10 @@
 #include <utility>
 
 #include "editor/bake/probe.h"
+#include "editor/import/cast_builder.h"
+#include "editor/import/cast_library.h"
 #include "editor/import/model_import.h"
+#include "editor/import/objects/object_models.h"
 #include "editor/import/plain_figure.h"
 #include "shared/bundle/sha256.h"
 #include "shared/core/file.h"
@@ -112,32 +116,85 @@ BakeStep MeshStep(const ProjectPaths& paths,
           }};
 }
 
-BakeStep HumanStep(const ProjectPaths& paths, const CastDocument& member) {
-  const std::filesystem::path product = paths.Human(member.name);
-  if (member.model.empty()) {
-    std::ostringstream settings;
-    settings << "plain figure " << member.name << " " << member.height << " "
-             << member.tunic.transpose();
-    return {"human " + member.name,
-            product,
-            {},
-            settings.str(),
-            [member](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
-              import::PlainFigureOptions options;
-              options.height = static_cast<float>(member.height);
-              options.tunic = geometry::ToGlm(member.tunic);
-              human::Human human = import::BuildPlainFigure(options);
-              human.name = member.name;
-              return human::SerializeHuman(human);
-            }};
-  }
+human::Human MakePlainFigure(const CastDocument& member) {
+  import::PlainFigureOptions options;
+  options.height = static_cast<float>(member.height);
+  options.tunic = geometry::ToGlm(member.tunic);
+  human::Human human = import::BuildPlainFigure(options);
+  human.name = member.name;
+  return human;
+}
+
+BakeStep PlainFigureStep(const ProjectPaths& paths, const CastDocument& member) {
+  std::ostringstream settings;
+  settings << "plain figure " << member.name << " " << member.height << " "
+           << member.tunic.transpose();
+  return {"human " + member.name,
+          paths.Human(member.name),
+          {},
+          settings.str(),
+          [member](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+            return human::SerializeHuman(MakePlainFigure(member));
+          }};
+}
+
+BakeStep RecipeStep(const ProjectPaths& paths,
+                    const CastDocument& member,
+                    const std::filesystem::path& library) {
+  return {"human " + member.name,
+          paths.Human(member.name),
+          {},
+          "recipe " + member.name + import::ToJson(*member.recipe).dump(),
+          [member, library](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+            LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary opened,
+                                      import::CastLibrary::Open(library));
+            LARARIUM_ASSIGN_OR_RETURN(human::Human human,
+                                      import::BuildCast(opened, *member.recipe));
+            human.name = member.name;
+            return human::SerializeHuman(human);
+          }};
+}
+
+BakeStep ModelStep(const ProjectPaths& paths, const CastDocument& member) {
   const std::filesystem::path file = paths.Resolve(member.model);
-  return {"human " + member.name, product, file, "model " + member.name,
+  return {"human " + member.name, paths.Human(member.name), file, "model " + member.name,
           [=, name = member.name](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
             import::ImportOptions options;
             options.name = name;
             LARARIUM_ASSIGN_OR_RETURN(const human::Human human, import::ImportHuman(file, options));
             return human::SerializeHuman(human);
+          }};
+}
+
+// Without the library a recipe's person is the plain figure, and a warning says so.
+BakeStep StandInStep(const ProjectPaths& paths, const CastDocument& member) {
+  BakeStep step = PlainFigureStep(paths, member);
+  step.make = [make = step.make, name = member.name](std::vector<std::string>& warnings) {
+    warnings.push_back(name +
+                       ": the plain figure stands in, because the cast library is not "
+                       "installed; fetch it with scripts/fetch_cast_library.sh");
+    return make(warnings);
+  };
+  return step;
+}
+
+BakeStep HumanStep(const ProjectPaths& paths, const CastDocument& member) {
+  if (member.recipe) {
+    const std::optional<std::filesystem::path> library = FindCastLibrary();
+    return library ? RecipeStep(paths, member, *library) : StandInStep(paths, member);
+  }
+  return member.model.empty() ? PlainFigureStep(paths, member) : ModelStep(paths, member);
+}
+
+BakeStep PropStep(const ProjectPaths& paths, const ObjectDocument& object) {
+  return {"object " + object.name,
+          paths.Prop(object.name),
+          {},
+          "object model " + object.model,
+          [=](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+            LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop,
+                                      import::BuildObjectModel(object.model));
+            return stage::SerializeProp(prop);
           }};
 }
 
@@ -153,6 +210,9 @@ std::vector<BakeStep> Steps(const ProjectPaths& paths, const ProjectDocument& do
   }
   for (const CastDocument& member : document.cast) {
     steps.push_back(HumanStep(paths, member));
+  }
+  for (const ObjectDocument& object : document.objects) {
+    steps.push_back(PropStep(paths, object));
   }
   return steps;
 }
@@ -191,6 +251,22 @@ light::ShRgb EvenLight() {
 }
 
 }  // namespace
+
+std::optional<std::filesystem::path> FindCastLibrary() {
+  if (const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY")) {
+    return std::filesystem::path(chosen);
+  }
+  // Builds keep it beside the folders that the programs lie in.
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error);
+  for (int up = 0; up < 4 && folder.has_relative_path(); ++up) {
+    folder = folder.parent_path();
+    if (Exists(folder / "cast-library")) {
+      return folder / "cast-library";
+    }
+  }
+  return std::nullopt;
+}
 
 Result<BakeReport> Bake(const ProjectPaths& paths,
                         const ProjectDocument& document,
@@ -254,6 +330,15 @@ Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocumen
     return NotBaked(file);
   }
   return human::LoadHuman(file);
+}
+
+Result<stage::Prop> LoadBakedProp(const ProjectPaths& paths, const ObjectDocument& object) {
+  const std::filesystem::path file = paths.Prop(object.name);
+  if (!Exists(file)) {
+    return NotBaked(file);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+  return stage::ParseProp(bytes, file.string());
 }
 
 }  // namespace lararium::app

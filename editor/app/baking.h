@@ -1,10 +1,11 @@
 #pragma once
 
 // What is made from the project's sources ahead of a show: the light of each
-// place, the meshes of its occluders, the humans of the cast. Each product keeps
+// place, the meshes of its occluders, the humans of the cast, the objects. Each product keeps
 // the hash of all that went into it and is made again only when that changes.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,13 @@
 #include "shared/geometry/triangle_mesh.h"
 #include "shared/human/human.h"
 #include "shared/light/spherical_harmonics.h"
+#include "shared/stage/prop.h"
 
 namespace lararium::app {
+
+// What people of recipes are built from: the folder that LARARIUM_CAST_LIBRARY names,
+// else "cast-library" in one of the folders above the program.
+std::optional<std::filesystem::path> FindCastLibrary();
 
 struct BakeReport {
   std::vector<std::string> baked;      // what was made
@@ -38,5 +44,6 @@ Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const PlaceDocument& place,
                                              const OccluderDocument& occluder);
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member);
+Result<stage::Prop> LoadBakedProp(const ProjectPaths& paths, const ObjectDocument& object);
 
 }  // namespace lararium::app

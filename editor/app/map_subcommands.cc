@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "editor/app/document_fields.h"
 #include "editor/app/project.h"
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"

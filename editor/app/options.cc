@@ -76,6 +76,24 @@ void AddTrain(CLI::App& app, TrainOptions& train) {
   command->add_option("--report", train.report, "Write the capture report here (.html)");
 }
 
+void AddCast(CLI::App& app, CastOptions& options) {
+  CLI::App* cast =
+      AddSubcommand(app, "cast", "Add a person; without a figure, the plain one", options.project);
+  cast->add_option("--name", options.name, "As the drama calls the person")->required();
+  CLI::Option* recipe =
+      cast->add_option("--recipe", options.recipe, "Build the figure from the cast library")
+          ->check(CLI::ExistingFile);
+  cast->add_option("--import", options.model, "Figure to import: glTF, VRM, FBX, Collada")
+      ->check(CLI::ExistingFile)
+      ->excludes(recipe);
+  cast->add_option("--height", options.height, "Of the plain figure, metres")
+      ->check(CLI::Range(kMinHeight, kMaxHeight));
+  cast->add_option("--tunic", options.tunic, "Of the plain figure: r,g,b, albedo from 0 to 1")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Range(0.0, 1.0));
+}
+
 void AddColmap(CLI::App& app, AllOptions& options) {
   ImportColmapOptions& in = options.import_colmap;
   CLI::App* import =
@@ -141,16 +159,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   AddColmap(app, options);
   AddPrune(app, options.prune);
 
-  CLI::App* cast = AddSubcommand(app, "cast", "Add a person", options.cast.project);
-  cast->add_option("--name", options.cast.name, "As the drama calls the person")->required();
-  cast->add_option("--height", options.cast.height, "Of the plain figure, metres")
-      ->check(CLI::Range(kMinHeight, kMaxHeight));
-  cast->add_option("--tunic", options.cast.tunic, "Of the plain figure: r,g,b, albedo from 0 to 1")
-      ->delimiter(',')
-      ->expected(3)
-      ->check(CLI::Range(0.0, 1.0));
-  cast->add_option("--model", options.cast.model, "Figure to import; the plain one otherwise")
-      ->check(CLI::ExistingFile);
+  AddCast(app, options.cast);
 
   AddSubcommand(app, "bake", "Prepare light, occluders and people", options.bake.project);
 

@@ -62,7 +62,8 @@ struct PruneOptions {
 struct CastOptions {
   std::filesystem::path project;
   std::string name;
-  std::filesystem::path model;   // empty: the plain built-in figure
+  std::filesystem::path recipe;  // of the cast library; else
+  std::filesystem::path model;   // a figure to import; else the plain built-in one
   std::optional<double> height;  // of the plain figure, metres
   std::vector<double> tunic;     // of the plain figure, linear albedo; or empty
 };

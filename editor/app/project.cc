@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "editor/app/document_fields.h"
 #include "editor/train/april_tags.h"
 #include "shared/core/file.h"
 
@@ -18,58 +19,7 @@ using geometry::CameraModel;
 using geometry::Similarity3;
 
 constexpr size_t kMaxEntries = 10'000;  // of any list in the file
-constexpr double kMaxLength = 1e6;      // metres
 constexpr double kMaxPixel = 1e6;
-
-Status CheckFields(const JsonView& view, std::initializer_list<std::string_view> known) {
-  if (!view.json().is_object()) {
-    return view.Problem("must be an object");
-  }
-  for (const auto& [key, value] : view.json().items()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      return view.Problem("has the unknown field \"" + key + "\"",
-                          "correct its spelling, or open the project with a newer Lararium");
-    }
-  }
-  return Status();
-}
-
-Result<Eigen::Vector3d> ParseVector(const JsonView& view, std::string_view key) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> values, view.Numbers(key, 3));
-  for (const double value : values) {
-    if (std::abs(value) > kMaxLength) {
-      return view.Problem("\"" + std::string(key) + "\" lies beyond a million metres");
-    }
-  }
-  return Eigen::Vector3d(values[0], values[1], values[2]);
-}
-
-Result<Eigen::Quaterniond> ParseRotation(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> v, view.Numbers("rotation", 4));
-  const Eigen::Quaterniond rotation(v[0], v[1], v[2], v[3]);
-  constexpr double kTolerance = 1e-3;
-  if (std::abs(rotation.norm() - 1.0) > kTolerance) {
-    return view.Problem("\"rotation\" must be a unit quaternion (w, x, y, z)");
-  }
-  return rotation.normalized();
-}
-
-Result<Similarity3> ParseSimilarity(const JsonView& view) {
-  Similarity3 similarity;
-  LARARIUM_ASSIGN_OR_RETURN(similarity.translation, ParseVector(view, "translation"));
-  LARARIUM_ASSIGN_OR_RETURN(similarity.rotation, ParseRotation(view));
-  LARARIUM_ASSIGN_OR_RETURN(similarity.scale, view.Number("scale", 1e-6, 1e6));
-  return similarity;
-}
-
-Result<std::string> ParsePlainName(const JsonView& view, std::string_view key) {
-  LARARIUM_ASSIGN_OR_RETURN(std::string name, view.Text(key));
-  if (!IsPlainName(name)) {
-    return view.Problem("\"" + std::string(key) + "\" names files too",
-                        "use 1 to 64 letters, digits, '_' and '-'");
-  }
-  return name;
-}
 
 Result<SourceDocument> ParseSource(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"video", "images"}));
@@ -246,26 +196,6 @@ Result<PlaceDocument> ParsePlace(const JsonView& view) {
   return place;
 }
 
-Result<CastDocument> ParseCastMember(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "model", "height", "tunic"}));
-  CastDocument member;
-  LARARIUM_ASSIGN_OR_RETURN(member.name, ParsePlainName(view, "name"));
-  if (view.Has("model")) {
-    LARARIUM_ASSIGN_OR_RETURN(member.model, view.Text("model"));
-  }
-  if (view.Has("height")) {
-    LARARIUM_ASSIGN_OR_RETURN(member.height, view.Number("height", kMinHeight, kMaxHeight));
-  }
-  if (view.Has("tunic")) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> tunic, view.Numbers("tunic", 3));
-    member.tunic = {tunic[0], tunic[1], tunic[2]};
-    if (member.tunic.minCoeff() < 0.0 || member.tunic.maxCoeff() > 1.0) {
-      return view.Problem("\"tunic\" must hold albedos from 0 to 1");
-    }
-  }
-  return member;
-}
-
 template <typename Entry>
 Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& place) {
   std::set<std::string_view> names;
@@ -275,18 +205,6 @@ Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& pl
     }
   }
   return Status();
-}
-
-Json FormatVector(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
-
-Json FormatRotation(const Eigen::Quaterniond& q) {
-  return Json::array({q.w(), q.x(), q.y(), q.z()});
-}
-
-void FormatSimilarity(const Similarity3& similarity, Json& json) {
-  json["translation"] = FormatVector(similarity.translation);
-  json["rotation"] = FormatRotation(similarity.rotation);
-  json["scale"] = similarity.scale;
 }
 
 Json FormatSource(const SourceDocument& source) {
@@ -381,15 +299,6 @@ PlaceDocument* ProjectDocument::FindPlace(std::string_view name) {
   return const_cast<PlaceDocument*>(std::as_const(*this).FindPlace(name));
 }
 
-bool IsPlainName(std::string_view name) {
-  constexpr size_t kMaxName = 64;
-  return !name.empty() && name.size() <= kMaxName && name.front() != '-' &&
-         std::all_of(name.begin(), name.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                  c == '_' || c == '-';
-         });
-}
-
 std::filesystem::path ProjectPaths::Resolve(const std::string& path) const {
   return (folder / path).lexically_normal();
 }
@@ -413,7 +322,8 @@ Result<ProjectDocument> ParseProject(const Json& json, const std::string& place)
                              ", this one reads up to " + std::to_string(kProjectSchema) + ")",
                          "open it with that version");
   }
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"schema", "title", "credits", "places", "cast"}));
+  LARARIUM_RETURN_IF_ERROR(
+      CheckFields(view, {"schema", "title", "credits", "places", "cast", "objects"}));
   ProjectDocument document;
   LARARIUM_ASSIGN_OR_RETURN(document.title, view.Text("title"));
   LARARIUM_ASSIGN_OR_RETURN(document.credits, view.Text("credits"));
@@ -430,6 +340,15 @@ Result<ProjectDocument> ParseProject(const Json& json, const std::string& place)
     LARARIUM_ASSIGN_OR_RETURN(CastDocument parsed, ParseCastMember(entry));
     document.cast.push_back(std::move(parsed));
   }
+  if (view.Has("objects")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView objects, view.Field("objects"));
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, objects.Array(kMaxEntries));
+    for (const JsonView& entry : list) {
+      LARARIUM_ASSIGN_OR_RETURN(ObjectDocument parsed, ParseObject(entry));
+      document.objects.push_back(std::move(parsed));
+    }
+    LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.objects, objects.place()));
+  }
   LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.places, places.place()));
   LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.cast, cast.place()));
   return document;
@@ -445,14 +364,10 @@ Json FormatProject(const ProjectDocument& document) {
     json["places"].push_back(FormatPlace(place));
   }
   for (const CastDocument& member : document.cast) {
-    Json entry = {{"name", member.name}};
-    if (!member.model.empty()) {
-      entry["model"] = member.model;
-    } else {
-      entry["height"] = member.height;
-      entry["tunic"] = FormatVector(member.tunic);
-    }
-    json["cast"].push_back(std::move(entry));
+    json["cast"].push_back(FormatCastMember(member));
+  }
+  for (const ObjectDocument& object : document.objects) {
+    json["objects"].push_back(FormatObject(object));
   }
   return json;
 }
@@ -521,6 +436,14 @@ std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDoc
   for (const CastDocument& member : document.cast) {
     if (!member.model.empty()) {
       expect(paths.Resolve(member.model), "put it back, or import \"" + member.name + "\" anew");
+    }
+    for (const ClipDocument& clip : member.clips) {
+      expect(paths.Resolve(clip.file), "put it back, or remove the clip \"" + clip.name + "\"");
+    }
+  }
+  for (const ObjectDocument& object : document.objects) {
+    if (!object.file.empty()) {
+      expect(paths.Resolve(object.file), "put it back, or remove \"" + object.name + "\"");
     }
   }
   return missing;

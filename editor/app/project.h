@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "editor/app/cast_document.h"
+#include "editor/app/object_document.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
@@ -79,32 +81,17 @@ struct PlaceDocument {
   std::optional<ProbeDocument> probe;
 };
 
-// Of the plain figure, metres.
-inline constexpr double kMinHeight = 0.8;
-inline constexpr double kMaxHeight = 2.2;
-
-struct CastDocument {
-  std::string name;   // as the drama calls the actor
-  std::string model;  // a figure that the editor imports; empty: the plain built-in one
-  // Of the plain figure only.
-  double height = 1.72;                        // metres
-  Eigen::Vector3d tunic = {0.60, 0.55, 0.45};  // linear RGB albedo
-};
-
 // All that a curator edits, but the drama, which is a file of its own.
 struct ProjectDocument {
   std::string title;
   std::string credits;
   std::vector<PlaceDocument> places;
   std::vector<CastDocument> cast;
+  std::vector<ObjectDocument> objects;
 
   const PlaceDocument* FindPlace(std::string_view name) const;
   PlaceDocument* FindPlace(std::string_view name);
 };
-
-// Names of places and actors name files too: letters, digits, '_' and '-', at
-// most 64 of them.
-bool IsPlainName(std::string_view name);
 
 // Where things lie in a project's folder.
 struct ProjectPaths {
@@ -117,6 +104,9 @@ struct ProjectPaths {
   std::filesystem::path Cast() const { return folder / "cast"; }
   std::filesystem::path Human(const std::string& cast_name) const {
     return Cast() / (cast_name + ".larhuman");
+  }
+  std::filesystem::path Prop(const std::string& object) const {
+    return folder / "props" / (object + ".larprop");
   }
   std::filesystem::path Place(const std::string& name) const { return folder / "places" / name; }
   std::filesystem::path Scene(const std::string& place) const {

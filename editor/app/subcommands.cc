@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "editor/app/baking.h"
+#include "editor/app/document_fields.h"
 #include "editor/app/exporting.h"
 #include "editor/app/project.h"
 #include "editor/app/rendering.h"
@@ -114,6 +115,9 @@ Result<CommandResult> RunCast(const CastOptions& options) {
   }
   CastDocument member;
   member.name = options.name;
+  if (!options.recipe.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(member.recipe, import::LoadCastRecipe(options.recipe));
+  }
   member.model = options.model.empty() ? "" : paths.Shorten(options.model);
   member.height = options.height.value_or(member.height);
   if (!options.tunic.empty()) {

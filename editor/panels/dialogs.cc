@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 
+#include "editor/app/document_fields.h"
 #include "editor/app/training.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"

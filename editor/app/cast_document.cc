@@ -1,0 +1,103 @@
+#include "editor/app/cast_document.h"
+
+#include <set>
+#include <utility>
+
+#include "editor/app/document_fields.h"
+
+namespace lararium::app {
+namespace {
+
+constexpr size_t kMaxClips = 1000;
+
+Result<ClipDocument> ParseClip(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "file", "loops"}));
+  ClipDocument clip;
+  LARARIUM_ASSIGN_OR_RETURN(clip.name, ParsePlainName(view, "name"));
+  LARARIUM_ASSIGN_OR_RETURN(clip.file, view.Text("file"));
+  if (view.Has("loops")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView loops, view.Field("loops"));
+    LARARIUM_ASSIGN_OR_RETURN(clip.loops, loops.Boolean());
+  }
+  return clip;
+}
+
+Status ParseClips(const JsonView& view, std::vector<ClipDocument>& clips) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("clips"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(kMaxClips));
+  std::set<std::string> names;
+  for (const JsonView& entry : list) {
+    LARARIUM_ASSIGN_OR_RETURN(ClipDocument clip, ParseClip(entry));
+    if (!names.insert(clip.name).second) {
+      return entry.Problem("the name \"" + clip.name + "\" is there twice", "rename one");
+    }
+    clips.push_back(std::move(clip));
+  }
+  return Status();
+}
+
+Status ParsePlainFigure(const JsonView& view, CastDocument& member) {
+  if (view.Has("height")) {
+    LARARIUM_ASSIGN_OR_RETURN(member.height, view.Number("height", kMinHeight, kMaxHeight));
+  }
+  if (view.Has("tunic")) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> tunic, view.Numbers("tunic", 3));
+    member.tunic = {tunic[0], tunic[1], tunic[2]};
+    if (member.tunic.minCoeff() < 0.0 || member.tunic.maxCoeff() > 1.0) {
+      return view.Problem("\"tunic\" must hold albedos from 0 to 1");
+    }
+  }
+  return Status();
+}
+
+}  // namespace
+
+Result<CastDocument> ParseCastMember(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(
+      CheckFields(view, {"name", "recipe", "model", "bone_map", "clips", "height", "tunic"}));
+  CastDocument member;
+  LARARIUM_ASSIGN_OR_RETURN(member.name, ParsePlainName(view, "name"));
+  if (view.Has("recipe") && view.Has("model")) {
+    return view.Problem("has a recipe and a model", "keep one of them");
+  }
+  if (view.Has("recipe")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView recipe, view.Field("recipe"));
+    LARARIUM_ASSIGN_OR_RETURN(member.recipe, import::ParseCastRecipe(recipe));
+  }
+  if (view.Has("model")) {
+    LARARIUM_ASSIGN_OR_RETURN(member.model, view.Text("model"));
+  }
+  if (view.Has("bone_map")) {
+    LARARIUM_ASSIGN_OR_RETURN(member.bone_map, view.Text("bone_map"));
+  }
+  if (view.Has("clips")) {
+    LARARIUM_RETURN_IF_ERROR(ParseClips(view, member.clips));
+  }
+  LARARIUM_RETURN_IF_ERROR(ParsePlainFigure(view, member));
+  return member;
+}
+
+Json FormatCastMember(const CastDocument& member) {
+  Json json = {{"name", member.name}};
+  if (member.recipe) {
+    json["recipe"] = import::ToJson(*member.recipe);
+  } else if (!member.model.empty()) {
+    json["model"] = member.model;
+  } else {
+    json["height"] = member.height;
+    json["tunic"] = FormatVector(member.tunic);
+  }
+  if (!member.bone_map.empty()) {
+    json["bone_map"] = member.bone_map;
+  }
+  for (const ClipDocument& clip : member.clips) {
+    Json entry = {{"name", clip.name}, {"file", clip.file}};
+    if (clip.loops) {
+      entry["loops"] = true;
+    }
+    json["clips"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+}  // namespace lararium::app
