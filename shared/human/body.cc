@@ -155,7 +155,7 @@ class BodyFinder {
     }
     const float length = glm::length(forward);
     leg.ankle_height = ankle.y;
-    leg.ball = glm::vec3(0.0f, 0.0f, -length);
+    leg.ball = glm::vec3(0.0f, leg.toes.empty() ? 0.0f : ball.y, -length);
     leg.heel = glm::vec3(0.0f, 0.0f, 0.28f * length);
     leg.toe_out = std::atan2(-forward.x, -forward.z);
   }

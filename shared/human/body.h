@@ -83,7 +83,7 @@ struct Body {
     // turned to point along -Z; metres.
     float ankle_height = 0.0f;
     glm::vec3 heel = glm::vec3(0.0f);  // on the floor
-    glm::vec3 ball = glm::vec3(0.0f);  // the toes' joints, projected on the floor
+    glm::vec3 ball = glm::vec3(0.0f);  // the toes' joints, at their height
     float toe_out = 0.0f;              // radians about +Y of the foot's direction at rest
 
     bool whole() const { return hip != kNoJoint && knee != kNoJoint && ankle != kNoJoint; }
