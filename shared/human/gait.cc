@@ -131,25 +131,29 @@ float SolePitch(float phase) {
   return ThighInclination(phase) - KneeFlexion(phase) + AnkleFlexion(phase);
 }
 
-Stride StrideAt(float speed, float turn_rate, float leg_length, const GaitStyle& style) {
+Stride StrideAt(
+    float speed, float forwardness, float turn_rate, float leg_length, const GaitStyle& style) {
   constexpr float kGravity = 9.81f;
-  constexpr float kWalkRatio = 0.838f;   // 6.4 mm per step a minute with legs of 0.9 m
-  constexpr float kTurnRadius = 0.3f;    // of leg length: what turning counts as speed
-  constexpr float kStepInPlace = 0.24f;  // strides per sqrt(leg length / g)
-  const float pace =
-      std::hypot(speed, kTurnRadius * leg_length * turn_rate) / std::sqrt(kGravity * leg_length);
-  const float straight = speed / std::sqrt(kGravity * leg_length);
-  const float by_speed = 0.5f * kWalkRatio * std::sqrt(pace);
-  const float in_place = kStepInPlace * std::max(0.0f, 1.0f - pace / 0.1f);
-  const float rate = style.cadence * std::max(by_speed, in_place);
+  constexpr float kWalkRatio = 0.838f;    // 6.4 mm per step a minute with legs of 0.9 m
+  constexpr float kStepInPlace = 0.24f;   // strides per sqrt(leg length / g)
+  constexpr float kTurnPerStride = 1.5f;  // radians on the spot
+  const float clock = std::sqrt(kGravity / leg_length);
+  const float pace = speed / std::sqrt(kGravity * leg_length);
+  const float by_speed = 0.5f * kWalkRatio * std::sqrt(pace) * (1.0f + 0.7f * (1.0f - forwardness));
+  const float on_the_spot = std::max(0.0f, 1.0f - pace / 0.1f);
+  const float by_turn = std::min(std::abs(turn_rate) / (kTurnPerStride * clock), 0.42f);
+  const float rate =
+      style.cadence * std::max(by_speed, on_the_spot * std::max(kStepInPlace, by_turn));
   Stride stride;
-  stride.per_second = rate * std::sqrt(kGravity / leg_length);
+  stride.per_second = rate * clock;
   // 62 % at a comfortable speed, less when faster (Murray et al., 1964, 1966).
   stride.stance_share = std::clamp(0.62f - 0.16f * (pace - 0.43f), 0.56f, 0.68f);
-  const float length = rate > 0.0f ? straight / rate : 0.0f;
-  const float begins = glm::smoothstep(0.02f, 0.12f, straight);
-  stride.amount = std::min(begins * length / kStrideLength, 1.3f);
-  stride.ahead_share = glm::mix(0.5f, kAheadShare, std::min(stride.amount, 1.1f));
+  const float length = rate > 0.0f ? pace / rate : 0.0f;
+  const float begins = glm::smoothstep(0.02f, 0.12f, pace);
+  const float walks = 0.25f + 0.75f * forwardness * forwardness;
+  stride.amount = walks * std::min(begins * length / kStrideLength, 1.3f);
+  const float rolls = forwardness * std::min(stride.amount, 1.1f);
+  stride.ahead_share = glm::mix(0.5f, kAheadShare, rolls);
   return stride;
 }
 

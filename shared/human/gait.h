@@ -26,8 +26,10 @@ struct Stride {
   float ahead_share = 0.0f;   // of the stance that passes before the foot is below its hip
   float amount = 0.0f;        // of the angles above: 1 at a comfortable speed
 };
-// speed in m/s, leg_length in metres; turn_rate in rad/s makes for steps too.
-Stride StrideAt(float speed, float turn_rate, float leg_length, const GaitStyle& style);
+// speed in m/s, leg_length in metres. forwardness: 1 walks forward, 0 sidles or backs, in
+// shorter and flatter steps. turn_rate in rad/s makes for steps too.
+Stride StrideAt(
+    float speed, float forwardness, float turn_rate, float leg_length, const GaitStyle& style);
 
 // The sole's pitch while the foot stands, at 0..1 of the stance, at amount 1. Exactly
 // flat in between.

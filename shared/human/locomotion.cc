@@ -33,9 +33,8 @@ class Walker {
  public:
   Walker(const Body& body, const FloorHeight& floor, float seconds, Locomotion& state)
       : body_(body), floor_(floor), seconds_(seconds), state_(state) {
-    const float speed = glm::length(glm::vec2(state.velocity.x, state.velocity.z));
-    speed_ = speed;
-    stride_ = StrideAt(speed, state.turn_rate, body.leg_length(), state.style);
+    speed_ = glm::length(glm::vec2(state.velocity.x, state.velocity.z));
+    stride_ = StrideAt(speed_, Forwardness(), state.turn_rate, body.leg_length(), state.style);
   }
 
   void Place() {
@@ -81,10 +80,13 @@ class Walker {
     return std::max(glm::dot(ahead, state_.velocity) / speed_, 0.0f);
   }
 
+  // To the right, m/s.
+  float SidewardSpeed() const {
+    return glm::dot(state_.velocity, TurnY(state_.heading) * glm::vec3(1.0f, 0.0f, 0.0f));
+  }
+
   void UpdateAmount() {
-    const float forward = Forwardness();
-    const float goal = stride_.amount * (0.25f + 0.75f * forward * forward);
-    state_.amount += Approach(seconds_, 0.12f) * (goal - state_.amount);
+    state_.amount += Approach(seconds_, 0.12f) * (stride_.amount - state_.amount);
   }
 
   // ---- Prints ----
@@ -138,10 +140,26 @@ class Walker {
     const Foot& foot = FootOf(side);
     const float swing_seconds = (1.0f - foot.lift_phase) / stride_.per_second;
     const float stance_seconds = stride_.stance_share / stride_.per_second;
-    const float ahead = (1.0f - foot.swing) * swing_seconds +
-                        (Moving() ? stride_.ahead_share * stance_seconds : 0.0f);
-    Footprint goal = NeutralPrint(side, Foretell(ahead), state_.amount);
-    return PrintAt(KeepApart(side, goal.position), goal.heading, side);
+    const RootPose root =
+        Foretell((1.0f - foot.swing) * swing_seconds + stride_.ahead_share * stance_seconds);
+    const Footprint goal = NeutralPrint(side, root, state_.amount);
+    const glm::vec3 at = KeepApart(side, WithinReach(goal.position + Opening(side), root));
+    return PrintAt(at, goal.heading, side);
+  }
+
+  // Who sidles opens and closes the feet: the leading one goes further, the other less.
+  glm::vec3 Opening(int side) const {
+    const float sideward = SidewardSpeed();
+    const float quarter = 0.25f * std::abs(sideward) / stride_.per_second;
+    return TurnY(state_.heading) * glm::vec3(SideSign(side) * quarter, 0.0f, 0.0f);
+  }
+
+  glm::vec3 WithinReach(const glm::vec3& goal, const RootPose& root) const {
+    const float most = 0.6f * body_.leg_length();
+    glm::vec3 way = goal - root.position;
+    way.y = 0.0f;
+    const float length = glm::length(way);
+    return length > most ? root.position + most / length * way : goal;
   }
 
   // Not across the other foot.
@@ -166,7 +184,8 @@ class Walker {
     const float aside = glm::length(glm::vec2(way.x, way.z)) / body_.leg_length();
     const float turned = std::abs(std::remainder(print.heading - neutral.heading, 2.0f * kPi));
     // Who stands tolerates more than who is on the move anyway.
-    const float leeway = state_.stepping ? 1.0f : 1.8f;
+    const bool turns = std::abs(state_.turn_rate) > 0.3f;
+    const float leeway = state_.stepping || turns ? 1.0f : 1.8f;
     return std::max(aside / (0.055f * leeway), turned / (0.20f * leeway));
   }
 

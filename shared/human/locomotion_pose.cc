@@ -84,10 +84,10 @@ class WalkingPose {
     const float lean = Lean();
     const float bank = Bank();
     trunk.pelvis = TurnY(yaw) * TurnZ(list + 0.030f * shift + bank) * TurnX(-0.02f - 0.5f * lean);
-    const float stoop = state_.style.stoop + lean + 0.03f * walking;
+    const float stoop = state_.style.stoop + lean + 0.04f * walking;
     trunk.chest = TurnY(-0.9f * yaw) *
                   TurnZ(-0.35f * list - 0.028f * shift + bank + 0.03f * side_step) *
-                  TurnX(-0.01f - stoop);
+                  TurnX(-0.02f - stoop);
     // The head stays level, and leads into turns (Grasso et al., 1998).
     const float lead = std::clamp(0.28f * state_.turn_rate, -0.5f, 0.5f);
     trunk.head = TurnY(0.2f * yaw + lead) * TurnZ(0.3f * bank) *
@@ -123,8 +123,11 @@ class WalkingPose {
     const JointFrame& rest = body_.rest[root];
     SetActorRotation(skeleton_, body_.root, trunk.pelvis * rest.rotation, pose_);
     glm::vec3 position = rest.position + trunk.hips;
+    const float standing = position.y;
     position.y = SoftMin(position.y, SoftMin(HighestRoot(trunk, position, kRight),
                                              HighestRoot(trunk, position, kLeft)));
+    // Rather a foot leaves the floor than the body falls to it.
+    position.y = std::max(position.y, standing - 0.35f * leg_);
     SetActorPosition(skeleton_, body_.root, position, pose_);
   }
 
