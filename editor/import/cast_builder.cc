@@ -1,6 +1,8 @@
 #include "editor/import/cast_builder.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "editor/import/cast_capsules.h"
@@ -14,6 +16,10 @@
 
 namespace lararium::import {
 namespace {
+
+// Where these would be, a shaved beard shows.
+constexpr const char* kBeards[] = {"Full_beard", "Moustache"};
+constexpr float kHeadShare = 0.16f;  // of the height: head and upper neck
 
 // How the parts of each kind look.
 struct Look {
@@ -112,15 +118,67 @@ class CastBuilder {
 
   Status AddSkin() {
     LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, library_.LoadSkin(SkinName()));
-    LARARIUM_ASSIGN_OR_RETURN(human::Texture texture, OpaqueTexture("skin", picture, 1024));
+    CastPiece piece = SkinPiece(library_, body_.base);
+    LARARIUM_ASSIGN_OR_RETURN(const SkinPaint paint, PaintOf(piece));
+    LARARIUM_ASSIGN_OR_RETURN(human::Texture texture, SkinTexture("skin", picture, paint));
     human::Material material;
     material.name = "skin";
     material.surface = human::Surface::kSkin;
     material.roughness = 0.55f;
     material.colour_texture = AddTexture(std::move(texture));
-    CastPiece piece = SkinPiece(library_, body_.base);
     AddPiece(std::move(piece), std::move(material));
     return Status();
+  }
+
+  Result<SkinPaint> PaintOf(const CastPiece& skin) const {
+    SkinPaint paint;
+    paint.uvs = skin.mesh.uvs;
+    paint.indices = skin.mesh.indices;
+    paint.tint = recipe_.skin_tint;
+    paint.stubble = recipe_.stubble;
+    paint.weathering = recipe_.weathering;
+    paint.seed = recipe_.seed;
+    if (recipe_.hair) {
+      LARARIUM_ASSIGN_OR_RETURN(paint.scalp, NearnessTo({recipe_.hair->name}, skin));
+      paint.scalp_colour = paint.beard_colour = HairColour(*recipe_.hair);
+    }
+    if (recipe_.stubble > 0.0f) {
+      LARARIUM_ASSIGN_OR_RETURN(paint.beard, NearnessTo({kBeards[0], kBeards[1]}, skin));
+      if (!recipe_.beard.empty()) {
+        paint.beard_colour = HairColour(recipe_.beard[0]);
+      }
+    }
+    return paint;
+  }
+
+  static glm::vec3 HairColour(const CastDyed& hair) {
+    return hair.colour.value_or(glm::vec3(0.12f, 0.09f, 0.07f));
+  }
+
+  // Of each vertex of the skin's head: 1 where one of these parts lies close to it.
+  Result<std::vector<float>> NearnessTo(const std::vector<std::string>& parts,
+                                        const CastPiece& skin) const {
+    constexpr float kNear = 0.006f;  // metres: surely covered
+    constexpr float kFar = 0.016f;   // metres: surely bare
+    const float shoulders = body_.height - kHeadShare * body_.height;
+    std::vector<float> nearest(skin.mesh.positions.size(), kFar);
+    for (const std::string& part : parts) {
+      LARARIUM_ASSIGN_OR_RETURN(const CastProxy proxy, library_.LoadPart(CastPart::kHair, part));
+      const std::vector<glm::vec3> positions =
+          FitPositions(proxy, body_.base.positions, UnshapedBase(library_));
+      for (size_t v = 0; v < nearest.size(); ++v) {
+        if (skin.mesh.positions[v].y < shoulders) {
+          continue;
+        }
+        for (const glm::vec3& p : positions) {
+          nearest[v] = std::min(nearest[v], glm::distance(p, skin.mesh.positions[v]));
+        }
+      }
+    }
+    for (float& distance : nearest) {
+      distance = 1.0f - glm::smoothstep(kNear, kFar, distance);
+    }
+    return nearest;
   }
 
   Status AddPart(CastPart part, const CastDyed& chosen) {

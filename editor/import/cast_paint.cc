@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -90,7 +91,137 @@ void Dye(cv::Mat& bgra, const glm::vec3& colour) {
   }
 }
 
+// --- Skin: pictures of floats, BGR or one channel, linear light.
+
+constexpr int kSkinSize = 1024;
+
+cv::Mat ToLinear(const cv::Mat& image) {
+  cv::Mat linear;
+  image.convertTo(linear, CV_32F, 1.0 / 255.0);
+  cv::pow(linear, 2.2, linear);
+  return linear;
+}
+
+cv::Mat ToBytes(const cv::Mat& linear) {
+  cv::Mat encoded;
+  cv::min(cv::max(linear, 0.0), 1.0, encoded);
+  cv::pow(encoded, 1.0 / 2.2, encoded);
+  encoded.convertTo(encoded, CV_8U, 255.0);
+  return encoded;
+}
+
+cv::Scalar LinearBgr(const glm::vec3& colour) {
+  return {std::pow(colour.b, 2.2f), std::pow(colour.g, 2.2f), std::pow(colour.r, 2.2f)};
+}
+
+// Values of vertices spread over the triangles that texture coordinates make.
+cv::Mat Spread(const SkinPaint& paint, std::span<const float> values) {
+  cv::Mat picture = cv::Mat::zeros(kSkinSize, kSkinSize, CV_32F);
+  if (values.size() != paint.uvs.size()) {
+    return picture;
+  }
+  for (size_t i = 0; i + 2 < paint.indices.size(); i += 3) {
+    const uint32_t* corners = &paint.indices[i];
+    const float mean = (values[corners[0]] + values[corners[1]] + values[corners[2]]) / 3.0f;
+    if (mean <= 0.0f) {
+      continue;
+    }
+    cv::Point points[3];
+    for (int k = 0; k < 3; ++k) {
+      const glm::vec2 p = glm::clamp(paint.uvs[corners[k]], -1.0f, 2.0f) * float(kSkinSize);
+      points[k] = cv::Point(cvRound(p.x), cvRound(p.y));
+    }
+    cv::fillConvexPoly(picture, points, 3, mean);
+  }
+  cv::GaussianBlur(picture, picture, {}, 3.0);
+  return picture;
+}
+
+// Normal noise between two scales (standard deviations of blurs, pixels), of deviation 1.
+cv::Mat BandNoise(cv::RNG& random, double fine, double coarse) {
+  cv::Mat noise(kSkinSize, kSkinSize, CV_32F);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
+  cv::Mat low;
+  cv::GaussianBlur(noise, low, {}, coarse);
+  if (fine > 0.0) {
+    cv::GaussianBlur(noise, noise, {}, fine);
+  }
+  noise -= low;
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(noise, mean, deviation);
+  return noise / std::max(deviation[0], 1e-6);
+}
+
+// skin *= 1 + amount * noise, channel by channel.
+void Modulate(cv::Mat& skin, const cv::Mat& noise, const cv::Scalar& amount) {
+  std::vector<cv::Mat> channels;
+  cv::split(skin, channels);
+  for (int c = 0; c < 3; ++c) {
+    cv::Mat factor = 1.0 + amount[c] * noise;
+    cv::multiply(channels[c], cv::max(factor, 0.2), channels[c]);
+  }
+  cv::merge(channels, skin);
+}
+
+// skin += cover * (colour - skin); cover: 0..1 for each pixel.
+void Cover(cv::Mat& skin, const cv::Mat& cover, const cv::Scalar& colour) {
+  std::vector<cv::Mat> channels;
+  cv::split(skin, channels);
+  for (int c = 0; c < 3; ++c) {
+    channels[c] += cover.mul(colour[c] - channels[c]);
+  }
+  cv::merge(channels, skin);
+}
+
+void Tint(cv::Mat& skin, const SkinPaint& paint) {
+  const std::vector<float> everywhere(paint.uvs.size(), 1.0f);
+  cv::Mat body = Spread(paint, everywhere) > 0.5f;
+  const cv::Scalar mean = cv::mean(skin, body);
+  const cv::Scalar wanted = LinearBgr(*paint.tint);
+  cv::multiply(skin,
+               cv::Scalar(wanted[0] / std::max(mean[0], 1e-3), wanted[1] / std::max(mean[1], 1e-3),
+                          wanted[2] / std::max(mean[2], 1e-3)),
+               skin);
+}
+
+// Sun and years: what is dark gets darker, blood shows through in patches.
+void Weather(cv::Mat& skin, float amount, cv::RNG& random) {
+  cv::Mat smooth;
+  cv::GaussianBlur(skin, smooth, {}, 14.0);
+  skin += amount * 0.7 * (skin - smooth);
+  Modulate(skin, BandNoise(random, 5.0, 18.0), amount * cv::Scalar(-0.07, -0.06, 0.0));
+  Modulate(skin, BandNoise(random, 1.0, 3.0), amount * cv::Scalar(0.05, 0.05, 0.04));
+}
+
+// Short hairs: dots of the hair's colour over a shade of it.
+void PaintHairs(
+    cv::Mat& skin, const cv::Mat& mask, const glm::vec3& colour, float amount, cv::RNG& random) {
+  cv::Mat dots = 0.5 + 0.35 * BandNoise(random, 0.0, 2.0);
+  cv::Mat cover = amount * mask.mul(cv::min(cv::max(dots, 0.0), 1.0));
+  Cover(skin, cover, LinearBgr(colour));
+}
+
 }  // namespace
+
+Result<human::Texture> SkinTexture(const std::string& name,
+                                   std::span<const std::byte> encoded,
+                                   const SkinPaint& paint) {
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, Decode(name, encoded, cv::IMREAD_COLOR));
+  cv::Mat skin;
+  cv::resize(image, skin, {kSkinSize, kSkinSize}, 0.0, 0.0, cv::INTER_CUBIC);
+  skin = ToLinear(skin);
+  cv::RNG random(paint.seed * 0x9e3779b97f4a7c15ull + 1);
+  if (paint.tint) {
+    Tint(skin, paint);
+  }
+  Modulate(skin, BandNoise(random, 0.7, 1.8), cv::Scalar(0.035, 0.03, 0.025));
+  Modulate(skin, BandNoise(random, 8.0, 30.0), cv::Scalar(-0.03, -0.025, 0.015));
+  Weather(skin, paint.weathering, random);
+  PaintHairs(skin, Spread(paint, paint.scalp), paint.scalp_colour, 0.9f, random);
+  PaintHairs(skin, Spread(paint, paint.beard), paint.beard_colour, 0.75f * paint.stubble, random);
+  return EncodeJpeg(name, ToBytes(skin));
+}
 
 Result<human::Texture> DyedTexture(const std::string& name,
                                    std::span<const std::byte> encoded,

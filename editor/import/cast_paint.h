@@ -4,6 +4,7 @@
 // hair; hair and brows dyed; all encoded small.
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -15,6 +16,26 @@
 #include "shared/human/material.h"
 
 namespace lararium::import {
+
+// What a skin is painted with. Masks are of the drawn skin's vertices, 0..1.
+struct SkinPaint {
+  std::span<const glm::vec2> uvs;     // of the skin's vertices, (0, 0) the top left
+  std::span<const uint32_t> indices;  // its triangles
+  std::vector<float> scalp;           // where hair grows or lies
+  std::vector<float> beard;           // where a beard would grow
+  glm::vec3 scalp_colour{0.1f};       // sRGB-encoded, as are the next
+  glm::vec3 beard_colour{0.1f};
+  float stubble = 0.0f;  // 0..1
+  std::optional<glm::vec3> tint;
+  float weathering = 0.0f;  // 0..1
+  uint64_t seed = 1;
+};
+
+// A skin as the library has it, brought to the tint's mean colour and painted, with
+// the small irregularities (pores, mottling) that its resolution lacks. JPEG.
+Result<human::Texture> SkinTexture(const std::string& name,
+                                   std::span<const std::byte> encoded,
+                                   const SkinPaint& paint);
 
 // A picture with alpha in which everything takes one colour (sRGB-encoded, 0..1) and
 // keeps its light and dark; none: as it is. PNG in, PNG out.
