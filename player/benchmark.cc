@@ -16,6 +16,7 @@
 #include "shared/bundle/bundle.h"
 #include "shared/core/json.h"
 #include "shared/core/parallel.h"
+#include "shared/show/show_content.h"
 #include "shared/vision/pose_smoother.h"
 #include "shared/vision/poses_file.h"
 #include "shared/vision/scene_database.h"
@@ -36,25 +37,6 @@ double ProcessCpuMilliseconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-Result<Maps> LoadMaps(const PlayOptions& options) {
-  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
-  Maps maps;
-  for (const bundle::PlaceEntry& place : bundle.manifest().places) {
-    if (!options.place.empty() && place.name != options.place) {
-      continue;
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const auto scene, bundle.member(place.scene));
-    LARARIUM_ASSIGN_OR_RETURN(
-        vision::SceneDatabase map,
-        vision::ParseSceneDatabase(scene, bundle.place() + ": " + place.scene));
-    maps.push_back(std::make_shared<const vision::SceneDatabase>(std::move(map)));
-  }
-  if (maps.empty()) {
-    return Status::Error(bundle.place(), "has no place \"" + options.place + "\"");
-  }
-  return maps;
 }
 
 // Points all over each map.
@@ -110,8 +92,8 @@ std::string SmoothingName(vision::Smoothing smoothing) {
 
 class BenchmarkRun {
  public:
-  BenchmarkRun(const PlayOptions& options, Maps maps, Log& log)
-      : options_(options), maps_(std::move(maps)), log_(log) {}
+  BenchmarkRun(const PlayOptions& options, std::vector<show::ShowPlace> places, Log& log)
+      : options_(options), places_(std::move(places)), maps_(show::Maps(places_)), log_(log) {}
 
   Result<SequenceReport> Sequence(const BenchmarkSequence& sequence) const;
   Result<ForeignReport> Foreign(const std::filesystem::path& path,
@@ -124,6 +106,7 @@ class BenchmarkRun {
     tracking.threads = options_.threads;
     tracking.follow = !options_.first_pose;
     LARARIUM_ASSIGN_OR_RETURN(auto tracker, vision::CreateTracker(maps_, camera, tracking));
+    show::SetOccluders(places_, *tracker);
     return vision::Smooth(std::move(tracker), maps_, options_.smoothing);
   }
   bool Enough(size_t frames) const {
@@ -139,6 +122,7 @@ class BenchmarkRun {
                       ForeignReport& report) const;
 
   const PlayOptions& options_;
+  std::vector<show::ShowPlace> places_;
   Maps maps_;
   Log& log_;
 };
@@ -279,8 +263,10 @@ Status Benchmark(const PlayOptions& options, Log& log) {
     limit.emplace(options.threads);
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto sequences, LoadBenchmarkSequences(options.benchmark));
-  LARARIUM_ASSIGN_OR_RETURN(Maps maps, LoadMaps(options));
-  const BenchmarkRun run(options, std::move(maps), log);
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<show::ShowPlace> places,
+                            show::LoadShowPlaces(bundle, options.place));
+  const BenchmarkRun run(options, std::move(places), log);
   BenchmarkReport report;
   report.show = options.show.filename().string();
   report.mode = options.first_pose ? "every frame found anew" : "following";

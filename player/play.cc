@@ -99,9 +99,10 @@ Status Performance::Prepare() {
   tracking.threads = options_.threads;
   tracking.background = options_.pace == Pace::kFast ? vision::BackgroundWork::kJoined
                                                      : vision::BackgroundWork::kFree;
-  LARARIUM_ASSIGN_OR_RETURN(poses_,
-                            vision::CreateTracker(show::Maps(content), choice.camera, tracking));
-  poses_ = vision::Smooth(std::move(poses_), show::Maps(content), options_.smoothing);
+  LARARIUM_ASSIGN_OR_RETURN(
+      poses_, vision::CreateTracker(show::Maps(content.places), choice.camera, tracking));
+  show::SetOccluders(content.places, *poses_);
+  poses_ = vision::Smooth(std::move(poses_), show::Maps(content.places), options_.smoothing);
   drama::DramaOptions drama;
   drama.seed = options_.seed;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));

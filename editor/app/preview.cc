@@ -62,7 +62,9 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPa
   LARARIUM_ASSIGN_OR_RETURN(const geometry::CameraModel camera,
                             content.places.front().map->camera.ForImages(
                                 worker->source_->width(), worker->source_->height()));
-  LARARIUM_ASSIGN_OR_RETURN(worker->poses_, vision::CreateTracker(show::Maps(content), camera, {}));
+  LARARIUM_ASSIGN_OR_RETURN(worker->poses_,
+                            vision::CreateTracker(show::Maps(content.places), camera, {}));
+  show::SetOccluders(content.places, *worker->poses_);
   LARARIUM_ASSIGN_OR_RETURN(worker->show_, show::Show::Create(std::move(content), {}, log));
   LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(worker->renderer_,
@@ -116,6 +118,7 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
     place_ = request.place;
     show_->SetPlace(0, *place_);
     renderer_->SetPlace(0, *place_);
+    poses_->SetOccluders(0, show::OccludersInMap(*place_));
   }
   LARARIUM_RETURN_IF_ERROR(Track(request.frame));
   if (!tracked_) {

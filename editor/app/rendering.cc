@@ -22,7 +22,8 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
           ? job.content.places.front().map->camera.ForImages(source->width(), source->height())
           : geometry::CameraModel::FromNumbers(job.intrinsics, source->width(), source->height()));
   LARARIUM_ASSIGN_OR_RETURN(const auto poses,
-                            vision::CreateTracker(show::Maps(job.content), camera, {}));
+                            vision::CreateTracker(show::Maps(job.content.places), camera, {}));
+  show::SetOccluders(job.content.places, *poses);
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(std::move(job.content), {}, log));
 
   LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());

@@ -52,24 +52,48 @@ Result<ShowPlace> LoadPlace(const bundle::Bundle& bundle, const bundle::PlaceEnt
 
 }  // namespace
 
-std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(const ShowContent& content) {
+std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(std::span<const ShowPlace> places) {
   std::vector<std::shared_ptr<const vision::SceneDatabase>> maps;
-  for (const ShowPlace& place : content.places) {
+  for (const ShowPlace& place : places) {
     maps.push_back(place.map);
   }
   return maps;
 }
 
+std::vector<vision::OccluderMesh> OccludersInMap(const stage::Place& place) {
+  std::vector<vision::OccluderMesh> meshes;
+  for (const stage::Occluder& occluder : place.occluders) {
+    const geometry::Similarity3 map_from_mesh = place.map_from_stage * occluder.stage_from_mesh;
+    vision::OccluderMesh& mesh = meshes.emplace_back();
+    for (const glm::vec3& p : occluder.mesh.positions) {
+      mesh.positions.push_back((map_from_mesh * Eigen::Vector3d(p.x, p.y, p.z)).cast<float>());
+    }
+    mesh.indices = occluder.mesh.indices;
+  }
+  return meshes;
+}
+
+void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses) {
+  for (size_t i = 0; i < places.size(); ++i) {
+    poses.SetOccluders(static_cast<uint32_t>(i), OccludersInMap(places[i].stage));
+  }
+}
+
+Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
+                                              std::string_view place) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto entries, ChoosePlaces(bundle, place));
+  std::vector<ShowPlace> places;
+  for (const bundle::PlaceEntry& entry : entries) {
+    LARARIUM_ASSIGN_OR_RETURN(places.emplace_back(), LoadPlace(bundle, entry));
+  }
+  return places;
+}
+
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle, std::string_view place) {
   const bundle::ShowManifest& manifest = bundle.manifest();
-  LARARIUM_ASSIGN_OR_RETURN(const auto entries, ChoosePlaces(bundle, place));
-
   ShowContent content;
   content.title = manifest.title;
-  for (const bundle::PlaceEntry& entry : entries) {
-    LARARIUM_ASSIGN_OR_RETURN(ShowPlace loaded, LoadPlace(bundle, entry));
-    content.places.push_back(std::move(loaded));
-  }
+  LARARIUM_ASSIGN_OR_RETURN(content.places, LoadShowPlaces(bundle, place));
 
   for (const bundle::CastEntry& member : manifest.cast) {
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.human));

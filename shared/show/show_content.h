@@ -3,6 +3,7 @@
 // All that one show needs at its places, ready to run.
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "shared/human/human.h"
 #include "shared/stage/place.h"
 #include "shared/vision/scene_database.h"
+#include "shared/vision/tracked_frame.h"
 
 namespace lararium::show {
 
@@ -35,7 +37,17 @@ struct ShowContent {
 };
 
 // What the tracker is created with: TrackedFrame::map is then an index into places.
-std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(const ShowContent& content);
+std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(std::span<const ShowPlace> places);
+
+// The occluders of a place as its map has them, which hide the map's points.
+std::vector<vision::OccluderMesh> OccludersInMap(const stage::Place& place);
+
+// Tells a tracker with the maps of the places about their occluders.
+void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses);
+
+// The bundle's places, or only the named one. Every member is checked by its own reader.
+Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
+                                              std::string_view place = {});
 
 // The content of a bundle at all of its places, or only at the named one. Every
 // member is checked by its own reader.

@@ -32,6 +32,9 @@ class BackgroundFinder {
   // ready and wait is false.
   std::optional<Located> Take(bool wait);
 
+  // !busy(). Localizer::points of the answer that was taken last, found in this map.
+  std::span<const LocatedPoint> points(uint32_t map) const { return finder_.points(map); }
+
  private:
   void Work(const std::stop_token& stop);
 

@@ -24,6 +24,8 @@ class Finder {
   // finest level has the last word on the same frame. grey: CV_8UC1.
   Located Find(const cv::Mat& grey, const geometry::CameraModel& camera);
 
+  // Of the last image, which was found in this map.
+  std::span<const LocatedPoint> points(uint32_t map) const { return locator_.points(map); }
   // Of the last image.
   int features() const { return static_cast<int>(features_.size()); }
 

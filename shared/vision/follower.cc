@@ -33,7 +33,13 @@ constexpr double kLargestErrorPx = 3.0;
 constexpr int kMostFailures = 4;
 constexpr uint32_t kRestFailed = 20;    // frames until a point may be chosen again
 constexpr uint32_t kRestUseless = 300;  // one without a usable patch
-constexpr uint32_t kAimInterval = 8;    // frames between looks for a better keyframe
+// Models of occluders are as exact as their maker measured; thin things hide nothing.
+constexpr double kHidingBias = 0.02;   // of the distance
+constexpr uint32_t kHideInterval = 4;  // frames between looks whether one is behind an occluder
+constexpr uint32_t kRestHidden = 15;   // one behind an occluder
+constexpr size_t kTrials = 4;          // hidden points looked for in each frame
+constexpr size_t kLeastLeft = 40;      // slots that believed occluders must leave
+constexpr uint32_t kAimInterval = 8;   // frames between looks for a better keyframe
 
 // A number of 0..1 that depends on both and looks random.
 float Hash(uint32_t a, uint32_t b) {
@@ -88,18 +94,215 @@ Follower::Follower(std::shared_ptr<const FollowMap> map)
   pose_.squares.reserve(2 * kMostSlots);
   seen_.reserve(kMostSlots);
   depths_.reserve(kMostSlots);
+  const auto keyframes = static_cast<uint32_t>(map_->database().keyframes.size());
+  for (uint32_t k = 0; k < keyframes; ++k) {
+    scale_ += map_->median_depth(k) / keyframes;
+  }
+}
+
+// --- Occluders
+
+void Follower::SetOccluders(std::span<const OccluderMesh> meshes) {
+  DoubtOccluders();
+  occluders_.Set(meshes);
+  for (Slot& slot : slots_) {
+    slot.occluder = OccluderSet::kNone;
+  }
+}
+
+uint32_t Follower::HiddenBy(const Eigen::Vector3d& point, const Eigen::Vector3d& eye) const {
+  if (occluders_.empty()) {
+    return OccluderSet::kNone;
+  }
+  return occluders_.HiddenBy(eye, point, kHidingBias * std::max((point - eye).norm(), scale_));
+}
+
+void Follower::HideSlots(const Eigen::Vector3d& eye) {
+  if (occluders_.empty()) {
+    return;
+  }
+  size_t left = 0;
+  for (Slot& slot : slots_) {
+    if ((slot.point + now_) % kHideInterval == 0) {
+      slot.occluder = HiddenBy(slot.point_in_map, eye);
+    }
+    slot.hidden =
+        slot.occluder != OccluderSet::kNone && occluders_.believed(slot.occluder) && !slot.trial;
+    left += slot.hidden ? 0 : 1;
+  }
+  if (left < std::min(kLeastLeft, slots_.size())) {
+    DoubtOccluders();
+  }
+}
+
+// Tells the occluders whether what they hide was seen, each slot once: those that are
+// seen stay, and would outvote the others.
+void Follower::SettleHidden(const CameraModel& camera, const Rigid3& camera_from_map) {
+  for (size_t i = slots_.size(); i-- > 0;) {
+    Slot& slot = slots_[i];
+    if (slot.occluder == OccluderSet::kNone) {
+      continue;
+    }
+    View view;
+    if (!slot.hidden && !slot.noted && ViewSlot(camera, camera_from_map, slot, view)) {
+      occluders_.Note(slot.occluder, slot.failures == 0);
+      slot.noted = true;
+    }
+    if (slot.hidden || slot.trial) {
+      RemoveSlot(i, kRestHidden);
+    }
+  }
+}
+
+// What was hidden may be chosen again.
+void Follower::DoubtOccluders() {
+  if (!occluders_.Doubt()) {
+    return;
+  }
+  for (uint32_t& not_before : not_before_) {
+    not_before = not_before == kUsed ? kUsed : 0;
+  }
+  for (Slot& slot : slots_) {
+    slot.hidden = false;
+  }
+}
+
+// --- Fresh patches
+
+const ImagePyramid& Follower::ImageOf(const Slot& slot) const {
+  return slot.keyframe >= kFresh ? fresh_[slot.keyframe - kFresh].image
+                                 : map_->pyramid(slot.keyframe);
+}
+
+const Rigid3& Follower::PoseOf(const Slot& slot) const {
+  return slot.keyframe >= kFresh ? fresh_[slot.keyframe - kFresh].camera_from_map
+                                 : map_->database().keyframes[slot.keyframe].camera_from_map;
+}
+
+uint32_t Follower::LeastUsedFresh() const {
+  std::array<size_t, kFreshFrames> uses{};
+  for (const Slot& slot : slots_) {
+    if (slot.keyframe >= kFresh) {
+      ++uses[slot.keyframe - kFresh];
+    }
+  }
+  return static_cast<uint32_t>(std::min_element(uses.begin(), uses.end()) - uses.begin());
+}
+
+// Whether the image shows the patch of a keyframe where the detector saw the point.
+bool Follower::ShowsKeyframePatch(Slot& slot,
+                                  const ImagePyramid& image,
+                                  const CameraModel& camera,
+                                  const Rigid3& camera_from_map,
+                                  const LocatedPoint& seen) {
+  View view;
+  PatchTemplate patch;
+  PatchFit fit;
+  if (!AimSlot(slot, camera_from_map) || !ViewSlot(camera, camera_from_map, slot, view) ||
+      !SampleSlot(slot, view, 0, patch)) {
+    return false;
+  }
+  return AlignPatch(image.level(0), patch, view.pixel.cast<float>(), {}, fit) &&
+         fit.correlation >= kLeastCorrelation &&
+         (fit.centre - seen.pixel).norm() < 1.0f + 3.0f * seen.sigma_px;
+}
+
+// Lays the slot's patch where the detector saw the point in a fresh image; the
+// surface is that of the keyframe that saw it most alike.
+bool Follower::AimAtFresh(Slot& slot, uint32_t fresh, const LocatedPoint& seen) {
+  const FreshFrame& frame = fresh_[fresh];
+  const uint32_t keyframe =
+      LeastUnlike(slot.point, frame.camera_from_map, std::numeric_limits<float>::infinity());
+  if (keyframe == kUsed) {
+    return false;
+  }
+  // n . (R p + t) = 1 for the points p of the plane.
+  const Rigid3 key_from_fresh =
+      map_->database().keyframes[keyframe].camera_from_map * frame.camera_from_map.Inverse();
+  const Eigen::Vector3d n = map_->PlaneAt(keyframe, slot.point);
+  const double distance = 1.0 - n.dot(key_from_fresh.translation);
+  if (!(distance > 1e-3)) {
+    return false;  // the surface is seen from its edge or from behind
+  }
+  slot.tangent = key_from_fresh.rotation.conjugate() * n / distance;
+  slot.keyframe = kFresh + fresh;
+  slot.sigma_px = seen.sigma_px;
+  slot.key_pixel = seen.pixel.cast<double>();
+  slot.key_plane = frame.camera.PlaneFromPixel(slot.key_pixel);
+  slot.plane_from_key_pixel = PixelFromPlaneSlope(frame.camera, slot.key_plane).inverse();
+  return InsideBy(frame.camera, slot.key_pixel, kBorderPx);
+}
+
+void Follower::Merge(ImagePyramid& image,
+                     const CameraModel& camera,
+                     const Rigid3& camera_from_map,
+                     std::span<const LocatedPoint> points,
+                     const Rigid3& camera_from_map_now) {
+  for (size_t i = slots_.size(); i-- > 0;) {
+    if (slots_[i].failures > 0) {
+      RemoveSlot(i, kRestFailed);
+    }
+  }
+  has_motion_ = false;  // the image shows what it shows
+  CountCells(camera, camera_from_map_now);
+  const int quota = slots_.size() < kMostSlots / 2 ? 2 : 1;
+  const Eigen::Vector3d eye = camera_from_map_now.Center();
+  const ImagePyramid* shown = &image;
+  uint32_t fresh = kFreshFrames;  // none yet
+  for (const LocatedPoint& seen : points) {
+    if (slots_.size() >= kMostSlots) {
+      break;
+    }
+    Slot slot;
+    slot.point = seen.point;
+    slot.point_in_map = map_->database().points[seen.point].cast<double>();
+    const auto pixel = camera.Project(camera_from_map_now * slot.point_in_map);
+    if (not_before_[seen.point] == kUsed || !pixel || !InsideBy(camera, *pixel, kBorderPx)) {
+      continue;
+    }
+    const auto cell = static_cast<size_t>(CellIn(camera, *pixel, kColumns, kRows));
+    if (cell_counts_[cell] >= quota) {
+      continue;
+    }
+    slot.occluder = HiddenBy(slot.point_in_map, eye);
+    if (slot.occluder != OccluderSet::kNone && occluders_.believed(slot.occluder)) {
+      continue;
+    }
+    if (!ShowsKeyframePatch(slot, *shown, camera, camera_from_map, seen)) {
+      if (fresh == kFreshFrames) {
+        fresh = LeastUsedFresh();
+        for (size_t i = slots_.size(); i-- > 0;) {
+          if (slots_[i].keyframe == kFresh + fresh) {
+            RemoveSlot(i, 0);
+          }
+        }
+        std::swap(image, fresh_[fresh].image);
+        fresh_[fresh].camera = camera;
+        fresh_[fresh].camera_from_map = camera_from_map;
+        shown = &fresh_[fresh].image;
+      }
+      View view;
+      PatchTemplate patch;
+      if (!AimAtFresh(slot, fresh, seen) || !ViewSlot(camera, camera_from_map, slot, view) ||
+          !SampleSlot(slot, view, 0, patch)) {
+        continue;
+      }
+    }
+    not_before_[slot.point] = kUsed;
+    slots_.push_back(slot);
+    ++cell_counts_[cell];
+  }
 }
 
 // --- Choosing patches
 
 // How unlike the view of a point is to that of a keyframe: the angle between the
-// lines of sight, and the ratio of the distances. A little chance spreads points
-// over keyframes that are about as good, so that their errors average out.
-float Follower::Unlike(uint32_t keyframe, uint32_t point, const Rigid3& camera_from_map) const {
-  const SceneDatabase& db = map_->database();
-  const Eigen::Vector3d p = db.points[point].cast<double>();
-  const Eigen::Vector3d to_camera = camera_from_map.Center() - p;
-  const Eigen::Vector3d to_keyframe = db.keyframes[keyframe].camera_from_map.Center() - p;
+// lines of sight, and the ratio of the distances.
+float Follower::Unlike(const Rigid3& key_from_map,
+                       const Eigen::Vector3d& point,
+                       const Rigid3& camera_from_map) {
+  const Eigen::Vector3d to_camera = camera_from_map.Center() - point;
+  const Eigen::Vector3d to_keyframe = key_from_map.Center() - point;
   const double near = to_camera.norm();
   const double near_key = to_keyframe.norm();
   const double sine = to_camera.cross(to_keyframe).norm();
@@ -107,21 +310,35 @@ float Follower::Unlike(uint32_t keyframe, uint32_t point, const Rigid3& camera_f
   const double zoom = std::log(near_key / near);
   // A keyframe from farther away shows less detail: twice as bad as one from nearer.
   const double scale = zoom > 0.0 ? 0.6 * zoom : -0.3 * zoom;
-  return static_cast<float>(angle + scale) + 0.03f * Hash(keyframe, point);
+  return static_cast<float>(angle + scale);
 }
 
-// Chooses the keyframe of a slot; false where none serves.
-bool Follower::AimSlot(Slot& slot, const Rigid3& camera_from_map) {
-  constexpr float kMostUnlike = 0.8f;
+// The keyframe whose view of a point is least unlike, and less than most; kUsed
+// without. A little chance spreads points over keyframes that are about as good, so
+// that their errors average out.
+uint32_t Follower::LeastUnlike(uint32_t point, const Rigid3& camera_from_map, float most) const {
+  const SceneDatabase& db = map_->database();
+  const Eigen::Vector3d p = db.points[point].cast<double>();
   uint32_t best = kUsed;
-  float least = kMostUnlike;
-  for (const uint32_t keyframe : map_->KeyframesOf(slot.point)) {
-    const float unlike = Unlike(keyframe, slot.point, camera_from_map);
-    if (unlike < least) {
-      least = unlike;
+  for (const uint32_t keyframe : map_->KeyframesOf(point)) {
+    const float unlike = Unlike(db.keyframes[keyframe].camera_from_map, p, camera_from_map) +
+                         0.03f * Hash(keyframe, point);
+    if (unlike < most) {
+      most = unlike;
       best = keyframe;
     }
   }
+  return best;
+}
+
+// Chooses the keyframe of a slot; false where none serves. A fresh patch stays while
+// it serves.
+bool Follower::AimSlot(Slot& slot, const Rigid3& camera_from_map) {
+  constexpr float kMostUnlike = 0.8f;
+  if (slot.keyframe >= kFresh) {
+    return Unlike(PoseOf(slot), slot.point_in_map, camera_from_map) < kMostUnlike;
+  }
+  const uint32_t best = LeastUnlike(slot.point, camera_from_map, kMostUnlike);
   if (best == kUsed) {
     return false;
   }
@@ -183,6 +400,28 @@ void Follower::CountCells(const CameraModel& camera, const Rigid3& camera_from_m
   }
 }
 
+bool Follower::AddSlot(uint32_t point,
+                       const CameraModel& camera,
+                       const Rigid3& camera_from_map,
+                       uint32_t occluder,
+                       bool trial) {
+  Slot slot;
+  slot.point = point;
+  slot.occluder = occluder;
+  slot.point_in_map = map_->database().points[point].cast<double>();
+  slot.trial = trial;
+  View view;
+  PatchTemplate patch;
+  if (!AimSlot(slot, camera_from_map) || !ViewSlot(camera, camera_from_map, slot, view) ||
+      !SampleSlot(slot, view, 0, patch)) {
+    not_before_[point] = now_ + kRestUseless;
+    return false;
+  }
+  not_before_[point] = kUsed;
+  slots_.push_back(slot);
+  return true;
+}
+
 // Adds at most one point of the keyframe to each cell that holds fewer than quota.
 void Follower::AddFrom(uint32_t keyframe,
                        const CameraModel& camera,
@@ -191,8 +430,12 @@ void Follower::AddFrom(uint32_t keyframe,
   struct Candidate {
     uint32_t point = kUsed;
     float merit = -std::numeric_limits<float>::infinity();
+    uint32_t occluder = OccluderSet::kNone;
   };
   std::array<Candidate, kCells> best;
+  std::array<Candidate, kTrials> trials;
+  size_t trial_count = 0;
+  const Eigen::Vector3d eye = camera_from_map.Center();
   const SceneDatabase& db = map_->database();
   const Eigen::Matrix3f rotation = camera_from_map.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f translation = camera_from_map.translation.cast<float>();
@@ -222,27 +465,28 @@ void Follower::AddFrom(uint32_t keyframe,
     // Seen often, hence well known; of fine structure.
     const float merit = std::log2(static_cast<float>(db.observation_counts[o.point])) -
                         std::log2(std::max(o.scale, 1.0f));
-    if (merit > best[cell].merit) {
-      best[cell] = {o.point, merit};
+    if (merit <= best[cell].merit) {
+      continue;
     }
+    const uint32_t occluder = HiddenBy(db.points[o.point].cast<double>(), eye);
+    if (occluder != OccluderSet::kNone && occluders_.believed(occluder)) {
+      constexpr float kTried = 0.1f;  // share of them, so that any may be
+      not_before_[o.point] = now_ + kRestHidden;
+      if (trial_count < kTrials && Hash(o.point, now_) < kTried) {
+        trials[trial_count++] = {o.point, merit, occluder};
+      }
+      continue;
+    }
+    best[cell] = {o.point, merit, occluder};
   }
   for (size_t cell = 0; cell < kCells && slots_.size() < kMostSlots; ++cell) {
-    if (best[cell].point == kUsed) {
-      continue;
+    const Candidate& c = best[cell];
+    if (c.point != kUsed && AddSlot(c.point, camera, camera_from_map, c.occluder, false)) {
+      ++cell_counts_[cell];
     }
-    Slot slot;
-    slot.point = best[cell].point;
-    slot.point_in_map = db.points[slot.point].cast<double>();
-    View view;
-    PatchTemplate patch;
-    if (!AimSlot(slot, camera_from_map) || !ViewSlot(camera, camera_from_map, slot, view) ||
-        !SampleSlot(slot, view, 0, patch)) {
-      not_before_[slot.point] = now_ + kRestUseless;
-      continue;
-    }
-    not_before_[slot.point] = kUsed;
-    slots_.push_back(slot);
-    ++cell_counts_[cell];
+  }
+  for (size_t i = 0; i < trial_count && slots_.size() < kMostSlots; ++i) {
+    AddSlot(trials[i].point, camera, camera_from_map, trials[i].occluder, true);
   }
 }
 
@@ -258,12 +502,26 @@ void Follower::Start(const CameraModel& camera, const Rigid3& camera_from_map) {
   }
   has_motion_ = false;
   has_motion_before_ = false;
-  RankKeyframes(camera_from_map);
-  CountCells(camera, camera_from_map);
-  for (int quota = 1; quota <= 3; ++quota) {
-    for (size_t i = 0; i < near_count_; ++i) {
-      AddFrom(near_[i], camera, camera_from_map, quota);
+  if (fresh_[0].image.levels() == 0) {
+    // Memory for later.
+    const cv::Mat blank(camera.height, camera.width, CV_8UC1, cv::Scalar(0));
+    for (FreshFrame& fresh : fresh_) {
+      fresh.image.Build(blank, CoarsestLevel(camera.width) + 2);
     }
+  }
+  RankKeyframes(camera_from_map);
+  const auto fill = [&] {
+    CountCells(camera, camera_from_map);
+    for (int quota = 1; quota <= 3; ++quota) {
+      for (size_t i = 0; i < near_count_; ++i) {
+        AddFrom(near_[i], camera, camera_from_map, quota);
+      }
+    }
+  };
+  fill();
+  if (slots_.size() < kLeastLeft && !occluders_.empty()) {
+    DoubtOccluders();
+    fill();
   }
 }
 
@@ -274,7 +532,7 @@ bool Follower::ViewSlot(const CameraModel& camera,
                         const Slot& slot,
                         View& view) const {
   const Eigen::Vector3d p = camera_from_map * slot.point_in_map;
-  if (p.z() <= 1e-9) {
+  if (slot.hidden || p.z() <= 1e-9) {
     return false;
   }
   const Eigen::Vector2d plane = p.hnormalized();
@@ -284,8 +542,7 @@ bool Follower::ViewSlot(const CameraModel& camera,
   }
   // The tangent plane maps the keyframe's plane z = 1 to the camera's by the
   // homography R + t n^T.
-  const Rigid3 camera_from_key =
-      camera_from_map * map_->database().keyframes[slot.keyframe].camera_from_map.Inverse();
+  const Rigid3 camera_from_key = camera_from_map * PoseOf(slot).Inverse();
   const Eigen::Matrix3d homography = camera_from_key.rotation.toRotationMatrix() +
                                      camera_from_key.translation * slot.tangent.transpose();
   const double z = homography.row(2).dot(slot.key_plane.homogeneous());
@@ -321,7 +578,7 @@ bool Follower::SampleSlot(const Slot& slot,
                           const View& view,
                           int level,
                           PatchTemplate& patch) const {
-  const ImagePyramid& pyramid = map_->pyramid(slot.keyframe);
+  const ImagePyramid& pyramid = ImageOf(slot);
   // The keyframe's level whose pixels are about as large.
   const double size = std::sqrt(view.key_from_pixel.determinant()) * (1 << level);
   const int key_level =
@@ -343,7 +600,8 @@ void Follower::AddMatch(const CameraModel& camera, uint32_t slot, int level, con
   const Eigen::Matrix2d information =
       fit.information.cast<double>() / (kNoiseInflation * size * size);
   // Inverse of (information^-1 + error^2), which stands edges.
-  const double error2 = std::pow(kModelErrorPx * size, 2);
+  const double error2 =
+      std::pow(kModelErrorPx * size, 2) + std::pow(static_cast<double>(slots_[slot].sigma_px), 2);
   const Eigen::Matrix2d softened =
       information * (Eigen::Matrix2d::Identity() + error2 * information).inverse();
   Eigen::Matrix2d symmetric = 0.5 * (softened + softened.transpose());
@@ -586,6 +844,7 @@ FollowedPose Follower::Follow(const ImagePyramid& image,
     before_ = *before;
     frames_ = frames;
   }
+  HideSlots(predictions[0].Center());
   Rigid3 pose = BestPrediction(image, camera, predictions);
   const int coarsest = Coarsest(image);
   int finest = 0;
@@ -616,6 +875,7 @@ FollowedPose Follower::Follow(const ImagePyramid& image,
   Judge(camera, result);
   if (result.honest) {
     EstimateShutter(image, camera, finest, pose);
+    result.blur_px = BlurPx(camera, pose);
     Settle(camera, result);
   }
   return result;
@@ -671,6 +931,7 @@ void Follower::Settle(const CameraModel& camera, const FollowedPose& pose) {
       seen_.push_back({slot.point, sights_[i].pixel});
     }
   }
+  SettleHidden(camera, pose.camera_from_map);
   for (size_t i = slots_.size(); i-- > 0;) {
     Slot& slot = slots_[i];
     const auto pixel = camera.Project(pose.camera_from_map * slot.point_in_map);

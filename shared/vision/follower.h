@@ -16,6 +16,8 @@
 #include "shared/vision/confidence.h"
 #include "shared/vision/follow_map.h"
 #include "shared/vision/image_pyramid.h"
+#include "shared/vision/localizer.h"
+#include "shared/vision/occluders.h"
 #include "shared/vision/patch.h"
 #include "shared/vision/patch_pose.h"
 
@@ -30,6 +32,7 @@ struct FollowedPose {
   int agreeing = 0;  // that are seen where the pose puts them
   // One sigma of where the pose puts what is visible, root mean square over the image.
   double expected_error_px = 0.0;
+  double blur_px = 0.0;  // mean path of what is visible during the exposure
   double share() const { return expected > 0 ? static_cast<double>(agreeing) / expected : 0.0; }
 };
 
@@ -44,6 +47,11 @@ class Follower {
  public:
   explicit Follower(std::shared_ptr<const FollowMap> map);
 
+  // Things of the map that hide its points from now on. Points behind one are not
+  // looked for while it is believed; it is from when what it hides was not seen, and
+  // never where nearly nothing would be left.
+  void SetOccluders(std::span<const OccluderMesh> meshes);
+
   // Chooses patches anew for a pose that was found without a prior. camera: of the
   // images to come.
   void Start(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_map);
@@ -57,6 +65,17 @@ class Follower {
                       const geometry::Rigid3* before,
                       double frames);
 
+  // Takes up points that the detector saw in an image of late, whose pose is known,
+  // where few patches are followed now: a keyframe's patch where the image shows
+  // that, otherwise the image's own. That one stays where the detector saw the
+  // point; its error is its own and does not depend on the pose, so nothing drifts.
+  // points: the most exact first. image: may be exchanged for another one.
+  void Merge(ImagePyramid& image,
+             const geometry::CameraModel& camera,
+             const geometry::Rigid3& camera_from_map,
+             std::span<const LocatedPoint> points,
+             const geometry::Rigid3& camera_from_map_now);
+
   // Of the last honest pose.
   std::span<const SeenPoint> seen() const { return seen_; }
 
@@ -64,18 +83,30 @@ class Follower {
   // A patch that is looked for in every frame.
   struct Slot {
     uint32_t point = 0;
-    uint32_t keyframe = 0;
+    uint32_t keyframe = 0;  // kFresh and more: of fresh_
+    float sigma_px = 0.0f;  // of where the patch lies around the point, along one axis
     Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
     Eigen::Vector2d key_plane = Eigen::Vector2d::Zero();  // of the point, on z = 1
     Eigen::Vector2d key_pixel = Eigen::Vector2d::Zero();  // raw
     Eigen::Vector3d tangent = Eigen::Vector3d::Zero();    // FollowMap::PlaneAt
     Eigen::Matrix2d plane_from_key_pixel = Eigen::Matrix2d::Zero();
-    int failures = 0;  // in a row
+    int failures = 0;                        // in a row
+    uint32_t occluder = OccluderSet::kNone;  // that hides it, of late
+    bool hidden = false;                     // and is believed: not looked for
+    bool trial = false;                      // looked for once nevertheless
+    bool noted = false;                      // told the occluder whether it was seen
   };
 
   struct Sight {  // of a slot, in one frame
     uint32_t slot = 0;
     Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
+  };
+
+  // An image whose patches are followed where no keyframe's serve.
+  struct FreshFrame {
+    ImagePyramid image;
+    geometry::CameraModel camera;
+    geometry::Rigid3 camera_from_map;
   };
 
   // Where a slot is expected, and how its patch lies in its keyframe.
@@ -129,7 +160,10 @@ class Follower {
   void Settle(const geometry::CameraModel& camera, const FollowedPose& pose);
 
   // Choosing patches.
-  float Unlike(uint32_t keyframe, uint32_t point, const geometry::Rigid3& camera_from_map) const;
+  static float Unlike(const geometry::Rigid3& key_from_map,
+                      const Eigen::Vector3d& point,
+                      const geometry::Rigid3& camera_from_map);
+  uint32_t LeastUnlike(uint32_t point, const geometry::Rigid3& camera_from_map, float most) const;
   bool AimSlot(Slot& slot, const geometry::Rigid3& camera_from_map);
   void RankKeyframes(const geometry::Rigid3& camera_from_map);
   void AddFrom(uint32_t keyframe,
@@ -138,14 +172,41 @@ class Follower {
                int quota);
   void CountCells(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_map);
   void RemoveSlot(size_t index, uint32_t rest);
+  bool AddSlot(uint32_t point,
+               const geometry::CameraModel& camera,
+               const geometry::Rigid3& camera_from_map,
+               uint32_t occluder,
+               bool trial);
+
+  // Occluders.
+  uint32_t HiddenBy(const Eigen::Vector3d& point, const Eigen::Vector3d& eye) const;
+  void HideSlots(const Eigen::Vector3d& eye);
+  void SettleHidden(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_map);
+  void DoubtOccluders();
+
+  // Fresh patches.
+  bool ShowsKeyframePatch(Slot& slot,
+                          const ImagePyramid& image,
+                          const geometry::CameraModel& camera,
+                          const geometry::Rigid3& camera_from_map,
+                          const LocatedPoint& seen);
+  bool AimAtFresh(Slot& slot, uint32_t fresh, const LocatedPoint& seen);
+  uint32_t LeastUsedFresh() const;
+  const ImagePyramid& ImageOf(const Slot& slot) const;
+  const geometry::Rigid3& PoseOf(const Slot& slot) const;
 
   static constexpr int kColumns = 20;
   static constexpr int kRows = 15;
   static constexpr int kCells = kColumns * kRows;
   static constexpr size_t kMostSlots = 300;
   static constexpr size_t kNearKeyframes = 6;
+  static constexpr uint32_t kFreshFrames = 3;
+  static constexpr uint32_t kFresh = 0x80000000;
 
   std::shared_ptr<const FollowMap> map_;
+  OccluderSet occluders_;
+  double scale_ = 0.0;  // of the map: the distance from which it was filmed, map units
+  std::array<FreshFrame, kFreshFrames> fresh_;
   uint32_t now_ = 0;  // counts frames
   std::vector<Slot> slots_;
   std::vector<uint32_t> not_before_;  // [points]: now_ from which it may be chosen; kUsed: is

@@ -93,6 +93,7 @@ Localizer::Localizer(const SceneDatabase& database, const LocalizerOptions& opti
 
 Location Localizer::Locate(const Features& features, const CameraModel& camera) {
   Location location;
+  points_.clear();
   location.reason = TrackReason::kTooFewFeatures;
   if (features.size() < static_cast<size_t>(options_.min_inliers)) {
     return location;
@@ -141,7 +142,11 @@ bool Localizer::LocateFromMatches(const Features& features,
   guided_.Match(camera, refined_.camera_from_map, features, kGuidedRadiusPx, guided_matches_);
   FillPoseMatches(features, guided_matches_);
   refiner_.Refine(pose_matches_, refinement, refined_.camera_from_map, refined_);
-  return Judge(camera, location);
+  if (!Judge(camera, location)) {
+    return false;
+  }
+  FillPoints(features);
+  return true;
 }
 
 // Rank by rank through the tiles: the strongest of every tile, then the second, ...
@@ -228,6 +233,20 @@ bool Localizer::Judge(const CameraModel& camera, Location& location) {
   location.expected_error_px = error;
   location.confidence = static_cast<float>(PoseConfidence(camera, evidence));
   return true;
+}
+
+void Localizer::FillPoints(const Features& features) {
+  points_.clear();
+  for (const uint32_t i : refined_.inliers) {
+    const FeatureMatch& match = guided_matches_[i];
+    const Keypoint& keypoint = features.keypoints[match.feature];
+    const double sigma = refined_.noise_px * SigmaOf(keypoint, match.squared_distance,
+                                                     database_.observation_counts[match.point]);
+    points_.push_back({match.point, static_cast<float>(sigma), {keypoint.x, keypoint.y}});
+  }
+  std::sort(points_.begin(), points_.end(), [](const LocatedPoint& a, const LocatedPoint& b) {
+    return a.sigma_px != b.sigma_px ? a.sigma_px < b.sigma_px : a.point < b.point;
+  });
 }
 
 template <typename M>

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "shared/geometry/camera_model.h"
@@ -44,6 +45,13 @@ struct Location {
   float confidence = 0.0f;
 };
 
+// A point of the map where a feature showed it, in agreement with the pose.
+struct LocatedPoint {
+  uint32_t point = 0;
+  float sigma_px = 0.0f;                            // along one axis
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
+};
+
 class Localizer {
  public:
   // Borrows the database for its life.
@@ -51,6 +59,9 @@ class Localizer {
 
   // The same features give the same pose, whatever came before.
   Location Locate(const Features& features, const geometry::CameraModel& camera);
+
+  // What the last location stands on, the most exact first; nothing without a pose.
+  std::span<const LocatedPoint> points() const { return points_; }
 
  private:
   static constexpr uint32_t kNoMatch = 0xffffffff;
@@ -76,6 +87,7 @@ class Localizer {
   std::optional<geometry::Rigid3> FindPose(const geometry::CameraModel& camera);
   std::array<double, 3> Depths();
   bool Judge(const geometry::CameraModel& camera, Location& location);
+  void FillPoints(const Features& features);
 
   const SceneDatabase& database_;
   LocalizerOptions options_;
@@ -95,6 +107,7 @@ class Localizer {
   geometry::PreemptiveRansac<Eigen::Matrix<double, 3, 4>> ransac_;
   PoseRefiner refiner_;
   RefinedPose refined_;
+  std::vector<LocatedPoint> points_;
   std::vector<double> depths_;
   std::vector<uint32_t> spots_;  // of the inliers
 };

@@ -30,6 +30,10 @@ class MapLocator {
   // The same features give the same answer, whatever came before and however
   // many threads run. With a single map this is Localizer::Locate.
   Located Locate(const Features& features, const geometry::CameraModel& camera);
+  // Localizer::points of the last answer with a pose, in its map.
+  std::span<const LocatedPoint> points(uint32_t map) const {
+    return maps_[map].localizer->points();
+  }
 
  private:
   struct Map {

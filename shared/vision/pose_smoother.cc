@@ -39,6 +39,10 @@ class SmoothedPoses final : public PoseSource {
     return tracked;
   }
 
+  void SetOccluders(uint32_t map, std::span<const OccluderMesh> meshes) override {
+    poses_->SetOccluders(map, meshes);
+  }
+
  private:
   std::unique_ptr<PoseSource> poses_;
   PoseSmoother smoother_;

@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/frame.h"
 #include "shared/geometry/transform.h"
+#include "shared/vision/occluders.h"
 
 namespace lararium::vision {
 
@@ -56,6 +58,10 @@ class PoseSource {
  public:
   virtual ~PoseSource() = default;
   virtual TrackedFrame Track(const geometry::Frame& frame) = 0;
+  // What hides the points of a map from now on, in place of what did before. Between
+  // frames. A source that looks for no points has no use for it.
+  virtual void SetOccluders([[maybe_unused]] uint32_t map,
+                            [[maybe_unused]] std::span<const OccluderMesh> meshes) {}
 };
 
 }  // namespace lararium::vision

@@ -84,6 +84,13 @@ class Tracker final : public PoseSource {
     return tracked;
   }
 
+  void SetOccluders(uint32_t map, std::span<const OccluderMesh> meshes) override {
+    CHECK(map < maps_.size());
+    if (options_.follow) {
+      followers_[map]->SetOccluders(meshes);
+    }
+  }
+
  private:
   CameraModel CameraFor(const geometry::Frame& frame) const {
     const bool same = frame.grey.empty() ||
@@ -94,16 +101,23 @@ class Tracker final : public PoseSource {
   void FollowOrFind(TrackedFrame& tracked) {
     const cv::Mat& grey = tracked.frame.grey;
     // One level more than the follower's coarsest, to see how the camera turned.
-    pyramid_.Build(grey, CoarsestLevel(grey.cols) + 2);
+    const int levels = CoarsestLevel(grey.cols) + 2;
+    pyramid_.Build(grey, levels);
+    if (checked_image_.levels() == 0) {
+      checked_image_.Build(grey, levels);  // memory for later
+    }
+    bool anchored = false;
     if (!Follow(tracked)) {
       Find(tracked);
-      if (tracked.camera_from_map) {
-        Anchor(tracked);
-      }
+      anchored = tracked.camera_from_map && Anchor(tracked);
     }
     pyramid_.level(pyramid_.levels() - 1).copyTo(small_before_);
     if (tracked.camera_from_map) {
-      motion_.Add(static_cast<double>(tracked.frame.index), *tracked.camera_from_map);
+      const Rigid3& pose = *tracked.camera_from_map;
+      motion_.Add(static_cast<double>(tracked.frame.index), pose);
+      if (anchored) {
+        followers_[map_]->Merge(pyramid_, tracked.camera, pose, finder_.points(map_), pose);
+      }
       CheckInBackground(tracked);
     }
   }
@@ -168,16 +182,17 @@ class Tracker final : public PoseSource {
     tracked.inliers = location.inliers;
   }
 
-  // A pose found without a prior becomes the start of following, and as exact.
-  void Anchor(TrackedFrame& tracked) {
+  // A pose found without a prior becomes the start of following, and as exact where
+  // the patches agree.
+  bool Anchor(TrackedFrame& tracked) {
     map_ = tracked.map;
     checked_pose_.reset();
     motion_.Forget();
-    Refine(tracked, nullptr, 1.0);
+    return Refine(tracked, nullptr, 1.0);
   }
 
-  // Chooses patches for the pose and aligns them.
-  void Refine(TrackedFrame& tracked, const Rigid3* before, double frames) {
+  // Chooses patches for the pose and aligns them; whether they agree with it.
+  bool Refine(TrackedFrame& tracked, const Rigid3* before, double frames) {
     const Rigid3 rough = *tracked.camera_from_map;
     Follower& follower = *followers_[map_];
     follower.Start(tracked.camera, rough);
@@ -186,7 +201,9 @@ class Tracker final : public PoseSource {
     if (followed.honest && DistancePx(tracked.camera, rough, followed.camera_from_map,
                                       followed.evidence.depths[1]) < kTwoMeaningsPx) {
       Report(followed, tracked);
+      return true;
     }
+    return false;
   }
 
   void Report(const FollowedPose& followed, TrackedFrame& tracked) {
@@ -204,12 +221,13 @@ class Tracker final : public PoseSource {
     }
     tracked.gain = last_gain_;
     share_ = followed.share();
+    blur_px_ = followed.blur_px;
     depth_ = followed.evidence.depths[1];
   }
 
   // Now and then a frame is also found without a prior: an honest state can be wrong
   // where the place repeats itself. Where that contradicts what was followed, patches
-  // decide which of the two is right.
+  // decide which of the two is right; where it agrees, what was found is merged.
   void CheckInBackground(TrackedFrame& tracked) {
     constexpr int64_t kJoinAfter = 6;      // frames
     constexpr int64_t kCalmInterval = 60;  // the error's life; some 30 ms of another thread each
@@ -233,6 +251,9 @@ class Tracker final : public PoseSource {
     } else if (index >= checked_index_ + interval || index < checked_index_) {
       checked_index_ = index;
       checked_pose_ = *tracked.camera_from_map;
+      checked_camera_ = tracked.camera;
+      checked_blur_px_ = blur_px_;
+      std::swap(checked_image_, pyramid_);
       background_->Begin(tracked.frame.grey, tracked.camera);
     }
   }
@@ -245,6 +266,11 @@ class Tracker final : public PoseSource {
     const Rigid3& found = *located.location.camera_from_map;
     if (located.map == map_ && DistancePx(tracked.camera, *checked_pose_, found, depth_) <
                                    kTwoMeaningsPx + 4.0 * located.location.expected_error_px) {
+      constexpr double kMostBlurPx = 2.0;  // beyond, its patches are no good
+      if (checked_blur_px_ < kMostBlurPx) {
+        followers_[map_]->Merge(checked_image_, checked_camera_, *checked_pose_,
+                                background_->points(map_), *tracked.camera_from_map);
+      }
       return;
     }
     // Both begin anew: what was followed has long let go of the patches that
@@ -281,10 +307,14 @@ class Tracker final : public PoseSource {
   uint32_t map_ = 0;
   double share_ = 0.0;  // of the patches that agree
   double depth_ = 1.0;  // of what is visible
+  double blur_px_ = 0.0;
   bool had_pose_ = false;
 
   int64_t checked_index_ = 0;
   std::optional<Rigid3> checked_pose_;  // that was followed; none where following began anew since
+  CameraModel checked_camera_;
+  ImagePyramid checked_image_;
+  double checked_blur_px_ = 0.0;
   std::unique_ptr<BackgroundFinder> background_;
 };
 

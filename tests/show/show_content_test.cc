@@ -68,7 +68,21 @@ TEST_F(ShowContentTest, LoadsAllPlacesInTheBundlesOrder) {
   EXPECT_EQ(yard.stage.light[0], glm::vec3(1.0f, 2.0f, 3.0f));
   EXPECT_EQ(yard.map->camera.fx, 60.0);
   EXPECT_EQ(yard.stage.occluders.size(), 1u);
-  EXPECT_EQ(Maps(*content)[1], yard.map);
+  EXPECT_EQ(Maps(content->places)[1], yard.map);
+}
+
+TEST_F(ShowContentTest, PutsOccludersWhereTheMapHasThem) {
+  manifest_.places[1].map_from_stage.scale = 2.0;
+  manifest_.places[1].map_from_stage.translation = {1.0, 0.0, 0.0};
+  manifest_.places[1].occluders[0].stage_from_mesh.translation = {0.0, 0.0, 5.0};
+  const auto content = Load("yard");
+  ASSERT_TRUE(content.ok()) << content.message();
+  const auto meshes = OccludersInMap(content->places[0].stage);
+  ASSERT_EQ(meshes.size(), 1u);
+  EXPECT_THAT(meshes[0].indices, ::testing::ElementsAre(0, 1, 2));
+  ASSERT_EQ(meshes[0].positions.size(), 3u);
+  EXPECT_EQ(meshes[0].positions[0], Eigen::Vector3f(1.0f, 0.0f, 10.0f));
+  EXPECT_EQ(meshes[0].positions[1], Eigen::Vector3f(3.0f, 0.0f, 10.0f));
 }
 
 TEST_F(ShowContentTest, LoadsOnlyTheNamedPlace) {

@@ -107,6 +107,9 @@ class Following : public testing::Test {
   // that are found in the background alike.
   std::vector<Allocations> Walk(const TrackerOptions& options) const {
     auto tracker = *CreateTracker({map_}, test::kPosterCamera, options);
+    // Half of the points lie behind something that is not there.
+    tracker->SetOccluders(
+        0, std::vector<OccluderMesh>{{{{-5, -5, 0.3f}, {0, -5, 0.3f}, {0, 5, 0.3f}}, {0, 1, 2}}});
     std::vector<Allocations> all;
     for (int i = 0; i <= kJoined[1]; ++i) {
       const int phase = i % (2 * kSwing);

@@ -253,6 +253,146 @@ TEST_F(TrackerAtAPeriodicWall, GoesOnWhereTheBackgroundAgrees) {
   }
 }
 
+// A wall before the left half of the poster, from there up and down without end.
+class TrackerBehindAWall : public Tracker {
+ protected:
+  static constexpr double kWall = 0.3;  // metres before the poster
+
+  // The wall from x = left to 0.
+  static OccluderMesh Wall(float left) {
+    const auto z = static_cast<float>(kWall);
+    return {{{left, -5, z}, {0, -5, z}, {0, 5, z}, {left, 5, z}}, {0, 1, 2, 0, 2, 3}};
+  }
+  static Rigid3 Pose(int index) { return PosterPose(0.1 + 0.004 * (index % 50), 0.0, 1.5); }
+  Frame Photograph(int index, bool walled) const {
+    Frame frame = PhotographPoster(poster_, Pose(index), index);
+    if (walled) {
+      const double end = kCamera.Project(Pose(index) * Eigen::Vector3d(0.0, 0.0, kWall))->x();
+      frame.grey(cv::Rect(0, 0, static_cast<int>(end), kCamera.height)) = cv::Scalar(70);
+    }
+    return frame;
+  }
+  // Follows one frame to a fraction of a pixel.
+  static TrackedFrame Follow(PoseSource& tracker, const Frame& frame) {
+    const TrackedFrame tracked = tracker.Track(frame);
+    EXPECT_EQ(tracked.followed, frame.index > 0) << frame.index;
+    EXPECT_TRUE(tracked.camera_from_map.has_value()) << frame.index;
+    if (tracked.camera_from_map) {
+      EXPECT_LT(CornerError(*tracked.camera_from_map, Pose(static_cast<int>(frame.index))), 0.1);
+    }
+    return tracked;
+  }
+};
+
+TEST_F(TrackerBehindAWall, LooksForNothingBehindTheOccluder) {
+  const auto knowing = Create();
+  const auto ignorant = Create();
+  knowing->SetOccluders(0, std::vector<OccluderMesh>{Wall(-5.0f)});
+  for (int i = 0; i < 25; ++i) {
+    const Frame frame = Photograph(i, true);
+    const TrackedFrame with = Follow(*knowing, frame);
+    const TrackedFrame without = Follow(*ignorant, frame);
+    if (i >= 5) {
+      EXPECT_LE(with.features - with.inliers, 12) << i;  // four trials, and what chance brings
+      EXPECT_GE(without.features - without.inliers, 60) << i;
+      EXPECT_GE(with.inliers, without.inliers) << i;
+    }
+  }
+}
+
+TEST_F(TrackerBehindAWall, LosesNothingToAnOccluderThatIsNotThere) {
+  const auto misled = Create();
+  const auto ignorant = Create();
+  misled->SetOccluders(0, std::vector<OccluderMesh>{Wall(-5.0f)});
+  for (int i = 0; i < 25; ++i) {
+    const Frame frame = Photograph(i, false);
+    const int inliers = Follow(*ignorant, frame).inliers;
+    EXPECT_GE(Follow(*misled, frame).inliers, inliers * 9 / 10) << i;
+  }
+}
+
+TEST_F(TrackerBehindAWall, FindsOutThatTheOccluderIsGone) {
+  constexpr int kGone = 25;
+  const auto tracker = Create();
+  tracker->SetOccluders(0, std::vector<OccluderMesh>{Wall(-5.0f)});
+  int behind = 0;
+  for (int i = 0; i < kGone + 40; ++i) {
+    const int inliers = Follow(*tracker, Photograph(i, i < kGone)).inliers;
+    behind = i < kGone ? std::max(behind, inliers) : behind;
+    if (i == kGone + 39) {
+      EXPECT_GE(inliers, behind * 3 / 2);
+    }
+  }
+}
+
+TEST_F(TrackerBehindAWall, FollowsWhereAnOccluderHidesAllThatIsLeft) {
+  const auto tracker = Create();
+  tracker->SetOccluders(0, std::vector<OccluderMesh>{Wall(-5.0f)});
+  for (int i = 0; i < 10; ++i) {
+    Follow(*tracker, Photograph(i, true));
+  }
+  // The camera stays where it is believed; the model grows over everything.
+  OccluderMesh everything = Wall(-5.0f);
+  everything.positions[1].x() = everything.positions[2].x() = 5.0f;
+  tracker->SetOccluders(0, std::vector<OccluderMesh>{everything});
+  for (int i = 10; i < 40; ++i) {
+    EXPECT_GE(Follow(*tracker, Photograph(i, i < 20)).inliers, 40) << i;
+  }
+}
+
+// All but the left of the keyframe's picture shows another poster: in no image do its
+// patches match there, but the detector knows the points by their descriptors.
+class TrackerInNewLight : public Tracker {
+ protected:
+  static constexpr int kLeft = 180;      // of 480 pixels
+  static constexpr int kUncovered = 10;  // until then the camera sees only the left
+  static constexpr int kChecked = 60;
+  static constexpr int kMerged = kChecked + 6;
+
+  TrackerInNewLight() {
+    auto changed = std::make_shared<SceneDatabase>(*map_);
+    cv::Mat& grey = changed->keyframes[0].grey;
+    grey = grey.clone();
+    cv::Mat right = grey.colRange(kLeft, grey.cols);
+    cv::Mat flipped;
+    cv::flip(right, flipped, -1);
+    flipped.copyTo(right);
+    map_ = changed;
+  }
+  static Rigid3 Pose(int index) { return PosterPose(0.02 * std::sin(0.1 * index), 0.0, 1.5); }
+  Frame Photograph(int index) const {
+    Frame frame = PhotographPoster(poster_, Pose(index), index);
+    if (index < kUncovered) {
+      frame.grey.colRange(kLeft - 30, kCamera.width) = cv::Scalar(70);
+    }
+    return frame;
+  }
+};
+
+TEST_F(TrackerInNewLight, FollowsWhatTheDetectorFindsInTheBackground) {
+  const auto tracker = Create();
+  TrackerOptions options;
+  options.threads = 1;
+  const auto serial = *CreateTracker({map_}, kCamera, options);
+  int before = 0;
+  for (int i = 0; i < kMerged + 30; ++i) {
+    const Frame frame = Photograph(i);
+    const TrackedFrame tracked = tracker->Track(frame);
+    ASSERT_TRUE(tracked.camera_from_map) << i;
+    EXPECT_EQ(tracked.followed, i > 0) << i;
+    EXPECT_LT(CornerError(*tracked.camera_from_map, Pose(i)), 0.1) << i;
+    if (i < kMerged + 3) {
+      const TrackedFrame again = serial->Track(frame);
+      ASSERT_TRUE(again.camera_from_map) << i;
+      EXPECT_EQ(tracked.camera_from_map->Matrix3x4(), again.camera_from_map->Matrix3x4()) << i;
+    }
+    before = i <= kMerged ? std::max(before, tracked.inliers) : before;
+    if (i > kMerged + 2) {
+      EXPECT_GE(tracked.inliers, before + 50) << i;
+    }
+  }
+}
+
 TEST_F(Tracker, FindsEveryFrameAnewWhereItIsToldTo) {
   TrackerOptions options;
   options.follow = false;
