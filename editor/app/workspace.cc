@@ -250,9 +250,10 @@ std::string Workspace::PreviewKey() const {
     key["probe"] = {at.probe->file, at.probe->scale, q.x(), q.y(), q.z(), q.w()};
   }
   for (const CastDocument& member : document().cast) {
-    const Eigen::Vector3d& tunic = member.tunic;
-    key["cast"].push_back(
-        {member.name, member.model, member.height, tunic.x(), tunic.y(), tunic.z()});
+    key["cast"].push_back(FormatCastMember(member));
+  }
+  for (const ObjectDocument& object : document().objects) {
+    key["objects"].push_back(FormatObject(object));
   }
   return key.dump();
 }

@@ -11,6 +11,7 @@
 
 #include "editor/app/document_fields.h"
 #include "editor/app/training.h"
+#include "editor/import/objects/object_models.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -20,6 +21,7 @@ namespace {
 
 constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", ".webm"};
 constexpr std::array<const char*, 6> kModels = {".glb", ".gltf", ".fbx", ".dae", ".obj", ".ply"};
+constexpr std::array<const char*, 5> kFigures = {".json", ".glb", ".vrm", ".fbx", ".dae"};
 constexpr std::array<const char*, 2> kProbes = {".exr", ".hdr"};
 
 // Ends the dialog with a row of Cancel and the action. problem: why the action
@@ -256,16 +258,64 @@ void OccluderDialog(app::Workspace& workspace, EditorState& state) {
   }
 }
 
+// A recipe is copied into the project, where its sliders change it; a model stays
+// where it is.
+void LoadFigure(app::Workspace& workspace, const std::string& file, app::CastDocument& member) {
+  if (!file.ends_with(".json")) {
+    member.model = DocumentPath(workspace, file);
+    return;
+  }
+  Result<import::CastRecipe> recipe = import::LoadCastRecipe(workspace.paths().Resolve(file));
+  if (recipe.ok()) {
+    member.recipe = *std::move(recipe);
+  } else {
+    workspace.Tell(app::Message::Level::kError, recipe.message());
+  }
+}
+
 void CastDialog(app::Workspace& workspace, EditorState& state) {
-  Hint("A rigged figure to import. Without a file: the plain figure that is built in.");
+  Hint(
+      "A recipe (.json) for the cast library, or a rigged figure to import. Without a file: the "
+      "plain figure that is built in.");
   const auto taken = [&](const std::string& name) {
     return Taken(workspace.document().cast, name);
   };
-  if (NameAndFile(workspace, state, kModels, false, taken)) {
-    const app::CastDocument member{state.fields.name, DocumentPath(workspace, state.fields.file)};
+  if (NameAndFile(workspace, state, kFigures, false, taken)) {
+    app::CastDocument member;
+    member.name = state.fields.name;
+    LoadFigure(workspace, state.fields.file, member);
     workspace.Edit("add " + member.name,
                    [&](app::ProjectDocument& document) { document.cast.push_back(member); });
     state.selection = {Selection::Kind::kActor, member.name};
+  }
+}
+
+void ObjectDialog(app::Workspace& workspace, EditorState& state) {
+  Hint("A thing that people of the drama use. Where it stands is chosen afterwards.");
+  DialogFields& fields = state.fields;
+  const std::span<const std::string_view> models = import::ObjectModelNames();
+  if (BeginProperties("object")) {
+    PropertyLabel("Name");
+    ImGui::InputText("##name", &fields.name);
+    PropertyLabel("Model");
+    const auto name_of = [](void*, int index, const char** text) {
+      *text = import::ObjectModelNames()[static_cast<size_t>(index)].data();
+      return true;
+    };
+    ImGui::Combo("##model", &fields.model, name_of, nullptr, static_cast<int>(models.size()));
+    EndProperties();
+  }
+  std::string problem = NameProblem(fields.name);
+  if (problem.empty() && Taken(workspace.document().objects, fields.name)) {
+    problem = "That name is taken.";
+  }
+  if (DialogButtons(state, "Add", problem)) {
+    app::ObjectDocument object;
+    object.name = fields.name;
+    object.model = models[static_cast<size_t>(fields.model)];
+    workspace.Edit("add " + object.name,
+                   [&](app::ProjectDocument& document) { document.objects.push_back(object); });
+    state.selection = {Selection::Kind::kObject, object.name};
   }
 }
 
@@ -301,7 +351,8 @@ constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, "Train a place", TrainDialo
                                     {Dialog::kExport, "Export the show", ExportDialog},
                                     {Dialog::kOccluder, "Add an occluder", OccluderDialog},
                                     {Dialog::kProbe, "Light probe", ProbeDialog},
-                                    {Dialog::kCast, "Add a person", CastDialog}};
+                                    {Dialog::kCast, "Add a person", CastDialog},
+                                    {Dialog::kObject, "Add an object", ObjectDialog}};
 
 }  // namespace
 

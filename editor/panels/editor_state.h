@@ -15,14 +15,14 @@ namespace lararium::panels {
 enum class ViewKind { kCamera, kAround, kPicks };
 
 struct Selection {
-  enum class Kind { kProject, kPlace, kStage, kPicks, kNudge, kOccluder, kProbe, kActor };
+  enum class Kind { kProject, kPlace, kStage, kPicks, kNudge, kOccluder, kProbe, kActor, kObject };
   Kind kind = Kind::kStage;
-  std::string name;  // of an occluder or actor
+  std::string name;  // of an occluder, actor or object
 
   friend bool operator==(const Selection&, const Selection&) = default;
 };
 
-enum class Dialog { kNone, kTrain, kAddSession, kExport, kOccluder, kProbe, kCast };
+enum class Dialog { kNone, kTrain, kAddSession, kExport, kOccluder, kProbe, kCast, kObject };
 
 // What has been typed into the open dialog.
 struct DialogFields {
@@ -30,6 +30,7 @@ struct DialogFields {
   std::string name;
   std::string file;
   std::string intrinsics;
+  int model = 0;        // of the built-in objects
   bool images = false;  // the recording is a folder of images
 };
 

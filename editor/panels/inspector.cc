@@ -10,7 +10,9 @@
 #include <set>
 #include <string>
 
+#include "editor/panels/cast_inspector.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/object_inspector.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/trackball_view.h"
@@ -412,39 +414,6 @@ void ShowProbe(app::Workspace& workspace, EditorState& state, const app::PlaceDo
   }
 }
 
-void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDocument& member) {
-  Heading(member.name.c_str());
-  Hint("Where people stand and what they do is written in the drama.");
-  app::CastDocument edited = member;
-  bool changed = false;
-  if (BeginProperties("actor")) {
-    PropertyText("Figure", member.model.empty() ? "plain, built in" : member.model);
-    if (member.model.empty()) {
-      changed = NumberProperty(workspace, "Height", edited.height, 0.005, app::kMinHeight,
-                               app::kMaxHeight, "%.2f m");
-      changed |= ColourProperty(workspace, "Tunic", edited.tunic);
-    }
-    PropertyText("Baked", workspace.paths().Shorten(workspace.paths().Human(member.name)));
-    EndProperties();
-  }
-  if (changed) {
-    workspace.Edit(
-        "figure of " + member.name,
-        [&edited](app::ProjectDocument& document) {
-          std::replace_if(
-              document.cast.begin(), document.cast.end(),
-              [&](const auto& m) { return m.name == edited.name; }, edited);
-        },
-        "figure");
-  }
-  if (ImGui::Button("Remove", ImVec2(-FLT_MIN, 0))) {
-    workspace.Edit("remove " + member.name, [name = member.name](app::ProjectDocument& document) {
-      std::erase_if(document.cast, [&](const auto& m) { return m.name == name; });
-    });
-    state.selection = {};
-  }
-}
-
 template <typename Entry>
 const Entry* FindByName(const std::vector<Entry>& entries, const std::string& name) {
   const auto found = std::find_if(entries.begin(), entries.end(),
@@ -467,6 +436,12 @@ void ShowInspector(app::Workspace& workspace, EditorState& state) {
   if (state.selection.kind == Kind::kActor) {
     if (const auto* member = FindByName(document->cast, name)) {
       ShowActor(workspace, state, *member);
+    }
+    return;
+  }
+  if (state.selection.kind == Kind::kObject) {
+    if (const auto* object = FindByName(document->objects, name)) {
+      ShowObject(workspace, state, *object);
     }
     return;
   }
@@ -497,6 +472,7 @@ void ShowInspector(app::Workspace& workspace, EditorState& state) {
       break;
     case Kind::kProject:
     case Kind::kActor:
+    case Kind::kObject:
       break;
   }
 }

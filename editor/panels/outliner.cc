@@ -68,6 +68,10 @@ void ShowOutliner(app::Workspace& workspace, EditorState& state) {
   for (const app::CastDocument& member : workspace.document().cast) {
     Row(state, member.name.c_str(), {Kind::kActor, member.name});
   }
+  Section("Objects", &state, Dialog::kObject);
+  for (const app::ObjectDocument& object : workspace.document().objects) {
+    Row(state, object.name.c_str(), {Kind::kObject, object.name});
+  }
 }
 
 }  // namespace lararium::panels

@@ -171,6 +171,21 @@ bool NumberProperty(app::Workspace& workspace,
   return changed;
 }
 
+bool SliderProperty(app::Workspace& workspace,
+                    const char* label,
+                    double& value,
+                    double min,
+                    double max,
+                    const char* format) {
+  PropertyLabel(label);
+  ImGui::PushID(label);
+  const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &min, &max,
+                                           format, ImGuiSliderFlags_AlwaysClamp);
+  EndGestureWithItem(workspace);
+  ImGui::PopID();
+  return changed;
+}
+
 bool VectorProperty(app::Workspace& workspace,
                     const char* label,
                     Eigen::Vector3d& value,

@@ -37,6 +37,13 @@ bool NumberProperty(app::Workspace& workspace,
                     double min,
                     double max,
                     const char* format);
+// The same, where the whole range matters.
+bool SliderProperty(app::Workspace& workspace,
+                    const char* label,
+                    double& value,
+                    double min,
+                    double max,
+                    const char* format);
 bool VectorProperty(app::Workspace& workspace,
                     const char* label,
                     Eigen::Vector3d& value,

@@ -34,7 +34,19 @@ ProjectDocument FullDocument() {
   document.title = "Vetutius";
   document.credits = "by hand";
   document.places = {place, untouched};
-  document.cast = {{"Publia", "models/publia.glb"}, {"Vetutius", "", 1.64, {0.3, 0.1, 0.05}}};
+  document.cast.resize(3);
+  document.cast[0].name = "Publia";
+  document.cast[0].model = "models/publia.glb";
+  document.cast[0].bone_map = "models/publia.bones.json";
+  document.cast[0].clips = {{"stroll", "motion/01_01.bvh", true}, {"bow", "motion/bow.bvh"}};
+  document.cast[1].name = "Vetutius";
+  document.cast[1].height = 1.64;
+  document.cast[1].tunic = {0.3, 0.1, 0.05};
+  document.cast[2].name = "Asellina";
+  document.cast[2].recipe.emplace();
+  document.cast[2].recipe->age = 31.0f;
+  document.objects = {{"jug", "jug", "", {0.5, 0.95, -1.2}, 30.0},
+                      {"statue", "", "props/statue.glb", {1.0, 0.0, 0.0}, 0.0}};
   return document;
 }
 
@@ -142,7 +154,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"probe", "/places/0/probe/scale", -1.0},
                     Damage{"cast", "/cast/0", "Publia"},
                     Damage{"giant", "/cast/1/height", 3.0},
-                    Damage{"glowing", "/cast/1/tunic", {2.0, 0.1, 0.1}}),
+                    Damage{"glowing", "/cast/1/tunic", {2.0, 0.1, 0.1}},
+                    Damage{"two_figures", "/cast/2/model", "models/publia.glb"},
+                    Damage{"recipe", "/cast/2/recipe/age", -5},
+                    Damage{"clip_twice", "/cast/0/clips/1/name", "stroll"},
+                    Damage{"clip_loops", "/cast/0/clips/0/loops", 1},
+                    Damage{"object_twice", "/objects/1/name", "jug"},
+                    Damage{"two_models", "/objects/0/file", "props/statue.glb"},
+                    Damage{"far_object", "/objects/0/position", {1e9, 0.0, 0.0}}),
     [](const auto& info) { return info.param.name; });
 
 TEST(Project, MissingFilesAreNamed) {
