@@ -27,7 +27,6 @@ constexpr float kSettlingDamping = 8.0f;  // 1/s
 constexpr float kSettlingSeconds = 2.0f;
 constexpr float kFadeSeconds = 0.4f;     // between cloth and plain skin
 constexpr float kContactMargin = 0.02f;  // metres, for what moves within a beat
-constexpr int64_t kBeatsBetweenPairs = 4;
 constexpr float kSelfFriction = 0.3f;
 
 int StepsPerBeat(ClothDetail detail) {
@@ -47,6 +46,7 @@ int StepsPerBeat(ClothDetail detail) {
 struct StepContext {
   float seconds = 0.0f;
   float inverse_square = 0.0f;  // 1/s^2
+  int steps_between_bends = 1;  // bending is soft: it needs fewer steps
   float damping = 0.0f;         // share of the relative velocity that remains
   float floor = 0.0f;           // local
   bool touches_itself = false;
@@ -194,6 +194,9 @@ void Predict(const Model& model, const StepContext& context, State& state) {
 }
 
 void SolveHinges(const Model& model, const StepContext& context, State& state) {
+  // What is solved in every n-th step gives n steps' impulse to one.
+  const float inverse_square =
+      context.inverse_square / static_cast<float>(context.steps_between_bends);
   Float4* x = state.positions.data();
   for (size_t h = 0; h < model.hinges.size(); ++h) {
     const ClothHinge& hinge = model.hinges[h];
@@ -204,7 +207,7 @@ void SolveHinges(const Model& model, const StepContext& context, State& state) {
     const Float4 chord =
         (x0 - x3) * hinge.pull[0] + (x1 - x3) * hinge.pull[1] + (x2 - x3) * hinge.pull[2];
     const Float4 change = (state.hinge_targets[h] - chord) *
-                          (1.0f / (hinge.weight + hinge.compliance * context.inverse_square));
+                          (1.0f / (hinge.weight + hinge.compliance * inverse_square));
     x0 += change * hinge.push[0];
     x1 += change * hinge.push[1];
     x2 += change * hinge.push[2];
@@ -296,8 +299,7 @@ void SolveContacts(const Model& model, const StepContext& context, State& state)
     const uint32_t i = contact.particle;
     const RoundCone& cone = state.cones[contact.capsule];
     const NearestSphere sphere = FindNearestSphere(cone, state.positions[i]);
-    const float depth =
-        sphere.radius + model.thickness[i] - contact.allowed_depth - sphere.distance;
+    const float depth = sphere.radius + contact.standoff - sphere.distance;
     if (depth > 0.0f && sphere.distance > 1e-6f) {
       PushOut(sphere.from_centre * (1.0f / sphere.distance), depth,
               Mix(cone.motion_a, cone.motion_b, sphere.along), model.friction[i],
@@ -342,7 +344,9 @@ void TakeVelocities(const Model& model, float seconds, State& state) {
 void StepOnce(const Model& model, const StepContext& context, int steps_left, State& state) {
   MoveBody(model, steps_left, state);
   Predict(model, context, state);
-  SolveHinges(model, context, state);
+  if (steps_left % context.steps_between_bends == 0) {
+    SolveHinges(model, context, state);
+  }
   SolveEdges(model, context, state);
   if (context.touches_itself) {
     SolvePairs(model, state);
@@ -354,26 +358,80 @@ void StepOnce(const Model& model, const StepContext& context, int steps_left, St
 
 // --- One beat -----------------------------------------------------------------
 
+std::span<const uint32_t> ParticlesOf(size_t block, const Model& model) {
+  const size_t first = block * ClothBlock::kSize;
+  return std::span<const uint32_t>(model.free)
+      .subspan(first, std::min(ClothBlock::kSize, model.free.size() - first));
+}
+
+// Where the particles will be in the middle of the beat.
+Float4 HalfwayPlace(uint32_t i, const State& state) {
+  return state.positions[i] + state.velocities[i] * (0.5f * kBeat);
+}
+
+void MeasureBlocks(const Model& model, State& state) {
+  for (size_t k = 0; k < state.blocks.size(); ++k) {
+    ClothBlock& block = state.blocks[k];
+    const std::span<const uint32_t> particles = ParticlesOf(k, model);
+    Float4 sum;
+    for (const uint32_t i : particles) {
+      sum += HalfwayPlace(i, state);
+    }
+    block.centre = sum * (1.0f / static_cast<float>(particles.size()));
+    float square = 0.0f;
+    for (const uint32_t i : particles) {
+      const Float4 out = HalfwayPlace(i, state) - block.centre;
+      square = std::max(square, Dot(out, out));
+    }
+    block.radius = std::sqrt(square);
+  }
+}
+
+// A capsule in the middle of the beat, wide enough for what moves within it.
+struct WideCapsule {
+  Float4 a;
+  Float4 axis;
+  float inverse_square = 0.0f;
+  float radius = 0.0f;
+
+  bool Reaches(const Float4& point, float further) const {
+    const Float4 from_a = point - a;
+    const float along = std::clamp(Dot(from_a, axis) * inverse_square, 0.0f, 1.0f);
+    const Float4 apart = from_a - axis * along;
+    return Dot(apart, apart) < (radius + further) * (radius + further);
+  }
+};
+
+WideCapsule MakeWideCapsule(const Model& model, size_t c, const State& state) {
+  const Float4& a0 = state.beat.ends[2 * c];
+  const Float4& a1 = state.target.ends[2 * c];
+  const Float4& b0 = state.beat.ends[2 * c + 1];
+  const Float4& b1 = state.target.ends[2 * c + 1];
+  WideCapsule wide;
+  wide.a = Mix(a0, a1, 0.5f);
+  wide.axis = Mix(b0, b1, 0.5f) - wide.a;
+  wide.inverse_square = 1.0f / std::max(Dot(wide.axis, wide.axis), 1e-12f);
+  wide.radius = std::max(model.capsules[c].radius_a, model.capsules[c].radius_b) +
+                model.largest_standoff + kContactMargin +
+                0.5f * std::max(Length(a1 - a0), Length(b1 - b0));
+  return wide;
+}
+
 // Which particles may touch which capsules during this beat.
 void FindContacts(const Model& model, State& state) {
   state.contacts.clear();
+  MeasureBlocks(model, state);
   const size_t count = model.rest.size();
   for (size_t c = 0; c < model.capsules.size(); ++c) {
-    const Float4 a = Mix(state.beat.ends[2 * c], state.target.ends[2 * c], 0.5f);
-    const Float4 b = Mix(state.beat.ends[2 * c + 1], state.target.ends[2 * c + 1], 0.5f);
-    const Float4 axis = b - a;
-    const float inverse_square = 1.0f / std::max(Dot(axis, axis), 1e-12f);
-    const float radius =
-        std::max(model.capsules[c].radius_a, model.capsules[c].radius_b) + kContactMargin +
-        0.5f * std::max(Length(state.target.ends[2 * c] - state.beat.ends[2 * c]),
-                        Length(state.target.ends[2 * c + 1] - state.beat.ends[2 * c + 1]));
-    for (const uint32_t i : model.free) {
-      const Float4 from_a = state.positions[i] + state.velocities[i] * (0.5f * kBeat) - a;
-      const float along = std::clamp(Dot(from_a, axis) * inverse_square, 0.0f, 1.0f);
-      const Float4 apart = from_a - axis * along;
-      const float reach = radius + model.thickness[i];
-      if (Dot(apart, apart) < reach * reach) {
-        state.contacts.push_back({i, static_cast<uint32_t>(c), model.allowed_depth[c * count + i]});
+    const WideCapsule capsule = MakeWideCapsule(model, c, state);
+    for (size_t k = 0; k < state.blocks.size(); ++k) {
+      if (!capsule.Reaches(state.blocks[k].centre, state.blocks[k].radius)) {
+        continue;
+      }
+      for (const uint32_t i : ParticlesOf(k, model)) {
+        if (capsule.Reaches(HalfwayPlace(i, state), 0.0f)) {
+          state.contacts.push_back({i, static_cast<uint32_t>(c), model.standoff[c * count + i]});
+        }
       }
     }
   }
@@ -427,19 +485,20 @@ bool Beat(
   StepContext context;
   context.seconds = kBeat / static_cast<float>(steps);
   context.inverse_square = 1.0f / (context.seconds * context.seconds);
+  context.steps_between_bends = std::min(steps, 2);
   context.damping = std::exp(-damping * context.seconds);
   context.floor = std::isfinite(step.floor_height)
                       ? (step.floor_height - state.origin_in_stage.y) / state.scale
                       : -2.0f * kFarthestPlace;
   context.touches_itself = steps > 1;
-  Wind wind = step.wind;
-  wind.velocity = Finite(wind.velocity) ? wind.velocity / state.scale : glm::vec3(0.0f);
-  AddAir(model, wind, static_cast<float>(double(state.beats) * double(kBeat)), state);
+  if (state.beats % kBeatsBetweenAims == 0) {
+    SetAir(model, step.wind, state);
+    AimHinges(model, state);
+  }
   FindContacts(model, state);
   if (context.touches_itself && state.beats % kBeatsBetweenPairs == 0) {
     FindPairs(model, state);
   }
-  AimHinges(model, state);
   for (int left = steps; left > 0; --left) {
     StepOnce(model, context, left, state);
   }

@@ -5,6 +5,7 @@
 
 #include "shared/core/random.h"
 #include "shared/human/cloth_data.h"
+#include "shared/human/finite.h"
 
 namespace lararium::human {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 // Coefficients of a plate across and along the flow.
 constexpr float kNormalDrag = 1.3f;
 constexpr float kTangentDrag = 0.05f;
+constexpr float kStrongestWind = 40.0f;  // m/s, a gale
 constexpr int kGusts = 4;
 constexpr float kSlowestGust = 0.2f;  // 1/s; each next one is 2.3 times as fast
 constexpr float kGustRatio = 2.3f;
@@ -58,15 +60,20 @@ glm::vec3 WindAt(const Wind& wind, const Gusts& gusts, float time, const glm::ve
 
 }  // namespace
 
-void AddAir(const ClothModel::Data& model, const Wind& wind, float time, ClothState::Data& state) {
+void SetAir(const ClothModel::Data& model, const Wind& wind, ClothState::Data& state) {
   std::fill(state.accelerations.begin(), state.accelerations.end(), Float4());
   const float half_density = 0.5f * model.settings.air_density;
   if (half_density <= 0.0f) {
     return;
   }
+  Wind local = wind;
+  local.velocity = Finite(wind.velocity) ? wind.velocity / state.scale : glm::vec3(0.0f);
+  const float speed = glm::length(local.velocity);
+  local.velocity *= speed > kStrongestWind ? kStrongestWind / speed : 1.0f;
+  const auto time = static_cast<float>(double(state.beats) * double(kBeat));
   // The gust is the same for the whole person: it is larger than one.
-  const Float4 air(
-      WindAt(wind, MakeGusts(wind), time, state.next.place + state.origin_in_stage / state.scale));
+  const Float4 air(WindAt(local, MakeGusts(local), time,
+                          state.next.place + state.origin_in_stage / state.scale));
   for (size_t t = 0; t < model.triangles.size(); ++t) {
     const std::array<uint32_t, 3>& corner = model.triangles[t];
     const Float4 origin = state.positions[corner[0]];
@@ -80,10 +87,11 @@ void AddAir(const ClothModel::Data& model, const Wind& wind, float time, ClothSt
     const float speed = Length(flow);
     const Float4 across = normal * (Dot(flow, normal) / square);
     const Float4 drag = across * kNormalDrag + (flow - across) * kTangentDrag;
-    // The pull of one beat must not turn the flow around.
+    // The pull until the next evaluation must not turn the flow around.
     const float rate = half_density * speed * kNormalDrag / model.triangle_density[t];
     const float area = 0.5f * std::sqrt(square);
-    const Float4 force = drag * (half_density * speed * area / std::max(2.0f * rate * kBeat, 1.0f));
+    const Float4 force = drag * (half_density * speed * area /
+                                 std::max(2.0f * rate * kBeatsBetweenAims * kBeat, 1.0f));
     for (const uint32_t i : corner) {
       state.accelerations[i] += force * (model.inverse_mass[i] * (1.0f / 3.0f));
     }

@@ -16,6 +16,8 @@
 namespace lararium::human {
 
 inline constexpr float kBeat = 1.0f / 120.0f;  // seconds
+inline constexpr int kBeatsBetweenAims = 2;    // evaluations of the air and of hinge targets
+inline constexpr int kBeatsBetweenPairs = 4;   // searches for pairs
 
 // Two particles that keep their distance.
 struct ClothEdge {
@@ -95,9 +97,11 @@ struct ClothModel::Data {
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<float> triangle_density;  // kg/m^2
 
-  // How deep a particle lies in a capsule as bound, thickness included: a capsule is a
-  // rough body, and what lies in it from the start may stay as deep. [capsule][particle]
-  std::vector<float> allowed_depth;
+  // What a particle keeps from a capsule's surface: the cloth's thickness and what its
+  // triangles cut off between particles, but no more than it has as bound. A capsule is
+  // a rough body: what lies in it from the start may stay as deep. [capsule][particle]
+  std::vector<float> standoff;
+  float largest_standoff = 0.0f;
 
   float contact_distance = 0.0f;  // metres kept between two places of cloth
 };
@@ -105,7 +109,15 @@ struct ClothModel::Data {
 struct ClothContact {
   uint32_t particle = 0;
   uint32_t capsule = 0;
-  float allowed_depth = 0.0f;
+  float standoff = 0.0f;
+};
+
+// A ball around particles that follow one another in ClothModel::Data::free.
+struct ClothBlock {
+  static constexpr size_t kSize = 8;
+
+  Float4 centre;
+  float radius = 0.0f;
 };
 
 struct ClothPair {
@@ -118,9 +130,9 @@ struct ClothPair {
 struct ClothGrid {
   static constexpr uint32_t kFree = 0xffffffffu;
 
-  std::vector<uint32_t> slots;                // of the hash table: index of a cell
-  std::vector<std::array<int32_t, 3>> cells;  // that hold a particle
-  std::vector<uint32_t> starts;               // of each cell in particles, and the end
+  std::vector<uint32_t> slots;   // of the hash table: index of a cell
+  std::vector<uint64_t> cells;   // that hold a particle
+  std::vector<uint32_t> starts;  // of each cell in particles, and the end
   std::vector<uint32_t> particles;
   std::vector<uint32_t> cell_of;  // [particle]
 };
@@ -155,6 +167,7 @@ struct ClothState::Data {
   std::vector<RoundCone> cones;
   std::vector<glm::mat4> skin_matrices;
 
+  std::vector<ClothBlock> blocks;
   std::vector<ClothContact> contacts;
   std::vector<ClothPair> pairs;
   ClothGrid grid;
@@ -177,8 +190,8 @@ glm::vec3 UnitOr(const glm::vec3& v, const glm::vec3& otherwise);
 // Right-handed axes: along the edge as seen on the cloth, across it, and the normal.
 glm::mat3 ClothFrame(const glm::vec3& normal, const glm::vec3& edge);
 
-// Adds what moving air does to the accelerations (cloth_air.cc).
-void AddAir(const ClothModel::Data& model, const Wind& wind, float time, ClothState::Data& state);
+// Sets the accelerations to what moving air does (cloth_air.cc).
+void SetAir(const ClothModel::Data& model, const Wind& wind, ClothState::Data& state);
 
 // Finds pairs of particles that may touch within the next beats (cloth_pairs.cc).
 void FindPairs(const ClothModel::Data& model, ClothState::Data& state);

@@ -16,6 +16,10 @@ constexpr float kTetherSlack = 1.01f;
 // A diagonal of a quad of threads: cloth shears far more easily than it stretches.
 constexpr float kDiagonalRatio = 1.15f;
 constexpr float kShearCompliance = 2e-3f;  // m/N
+constexpr float kThickest = 0.015f;        // metres added to the thickness
+// Places of cloth keep this far apart, in edges: half the diagonal of a quad is 0.62 of
+// its mean edge, so that no particle slips between four others.
+constexpr float kContactShare = 0.65f;
 // A hinge of flatter triangles says nothing about the cloth's shape.
 constexpr float kLeastHeight = 0.05f;  // of the edge
 // Stiffer hinges than those of felt would fight the edges, and gain nothing.
@@ -93,7 +97,7 @@ class Builder {
       return std::array<uint32_t, 2>{e.a, e.b};
     });
     SortIntoBatches(model_.hinges, count, [](const ClothHinge& h) { return h.particles; });
-    MeasureAllowedDepths();
+    MeasureStandoffs();
     MeasureContactDistance();
   }
 
@@ -333,10 +337,10 @@ class Builder {
     return normals;
   }
 
-  void MeasureAllowedDepths() {
-    const std::vector<glm::mat4>& joint_from_actor = model_.joint_from_actor;
+  void MeasureStandoffs() {
+    const std::vector<float> spacing = LongestEdges();
     for (const ClothCapsule& capsule : model_.capsules) {
-      const glm::mat4 actor_from_joint = glm::inverse(joint_from_actor[capsule.joint]);
+      const glm::mat4 actor_from_joint = glm::inverse(model_.joint_from_actor[capsule.joint]);
       const auto to_actor = [&](const glm::vec3& p) {
         return Float4(glm::vec3(actor_from_joint * glm::vec4(p, 1.0f)));
       };
@@ -344,21 +348,35 @@ class Builder {
                                            capsule.radius_a, capsule.radius_b);
       for (size_t i = 0; i < model_.rest.size(); ++i) {
         const NearestSphere sphere = FindNearestSphere(cone, model_.rest[i]);
-        const float depth = sphere.radius + model_.thickness[i] - sphere.distance;
-        model_.allowed_depth.push_back(std::isfinite(depth) ? std::max(depth, 0.0f) : 0.0f);
+        const float around = sphere.radius + model_.thickness[i];
+        const float arrow = std::min(spacing[i] * spacing[i] / (8.0f * around + 1e-6f), kThickest);
+        const float as_bound = sphere.distance - sphere.radius;
+        const float wanted = model_.thickness[i] + arrow;
+        model_.standoff.push_back(std::isfinite(as_bound) ? std::min(wanted, as_bound) : wanted);
+        model_.largest_standoff = std::max(model_.largest_standoff, wanted);
       }
     }
   }
 
-  // Places of cloth keep a little more than half an edge apart, so that a particle
-  // hardly slips between others.
+  // At each particle, metres.
+  std::vector<float> LongestEdges() const {
+    std::vector<float> longest(model_.rest.size(), 0.0f);
+    for (const ClothEdge& edge : model_.edges) {
+      for (const uint32_t i : {edge.a, edge.b}) {
+        longest[i] = std::max(longest[i], edge.length);
+      }
+    }
+    return longest;
+  }
+
   void MeasureContactDistance() {
     double sum = 0.0;
     for (const ClothEdge& edge : model_.edges) {
       sum += edge.length;
     }
     if (!model_.edges.empty()) {
-      model_.contact_distance = 0.5f * static_cast<float>(sum / double(model_.edges.size()));
+      model_.contact_distance =
+          kContactShare * static_cast<float>(sum / double(model_.edges.size()));
     }
   }
 

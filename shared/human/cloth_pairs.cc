@@ -6,31 +6,46 @@
 namespace lararium::human {
 namespace {
 
-constexpr float kPairMargin = 0.01f;  // metres, for what moves until the next search
+constexpr float kPairMargin = 0.02f;  // metres, for what moves otherwise than foretold
+constexpr float kForesight = 0.5f * kBeatsBetweenPairs * kBeat;  // seconds
 // What lies closer together at rest is left to bending: pushed apart, a small crease
 // would lock.
+constexpr float kCellSize = 1.5f;    // of the distance sought
 constexpr float kNearAtRest = 6.0f;  // contact distances
 
-using Cell = std::array<int32_t, 3>;
+// Indices along x, y and z, 21 bits each.
+using Cell = uint64_t;
 
-// Teschner et al., "Optimized Spatial Hashing for Collision Detection of Deformable
-// Objects", VMV 2003.
-uint32_t Hash(const Cell& cell) {
-  return static_cast<uint32_t>(cell[0]) * 73856093u ^ static_cast<uint32_t>(cell[1]) * 19349663u ^
-         static_cast<uint32_t>(cell[2]) * 83492791u;
+constexpr uint64_t kAxisMask = (uint64_t{1} << 21) - 1;
+
+Cell MakeCell(int64_t x, int64_t y, int64_t z) {
+  return (static_cast<uint64_t>(x) & kAxisMask) << 42 |
+         (static_cast<uint64_t>(y) & kAxisMask) << 21 | (static_cast<uint64_t>(z) & kAxisMask);
 }
 
-// The slot of a cell, or the free one where it would be.
-uint32_t SlotOf(const Cell& cell, const ClothGrid& grid) {
+Cell CellAt(const Float4& position, float inverse_size) {
+  const Float4 scaled = position * inverse_size;
+  return MakeCell(static_cast<int64_t>(std::floor(scaled.lanes[0])),
+                  static_cast<int64_t>(std::floor(scaled.lanes[1])),
+                  static_cast<int64_t>(std::floor(scaled.lanes[2])));
+}
+
+Cell Neighbour(Cell cell, int x, int y, int z) {
+  return MakeCell(static_cast<int64_t>(cell >> 42) + x, static_cast<int64_t>(cell >> 21) + y,
+                  static_cast<int64_t>(cell) + z);
+}
+
+// The slot of a cell, or the free one where it would be (Fibonacci hashing).
+uint32_t SlotOf(Cell cell, const ClothGrid& grid) {
   const auto mask = static_cast<uint32_t>(grid.slots.size() - 1);
-  uint32_t slot = Hash(cell) & mask;
+  uint32_t slot = static_cast<uint32_t>((cell * 0x9e3779b97f4a7c15ull) >> 40) & mask;
   while (grid.slots[slot] != ClothGrid::kFree && grid.cells[grid.slots[slot]] != cell) {
     slot = (slot + 1) & mask;
   }
   return slot;
 }
 
-uint32_t FindOrAddCell(const Cell& cell, ClothGrid& grid) {
+uint32_t FindOrAddCell(Cell cell, ClothGrid& grid) {
   uint32_t& slot = grid.slots[SlotOf(cell, grid)];
   if (slot == ClothGrid::kFree) {
     slot = static_cast<uint32_t>(grid.cells.size());
@@ -46,11 +61,7 @@ void FillGrid(const std::vector<Float4>& positions, float cell_size, ClothGrid& 
   std::fill(grid.starts.begin(), grid.starts.end(), 0u);
   grid.cells.clear();
   for (size_t i = 0; i < positions.size(); ++i) {
-    Cell cell;
-    for (int axis = 0; axis < 3; ++axis) {
-      cell[axis] = static_cast<int32_t>(std::floor(positions[i].lanes[axis] * inverse));
-    }
-    grid.cell_of[i] = FindOrAddCell(cell, grid);
+    grid.cell_of[i] = FindOrAddCell(CellAt(positions[i], inverse), grid);
     ++grid.starts[grid.cell_of[i]];
   }
   uint32_t sum = 0;
@@ -64,20 +75,23 @@ void FillGrid(const std::vector<Float4>& positions, float cell_size, ClothGrid& 
 }
 
 void AddPair(const ClothModel::Data& model, uint32_t i, uint32_t j, ClothState::Data& state) {
-  const Float4 apart = state.positions[j] - state.positions[i];
-  const float reach = model.contact_distance + kPairMargin;
-  if (Dot(apart, apart) >= reach * reach || state.pairs.size() == state.pairs.capacity() ||
-      model.inverse_mass[i] + model.inverse_mass[j] == 0.0f) {
-    return;
-  }
   const Float4 at_rest = model.rest[j] - model.rest[i];
   const float near = kNearAtRest * model.contact_distance;
-  const bool is_same = model.cloth_of[i] == model.cloth_of[j];
   const float square = Dot(at_rest, at_rest);
-  if (is_same && square < near * near) {
-    return;
+  const bool is_crease = model.cloth_of[i] == model.cloth_of[j] && square < near * near;
+  const bool is_held = model.inverse_mass[i] + model.inverse_mass[j] == 0.0f;
+  if (!is_crease && !is_held && state.pairs.size() < state.pairs.capacity()) {
+    state.pairs.push_back({i, j, std::min(model.contact_distance, std::sqrt(square))});
   }
-  state.pairs.push_back({i, j, std::min(model.contact_distance, std::sqrt(square))});
+}
+
+// reach: the square of the distance within which two are a pair.
+inline void AddPairIfNear(
+    const ClothModel::Data& model, uint32_t i, uint32_t j, float reach, ClothState::Data& state) {
+  const Float4 apart = state.before[j] - state.before[i];
+  if (Dot(apart, apart) < reach) {
+    AddPair(model, i, j, state);
+  }
 }
 
 std::span<const uint32_t> ParticlesIn(uint32_t cell, const ClothGrid& grid) {
@@ -101,25 +115,30 @@ void FindPairs(const ClothModel::Data& model, ClothState::Data& state) {
     return;
   }
   ClothGrid& grid = state.grid;
-  FillGrid(state.positions, 2.0f * (model.contact_distance + kPairMargin), grid);
+  const float distance = model.contact_distance + kPairMargin;
+  const float reach = distance * distance;
+  // Where they will be halfway to the next search; `before` is free between steps.
+  for (size_t i = 0; i < state.positions.size(); ++i) {
+    state.before[i] = state.positions[i] + state.velocities[i] * kForesight;
+  }
+  FillGrid(state.before, kCellSize * distance, grid);
   for (uint32_t c = 0; c < grid.cells.size(); ++c) {
     const std::span<const uint32_t> own = ParticlesIn(c, grid);
     for (size_t k = 0; k < own.size(); ++k) {
       for (size_t l = k + 1; l < own.size(); ++l) {
-        AddPair(model, own[k], own[l], state);
+        AddPairIfNear(model, own[k], own[l], reach, state);
       }
     }
     // Half of the 26 neighbours: the others find this one.
     for (int n = 14; n < 27; ++n) {
-      const Cell& at = grid.cells[c];
-      const uint32_t other =
-          grid.slots[SlotOf({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1}, grid)];
+      const Cell at = Neighbour(grid.cells[c], n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+      const uint32_t other = grid.slots[SlotOf(at, grid)];
       if (other == ClothGrid::kFree) {
         continue;
       }
       for (const uint32_t i : own) {
         for (const uint32_t j : ParticlesIn(other, grid)) {
-          AddPair(model, i, j, state);
+          AddPairIfNear(model, i, j, reach, state);
         }
       }
     }

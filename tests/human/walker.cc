@@ -188,20 +188,27 @@ void PoseWalker(const Human& human, double time, WalkerPose& walker) {
 
 float DeepestPenetration(const Human& human,
                          std::span<const glm::vec3> particles,
-                         std::span<const glm::mat4> actor_from_joint,
-                         std::span<const float> allowed) {
+                         std::span<const glm::mat4> actor_from_joint) {
+  constexpr glm::vec3 kSamples[] = {{1, 0, 0},
+                                    {0, 1, 0},
+                                    {0, 0, 1},
+                                    {0.5f, 0.5f, 0},
+                                    {0, 0.5f, 0.5f},
+                                    {0.5f, 0, 0.5f},
+                                    {1 / 3.0f, 1 / 3.0f, 1 / 3.0f}};
+  const std::vector<uint32_t>& triangles = human.cloths[0].triangles;
   float deepest = 0.0f;
-  for (size_t c = 0; c < human.capsules.size(); ++c) {
-    const BodyCapsule& capsule = human.capsules[c];
+  for (const BodyCapsule& capsule : human.capsules) {
     const glm::vec3 a(actor_from_joint[capsule.joint] * glm::vec4(capsule.a, 1.0f));
     const glm::vec3 b(actor_from_joint[capsule.joint] * glm::vec4(capsule.b, 1.0f));
-    for (size_t i = 0; i < particles.size(); ++i) {
-      const float share =
-          std::clamp(glm::dot(particles[i] - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
-      const float radius = capsule.radius_a + share * (capsule.radius_b - capsule.radius_a);
-      const float depth = radius - glm::length(particles[i] - a - share * (b - a));
-      const float slack = allowed.empty() ? 0.0f : allowed[c * particles.size() + i];
-      deepest = std::max(deepest, depth - slack);
+    for (size_t t = 0; t < triangles.size(); t += 3) {
+      for (const glm::vec3& w : kSamples) {
+        const glm::vec3 p = w.x * particles[triangles[t]] + w.y * particles[triangles[t + 1]] +
+                            w.z * particles[triangles[t + 2]];
+        const float share = std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
+        const float radius = capsule.radius_a + share * (capsule.radius_b - capsule.radius_a);
+        deepest = std::max(deepest, radius - glm::length(p - a - share * (b - a)));
+      }
     }
   }
   return deepest;

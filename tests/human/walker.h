@@ -30,11 +30,10 @@ struct WalkerPose {
 };
 void PoseWalker(const Human& human, double time, WalkerPose& walker);
 
-// The deepest that a particle lies in a capsule, in metres, beyond `allowed` (of
-// [capsule][particle]; may be empty).
+// The deepest, in metres, that a point of the cloth's triangles (corners, middles of
+// edges, middle) lies in a capsule; in the bind pose this is 0.
 float DeepestPenetration(const Human& human,
                          std::span<const glm::vec3> particles,
-                         std::span<const glm::mat4> actor_from_joint,
-                         std::span<const float> allowed);
+                         std::span<const glm::mat4> actor_from_joint);
 
 }  // namespace lararium::human
