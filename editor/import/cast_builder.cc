@@ -7,6 +7,7 @@
 
 #include "editor/import/cast_capsules.h"
 #include "editor/import/cast_face.h"
+#include "editor/import/cast_hair.h"
 #include "editor/import/cast_paint.h"
 #include "editor/import/cast_parts.h"
 #include "editor/import/cast_rig.h"
@@ -40,7 +41,7 @@ Look LookOf(CastPart part) {
       return {human::Surface::kSkin, 0.4f, 0.0f, false, 128};
     case CastPart::kEyebrows:
     case CastPart::kEyelashes:
-      return {human::Surface::kHair, 0.7f, 0.3f, true, 512};
+      return {human::Surface::kHair, 0.7f, 0.5f, true, 512};
     case CastPart::kHair:
       return {human::Surface::kHair, 0.6f, 0.4f, true, 512};
   }
@@ -158,8 +159,8 @@ class CastBuilder {
   // Of each vertex of the skin's head: 1 where one of these parts lies close to it.
   Result<std::vector<float>> NearnessTo(const std::vector<std::string>& parts,
                                         const CastPiece& skin) const {
-    constexpr float kNear = 0.006f;  // metres: surely covered
-    constexpr float kFar = 0.016f;   // metres: surely bare
+    constexpr float kNear = 0.003f;  // metres: surely covered
+    constexpr float kFar = 0.010f;   // metres: surely bare
     const float shoulders = body_.height - kHeadShare * body_.height;
     std::vector<float> nearest(skin.mesh.positions.size(), kFar);
     for (const std::string& part : parts) {
@@ -204,7 +205,11 @@ class CastBuilder {
       material.colour_texture = AddTexture(*std::move(texture));
     }
     human_.credits += proxy.credits + "\n";
-    AddPiece(FitPart(library_, proxy, body_.base), std::move(material));
+    CastPiece piece = FitPart(library_, proxy, body_.base);
+    if (part == CastPart::kHair) {
+      LayHair(piece, body_, {.volume = chosen.volume});
+    }
+    AddPiece(std::move(piece), std::move(material));
     return Status();
   }
 

@@ -197,7 +197,7 @@ void Weather(cv::Mat& skin, float amount, cv::RNG& random) {
 // Short hairs: dots of the hair's colour over a shade of it.
 void PaintHairs(
     cv::Mat& skin, const cv::Mat& mask, const glm::vec3& colour, float amount, cv::RNG& random) {
-  cv::Mat dots = 0.5 + 0.35 * BandNoise(random, 0.0, 2.0);
+  cv::Mat dots = 0.7 + 0.2 * BandNoise(random, 0.0, 1.5);
   cv::Mat cover = amount * mask.mul(cv::min(cv::max(dots, 0.0), 1.0));
   Cover(skin, cover, LinearBgr(colour));
 }

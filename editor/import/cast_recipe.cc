@@ -96,14 +96,15 @@ Status ReadDyed(const JsonView& field, CastDyed& dyed) {
     LARARIUM_ASSIGN_OR_RETURN(dyed.name, field.Text(200));
     return Status();
   }
-  constexpr std::string_view kKnown[] = {"name", "colour"};
+  constexpr std::string_view kKnown[] = {"name", "colour", "volume"};
   LARARIUM_RETURN_IF_ERROR(OnlyFields(field, kKnown));
   LARARIUM_ASSIGN_OR_RETURN(dyed.name, field.Text("name", 200));
+  LARARIUM_RETURN_IF_ERROR(ReadNumber(field, "volume", 0.1, 2.0, dyed.volume));
   return ReadColour(field, "colour", dyed.colour);
 }
 
 Json DyedJson(const CastDyed& dyed) {
-  Json json = {{"name", dyed.name}};
+  Json json = {{"name", dyed.name}, {"volume", dyed.volume}};
   if (dyed.colour) {
     json["colour"] = ColourText(*dyed.colour);
   }

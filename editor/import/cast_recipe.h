@@ -26,6 +26,7 @@ namespace lararium::import {
 struct CastDyed {
   std::string name;
   std::optional<glm::vec3> colour;
+  float volume = 1.0f;  // of hair: how far it stands off, of what it was modelled with
 };
 
 struct CastRecipe {

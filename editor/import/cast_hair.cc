@@ -1,0 +1,84 @@
+#include "editor/import/cast_hair.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "editor/import/plain_skeleton.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr float kOfTheWhole = 0.7f;  // of a shading normal: the rounded whole's share
+constexpr float kDeepest = 0.03f;    // metres: what is deeper inside is meant to be
+
+// The vertices of the head and neck, where hair can lie.
+std::vector<uint32_t> HeadVertices(const FittedBody& body) {
+  const float lowest = RestPosition(body.skeleton, "vc7").y - 0.05f;
+  std::vector<uint32_t> vertices;
+  for (size_t v = 0; v < body.skin.positions.size(); ++v) {
+    if (body.skin.positions[v].y > lowest) {
+      vertices.push_back(static_cast<uint32_t>(v));
+    }
+  }
+  return vertices;
+}
+
+uint32_t Nearest(const human::SkinnedMesh& skin,
+                 const std::vector<uint32_t>& vertices,
+                 const glm::vec3& p) {
+  uint32_t nearest = vertices[0];
+  float least = 1e9f;
+  for (const uint32_t v : vertices) {
+    const glm::vec3 offset = skin.positions[v] - p;
+    const float squared = glm::dot(offset, offset);
+    if (squared < least) {
+      least = squared;
+      nearest = v;
+    }
+  }
+  return nearest;
+}
+
+glm::vec3 Laid(const glm::vec3& p,
+               const glm::vec3& ground,
+               const glm::vec3& normal,
+               const HairFit& fit) {
+  const glm::vec3 laid = ground + fit.volume * (p - ground);
+  const float height = glm::dot(laid - ground, normal);
+  if (height < fit.clearance && height > -kDeepest) {
+    return laid + (fit.clearance - height) * normal;
+  }
+  return laid;
+}
+
+// Outward from the middle of the skull, and from the axis of what hangs below it.
+glm::vec3 Outward(const glm::vec3& p, const glm::vec3& middle) {
+  const glm::vec3 from(middle.x, std::min(p.y, middle.y), middle.z);
+  const glm::vec3 offset = p - from;
+  const float length = glm::length(offset);
+  return length > 1e-4f ? offset / length : glm::vec3(0.0f, 1.0f, 0.0f);
+}
+
+}  // namespace
+
+void LayHair(CastPiece& hair, const FittedBody& body, const HairFit& fit) {
+  const std::vector<uint32_t> head = HeadVertices(body);
+  const glm::vec3 eyes = 0.5f * (RestPosition(body.skeleton, "l_eyeball_joint") +
+                                 RestPosition(body.skeleton, "r_eyeball_joint"));
+  const glm::vec3 middle(0.0f, eyes.y,
+                         0.5f * (eyes.z + RestPosition(body.skeleton, "skullbase").z));
+  for (glm::vec3& p : hair.mesh.positions) {
+    const uint32_t v = Nearest(body.skin, head, p);
+    p = Laid(p, body.skin.positions[v], body.skin.normals[v], fit);
+  }
+  hair.mesh.normals = SmoothNormals(hair.mesh.positions, hair.source, hair.mesh.indices);
+  for (size_t v = 0; v < hair.mesh.positions.size(); ++v) {
+    const glm::vec3 outward = Outward(hair.mesh.positions[v], middle);
+    glm::vec3 card = hair.mesh.normals[v];
+    card = glm::dot(card, outward) < 0.0f ? -card : card;
+    hair.mesh.normals[v] = glm::normalize(glm::mix(card, outward, kOfTheWhole));
+  }
+}
+
+}  // namespace lararium::import

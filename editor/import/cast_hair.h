@@ -1,0 +1,20 @@
+#pragma once
+
+// Hair that lies on the head that it was not made for.
+
+#include "editor/import/cast_parts.h"
+
+namespace lararium::import {
+
+// How hair is laid on a head. volume: its height above the scalp, of what it was
+// modelled with.
+struct HairFit {
+  float volume = 1.0f;
+  float clearance = 0.003f;  // metres above the skin, at least
+};
+
+// Lifts what the skull would cut through, gives the hair its volume, and shades it as the
+// rounded whole that it is, not as the cards that it is made of.
+void LayHair(CastPiece& hair, const FittedBody& body, const HairFit& fit);
+
+}  // namespace lararium::import
