@@ -70,7 +70,7 @@ PosedPerson PosePerson(const human::Human& human, const StudioPose& pose) {
   for (const human::SkinnedMesh& mesh : person.morphed.meshes) {
     person.positions.emplace_back(mesh.positions.size());
     std::vector<glm::vec3> normals(mesh.positions.size());
-    human::SkinMesh(mesh, person.skin, person.positions.back(), normals);
+    human::SkinMesh(mesh, person.skin, person.positions.back(), normals, human.skinning);
   }
   return person;
 }
@@ -232,7 +232,7 @@ Result<cv::Mat> Studio::Shoot(const human::Human& human,
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
                             render::RenderTarget::Create(size.width, size.height));
   render::SceneHuman shown;
-  shown.human = renderer_->AddHuman(person.morphed);
+  LARARIUM_ASSIGN_OR_RETURN(shown.human, renderer_->AddHuman(person.morphed));
   shown.skin = person.skin;
   render::RenderScene scene;
   scene.background = Backdrop(size);
@@ -242,7 +242,7 @@ Result<cv::Mat> Studio::Shoot(const human::Human& human,
   scene.humans = {&shown, 1};
   scene.light = StudioLight(view.azimuth);
   const Status drawn = renderer_->Draw(scene, target);
-  renderer_->RemoveHuman(shown.human);
+  renderer_->RemoveModel(shown.human);
   LARARIUM_RETURN_IF_ERROR(drawn);
   cv::Mat picture;
   target.ReadPixels(picture);

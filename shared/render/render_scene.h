@@ -2,6 +2,7 @@
 
 // All that one picture shows. Borrowed for the call that draws it.
 
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <opencv2/core/mat.hpp>
@@ -16,9 +17,9 @@
 namespace lararium::render {
 
 struct GpuMesh;
-struct GpuHuman;
+struct GpuModel;
 using MeshHandle = Id<GpuMesh>;
-using HumanHandle = Id<GpuHuman>;
+using ModelHandle = Id<GpuModel>;  // of a person or a prop
 
 // Real things: hide what is behind them, are not seen themselves.
 struct SceneOccluder {
@@ -26,10 +27,27 @@ struct SceneOccluder {
   glm::mat4 stage_from_mesh = glm::mat4(1.0f);
 };
 
+// A mesh whose vertices are not those of the bind pose in this picture. Parallel to
+// its vertices.
+struct SceneVertices {
+  uint32_t mesh = 0;                          // index into Human::meshes
+  std::span<const glm::vec3> positions = {};  // metres, actor frame
+  std::span<const glm::vec3> normals = {};    // unit
+  bool posed =
+      false;  // as they are to be drawn (simulated cloth); otherwise skinned (a morphed face)
+};
+
 struct SceneHuman {
-  HumanHandle human = {};
+  ModelHandle human = {};
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
   std::span<const glm::mat4> skin = {};  // one for each joint (human::ComputeSkinMatrices)
+  std::span<const SceneVertices> vertices = {};
+  uint32_t detail = 0;  // level; 0 is the finest (shared/render/detail.h)
+};
+
+struct SceneProp {
+  ModelHandle prop = {};
+  std::span<const glm::mat4> stage_from_part = {};  // one for each part
 };
 
 struct RenderScene {
@@ -46,8 +64,9 @@ struct RenderScene {
 
   std::span<const SceneOccluder> occluders = {};
   std::span<const SceneHuman> humans = {};
+  std::span<const SceneProp> props = {};
 
-  // What falls on people: radiance, stage axes. What is seen of them is
+  // What falls on people and props: radiance, stage axes. What is seen of them is
   // multiplied by exposure and by gain (the image over the map's reference).
   light::ShRgb light = {};
   float exposure = 1.0f;

@@ -3,11 +3,11 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <numbers>
+#include <string>
+#include <utility>
 
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/clip_space.h"
-#include "shared/render/gpu_human.h"
 #include "shared/render/linear_target.h"
 #include "shared/render/renderer_state.h"
 #include "shared/render/shader_program.h"
@@ -15,11 +15,6 @@
 
 namespace lararium::render {
 namespace {
-
-constexpr uint32_t kSkinBinding = 0;
-// Of each person in the buffer of matrices: the whole uniform block, which is
-// also a multiple of every driver's offset alignment.
-constexpr size_t kSkinStride = human::Skeleton::kMaxJoints * sizeof(glm::mat4);
 
 glm::vec4 Intrinsics(const geometry::CameraModel& camera) {
   return {static_cast<float>(camera.fx), static_cast<float>(camera.fy),
@@ -29,23 +24,6 @@ glm::vec4 Intrinsics(const geometry::CameraModel& camera) {
 glm::vec4 Distortion(const geometry::CameraModel& camera) {
   return {static_cast<float>(camera.k1), static_cast<float>(camera.k2),
           static_cast<float>(camera.p1), static_cast<float>(camera.p2)};
-}
-
-// Radiance to irradiance, with the constants of the basis: what
-// shaders/include/spherical_harmonics.glsl takes.
-std::array<glm::vec3, light::kShCount> IrradianceCoefficients(const light::ShRgb& radiance) {
-  constexpr double kPi = std::numbers::pi;
-  constexpr double kConvolution[] = {kPi, 2.0 * kPi / 3.0, kPi / 4.0};
-  constexpr int kDegree[] = {0, 1, 1, 1, 2, 2, 2, 2, 2};
-  const double first = std::sqrt(3.0 / (4.0 * kPi));
-  const double second = std::sqrt(15.0 / (4.0 * kPi));
-  const double basis[] = {std::sqrt(1.0 / (4.0 * kPi)),  first,  first,       first, second, second,
-                          std::sqrt(5.0 / (16.0 * kPi)), second, 0.5 * second};
-  std::array<glm::vec3, light::kShCount> coefficients;
-  for (int i = 0; i < light::kShCount; ++i) {
-    coefficients[i] = radiance[i] * static_cast<float>(kConvolution[kDegree[i]] * basis[i]);
-  }
-  return coefficients;
 }
 
 void ResetState() {
@@ -73,23 +51,24 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const RendererOptions& option
   state->samples = options.samples;
   LARARIUM_ASSIGN_OR_RETURN(state->occluder_pass,
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
-  LARARIUM_ASSIGN_OR_RETURN(state->human_pass, ShaderProgram::Create("human.vert", "human.frag"));
+  LARARIUM_ASSIGN_OR_RETURN(state->model_pass, ModelPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
                             ShaderProgram::Create("full_screen.vert", "composite.frag"));
-  state->human_pass.BindUniformBlock("Skin", kSkinBinding);
   state->no_vertices = GlVertexArray::Generate();
-  state->skin = GlBuffer::Generate();
   return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
 
 MeshHandle Renderer::AddMesh(const geometry::TriangleMesh& mesh) {
   return state_->meshes.Add(GpuMesh::Create(mesh));
 }
-HumanHandle Renderer::AddHuman(const human::Human& human) {
-  return state_->humans.Add(GpuHuman::Create(human));
+Result<ModelHandle> Renderer::AddHuman(const human::Human& human) {
+  return state_->AddModel(GpuModel::Create(human));
+}
+Result<ModelHandle> Renderer::AddProp(const stage::Prop& prop) {
+  return state_->AddModel(GpuModel::Create(prop));
 }
 void Renderer::RemoveMesh(MeshHandle mesh) { state_->meshes.Remove(mesh); }
-void Renderer::RemoveHuman(HumanHandle human) { state_->humans.Remove(human); }
+void Renderer::RemoveModel(ModelHandle model) { state_->models.Remove(model); }
 
 Status Renderer::State::Validate(const RenderScene& scene) const {
   constexpr std::string_view kPlace = "picture";
@@ -111,19 +90,43 @@ Status Renderer::State::Validate(const RenderScene& scene) const {
       return Status::Error(kPlace, "an occluder's mesh was removed");
     }
   }
-  for (const SceneHuman& human : scene.humans) {
-    const GpuHuman* gpu = humans.Find(human.human);
-    if (gpu == nullptr) {
-      return Status::Error(kPlace, "a person's mesh was removed");
+  return ValidateModels(scene);
+}
+
+Status Renderer::State::ValidateModels(const RenderScene& scene) const {
+  constexpr std::string_view kPlace = "picture";
+  const auto check = [&](ModelHandle handle, size_t matrices, std::string_view what) -> Status {
+    const GpuModel* model = models.Find(handle);
+    if (model == nullptr) {
+      return Status::Error(kPlace, std::string(what) + "'s mesh was removed");
     }
-    if (human.skin.size() != gpu->joint_count() ||
-        gpu->joint_count() > human::Skeleton::kMaxJoints) {
-      return Status::Error(kPlace, "a person has " + std::to_string(human.skin.size()) +
-                                       " skin matrices for " + std::to_string(gpu->joint_count()) +
-                                       " joints");
+    if (matrices != model->joint_count() || matrices > human::Skeleton::kMaxJoints) {
+      return Status::Error(kPlace, std::string(what) + " has " + std::to_string(matrices) +
+                                       " skin matrices for " +
+                                       std::to_string(model->joint_count()) + " joints");
+    }
+    return Status();
+  };
+  for (const SceneProp& prop : scene.props) {
+    LARARIUM_RETURN_IF_ERROR(check(prop.prop, prop.stage_from_part.size(), "a prop"));
+  }
+  for (const SceneHuman& human : scene.humans) {
+    LARARIUM_RETURN_IF_ERROR(check(human.human, human.skin.size(), "a person"));
+    const std::vector<GpuModel::Part>& parts = models.Find(human.human)->parts;
+    for (const SceneVertices& moved : human.vertices) {
+      if (moved.mesh >= parts.size() || moved.positions.size() != parts[moved.mesh].vertex_count ||
+          moved.normals.size() != parts[moved.mesh].vertex_count) {
+        return Status::Error(kPlace, "a person's moving vertices are not those of a part");
+      }
     }
   }
   return Status();
+}
+
+Result<ModelHandle> Renderer::State::AddModel(Result<GpuModel> model) {
+  LARARIUM_RETURN_IF_ERROR(model.status());
+  LARARIUM_RETURN_IF_ERROR(model_pass.Prepare(*model));
+  return models.Add(std::move(*model));
 }
 
 void Renderer::State::DrawOccluders(std::span<const SceneOccluder> occluders,
@@ -138,44 +141,43 @@ void Renderer::State::DrawOccluders(std::span<const SceneOccluder> occluders,
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-void Renderer::State::UploadSkins(std::span<const SceneHuman> scene_humans) {
-  glBindBuffer(GL_UNIFORM_BUFFER, skin.id());
-  glBufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(scene_humans.size() * kSkinStride),
-               nullptr, GL_STREAM_DRAW);
-  for (size_t i = 0; i < scene_humans.size(); ++i) {
-    glBufferSubData(GL_UNIFORM_BUFFER, static_cast<GLintptr>(i * kSkinStride),
-                    static_cast<GLsizeiptr>(scene_humans[i].skin.size_bytes()),
-                    scene_humans[i].skin.data());
+void Renderer::State::CollectDraw(const ModelDraw& draw,
+                                  const glm::mat4& clip_from_stage,
+                                  const RenderTarget& target,
+                                  ScreenBounds& bounds) {
+  const glm::mat4 clip_from_model = clip_from_stage * draw.stage_from_model;
+  ScreenBounds own;
+  for (size_t joint = 0; joint < draw.model->joint_count(); ++joint) {
+    own.Extend(draw.model->joint_boxes[joint], clip_from_model * draw.skin[joint]);
   }
-}
-
-void Renderer::State::DrawHumans(const RenderScene& scene, const glm::mat4& clip_from_stage) {
-  glEnable(GL_DEPTH_TEST);
-  UploadSkins(scene.humans);
-  human_pass.Use();
-  human_pass.Set("irradiance", IrradianceCoefficients(scene.light));
-  human_pass.Set("gain", scene.exposure * scene.gain);
-  human_pass.Set("knee", std::clamp(scene.knee, 0.0f, 1.0f));
-  for (size_t i = 0; i < scene.humans.size(); ++i) {
-    const SceneHuman& human = scene.humans[i];
-    human_pass.Set("stage_from_actor", human.stage_from_actor);
-    human_pass.Set("clip_from_actor", clip_from_stage * human.stage_from_actor);
-    glBindBufferRange(GL_UNIFORM_BUFFER, kSkinBinding, skin.id(),
-                      static_cast<GLintptr>(i * kSkinStride), kSkinStride);
-    humans.Find(human.human)->Draw();
-  }
-}
-
-PixelBounds Renderer::State::PeopleBounds(std::span<const SceneHuman> scene_humans,
-                                          const glm::mat4& clip_from_stage,
-                                          const RenderTarget& target) const {
-  ScreenBounds bounds;
-  for (const SceneHuman& human : scene_humans) {
-    const GpuHuman& gpu = *humans.Find(human.human);
-    const glm::mat4 clip_from_actor = clip_from_stage * human.stage_from_actor;
-    for (size_t joint = 0; joint < gpu.joint_count(); ++joint) {
-      bounds.Extend(gpu.joint_boxes[joint], clip_from_actor * human.skin[joint]);
+  for (const SceneVertices& moved : draw.vertices) {
+    if (moved.posed) {
+      Box box;
+      for (const glm::vec3& position : moved.positions) {
+        box.Extend(position);
+      }
+      own.Extend(box, clip_from_model);
     }
+  }
+  if (!own.Pixels(target.width(), target.height()).empty()) {
+    bounds.Extend(own);
+    draws.push_back(draw);
+  }
+}
+
+PixelBounds Renderer::State::CollectDraws(const RenderScene& scene,
+                                          const glm::mat4& clip_from_stage,
+                                          const RenderTarget& target) {
+  draws.clear();
+  ScreenBounds bounds;
+  for (const SceneProp& prop : scene.props) {
+    CollectDraw({models.Find(prop.prop), glm::mat4(1.0f), prop.stage_from_part, {}, 0},
+                clip_from_stage, target, bounds);
+  }
+  for (const SceneHuman& human : scene.humans) {
+    CollectDraw({models.Find(human.human), human.stage_from_actor, human.skin, human.vertices,
+                 human.detail},
+                clip_from_stage, target, bounds);
   }
   return bounds.Pixels(target.width(), target.height());
 }
@@ -190,7 +192,7 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
   }
   people.BindAndClear(bounds);
   DrawOccluders(scene.occluders, clip_from_stage);
-  DrawHumans(scene, clip_from_stage);
+  model_pass.Draw(scene, clip_from_stage, draws);
   people.Resolve(bounds);
   return Status();
 }
@@ -235,7 +237,7 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   if (scene.camera_from_stage) {
     const glm::mat4 clip_from_stage =
         ClipFromCamera(display, scene.near, scene.far) * geometry::ToGlm(*scene.camera_from_stage);
-    people_bounds = state.PeopleBounds(scene.humans, clip_from_stage, target);
+    people_bounds = state.CollectDraws(scene, clip_from_stage, target);
     LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, clip_from_stage, people_bounds, target));
   }
   state.Composite(scene, display, people_bounds, target);

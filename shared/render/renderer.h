@@ -1,11 +1,11 @@
 #pragma once
 
-// Draws people into the camera's image. OpenGL 3.3 core, or ES 3.0.
+// Draws people and props into the camera's image. OpenGL 3.3 core, or ES 3.0.
 //
-// Passes: occluders into depth only; people, skinned on the GPU and lit by
-// spherical harmonics, in linear light with 16-bit floats and several samples;
-// then one pass over the picture that undistorts the camera image, puts the
-// people over it, clips and encodes as sRGB.
+// Passes: occluders into depth only; people and props, skinned on the GPU and lit by
+// spherical harmonics, in linear light with 16-bit floats and several samples; then
+// one pass over the picture that undistorts the camera image, puts them over it,
+// clips and encodes as sRGB. What lies outside the picture is not drawn.
 
 #include <memory>
 
@@ -14,6 +14,7 @@
 #include "shared/human/human.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/render_target.h"
+#include "shared/stage/prop.h"
 
 namespace lararium::render {
 
@@ -29,11 +30,13 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // What is added must be valid (TriangleMesh::Validate, Human::Validate).
+  // What is added must be valid (TriangleMesh::Validate, Human::Validate,
+  // Prop::Validate). A person or prop fails where a texture cannot be decoded.
   MeshHandle AddMesh(const geometry::TriangleMesh& mesh);
-  HumanHandle AddHuman(const human::Human& human);
+  Result<ModelHandle> AddHuman(const human::Human& human);
+  Result<ModelHandle> AddProp(const stage::Prop& prop);
   void RemoveMesh(MeshHandle mesh);
-  void RemoveHuman(HumanHandle human);
+  void RemoveModel(ModelHandle model);
 
   // Fills the whole target. On error (a stale handle, matrices missing, out of
   // memory) the target's content is undefined.

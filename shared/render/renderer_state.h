@@ -3,13 +3,14 @@
 // The renderer's passes and what they draw. Private to render.
 
 #include <span>
+#include <vector>
 
 #include "shared/core/id.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/render/gl_object.h"
-#include "shared/render/gpu_human.h"
 #include "shared/render/gpu_mesh.h"
 #include "shared/render/linear_target.h"
+#include "shared/render/model_pass.h"
 #include "shared/render/renderer.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
@@ -20,28 +21,33 @@ namespace lararium::render {
 struct Renderer::State {
   int samples = 1;
   ShaderProgram occluder_pass;
-  ShaderProgram human_pass;
+  ModelPass model_pass;
   ShaderProgram composite_pass;
   GlVertexArray no_vertices;  // of the full-screen pass
-  GlBuffer skin;              // matrices of all people in the picture
   Texture background_image{Texture::Encoding::kLinear};
   LinearTarget people;
   SlotMap<GpuMesh> meshes;
-  SlotMap<GpuHuman> humans;
+  SlotMap<GpuModel> models;
+  std::vector<ModelDraw> draws;  // of the picture at hand: what may be seen in it
 
   Status Validate(const RenderScene& scene) const;
-  // Where people may be seen.
-  PixelBounds PeopleBounds(std::span<const SceneHuman> scene_humans,
+  Status ValidateModels(const RenderScene& scene) const;
+  Result<ModelHandle> AddModel(Result<GpuModel> model);
+  // Fills draws. Says where they may be seen.
+  PixelBounds CollectDraws(const RenderScene& scene,
                            const glm::mat4& clip_from_stage,
-                           const RenderTarget& target) const;
+                           const RenderTarget& target);
+  // Unless it lies outside the picture.
+  void CollectDraw(const ModelDraw& draw,
+                   const glm::mat4& clip_from_stage,
+                   const RenderTarget& target,
+                   ScreenBounds& bounds);
   Status DrawPeople(const RenderScene& scene,
                     const glm::mat4& clip_from_stage,
                     const PixelBounds& bounds,
                     const RenderTarget& target);
   void DrawOccluders(std::span<const SceneOccluder> occluders,
                      const glm::mat4& clip_from_stage) const;
-  void UploadSkins(std::span<const SceneHuman> scene_humans);
-  void DrawHumans(const RenderScene& scene, const glm::mat4& clip_from_stage);
   void Composite(const RenderScene& scene,
                  const geometry::CameraModel& display,
                  const PixelBounds& people_bounds,

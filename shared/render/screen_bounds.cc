@@ -25,6 +25,12 @@ void ScreenBounds::Extend(const Box& box, const glm::mat4& clip_from_box) {
   }
 }
 
+void ScreenBounds::Extend(const ScreenBounds& other) {
+  low_ = glm::min(low_, other.low_);
+  high_ = glm::max(high_, other.high_);
+  reaches_behind_viewer_ |= other.reaches_behind_viewer_;
+}
+
 PixelBounds ScreenBounds::Pixels(int width, int height) const {
   if (reaches_behind_viewer_) {
     return {0, 0, width, height};

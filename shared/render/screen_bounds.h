@@ -38,6 +38,7 @@ struct Box {
 class ScreenBounds {
  public:
   void Extend(const Box& box, const glm::mat4& clip_from_box);
+  void Extend(const ScreenBounds& other);
   PixelBounds Pixels(int width, int height) const;
 
  private:

@@ -20,8 +20,9 @@ class Shader {
 
   GLuint id() const { return id_; }
 
-  Status Compile(std::string_view name) {
-    LARARIUM_ASSIGN_OR_RETURN(const AssembledShader source, AssembleShader(name, Header()));
+  Status Compile(std::string_view name, std::string_view defines) {
+    const std::string header = std::string(Header()).append(defines);
+    LARARIUM_ASSIGN_OR_RETURN(const AssembledShader source, AssembleShader(name, header));
     const char* text = source.text.c_str();
     glShaderSource(id_, 1, &text, nullptr);
     glCompileShader(id_);
@@ -52,11 +53,13 @@ class Shader {
 
 }  // namespace
 
-Result<ShaderProgram> ShaderProgram::Create(std::string_view vertex, std::string_view fragment) {
+Result<ShaderProgram> ShaderProgram::Create(std::string_view vertex,
+                                            std::string_view fragment,
+                                            std::string_view defines) {
   Shader vertex_shader(GL_VERTEX_SHADER);
-  LARARIUM_RETURN_IF_ERROR(vertex_shader.Compile(vertex));
+  LARARIUM_RETURN_IF_ERROR(vertex_shader.Compile(vertex, defines));
   Shader fragment_shader(GL_FRAGMENT_SHADER);
-  LARARIUM_RETURN_IF_ERROR(fragment_shader.Compile(fragment));
+  LARARIUM_RETURN_IF_ERROR(fragment_shader.Compile(fragment, defines));
   GlProgram program = GlProgram::Generate();
   glAttachShader(program.id(), vertex_shader.id());
   glAttachShader(program.id(), fragment_shader.id());

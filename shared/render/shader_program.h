@@ -18,8 +18,11 @@ class ShaderProgram {
  public:
   ShaderProgram() = default;
 
-  // Compiles embedded shaders for the context's API. Errors name file and line.
-  static Result<ShaderProgram> Create(std::string_view vertex, std::string_view fragment);
+  // Compiles embedded shaders for the context's API. defines: lines that both begin
+  // with. Errors name file and line.
+  static Result<ShaderProgram> Create(std::string_view vertex,
+                                      std::string_view fragment,
+                                      std::string_view defines = {});
 
   void Use() const;
   // Of the program in use. Names that the compiler optimised away are ignored.

@@ -13,7 +13,7 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
                             render::Renderer::Create(options));
   std::unique_ptr<ShowRenderer> show(new ShowRenderer(std::move(renderer)));
   for (const CastMember& member : content.cast) {
-    show->cast_.push_back(show->renderer_->AddHuman(*member.human));
+    LARARIUM_ASSIGN_OR_RETURN(show->cast_.emplace_back(), show->renderer_->AddHuman(*member.human));
   }
   show->places_.resize(content.places.size());
   for (size_t i = 0; i < content.places.size(); ++i) {

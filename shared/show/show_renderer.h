@@ -35,7 +35,7 @@ class ShowRenderer {
       : renderer_(std::move(renderer)) {}
 
   std::unique_ptr<render::Renderer> renderer_;
-  std::vector<render::HumanHandle> cast_;
+  std::vector<render::ModelHandle> cast_;
   std::vector<PlaceScene> places_;
   std::vector<render::SceneHuman> humans_;  // of the frame being drawn
 };

@@ -171,7 +171,7 @@ TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
       .width = 200, .height = 150, .fx = 180.0, .fy = 175.0, .cx = 93.4, .cy = 81.7};
   const geometry::Rigid3 camera_from_stage = LookAt(
       Eigen::Vector3d(0.4, 1.7, 2.5), Eigen::Vector3d(0.1, 1.0, -1.0), Eigen::Vector3d::UnitY());
-  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1));
+  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
   const glm::mat4 skin(1.0f);
   Random random(5);
   for (int i = 0; i < 20; ++i) {
@@ -206,7 +206,7 @@ TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
 }
 
 TEST_F(RendererTest, OccludersHideWhatIsBehindAndShowTheBackground) {
-  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1));
+  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
   const MeshHandle wall = renderer_->AddMesh(Wall(0.0f, 9.0f, -3.0f));
   const glm::mat4 skin(1.0f);
   RenderScene scene;
@@ -231,7 +231,7 @@ TEST_F(RendererTest, OccludersHideWhatIsBehindAndShowTheBackground) {
 }
 
 TEST_F(RendererTest, WithoutAPoseOnlyTheBackgroundIsDrawn) {
-  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1));
+  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
   const glm::mat4 skin(1.0f);
   RenderScene scene;
   scene.background = NoiseImage(120, 90, 6);
@@ -267,10 +267,10 @@ TEST_F(RendererTest, SkinningEqualsTheCpu) {
   scene.light = UniformLight(2.0f);
   scene.light[1] = glm::vec3(0.4f, 0.2f, 0.1f);
   scene.light[3] = glm::vec3(0.1f, 0.3f, 0.4f);
-  SceneHuman human = {.human = renderer_->AddHuman(bent), .skin = skin};
+  SceneHuman human = {.human = renderer_->AddHuman(bent).value(), .skin = skin};
   scene.humans = {&human, 1};
   const cv::Mat on_gpu = Draw(scene, 200, 200);
-  human = {.human = renderer_->AddHuman(still), .skin = rest};
+  human = {.human = renderer_->AddHuman(still).value(), .skin = rest};
   const cv::Mat on_cpu = Draw(scene, 200, 200);
   EXPECT_GT(cv::countNonZero(on_cpu.reshape(1)), 3000);
   EXPECT_TRUE(test::ImagesAgree(on_gpu, on_cpu, {.max = 2.0, .mean = 0.01}));
@@ -278,7 +278,7 @@ TEST_F(RendererTest, SkinningEqualsTheCpu) {
 
 TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
   const glm::vec3 albedo(0.8f, 0.5f, 0.3f);
-  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(albedo), 1));
+  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(albedo), 1)).value();
   const glm::mat4 skin(1.0f);
   RenderScene scene;
   scene.display = Pinhole(240, 240, 400.0);
@@ -335,7 +335,7 @@ TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
   const glm::mat4 skin(1.0f);
   const auto count_between = [&](int samples) {
     Recreate({.samples = samples});
-    SceneHuman human = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)),
+    SceneHuman human = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value(),
                         .skin = {&skin, 1}};
     human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
     RenderScene scene;
@@ -353,7 +353,7 @@ TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
 }
 
 TEST_F(RendererTest, DrawsSeveralPeopleWithTheirOwnPoses) {
-  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1));
+  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
   std::array<glm::mat4, 2> skins = {glm::mat4(1.0f), glm::mat4(1.0f)};
   skins[0][3] = glm::vec4(-2.0f, 0.0f, 0.0f, 1.0f);
   skins[1][3] = glm::vec4(2.0f, 0.0f, 0.0f, 1.0f);
@@ -380,11 +380,11 @@ TEST_F(RendererTest, SaysWhatIsWrongWithAScene) {
   EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("display"));
   scene.display = Pinhole(64, 48, 60.0);
   EXPECT_TRUE(renderer_->Draw(scene, target).ok());
-  const HumanHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 2));
+  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 2)).value();
   SceneHuman human = {.human = ball};
   scene.humans = {&human, 1};
   EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("0 skin matrices for 2 joints"));
-  renderer_->RemoveHuman(ball);
+  renderer_->RemoveModel(ball);
   EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("removed"));
   scene.humans = {};
   const SceneOccluder occluder;

@@ -1,0 +1,95 @@
+// The radiance of surfaces under distant light: spherical harmonics for all of it,
+// and for highlights the one direction that most of it comes from. SURFACE_PLAIN,
+// SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH or SURFACE_EYE chooses the model.
+
+#include "spherical_harmonics.glsl"
+
+uniform vec3 irradiance[9];
+uniform vec3 key_direction;   // towards the light, unit, stage axes
+uniform vec3 key_irradiance;  // of a surface that faces it
+
+const float kPi = 3.14159265358979;
+
+// Of a smooth dielectric at a cosine (Schlick).
+float Fresnel(float f0, float cosine) { return f0 + (1.0 - f0) * pow(1.0 - cosine, 5.0); }
+
+// The share of even light that a rough dielectric reflects (Karis, "Physically Based
+// Shading on Mobile", 2014).
+float ReflectedShare(float f0, float roughness, float cosine) {
+  vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+  float a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
+  return f0 * (-1.04 * a + r.z) + 1.04 * a + r.w;
+}
+
+// A rough dielectric under the key light: GGX (Walter et al., EGSR 2007), with the
+// visibility of Hammon, "PBR Diffuse Lighting for GGX+Smith", GDC 2017.
+vec3 KeyHighlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
+  vec3 half_way = normalize(key_direction + to_eye);
+  float n_l = max(dot(normal, key_direction), 0.0);
+  float n_v = max(dot(normal, to_eye), 1e-3);
+  float n_h = max(dot(normal, half_way), 0.0);
+  float alpha = max(roughness * roughness, 2e-3);
+  float spread = n_h * n_h * (alpha * alpha - 1.0) + 1.0;
+  float distribution = alpha * alpha / (kPi * spread * spread);
+  float visibility = 0.5 / max(mix(2.0 * n_l * n_v, n_l + n_v, alpha), 1e-3);
+  float fresnel = Fresnel(f0, max(dot(to_eye, half_way), 0.0));
+  return key_irradiance * (distribution * visibility * fresnel * n_l);
+}
+
+// All highlights of a rough dielectric. What comes from around is as blurred as
+// irradiance is; the key light is left out of it.
+vec3 Highlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
+  vec3 mirrored = reflect(-to_eye, normal);
+  vec3 around = Irradiance(irradiance, mirrored) -
+                key_irradiance * max(dot(mirrored, key_direction), 0.0);
+  float share = ReflectedShare(f0, roughness, max(dot(normal, to_eye), 0.0));
+  return share * max(around, 0.0) / kPi + KeyHighlight(normal, to_eye, f0, roughness);
+}
+
+// One lobe of light along strands (Kajiya & Kay, SIGGRAPH 1989), moved towards root
+// or tip.
+float StrandLobe(vec3 strand, vec3 normal, vec3 half_way, float shift, float exponent) {
+  float along = dot(normalize(strand + shift * normal), half_way);
+  return smoothstep(-1.0, 0.0, along) * pow(max(1.0 - along * along, 0.0), 0.5 * exponent);
+}
+
+// The white lobe comes from the strands' surface, the coloured one from within
+// (Marschner et al., SIGGRAPH 2003; lobes as Scheuermann 2004 places them).
+vec3 HairHighlight(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness) {
+  vec3 half_way = normalize(key_direction + to_eye);
+  float sharpness = mix(120.0, 12.0, roughness);
+  float white = StrandLobe(strand, normal, half_way, -0.1, sharpness);
+  float coloured = StrandLobe(strand, normal, half_way, 0.15, 0.25 * sharpness);
+  float facing = clamp(0.3 + 0.7 * dot(normal, key_direction), 0.0, 1.0);
+  return key_irradiance * facing * (0.035 * white + 0.12 * sqrt(albedo) * coloured);
+}
+
+// Light caught by fibres that stand off the cloth: strongest at grazing sight, and
+// where sight and light have one direction.
+vec3 Fuzz(vec3 albedo, vec3 normal, vec3 to_eye, vec3 even) {
+  float rim = pow(1.0 - max(dot(normal, to_eye), 0.0), 4.0);
+  float back = pow(max(dot(key_direction, to_eye), 0.0), 8.0);
+  return mix(albedo, vec3(1.0), 0.15) * (0.25 * rim + 0.05 * back) * even / kPi;
+}
+
+// strand: unit, along hair from root to tip. Highlights apart, so that they can stay
+// where the surface is hardly there.
+void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness,
+             out vec3 matte, out vec3 highlight) {
+  vec3 even = Irradiance(irradiance, normal);
+  matte = albedo / kPi * even;
+  highlight = vec3(0.0);
+#ifdef SURFACE_SKIN
+  highlight = Highlight(normal, to_eye, 0.028, roughness);
+#endif
+#ifdef SURFACE_HAIR
+  highlight = HairHighlight(albedo, normal, strand, to_eye, roughness);
+#endif
+#ifdef SURFACE_CLOTH
+  matte += Fuzz(albedo, normal, to_eye, even);
+#endif
+#ifdef SURFACE_EYE
+  // The film of tears is smooth whatever lies beneath.
+  highlight = Highlight(normal, to_eye, 0.025, 0.22);
+#endif
+}

@@ -1,0 +1,85 @@
+// Surfaces of people and props. COVERED: partly covered ones, in two passes, the dense
+// core and the fringe around it.
+
+#include "surface.glsl"
+
+uniform vec3 gain;   // exposure and the camera's gain
+uniform float knee;  // of the camera's response
+uniform vec3 eye_in_stage;
+
+uniform sampler2D colour_texture;  // times coverage, coverage
+uniform sampler2D normal_texture;  // tangent space, green up
+uniform int has_normal_texture;
+uniform vec3 colour_factor;
+uniform vec3 emission;
+uniform float roughness;
+uniform float alpha_cutoff;
+uniform int fringe;
+
+in vec3 position_in_stage;
+in vec3 normal_in_stage;
+in vec3 surface_albedo;
+in vec2 surface_uv;
+
+layout(location = 0) out vec4 colour;
+
+// What is covered at least so much hides what is behind it.
+const float kCore = 0.85;
+
+// Linear up to the knee, then an exponential shoulder of equal slope that reaches
+// 1 at infinity.
+vec3 CameraResponse(vec3 x) {
+  float range = max(1.0 - knee, 1e-4);
+  return min(x, knee) + range * (1.0 - exp(-max(x - knee, 0.0) / range));
+}
+
+// Where the texture's u and v grow on the surface, from how both change on the screen
+// (Schueler, "Normal Mapping without Precomputed Tangents", ShaderX5, 2006). Not unit;
+// nothing where there are no coordinates.
+mat2x3 TangentsAlong(vec3 normal) {
+  vec3 across = cross(dFdy(position_in_stage), normal);
+  vec3 down = cross(normal, dFdx(position_in_stage));
+  vec2 du = dFdx(surface_uv);
+  vec2 dv = dFdy(surface_uv);
+  return mat2x3(across * du.x + down * dv.x, across * du.y + down * dv.y);
+}
+
+vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
+  vec3 bump = texture(normal_texture, surface_uv).xyz * 2.0 - 1.0;
+  float size = max(dot(tangents[0], tangents[0]), dot(tangents[1], tangents[1]));
+  float scale = inversesqrt(max(size, 1e-20));
+  // v grows downward in the image, and the map's green upward.
+  return normalize(scale * (bump.x * tangents[0] - bump.y * tangents[1]) + bump.z * normal);
+}
+
+void main() {
+  vec4 texel = texture(colour_texture, surface_uv);
+  float coverage = 1.0;
+#ifdef COVERED
+  // The rim of what is there is as soft as a pixel.
+  float rim = (texel.a - alpha_cutoff) / max(fwidth(texel.a), 1e-4) + 0.5;
+  coverage = texel.a * clamp(rim, 0.0, 1.0);
+  bool core = coverage >= kCore;
+  if (core == (fringe == 1) || coverage < 1.0 / 255.0) {
+    discard;
+  }
+  coverage = core ? 1.0 : coverage;
+#endif
+  vec3 albedo = surface_albedo * colour_factor * texel.rgb / max(texel.a, 1.0 / 255.0);
+  vec3 normal = normalize(gl_FrontFacing ? normal_in_stage : -normal_in_stage);
+  mat2x3 tangents = TangentsAlong(normal);
+  if (has_normal_texture == 1) {
+    normal = MappedNormal(normal, tangents);
+  }
+  vec3 strand = tangents[1] - dot(tangents[1], normal) * normal;
+  strand *= inversesqrt(max(dot(strand, strand), 1e-20));
+  vec3 matte;
+  vec3 highlight;
+  Reflect(albedo, normal, strand, normalize(eye_in_stage - position_in_stage), roughness, matte,
+          highlight);
+#ifndef SURFACE_EYE
+  highlight *= coverage;
+#endif
+  vec3 radiance = (matte + emission) * coverage + highlight;
+  colour = vec4(CameraResponse(radiance * gain), coverage);
+}

@@ -1,0 +1,70 @@
+// Skinning, four influences: what human::SkinningJob does on the CPU.
+
+uniform mat4 clip_from_model;
+uniform mat4 stage_from_model;
+uniform int motion;  // 0: as it is, 1: by matrices, 2: by dual quaternions
+// Matrices; or in the columns of each the real part, the dual part (x, y, z, w), and
+// the scale.
+layout(std140) uniform Skin { mat4 skin[256]; };
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 albedo;
+layout(location = 3) in uvec4 joints;
+layout(location = 4) in vec4 weights;
+layout(location = 5) in vec2 uv;
+
+out vec3 position_in_stage;
+out vec3 normal_in_stage;
+out vec3 surface_albedo;
+out vec2 surface_uv;
+
+mat4 BlendMatrices() {
+  return weights.x * skin[joints.x] + weights.y * skin[joints.y] + weights.z * skin[joints.z] +
+         weights.w * skin[joints.w];
+}
+
+// Adds a dual quaternion and its scale, on the side of the first.
+void AddDualQuaternion(uint joint, float weight, inout vec4 real, inout vec4 dual,
+                       inout float scale) {
+  mat4 q = skin[joint];
+  float side = dot(q[0], skin[joints.x][0]) < 0.0 ? -weight : weight;
+  real += side * q[0];
+  dual += side * q[1];
+  scale += weight * q[2].x;
+}
+
+mat4 BlendDualQuaternions() {
+  vec4 r = vec4(0.0);
+  vec4 d = vec4(0.0);
+  float scale = 0.0;
+  AddDualQuaternion(joints.x, weights.x, r, d, scale);
+  AddDualQuaternion(joints.y, weights.y, r, d, scale);
+  AddDualQuaternion(joints.z, weights.z, r, d, scale);
+  AddDualQuaternion(joints.w, weights.w, r, d, scale);
+  float size = inversesqrt(max(dot(r, r), 1e-12));
+  r *= size;
+  d *= size;
+  vec3 x = vec3(1.0 - 2.0 * (r.y * r.y + r.z * r.z), 2.0 * (r.x * r.y + r.w * r.z),
+                2.0 * (r.x * r.z - r.w * r.y));
+  vec3 y = vec3(2.0 * (r.x * r.y - r.w * r.z), 1.0 - 2.0 * (r.x * r.x + r.z * r.z),
+                2.0 * (r.y * r.z + r.w * r.x));
+  vec3 translation = 2.0 * (r.w * d.xyz - d.w * r.xyz + cross(r.xyz, d.xyz));
+  return mat4(vec4(scale * x, 0.0), vec4(scale * y, 0.0), vec4(scale * cross(x, y), 0.0),
+              vec4(translation, 1.0));
+}
+
+void main() {
+  mat4 model_from_bind = mat4(1.0);
+  if (motion == 1) {
+    model_from_bind = BlendMatrices();
+  } else if (motion == 2) {
+    model_from_bind = BlendDualQuaternions();
+  }
+  vec4 in_model = model_from_bind * vec4(position, 1.0);
+  gl_Position = clip_from_model * in_model;
+  position_in_stage = (stage_from_model * in_model).xyz;
+  normal_in_stage = mat3(stage_from_model) * (mat3(model_from_bind) * normal);
+  surface_albedo = albedo;
+  surface_uv = uv;
+}

@@ -1,0 +1,300 @@
+#include "shared/render/gpu_model.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <optional>
+
+#include "shared/core/check.h"
+#include "shared/core/parallel.h"
+#include "shared/render/closed_surface.h"
+#include "shared/render/surface_texture.h"
+#include "shared/render/texture_image.h"
+
+namespace lararium::render {
+namespace {
+
+// What a vertex keeps while it moves.
+struct Attributes {
+  glm::vec3 albedo;
+  glm::vec2 uv;
+  std::array<uint8_t, 4> joints;
+  glm::vec4 weights;
+};
+
+// The arrays of one part, wherever they come from.
+struct PartSource {
+  std::span<const glm::vec3> positions;
+  std::span<const glm::vec3> normals;
+  std::vector<Attributes> attributes;
+  std::vector<std::span<const uint32_t>> levels;
+  int16_t material = human::Material::kNone;
+};
+
+void DefineFloats(GLuint location, int count, size_t stride, size_t offset) {
+  glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                        reinterpret_cast<const void*>(offset));
+  glEnableVertexAttribArray(location);
+}
+
+void DefineAttributes() {
+  constexpr size_t kStride = sizeof(Attributes);
+  DefineFloats(2, 3, kStride, offsetof(Attributes, albedo));
+  DefineFloats(5, 2, kStride, offsetof(Attributes, uv));
+  glVertexAttribIPointer(3, 4, GL_UNSIGNED_BYTE, kStride,
+                         reinterpret_cast<const void*>(offsetof(Attributes, joints)));
+  glEnableVertexAttribArray(3);
+  DefineFloats(4, 4, kStride, offsetof(Attributes, weights));
+}
+
+void Upload(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals) {
+  const auto bytes = static_cast<GLsizeiptr>(positions.size_bytes());
+  glBufferSubData(GL_ARRAY_BUFFER, 0, bytes, positions.data());
+  glBufferSubData(GL_ARRAY_BUFFER, bytes, bytes, normals.data());
+}
+
+// The two arrays share one buffer of the given size.
+GlVertexArray CreateVertexArray(const GpuModel::Part& part, const GlBuffer& vertices, GLenum use) {
+  GlVertexArray array = GlVertexArray::Generate();
+  glBindVertexArray(array.id());
+  const size_t bytes = part.vertex_count * sizeof(glm::vec3);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(2 * bytes), nullptr, use);
+  DefineFloats(0, 3, sizeof(glm::vec3), 0);
+  DefineFloats(1, 3, sizeof(glm::vec3), bytes);
+  glBindBuffer(GL_ARRAY_BUFFER, part.attributes.id());
+  DefineAttributes();
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.id());
+  glBindVertexArray(0);
+  return array;
+}
+
+void UploadIndices(const PartSource& source, GpuModel::Part& part) {
+  std::vector<uint32_t> indices;
+  for (const std::span<const uint32_t> level : source.levels) {
+    part.levels.push_back({indices.size(), static_cast<int>(level.size())});
+    indices.insert(indices.end(), level.begin(), level.end());
+  }
+  // Not as an element array: that would belong to whichever vertex array is bound.
+  glBindBuffer(GL_COPY_WRITE_BUFFER, part.indices.id());
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)),
+               indices.data(), GL_STATIC_DRAW);
+}
+
+void ApplyMaterial(const human::Material& material, GpuModel::Part& part) {
+  part.surface = material.surface;
+  part.colour = material.colour;
+  part.roughness = material.roughness;
+  part.alpha_cutoff = material.alpha_cutoff;
+}
+
+GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Material> materials) {
+  GpuModel::Part part;
+  part.vertex_count = source.positions.size();
+  part.attributes = GlBuffer::Generate();
+  part.bind_vertices = GlBuffer::Generate();
+  part.streamed_vertices = GlBuffer::Generate();
+  part.indices = GlBuffer::Generate();
+  bool two_sided = true;
+  if (source.material != human::Material::kNone) {
+    ApplyMaterial(materials[static_cast<size_t>(source.material)], part);
+    two_sided = materials[static_cast<size_t>(source.material)].two_sided;
+  }
+  // Back faces of a closed surface are never seen, whatever its material says.
+  part.culls_back_faces =
+      !two_sided || (!part.covered() && IsClosedSurface(source.positions, source.levels.front()));
+  UploadIndices(source, part);
+  glBindBuffer(GL_ARRAY_BUFFER, part.attributes.id());
+  glBufferData(GL_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(source.attributes.size() * sizeof(Attributes)),
+               source.attributes.data(), GL_STATIC_DRAW);
+  part.bind_pose = CreateVertexArray(part, part.bind_vertices, GL_STATIC_DRAW);
+  glBindBuffer(GL_ARRAY_BUFFER, part.bind_vertices.id());
+  Upload(source.positions, source.normals);
+  return part;
+}
+
+PartSource Source(const human::SkinnedMesh& mesh) {
+  PartSource source{mesh.positions, mesh.normals, {}, {mesh.indices}, mesh.material};
+  source.attributes.resize(mesh.positions.size());
+  for (size_t v = 0; v < source.attributes.size(); ++v) {
+    source.attributes[v] = {mesh.albedo[v], mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
+                            mesh.joints[v], mesh.weights[v]};
+  }
+  for (const human::LevelOfDetail& level : mesh.coarser) {
+    source.levels.emplace_back(level.indices);
+  }
+  return source;
+}
+
+PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
+  PartSource source{mesh.positions, mesh.normals, {}, {mesh.indices}, mesh.material};
+  source.attributes.resize(mesh.positions.size());
+  for (size_t v = 0; v < source.attributes.size(); ++v) {
+    source.attributes[v] = {mesh.albedo[v],
+                            mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
+                            {joint, joint, joint, joint},
+                            {1.0f, 0.0f, 0.0f, 0.0f}};
+  }
+  return source;
+}
+
+// Decodes what materials use, each image once for each use, and hands out indices.
+class TextureLoader {
+ public:
+  TextureLoader(std::span<const human::Texture> textures, std::string place)
+      : textures_(textures), place_(std::move(place)) {}
+
+  int Want(int16_t texture, TextureUse use) {
+    if (texture == human::Material::kNone) {
+      return GpuModel::kNoTexture;
+    }
+    const Request request = {static_cast<size_t>(texture), use};
+    auto found = std::find(wanted_.begin(), wanted_.end(), request);
+    if (found == wanted_.end()) {
+      wanted_.push_back(request);
+      found = wanted_.end() - 1;
+    }
+    return static_cast<int>(found - wanted_.begin());
+  }
+
+  Result<std::vector<GlTexture>> Load() const {
+    std::vector<std::optional<Result<cv::Mat>>> images(wanted_.size());
+    ParallelFor(wanted_.size(), [&](size_t i) {
+      const human::Texture& texture = textures_[wanted_[i].texture];
+      images[i] = DecodeTexture(texture.encoded, place_ + ": texture '" + texture.name + "'");
+      if (images[i]->ok() && wanted_[i].use == TextureUse::kColour) {
+        PremultiplySrgb(**images[i]);
+      }
+    });
+    std::vector<GlTexture> loaded;
+    for (size_t i = 0; i < wanted_.size(); ++i) {
+      LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, std::move(*images[i]));
+      loaded.push_back(CreateSurfaceTexture(image, wanted_[i].use));
+    }
+    return loaded;
+  }
+
+ private:
+  struct Request {
+    size_t texture = 0;
+    TextureUse use = TextureUse::kColour;
+    bool operator==(const Request&) const = default;
+  };
+
+  std::span<const human::Texture> textures_;
+  std::string place_;
+  std::vector<Request> wanted_;
+};
+
+Status AddParts(std::span<const PartSource> sources,
+                std::span<const human::Material> materials,
+                std::span<const human::Texture> textures,
+                const std::string& place,
+                GpuModel& model) {
+  TextureLoader loader(textures, place);
+  for (const PartSource& source : sources) {
+    GpuModel::Part& part = model.parts.emplace_back(CreatePart(source, materials));
+    if (source.material != human::Material::kNone) {
+      const human::Material& material = materials[static_cast<size_t>(source.material)];
+      part.colour_texture = loader.Want(material.colour_texture, TextureUse::kColour);
+      part.normal_texture = loader.Want(material.normal_texture, TextureUse::kNormal);
+    }
+  }
+  LARARIUM_ASSIGN_OR_RETURN(model.textures, loader.Load());
+  return Status();
+}
+
+// How far morph targets can move each vertex of each mesh, along each axis.
+std::vector<std::vector<glm::vec3>> MorphReach(const human::Human& human) {
+  std::vector<std::vector<glm::vec3>> reach;
+  for (const human::SkinnedMesh& mesh : human.meshes) {
+    reach.emplace_back(mesh.positions.size(), glm::vec3(0.0f));
+  }
+  for (const human::MorphTarget& morph : human.morphs) {
+    for (const human::MorphTarget::Part& part : morph.parts) {
+      for (size_t i = 0; i < part.vertices.size(); ++i) {
+        reach[part.mesh][part.vertices[i]] += glm::abs(part.position_deltas[i]);
+      }
+    }
+  }
+  return reach;
+}
+
+void ExtendJointBoxes(const human::SkinnedMesh& mesh,
+                      std::span<const glm::vec3> reach,
+                      std::vector<Box>& boxes) {
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    for (int i = 0; i < 4; ++i) {
+      if (mesh.weights[v][i] > 0.0f) {
+        boxes[mesh.joints[v][i]].Extend(mesh.positions[v] - reach[v]);
+        boxes[mesh.joints[v][i]].Extend(mesh.positions[v] + reach[v]);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Result<GpuModel> GpuModel::Create(const human::Human& human) {
+  GpuModel model;
+  model.skinning = human.skinning;
+  std::vector<PartSource> sources;
+  for (const human::SkinnedMesh& mesh : human.meshes) {
+    sources.push_back(Source(mesh));
+  }
+  LARARIUM_RETURN_IF_ERROR(AddParts(sources, human.materials, human.textures, human.name, model));
+  model.joint_boxes.resize(human.skeleton.size());
+  const auto reach = MorphReach(human);
+  for (size_t i = 0; i < human.meshes.size(); ++i) {
+    ExtendJointBoxes(human.meshes[i], reach[i], model.joint_boxes);
+  }
+  return model;
+}
+
+Result<GpuModel> GpuModel::Create(const stage::Prop& prop) {
+  GpuModel model;
+  std::vector<PartSource> sources;
+  std::vector<glm::vec3> emissions;
+  model.joint_boxes.resize(prop.parts.size());
+  for (size_t joint = 0; joint < prop.parts.size(); ++joint) {
+    for (const stage::PropMesh& mesh : prop.parts[joint].meshes) {
+      sources.push_back(Source(mesh, static_cast<uint8_t>(joint)));
+      emissions.push_back(mesh.emission);
+      for (const glm::vec3& position : mesh.positions) {
+        model.joint_boxes[joint].Extend(position);
+      }
+    }
+  }
+  LARARIUM_RETURN_IF_ERROR(AddParts(sources, prop.materials, prop.textures, prop.name, model));
+  for (size_t i = 0; i < emissions.size(); ++i) {
+    model.parts[i].emission = emissions[i];
+  }
+  return model;
+}
+
+void GpuModel::Stream(size_t part_index,
+                      std::span<const glm::vec3> positions,
+                      std::span<const glm::vec3> normals) {
+  Part& part = parts[part_index];
+  CHECK(positions.size() == part.vertex_count && normals.size() == part.vertex_count);
+  if (part.streamed.id() == 0) {
+    part.streamed = CreateVertexArray(part, part.streamed_vertices, GL_STREAM_DRAW);
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, part.streamed_vertices.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(2 * positions.size_bytes()), nullptr,
+               GL_STREAM_DRAW);
+  Upload(positions, normals);
+}
+
+void GpuModel::Draw(size_t part_index, uint32_t level, bool streamed) const {
+  const Part& part = parts[part_index];
+  const Part::Level& drawn = part.levels[std::min<size_t>(level, part.levels.size() - 1)];
+  glBindVertexArray(streamed ? part.streamed.id() : part.bind_pose.id());
+  glDrawElements(GL_TRIANGLES, drawn.count, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(drawn.first * sizeof(uint32_t)));
+}
+
+}  // namespace lararium::render

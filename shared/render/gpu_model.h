@@ -1,0 +1,73 @@
+#pragma once
+
+// A person or a prop on the GPU: parts of one material each, whose vertices follow
+// joints. A prop's joints are its movable parts. Private to render.
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "shared/core/status.h"
+#include "shared/human/human.h"
+#include "shared/render/gl_object.h"
+#include "shared/render/screen_bounds.h"
+#include "shared/stage/prop.h"
+
+namespace lararium::render {
+
+struct GpuModel {
+  static constexpr int kNoTexture = -1;
+
+  struct Part {
+    human::Surface surface = human::Surface::kPlain;
+    int colour_texture = kNoTexture;  // index into textures
+    int normal_texture = kNoTexture;
+    glm::vec3 colour = glm::vec3(1.0f);
+    glm::vec3 emission = glm::vec3(0.0f);
+    float roughness = 0.8f;
+    float alpha_cutoff = 0.0f;  // 0: opaque
+    bool culls_back_faces = false;
+
+    struct Level {
+      size_t first = 0;  // index
+      int count = 0;
+    };
+    std::vector<Level> levels;  // of detail, the finest first
+    size_t vertex_count = 0;
+    GlVertexArray bind_pose;
+    GlVertexArray streamed;      // positions and normals of this very draw
+    GlBuffer attributes;         // what stays: albedo, texture coordinates, skin weights
+    GlBuffer bind_vertices;      // all positions, then all normals
+    GlBuffer streamed_vertices;  // likewise
+    GlBuffer indices;
+
+    bool covered() const { return alpha_cutoff > 0.0f; }
+  };
+
+  std::vector<GlTexture> textures;
+  std::vector<Part> parts;  // of a human: parallel to its meshes
+  human::Skinning skinning = human::Skinning::kLinear;
+  // Of each joint: the box, in the bind pose, of all vertices that follow it, morphed
+  // or not. A posed vertex lies in the convex hull of its joints' posed boxes; with dual
+  // quaternions nearly so.
+  std::vector<Box> joint_boxes;
+
+  size_t joint_count() const { return joint_boxes.size(); }
+
+  // Fails where a texture cannot be decoded.
+  static Result<GpuModel> Create(const human::Human& human);
+  static Result<GpuModel> Create(const stage::Prop& prop);
+
+  // Vertices for the next draw of a part; one for each of its own. The buffer's old
+  // content is orphaned, so that nothing waits for draws under way.
+  void Stream(size_t part,
+              std::span<const glm::vec3> positions,
+              std::span<const glm::vec3> normals);
+  // Attributes as in shaders/pass/model.vert. Beyond the coarsest level: that one.
+  void Draw(size_t part, uint32_t level, bool streamed) const;
+};
+
+}  // namespace lararium::render

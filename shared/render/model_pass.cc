@@ -1,0 +1,229 @@
+#include "shared/render/model_pass.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <numbers>
+#include <string>
+
+#include "shared/human/skinning.h"
+#include "shared/render/key_light.h"
+#include "shared/render/surface_texture.h"
+
+namespace lararium::render {
+namespace {
+
+constexpr uint32_t kSkinBinding = 0;
+// Of each model in the buffer of matrices: the whole uniform block, which is also a
+// multiple of every driver's offset alignment.
+constexpr size_t kSkinStride = human::Skeleton::kMaxJoints * sizeof(glm::mat4);
+
+// As shaders/pass/model.vert numbers them.
+enum class VertexMotion { kPosed, kLinear, kDualQuaternion };
+
+constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
+                                                                         "CLOTH", "EYE"};
+
+// Radiance to irradiance, with the constants of the basis: what
+// shaders/include/spherical_harmonics.glsl takes.
+std::array<glm::vec3, light::kShCount> IrradianceCoefficients(const light::ShRgb& radiance) {
+  constexpr double kPi = std::numbers::pi;
+  constexpr double kConvolution[] = {kPi, 2.0 * kPi / 3.0, kPi / 4.0};
+  constexpr int kDegree[] = {0, 1, 1, 1, 2, 2, 2, 2, 2};
+  const double first = std::sqrt(3.0 / (4.0 * kPi));
+  const double second = std::sqrt(15.0 / (4.0 * kPi));
+  const double basis[] = {std::sqrt(1.0 / (4.0 * kPi)),  first,  first,       first, second, second,
+                          std::sqrt(5.0 / (16.0 * kPi)), second, 0.5 * second};
+  std::array<glm::vec3, light::kShCount> coefficients;
+  for (int i = 0; i < light::kShCount; ++i) {
+    coefficients[i] = radiance[i] * static_cast<float>(kConvolution[kDegree[i]] * basis[i]);
+  }
+  return coefficients;
+}
+
+// Light that enters skin leaves it some way off, red furthest: on a ball this weakens
+// band l by exp(-l (l + 1) variance / (2 radius^2)). The variances are those of the
+// sum of Gaussians of d'Eon & Luebke, "Advanced Techniques for Realistic Real-Time
+// Skin Rendering", GPU Gems 3, 2007; the radius is that of a nose or a finger.
+void ScatterInSkin(std::array<glm::vec3, light::kShCount>& irradiance) {
+  const glm::vec3 variance(1.38f, 0.068f, 0.025f);  // mm^2
+  constexpr float kRadius = 5.0f;                   // mm
+  for (int i = 1; i < light::kShCount; ++i) {
+    const float degrees = i < 4 ? 2.0f : 6.0f;
+    irradiance[i] *= glm::exp(-degrees * variance / (2.0f * kRadius * kRadius));
+  }
+}
+
+void PackDualQuaternions(std::span<const glm::mat4> skin, std::vector<glm::mat4>& packed) {
+  packed.clear();
+  for (const glm::mat4& matrix : skin) {
+    const human::DualQuaternion q = human::ToDualQuaternion(matrix);
+    packed.emplace_back(glm::vec4(q.real.x, q.real.y, q.real.z, q.real.w),
+                        glm::vec4(q.dual.x, q.dual.y, q.dual.z, q.dual.w),
+                        glm::vec4(q.scale, 0.0f, 0.0f, 0.0f), glm::vec4(0.0f));
+  }
+}
+
+const SceneVertices* FindVertices(const ModelDraw& draw, size_t part) {
+  for (const SceneVertices& vertices : draw.vertices) {
+    if (vertices.mesh == part) {
+      return &vertices;
+    }
+  }
+  return nullptr;
+}
+
+VertexMotion Motion(const GpuModel& model, const SceneVertices* vertices) {
+  if (vertices != nullptr && vertices->posed) {
+    return VertexMotion::kPosed;
+  }
+  return model.skinning == human::Skinning::kLinear ? VertexMotion::kLinear
+                                                    : VertexMotion::kDualQuaternion;
+}
+
+}  // namespace
+
+Result<ModelPass> ModelPass::Create() {
+  ModelPass pass;
+  pass.skin_ = GlBuffer::Generate();
+  pass.white_ = CreateWhiteTexture();
+  return pass;
+}
+
+size_t ModelPass::ProgramIndex(const GpuModel::Part& part) {
+  return 2 * static_cast<size_t>(part.surface) + (part.covered() ? 1 : 0);
+}
+
+Status ModelPass::Prepare(const GpuModel& model) {
+  for (const GpuModel::Part& part : model.parts) {
+    Program& program = programs_[ProgramIndex(part)];
+    if (program.ready) {
+      continue;
+    }
+    std::string defines =
+        std::string("#define SURFACE_") + kSurfaceNames[static_cast<size_t>(part.surface)] + "\n";
+    if (part.covered()) {
+      defines += "#define COVERED\n";
+    }
+    LARARIUM_ASSIGN_OR_RETURN(program.shaders,
+                              ShaderProgram::Create("model.vert", "model.frag", defines));
+    program.shaders.BindUniformBlock("Skin", kSkinBinding);
+    program.ready = true;
+  }
+  return Status();
+}
+
+void ModelPass::UploadSkins(std::span<const ModelDraw> draws) {
+  glBindBuffer(GL_UNIFORM_BUFFER, skin_.id());
+  glBufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(draws.size() * kSkinStride), nullptr,
+               GL_STREAM_DRAW);
+  for (size_t i = 0; i < draws.size(); ++i) {
+    std::span<const glm::mat4> skin = draws[i].skin;
+    if (draws[i].model->skinning == human::Skinning::kDualQuaternion) {
+      PackDualQuaternions(skin, packed_);
+      skin = packed_;
+    }
+    glBufferSubData(GL_UNIFORM_BUFFER, static_cast<GLintptr>(i * kSkinStride),
+                    static_cast<GLsizeiptr>(skin.size_bytes()), skin.data());
+  }
+}
+
+void ModelPass::SetLight(const RenderScene& scene) const {
+  const std::array irradiance = IrradianceCoefficients(scene.light);
+  std::array scattered = irradiance;
+  ScatterInSkin(scattered);
+  const KeyLight key = EstimateKeyLight(scene.light);
+  const Eigen::Vector3d eye = scene.camera_from_stage->Inverse().translation;
+  for (size_t i = 0; i < kPrograms; ++i) {
+    if (!programs_[i].ready) {
+      continue;
+    }
+    const ShaderProgram& shaders = programs_[i].shaders;
+    const bool skin = i / 2 == static_cast<size_t>(human::Surface::kSkin);
+    shaders.Use();
+    shaders.Set("irradiance", skin ? scattered : irradiance);
+    shaders.Set("key_direction", key.direction);
+    shaders.Set("key_irradiance", key.irradiance);
+    shaders.Set("eye_in_stage", glm::vec3(eye.x(), eye.y(), eye.z()));
+    shaders.Set("gain", scene.exposure * scene.gain);
+    shaders.Set("knee", std::clamp(scene.knee, 0.0f, 1.0f));
+    shaders.Set("colour_texture", 0);
+    shaders.Set("normal_texture", 1);
+  }
+}
+
+void ModelPass::BindTextures(const GpuModel& model, const GpuModel::Part& part) const {
+  const auto texture = [&](int index) {
+    return index == GpuModel::kNoTexture ? white_.id()
+                                         : model.textures[static_cast<size_t>(index)].id();
+  };
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, texture(part.normal_texture));
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture(part.colour_texture));
+}
+
+void ModelPass::DrawPart(const ModelDraw& draw,
+                         size_t index,
+                         Phase phase,
+                         const glm::mat4& clip_from_stage) {
+  const GpuModel::Part& part = draw.model->parts[index];
+  const SceneVertices* vertices = FindVertices(draw, index);
+  if (vertices != nullptr) {
+    draw.model->Stream(index, vertices->positions, vertices->normals);
+  }
+  const ShaderProgram& shaders = programs_[ProgramIndex(part)].shaders;
+  shaders.Use();
+  shaders.Set("stage_from_model", draw.stage_from_model);
+  shaders.Set("clip_from_model", clip_from_stage * draw.stage_from_model);
+  shaders.Set("motion", static_cast<int>(Motion(*draw.model, vertices)));
+  shaders.Set("colour_factor", part.colour);
+  shaders.Set("emission", part.emission);
+  shaders.Set("roughness", part.roughness);
+  shaders.Set("alpha_cutoff", part.alpha_cutoff);
+  shaders.Set("has_normal_texture", part.normal_texture == GpuModel::kNoTexture ? 0 : 1);
+  shaders.Set("fringe", phase == Phase::kFringe ? 1 : 0);
+  BindTextures(*draw.model, part);
+  if (part.culls_back_faces) {
+    glEnable(GL_CULL_FACE);
+  } else {
+    glDisable(GL_CULL_FACE);
+  }
+  draw.model->Draw(index, draw.detail, vertices != nullptr);
+}
+
+void ModelPass::DrawPhase(Phase phase,
+                          const glm::mat4& clip_from_stage,
+                          std::span<const ModelDraw> draws) {
+  for (size_t i = 0; i < draws.size(); ++i) {
+    glBindBufferRange(GL_UNIFORM_BUFFER, kSkinBinding, skin_.id(),
+                      static_cast<GLintptr>(i * kSkinStride), kSkinStride);
+    for (size_t part = 0; part < draws[i].model->parts.size(); ++part) {
+      if (draws[i].model->parts[part].covered() == (phase != Phase::kOpaque)) {
+        DrawPart(draws[i], part, phase, clip_from_stage);
+      }
+    }
+  }
+}
+
+void ModelPass::Draw(const RenderScene& scene,
+                     const glm::mat4& clip_from_stage,
+                     std::span<const ModelDraw> draws) {
+  glEnable(GL_DEPTH_TEST);
+  UploadSkins(draws);
+  SetLight(scene);
+  DrawPhase(Phase::kOpaque, clip_from_stage, draws);
+  DrawPhase(Phase::kCore, clip_from_stage, draws);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  DrawPhase(Phase::kFringe, clip_from_stage, draws);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+}
+
+}  // namespace lararium::render

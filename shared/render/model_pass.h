@@ -1,0 +1,67 @@
+#pragma once
+
+// Draws people and props. Private to render.
+//
+// First what is opaque; then of what is partly covered (hair, lashes) the dense core,
+// which hides what is behind it; then its thin fringe, blended over all that and
+// hiding nothing (after Scheuermann, "Practical Real-Time Hair Rendering and
+// Shading", SIGGRAPH 2004 sketches). Colour is stored times coverage.
+
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/core/status.h"
+#include "shared/render/gl_object.h"
+#include "shared/render/gpu_model.h"
+#include "shared/render/render_scene.h"
+#include "shared/render/shader_program.h"
+
+namespace lararium::render {
+
+// One model in the picture.
+struct ModelDraw {
+  GpuModel* model = nullptr;
+  glm::mat4 stage_from_model = glm::mat4(1.0f);
+  std::span<const glm::mat4> skin;  // one for each joint, model frame
+  std::span<const SceneVertices> vertices;
+  uint32_t detail = 0;
+};
+
+class ModelPass {
+ public:
+  static Result<ModelPass> Create();
+
+  // Compiles what the model's surfaces need, unless it is there.
+  Status Prepare(const GpuModel& model);
+  // Into the bound target, whose depth it tests and writes. Light and camera are the
+  // scene's.
+  void Draw(const RenderScene& scene,
+            const glm::mat4& clip_from_stage,
+            std::span<const ModelDraw> draws);
+
+ private:
+  enum class Phase { kOpaque, kCore, kFringe };
+  struct Program {
+    ShaderProgram shaders;
+    bool ready = false;
+  };
+  static constexpr size_t kPrograms = 2 * human::kSurfaceCount;
+  static size_t ProgramIndex(const GpuModel::Part& part);
+
+  void UploadSkins(std::span<const ModelDraw> draws);
+  void SetLight(const RenderScene& scene) const;
+  void DrawPhase(Phase phase, const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
+  void DrawPart(const ModelDraw& draw, size_t part, Phase phase, const glm::mat4& clip_from_stage);
+  void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;
+
+  std::array<Program, kPrograms> programs_;
+  GlBuffer skin_;  // matrices or dual quaternions of all models in the picture
+  GlTexture white_;
+  std::vector<glm::mat4> packed_;  // dual quaternions of one model, as the shader takes them
+};
+
+}  // namespace lararium::render

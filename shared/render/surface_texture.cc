@@ -1,0 +1,63 @@
+#include "shared/render/surface_texture.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "shared/core/check.h"
+
+namespace lararium::render {
+namespace {
+
+constexpr GLfloat kAnisotropy = 4.0f;
+
+int LargestSide() {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  return std::max(largest, 64);
+}
+
+void SetFiltering() {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+  // Blue comes first in the image: OpenGL ES has no such order to upload from.
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
+  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+    GLfloat most = 1.0f;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, kAnisotropy));
+  }
+}
+
+}  // namespace
+
+GlTexture CreateSurfaceTexture(cv::Mat bgra, TextureUse use) {
+  CHECK(bgra.type() == CV_8UC4 && !bgra.empty());
+  const int largest = LargestSide();
+  while (bgra.cols > largest || bgra.rows > largest) {
+    cv::resize(bgra, bgra, cv::Size(std::max(bgra.cols / 2, 1), std::max(bgra.rows / 2, 1)), 0, 0,
+               cv::INTER_AREA);
+  }
+  if (!bgra.isContinuous()) {
+    bgra = bgra.clone();
+  }
+  GlTexture texture = GlTexture::Generate();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  // Four channels: OpenGL ES makes no mipmaps of three that are sRGB-encoded.
+  const GLint format = use == TextureUse::kColour ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  glTexImage2D(GL_TEXTURE_2D, 0, format, bgra.cols, bgra.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               bgra.data);
+  glGenerateMipmap(GL_TEXTURE_2D);
+  SetFiltering();
+  return texture;
+}
+
+GlTexture CreateWhiteTexture() {
+  return CreateSurfaceTexture(cv::Mat(1, 1, CV_8UC4, cv::Scalar::all(255)), TextureUse::kColour);
+}
+
+}  // namespace lararium::render
