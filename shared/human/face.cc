@@ -22,7 +22,9 @@ constexpr std::array<std::string_view, kExpressionCount> kExpressionNames = {
 constexpr std::array<float, kVisemeCount> kDominance = {
     0.7f, 3.0f, 2.4f, 1.4f, 1.0f, 0.7f, 1.8f, 1.2f, 0.8f, 1.1f, 1.3f, 1.2f, 1.0f, 1.5f, 1.7f};
 constexpr float kSpread = 0.055f;  // seconds in which dominance falls to 1/e
-constexpr float kHold = 0.3f;      // of a segment, around its middle: full dominance
+// A segment is fully dominant but for so much at either end: a share, at most seconds.
+constexpr float kEdgeShare = 0.2f;
+constexpr float kLongestEdge = 0.04f;
 constexpr float kWindow = 0.35f;   // seconds beyond which a segment has no say
 
 template <size_t N>
@@ -40,7 +42,9 @@ class Coarticulation {
   void Add(Viseme viseme, float strength, float begin, float end) {
     const size_t v = static_cast<size_t>(viseme);
     const float middle = 0.5f * (begin + end);
-    const float away = std::max(std::abs(time_ - middle) - kHold * (end - begin), 0.0f);
+    const float length = end - begin;
+    const float full = 0.5f * length - std::min(kEdgeShare * length, kLongestEdge);
+    const float away = std::max(std::abs(time_ - middle) - full, 0.0f);
     const float dominance = kDominance[v] * std::exp(-away / kSpread);
     sum_ += dominance;
     shares_[v] += dominance * strength;

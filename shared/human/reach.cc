@@ -143,88 +143,197 @@ class Reacher {
 // Of an arm's length: what lies further needs the trunk's help.
 constexpr float kComfortable = 0.92f;
 
-// By how far, and which way, the trunk turns so that a shoulder comes near enough.
+// The trunk bends in hips and spine over feet that stay, so that shoulders come nearer.
 class TrunkHelp {
  public:
   TrunkHelp(const Body& body, const Skeleton& skeleton, std::span<JointTransform> pose)
       : body_(body), skeleton_(skeleton), pose_(pose) {
+    hips_share_ = body.walks() ? 0.4f : 0.0f;
+    if (body.walks()) {
+      pivot_ = hips_share_ * Position(body.root);
+      for (size_t side = 0; side < 2; ++side) {
+        ankles_[side] = ActorFromJoint(skeleton, pose, body.legs[side].ankle);
+      }
+    }
+    spine_share_ =
+        (1.0f - hips_share_) / static_cast<float>(std::max<size_t>(body.spine.size(), 1));
     for (const JointIndex joint : body.spine) {
-      pivot_ +=
-          ActorFromJoint(skeleton, pose, joint).position / static_cast<float>(body.spine.size());
+      pivot_ += spine_share_ * Position(joint);
     }
   }
 
-  // Metres that stay missing after the trunk's turn, and the turn.
-  struct Result {
-    glm::vec3 turn = glm::vec3(0.0f);
-    float missing = 0.0f;
-  };
-  Result Towards(const glm::vec3& wrist, const glm::vec3& shoulder, float arm_length) const {
-    constexpr float kMost = 0.9f;  // radians
+  // The turn of the chest, a vector of radians, that brings the wrist of a shoulder near
+  // enough, or as near as backs can.
+  glm::vec3 Towards(const glm::vec3& wrist, const glm::vec3& shoulder, float arm_length) const {
+    constexpr float kMost = 1.15f;  // radians
     constexpr int kRounds = 4;
-    Result result;
     glm::quat turn = kNoTurn;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kRounds && !body_.spine.empty(); ++round) {
       const glm::vec3 lever = turn * (shoulder - pivot_);
       const glm::vec3 way = wrist - (pivot_ + lever);
-      result.missing = std::max(glm::length(way) - kComfortable * arm_length, 0.0f);
+      const float missing = glm::length(way) - kComfortable * arm_length;
       const glm::vec3 axis = glm::cross(lever, way);
       const float sine = glm::length(axis) / std::max(glm::length(lever) * glm::length(way), 1e-6f);
-      if (result.missing <= 0.0f || sine < 1e-3f || body_.spine.empty()) {
+      if (missing <= 0.0f || sine < 1e-3f) {
         break;
       }
-      const float angle = result.missing / (glm::length(lever) * std::max(sine, 0.35f));
+      const float angle = missing / (glm::length(lever) * std::max(sine, 0.35f));
       turn = TurnBy(std::min(angle, 0.5f) * glm::normalize(axis)) * turn;
       const float whole = 2.0f * std::acos(std::min(std::abs(turn.w), 1.0f));
       turn = Share(turn, std::min(1.0f, kMost / std::max(whole, 1e-6f)));
     }
-    turn = ShorterArc(turn);
-    const glm::vec3 axis(turn.x, turn.y, turn.z);
-    const float sine = glm::length(axis);
-    result.turn = sine > 1e-6f ? 2.0f * std::atan2(sine, turn.w) / sine * axis : glm::vec3(0.0f);
-    return result;
+    return RotationVector(turn);
   }
 
+  // The hips go back as the chest goes forward: the body keeps its balance.
   void Turn(const glm::vec3& turn) {
-    const glm::quat share =
-        TurnBy(turn / static_cast<float>(std::max<size_t>(body_.spine.size(), 1)));
+    const glm::quat share = TurnBy(spine_share_ * turn);
     for (const JointIndex joint : body_.spine) {
       TurnInActor(skeleton_, joint, share, pose_);
     }
+    if (body_.walks()) {
+      TurnInActor(skeleton_, body_.root, TurnBy(hips_share_ * turn), pose_);
+      glm::vec3 back = 0.14f * body_.leg_length() * glm::cross(turn, kUp);
+      back.y = 0.0f;
+      MoveRoot(-back);
+    }
   }
 
-  // The pelvis goes down, the feet stay.
-  void Crouch(float drop) {
-    if (!body_.walks() || drop < 1e-4f) {
-      return;
+  // By how much the pelvis has to go down for an arm to reach.
+  static float MissingDrop(const glm::vec3& wrist, const glm::vec3& shoulder, float arm_length) {
+    const float length = 0.97f * arm_length;
+    const float across = glm::length(glm::vec2(wrist.x - shoulder.x, wrist.z - shoulder.z));
+    const float rise = std::sqrt(std::max(length * length - across * across, 0.0f));
+    const float helps = 1.0f - glm::smoothstep(0.95f, 1.1f, across / length);
+    return helps * std::max(shoulder.y - wrist.y - rise, 0.0f);
+  }
+
+  void MoveRoot(const glm::vec3& way) {
+    if (body_.walks()) {
+      SetActorPosition(skeleton_, body_.root, Position(body_.root) + way, pose_);
     }
-    std::array<JointFrame, 2> ankles;
-    for (size_t side = 0; side < 2; ++side) {
-      ankles[side] = ActorFromJoint(skeleton_, pose_, body_.legs[side].ankle);
-    }
-    const glm::vec3 root = ActorFromJoint(skeleton_, pose_, body_.root).position;
-    SetActorPosition(skeleton_, body_.root, root - drop * kUp, pose_);
-    for (size_t side = 0; side < 2; ++side) {
+  }
+
+  // The feet where they were before all this.
+  void KeepFeet() {
+    for (size_t side = 0; body_.walks() && side < 2; ++side) {
       const Body::Leg& leg = body_.legs[side];
+      const JointFrame& ankle = ankles_[side];
       TwoBoneIk ik;
       ik.upper = leg.hip;
       ik.lower = leg.knee;
       ik.end = leg.ankle;
-      ik.target = ankles[side].position;
-      ik.pole = ankles[side].rotation *
-                (glm::conjugate(body_.rest[static_cast<size_t>(leg.ankle)].rotation) *
-                 (TurnY(leg.toe_out) * glm::vec3(0.0f, 0.0f, -1.0f)));
+      ik.target = ankle.position;
+      const glm::quat turned =
+          ankle.rotation * glm::conjugate(body_.rest[static_cast<size_t>(leg.ankle)].rotation);
+      ik.pole = turned * (TurnY(leg.toe_out) * glm::vec3(0.0f, 0.0f, -1.0f));
       ik.hinge = glm::vec3(1.0f, 0.0f, 0.0f);
       ik.Solve(skeleton_, body_, pose_);
-      SetActorRotation(skeleton_, leg.ankle, ankles[side].rotation, pose_);
+      SetActorRotation(skeleton_, leg.ankle, ankle.rotation, pose_);
     }
   }
 
  private:
+  glm::vec3 Position(JointIndex joint) const {
+    return ActorFromJoint(skeleton_, pose_, joint).position;
+  }
+
+  static glm::vec3 RotationVector(const glm::quat& turn) {
+    const glm::quat q = ShorterArc(turn);
+    const glm::vec3 axis(q.x, q.y, q.z);
+    const float sine = glm::length(axis);
+    return sine > 1e-6f ? 2.0f * std::atan2(sine, q.w) / sine * axis : glm::vec3(0.0f);
+  }
+
   const Body& body_;
   const Skeleton& skeleton_;
   std::span<JointTransform> pose_;
   glm::vec3 pivot_ = glm::vec3(0.0f);
+  float hips_share_ = 0.0f, spine_share_ = 0.0f;
+  std::array<JointFrame, 2> ankles_;
+};
+
+// Both hands' needs of the trunk.
+class ReachPosture {
+ public:
+  ReachPosture(const ReachModel& model,
+               const Skeleton& skeleton,
+               const std::array<Reach, 2>& reaches,
+               std::span<JointTransform> pose)
+      : model_(model), skeleton_(skeleton), pose_(pose), trunk_(model.body, skeleton, pose) {
+    for (const int side : {kRight, kLeft}) {
+      const bool whole = Arm(side).whole();
+      goals_[static_cast<size_t>(side)] =
+          whole ? Goal(reaches[static_cast<size_t>(side)]) : ReachGoal();
+    }
+  }
+
+  void Apply() {
+    const glm::vec3 turn = ChestTurn();
+    if (glm::length(turn) > 1e-5f) {
+      trunk_.Turn(turn);
+      LetArmsHang(turn);
+    }
+    const float drop = Drop();
+    if (drop > 0.0f) {
+      trunk_.MoveRoot(-drop * kUp);
+    }
+    if (glm::length(turn) > 1e-5f || drop > 0.0f) {
+      trunk_.KeepFeet();
+    }
+  }
+
+ private:
+  const Body::Arm& Arm(int side) const { return model_.body.arms[static_cast<size_t>(side)]; }
+  const ReachGoal& GoalOf(int side) const { return goals_[static_cast<size_t>(side)]; }
+
+  glm::vec3 ChestTurn() const {
+    constexpr float kMost = 1.25f;
+    glm::vec3 turn(0.0f);
+    for (const int side : {kRight, kLeft}) {
+      if (GoalOf(side).weight > 0.0f) {
+        const Reacher reacher(model_, skeleton_, side, pose_);
+        turn += GoalOf(side).weight * trunk_.Towards(Wrist(reacher, side),
+                                                     reacher.Position(Arm(side).shoulder),
+                                                     reacher.Length());
+      }
+    }
+    return turn * std::min(1.0f, kMost / std::max(glm::length(turn), 1e-6f));
+  }
+
+  float Drop() const {
+    float drop = 0.0f;
+    for (const int side : {kRight, kLeft}) {
+      if (GoalOf(side).weight > 0.0f) {
+        const Reacher reacher(model_, skeleton_, side, pose_);
+        drop = std::max(
+            drop, GoalOf(side).weight * TrunkHelp::MissingDrop(Wrist(reacher, side),
+                                                               reacher.Position(Arm(side).shoulder),
+                                                               reacher.Length()));
+      }
+    }
+    return std::min(drop, 0.6f * model_.body.leg_length());
+  }
+
+  glm::vec3 Wrist(const Reacher& reacher, int side) const {
+    return reacher.ActorFromWrist(GoalOf(side).actor_from_grip).position;
+  }
+
+  // An arm that holds nothing does not turn with the chest.
+  void LetArmsHang(const glm::vec3& turn) {
+    for (const int side : {kRight, kLeft}) {
+      if (Arm(side).whole()) {
+        const float free = 0.8f * (1.0f - GoalOf(side).weight);
+        TurnInActor(skeleton_, Arm(side).shoulder, TurnBy(-free * turn), pose_);
+      }
+    }
+  }
+
+  const ReachModel& model_;
+  const Skeleton& skeleton_;
+  std::span<JointTransform> pose_;
+  TrunkHelp trunk_;
+  std::array<ReachGoal, 2> goals_;
 };
 
 float MinimumJerk(float t) { return t * t * t * (10.0f + t * (6.0f * t - 15.0f)); }
@@ -334,28 +443,7 @@ void ApplyReachPosture(const ReachModel& model,
                        const Skeleton& skeleton,
                        const std::array<Reach, 2>& reaches,
                        std::span<JointTransform> pose) {
-  TrunkHelp trunk(model.body, skeleton, pose);
-  glm::vec3 turn(0.0f);
-  float drop = 0.0f;
-  for (const int side : {kRight, kLeft}) {
-    const size_t s = static_cast<size_t>(side);
-    const ReachGoal goal = Goal(reaches[s]);
-    if (goal.weight <= 0.0f || !model.body.arms[s].whole()) {
-      continue;
-    }
-    const Reacher reacher(model, skeleton, side, pose);
-    const GripFrame wrist = reacher.ActorFromWrist(goal.actor_from_grip);
-    const glm::vec3 shoulder = reacher.Position(model.body.arms[s].shoulder);
-    const auto help = trunk.Towards(wrist.position, shoulder, reacher.Length());
-    turn += goal.weight * help.turn;
-    const bool low = wrist.position.y < shoulder.y - 0.5f * reacher.Length();
-    const float most = 0.55f * model.body.leg_length();
-    drop = std::max(drop, low ? goal.weight * std::min(1.3f * help.missing, most) : 0.0f);
-  }
-  if (glm::length(turn) > 1e-5f) {
-    trunk.Turn(turn * std::min(1.0f, 1.0f / glm::length(turn)));
-  }
-  trunk.Crouch(drop);
+  ReachPosture(model, skeleton, reaches, pose).Apply();
 }
 
 void ApplyReach(const ReachModel& model,
