@@ -20,16 +20,19 @@ function(lararium_flatbuffer room schema)
   target_sources(lararium_${room} PRIVATE ${out}/${stem}_generated.h)
 endfunction()
 
-# lararium_embed(ROOM FUNCTION FunctionName HEADER room/header.h FILES ...)
-# Builds the texts of files into a room: lararium::ROOM::FunctionName() returns
-# them as EmbeddedText, in this order.
+# lararium_embed(ROOM FUNCTION FunctionName HEADER room/header.h [NAMESPACE name] FILES ...)
+# Builds the texts of files into a room: lararium::ROOM::FunctionName(), or that of
+# another namespace, returns them as EmbeddedText, in this order.
 function(lararium_embed room)
-  cmake_parse_arguments(arg "" "FUNCTION;HEADER" "FILES" ${ARGN})
+  cmake_parse_arguments(arg "" "FUNCTION;HEADER;NAMESPACE" "FILES" ${ARGN})
+  if(NOT arg_NAMESPACE)
+    set(arg_NAMESPACE lararium::${room})
+  endif()
   get_filename_component(stem ${arg_HEADER} NAME_WE)
   set(output ${CMAKE_BINARY_DIR}/generated/shared/${room}/${stem}_embedded.cc)
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} "-DFILES=${arg_FILES}" -DNAMESPACE=lararium::${room}
+    COMMAND ${CMAKE_COMMAND} "-DFILES=${arg_FILES}" -DNAMESPACE=${arg_NAMESPACE}
       -DFUNCTION=${arg_FUNCTION} -DHEADER=${arg_HEADER} -DOUTPUT=${output}
       -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
     DEPENDS ${arg_FILES} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake

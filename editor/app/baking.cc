@@ -140,17 +140,17 @@ BakeStep PlainFigureStep(const ProjectPaths& paths, const CastDocument& member) 
 
 BakeStep RecipeStep(const ProjectPaths& paths,
                     const CastDocument& member,
+                    const import::CastRecipe& recipe,
                     const std::filesystem::path& library) {
   return {"human " + member.name,
           paths.Human(member.name),
           {},
-          "recipe " + member.name + import::ToJson(*member.recipe).dump(),
-          [member, library](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+          "recipe " + member.name + import::ToJson(recipe).dump(),
+          [=, name = member.name](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
             LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary opened,
                                       import::CastLibrary::Open(library));
-            LARARIUM_ASSIGN_OR_RETURN(human::Human human,
-                                      import::BuildCast(opened, *member.recipe));
-            human.name = member.name;
+            LARARIUM_ASSIGN_OR_RETURN(human::Human human, import::BuildCast(opened, recipe));
+            human.name = name;
             return human::SerializeHuman(human);
           }};
 }
@@ -178,10 +178,11 @@ BakeStep StandInStep(const ProjectPaths& paths, const CastDocument& member) {
   return step;
 }
 
-BakeStep HumanStep(const ProjectPaths& paths, const CastDocument& member) {
-  if (member.recipe) {
+Result<BakeStep> HumanStep(const ProjectPaths& paths, const CastDocument& member) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::optional<import::CastRecipe> recipe, RecipeOf(member));
+  if (recipe) {
     const std::optional<std::filesystem::path> library = FindCastLibrary();
-    return library ? RecipeStep(paths, member, *library) : StandInStep(paths, member);
+    return library ? RecipeStep(paths, member, *recipe, *library) : StandInStep(paths, member);
   }
   return member.model.empty() ? PlainFigureStep(paths, member) : ModelStep(paths, member);
 }
@@ -198,7 +199,7 @@ BakeStep PropStep(const ProjectPaths& paths, const ObjectDocument& object) {
           }};
 }
 
-std::vector<BakeStep> Steps(const ProjectPaths& paths, const ProjectDocument& document) {
+Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths, const ProjectDocument& document) {
   std::vector<BakeStep> steps;
   for (const PlaceDocument& place : document.places) {
     if (place.probe) {
@@ -209,7 +210,8 @@ std::vector<BakeStep> Steps(const ProjectPaths& paths, const ProjectDocument& do
     }
   }
   for (const CastDocument& member : document.cast) {
-    steps.push_back(HumanStep(paths, member));
+    LARARIUM_ASSIGN_OR_RETURN(BakeStep step, HumanStep(paths, member));
+    steps.push_back(std::move(step));
   }
   for (const ObjectDocument& object : document.objects) {
     steps.push_back(PropStep(paths, object));
@@ -272,7 +274,7 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
                         const ProjectDocument& document,
                         Progress& progress) {
   BakeReport report;
-  const std::vector<BakeStep> steps = Steps(paths, document);
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<BakeStep> steps, Steps(paths, document));
   for (size_t i = 0; i < steps.size(); ++i) {
     progress.Report("baking", static_cast<double>(i) / static_cast<double>(steps.size()));
     if (progress.Cancelled()) {
@@ -287,7 +289,8 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
 
 Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member) {
   std::vector<std::string> warnings;
-  LARARIUM_RETURN_IF_ERROR(RunStep(HumanStep(paths, member), warnings).status());
+  LARARIUM_ASSIGN_OR_RETURN(const BakeStep step, HumanStep(paths, member));
+  LARARIUM_RETURN_IF_ERROR(RunStep(step, warnings).status());
   return LoadBakedHuman(paths, member);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "editor/app/document_fields.h"
+#include "editor/import/cast_presets.h"
 
 namespace lararium::app {
 namespace {
@@ -52,13 +53,24 @@ Status ParsePlainFigure(const JsonView& view, CastDocument& member) {
 
 }  // namespace
 
+Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member) {
+  if (member.preset.empty()) {
+    return member.recipe;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(import::CastRecipe recipe, import::LoadCastPreset(member.preset));
+  return std::optional(std::move(recipe));
+}
+
 Result<CastDocument> ParseCastMember(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"name", "recipe", "model", "bone_map", "clips", "height", "tunic"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(
+      view, {"name", "preset", "recipe", "model", "bone_map", "clips", "height", "tunic"}));
   CastDocument member;
   LARARIUM_ASSIGN_OR_RETURN(member.name, ParsePlainName(view, "name"));
-  if (view.Has("recipe") && view.Has("model")) {
-    return view.Problem("has a recipe and a model", "keep one of them");
+  if (view.Has("preset") + view.Has("recipe") + view.Has("model") > 1) {
+    return view.Problem("has more than one of preset, recipe and model", "keep one of them");
+  }
+  if (view.Has("preset")) {
+    LARARIUM_ASSIGN_OR_RETURN(member.preset, view.Text("preset"));
   }
   if (view.Has("recipe")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView recipe, view.Field("recipe"));
@@ -79,7 +91,9 @@ Result<CastDocument> ParseCastMember(const JsonView& view) {
 
 Json FormatCastMember(const CastDocument& member) {
   Json json = {{"name", member.name}};
-  if (member.recipe) {
+  if (!member.preset.empty()) {
+    json["preset"] = member.preset;
+  } else if (member.recipe) {
     json["recipe"] = import::ToJson(*member.recipe);
   } else if (!member.model.empty()) {
     json["model"] = member.model;

@@ -24,10 +24,11 @@ struct ClipDocument {
   bool loops = false;
 };
 
-// At most one of recipe and model; with neither, the plain built-in figure.
+// At most one of preset, recipe and model; without any, the plain built-in figure.
 struct CastDocument {
   std::string name;                          // as the drama calls the actor
-  std::optional<import::CastRecipe> recipe;  // built from the cast library
+  std::string preset;                        // one of import::CastPresetNames()
+  std::optional<import::CastRecipe> recipe;  // as the preset, but this project's own
   std::string model;                         // a figure that the editor imports
   std::string bone_map;  // of the model, where its bones were named by hand; may be empty
   std::vector<ClipDocument> clips;
@@ -35,6 +36,10 @@ struct CastDocument {
   double height = 1.72;                        // metres
   Eigen::Vector3d tunic = {0.60, 0.55, 0.45};  // linear RGB albedo
 };
+
+// The recipe that the member is built by; nothing where it is no person of the cast
+// library. Fails where there is no such preset.
+Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member);
 
 Result<CastDocument> ParseCastMember(const JsonView& view);
 Json FormatCastMember(const CastDocument& member);

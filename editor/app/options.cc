@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "editor/app/project.h"
+#include "editor/import/cast_presets.h"
 
 namespace lararium::app {
 
@@ -80,11 +81,16 @@ void AddCast(CLI::App& app, CastOptions& options) {
   CLI::App* cast =
       AddSubcommand(app, "cast", "Add a person; without a figure, the plain one", options.project);
   cast->add_option("--name", options.name, "As the drama calls the person")->required();
+  CLI::Option* preset =
+      cast->add_option("--preset", options.preset, "One of the people that come with the editor")
+          ->check(CLI::IsMember(import::CastPresetNames()));
   CLI::Option* recipe =
       cast->add_option("--recipe", options.recipe, "Build the figure from the cast library")
-          ->check(CLI::ExistingFile);
+          ->check(CLI::ExistingFile)
+          ->excludes(preset);
   cast->add_option("--import", options.model, "Figure to import: glTF, VRM, FBX, Collada")
       ->check(CLI::ExistingFile)
+      ->excludes(preset)
       ->excludes(recipe);
   cast->add_option("--height", options.height, "Of the plain figure, metres")
       ->check(CLI::Range(kMinHeight, kMaxHeight));

@@ -62,6 +62,7 @@ struct PruneOptions {
 struct CastOptions {
   std::filesystem::path project;
   std::string name;
+  std::string preset;            // one of the people that come with the editor; else
   std::filesystem::path recipe;  // of the cast library; else
   std::filesystem::path model;   // a figure to import; else the plain built-in one
   std::optional<double> height;  // of the plain figure, metres

@@ -115,6 +115,7 @@ Result<CommandResult> RunCast(const CastOptions& options) {
   }
   CastDocument member;
   member.name = options.name;
+  member.preset = options.preset;
   if (!options.recipe.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(member.recipe, import::LoadCastRecipe(options.recipe));
   }

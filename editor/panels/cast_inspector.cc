@@ -93,10 +93,25 @@ bool ShowPlainFigure(app::Workspace& workspace, app::CastDocument& member) {
   return changed;
 }
 
+// A preset becomes the project's own recipe with the first change.
+bool ShowRecipeOf(app::Workspace& workspace, app::CastDocument& member) {
+  Result<std::optional<import::CastRecipe>> recipe = app::RecipeOf(member);
+  if (!recipe.ok()) {
+    PropertyText("Figure", recipe.message());
+    return false;
+  }
+  PropertyText("Figure", member.preset.empty() ? "built from a recipe" : "preset " + member.preset);
+  if (!ShowRecipe(workspace, **recipe)) {
+    return false;
+  }
+  member.recipe = **recipe;
+  member.preset.clear();
+  return true;
+}
+
 bool ShowFigure(app::Workspace& workspace, app::CastDocument& member) {
-  if (member.recipe) {
-    PropertyText("Figure", "built from a recipe");
-    return ShowRecipe(workspace, *member.recipe);
+  if (member.recipe || !member.preset.empty()) {
+    return ShowRecipeOf(workspace, member);
   }
   if (!member.model.empty()) {
     PropertyText("Figure", member.model);

@@ -34,7 +34,7 @@ ProjectDocument FullDocument() {
   document.title = "Vetutius";
   document.credits = "by hand";
   document.places = {place, untouched};
-  document.cast.resize(3);
+  document.cast.resize(4);
   document.cast[0].name = "Publia";
   document.cast[0].model = "models/publia.glb";
   document.cast[0].bone_map = "models/publia.bones.json";
@@ -45,6 +45,8 @@ ProjectDocument FullDocument() {
   document.cast[2].name = "Asellina";
   document.cast[2].recipe.emplace();
   document.cast[2].recipe->age = 31.0f;
+  document.cast[3].name = "Puella";
+  document.cast[3].preset = "girl";
   document.objects = {{"jug", "jug", "", {0.5, 0.95, -1.2}, 30.0},
                       {"statue", "", "props/statue.glb", {1.0, 0.0, 0.0}, 0.0}};
   return document;
