@@ -815,6 +815,12 @@ int Follower::FinestLevel(const CameraModel& camera, const Rigid3& camera_from_m
   return blur > kMostBlurPx ? static_cast<int>(std::ceil(std::log2(blur / kMostBlurPx))) : 0;
 }
 
+// Mean square of the acceleration of late. Before any was seen the motion may have
+// begun just now: it is as large as that.
+Matrix6d Follower::Accelerations() const {
+  return knows_accelerations_ ? accelerations_ : Matrix6d(motion_ * motion_.transpose());
+}
+
 // That of the patches as if each erred by itself, more for what they share: the
 // errors of their keyframes' poses, and the part of the acceleration during the
 // exposure that the frames before do not foretell.
@@ -824,9 +830,10 @@ Matrix6d Follower::Covariance() const {
   if (has_motion_) {
     constexpr double kUnforeseen = 1.0 / 16.0;  // of the path's length, shutter^2 a
     const double share = kUnforeseen * shutter_ * shutter_;
-    Matrix6d doubt = accelerations_;
-    doubt.diagonal().head<3>().array() += accelerations_.diagonal().head<3>().mean();
-    doubt.diagonal().tail<3>().array() += accelerations_.diagonal().tail<3>().mean();
+    const Matrix6d accelerations = Accelerations();
+    Matrix6d doubt = accelerations;
+    doubt.diagonal().head<3>().array() += accelerations.diagonal().head<3>().mean();
+    doubt.diagonal().tail<3>().array() += accelerations.diagonal().tail<3>().mean();
     covariance += share * share * doubt;
   }
   return covariance;
@@ -872,6 +879,11 @@ FollowedPose Follower::Follow(const ImagePyramid& image,
   result.camera_from_map = pose;
   result.evidence.covariance = Covariance();
   result.agreeing = pose_.inliers;
+  if (!has_motion_ && result.agreeing > 0) {
+    // Blur of an unknown motion shows in patches that are not found; what it does to
+    // the others they have in common.
+    result.evidence.covariance /= result.share() * result.share();
+  }
   Judge(camera, result);
   if (result.honest) {
     EstimateShutter(image, camera, finest, pose);
@@ -912,6 +924,10 @@ void Follower::Judge(const CameraModel& camera, FollowedPose& pose) {
 // Takes note of who agreed, lets go of who did not, and looks for others.
 void Follower::Settle(const CameraModel& camera, const FollowedPose& pose) {
   SetMotion(pose.camera_from_map);
+  if (has_motion_) {
+    accelerations_ = Accelerations();
+    knows_accelerations_ = true;
+  }
   if (has_motion_ && has_motion_before_) {
     constexpr double kMemory = 0.7;
     const Vector6d acceleration = motion_ - motion_before_;

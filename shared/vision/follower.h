@@ -147,6 +147,7 @@ class Follower {
                   int level,
                   const geometry::Rigid3& camera_from_map,
                   double shutter);
+  Matrix6d Accelerations() const;
   Matrix6d Covariance() const;
   void EstimateShutter(const ImagePyramid& image,
                        const geometry::CameraModel& camera,
@@ -228,6 +229,7 @@ class Follower {
   geometry::Rigid3 velocity_;                  // what a frame's time of it does
   geometry::Rigid3 acceleration_;              // likewise
   Matrix6d accelerations_ = Matrix6d::Zero();  // mean square of late
+  bool knows_accelerations_ = false;
   double shutter_ = 0.3;
   int shutter_trials_ = 0;
 
