@@ -8,6 +8,8 @@
 #include "shared/core/check.h"
 #include "shared/human/cloth_data.h"
 #include "shared/human/finite.h"
+#include "shared/human/skinning.h"
+#include "shared/human/turns.h"
 
 namespace lararium::human {
 namespace {
@@ -88,28 +90,14 @@ void FollowActor(const glm::vec3& actor_in_stage, State& state) {
 }
 
 void SkinParticles(const Model& model, const glm::mat4& local_from_actor, State& state) {
-  struct Columns {
-    Float4 column[4];
-  };
-  const auto row = [](const glm::vec4& c) { return Float4(Float4::Lanes{c.x, c.y, c.z, 0.0f}); };
-  for (size_t i = 0; i < model.rest.size(); ++i) {
-    Columns blended;
-    for (int k = 0; k < 4; ++k) {
-      const float weight = model.weights[i][k];
-      if (weight == 0.0f) {
-        continue;
-      }
-      const glm::mat4& skin = state.skin_matrices[model.joints[i][k]];
-      for (int c = 0; c < 4; ++c) {
-        blended.column[c] += row(skin[c]) * weight;
-      }
-    }
-    const Float4 rest = model.rest[i];
-    const Float4 actor = blended.column[0] * rest.lanes[0] + blended.column[1] * rest.lanes[1] +
-                         blended.column[2] * rest.lanes[2] + blended.column[3];
-    state.next.skin[i] = row(local_from_actor[0]) * actor.lanes[0] +
-                         row(local_from_actor[1]) * actor.lanes[1] +
-                         row(local_from_actor[2]) * actor.lanes[2] + row(local_from_actor[3]);
+  SkinningJob{model.bind_positions, model.bind_normals, model.joints,  model.weights,
+              state.skin_matrices,  model.skinning,     state.skinned, state.skinned_normals}
+      .Run();
+  const auto column = [&](int c) { return Float4(glm::vec3(local_from_actor[c])); };
+  const Float4 x = column(0), y = column(1), z = column(2), origin = column(3);
+  for (size_t i = 0; i < state.skinned.size(); ++i) {
+    const glm::vec3& p = state.skinned[i];
+    state.next.skin[i] = x * p.x + y * p.y + z * p.z + origin;
   }
 }
 
@@ -595,7 +583,7 @@ void DrawNormals(const Model& model, State& state) {
     }
   }
   for (glm::vec3& normal : state.drawn_normals) {
-    normal = UnitOr(normal, glm::vec3(0.0f, 1.0f, 0.0f));
+    normal = Direction(normal, glm::vec3(0.0f, 1.0f, 0.0f));
   }
 }
 

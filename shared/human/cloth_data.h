@@ -60,8 +60,8 @@ struct ClothVertex {
 struct ClothRange {
   uint32_t first = 0;
   uint32_t count = 0;
-  std::vector<ClothVertex> vertices;
-  std::vector<uint32_t> skinned_vertices;  // those that follow no triangle
+  std::vector<ClothVertex> vertices;  // that follow a triangle
+  bool has_plain_skin = false;        // some vertices follow no triangle
 };
 
 struct ClothCapsule {
@@ -79,7 +79,10 @@ struct ClothModel::Data {
   std::vector<ClothRange> cloths;
 
   // [particle], all cloths one after the other
-  std::vector<Float4> rest;  // bind pose, actor frame
+  Skinning skinning = Skinning::kLinear;
+  std::vector<glm::vec3> bind_positions;  // actor frame
+  std::vector<glm::vec3> bind_normals;
+  std::vector<Float4> rest;  // the same positions
   std::vector<std::array<uint8_t, 4>> joints;
   std::vector<glm::vec4> weights;
   std::vector<float> inverse_mass;  // 1/kg; 0: pinned
@@ -166,6 +169,8 @@ struct ClothState::Data {
   std::vector<Float4> skin_steps;  // motion of the skin in one step
   std::vector<RoundCone> cones;
   std::vector<glm::mat4> skin_matrices;
+  std::vector<glm::vec3> skinned;  // actor frame
+  std::vector<glm::vec3> skinned_normals;
 
   std::vector<ClothBlock> blocks;
   std::vector<ClothContact> contacts;
@@ -183,9 +188,6 @@ struct ClothState::Data {
 
   std::vector<uint32_t> first_particles;  // of each cloth, and the end
 };
-
-// v as a unit vector, or another where v has no length.
-glm::vec3 UnitOr(const glm::vec3& v, const glm::vec3& otherwise);
 
 // Right-handed axes: along the edge as seen on the cloth, across it, and the normal.
 glm::mat3 ClothFrame(const glm::vec3& normal, const glm::vec3& edge);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shared/human/cloth_data.h"
+#include "shared/human/turns.h"
 
 namespace lararium::human {
 namespace {
@@ -85,6 +86,7 @@ class Builder {
   Builder(const Human& human, ClothModel::Data& model) : human_(human), model_(model) {}
 
   void Build() {
+    model_.skinning = human_.skinning;
     model_.joint_from_actor = human_.skeleton.joint_from_actor;
     for (const BodyCapsule& c : human_.capsules) {
       model_.capsules.push_back({c.joint, c.a, c.b, c.radius_a, c.radius_b});
@@ -135,6 +137,8 @@ class Builder {
     for (const glm::vec3& p : cloth.positions) {
       model_.rest.emplace_back(p);
     }
+    model_.bind_positions.insert(model_.bind_positions.end(), cloth.positions.begin(),
+                                 cloth.positions.end());
     model_.joints.insert(model_.joints.end(), cloth.joints.begin(), cloth.joints.end());
     model_.weights.insert(model_.weights.end(), cloth.weights.begin(), cloth.weights.end());
     model_.reach.insert(model_.reach.end(), cloth.reach.begin(), cloth.reach.end());
@@ -295,10 +299,11 @@ class Builder {
 
   void Bind(const Cloth& cloth, ClothRange& range, size_t first_triangle) {
     const std::vector<glm::vec3> normals = ParticleNormals(range, first_triangle);
+    model_.bind_normals.insert(model_.bind_normals.end(), normals.begin(), normals.end());
     const SkinnedMesh& mesh = human_.meshes[cloth.mesh];
     for (uint32_t v = 0; v < cloth.vertex_triangle.size(); ++v) {
       if (cloth.vertex_triangle[v] == Cloth::kUnbound) {
-        range.skinned_vertices.push_back(v);
+        range.has_plain_skin = true;
         continue;
       }
       ClothVertex vertex;
@@ -332,7 +337,7 @@ class Builder {
       }
     }
     for (glm::vec3& normal : normals) {
-      normal = UnitOr(normal, glm::vec3(0.0f, 1.0f, 0.0f));
+      normal = Direction(normal, glm::vec3(0.0f, 1.0f, 0.0f));
     }
     return normals;
   }
@@ -386,15 +391,10 @@ class Builder {
 
 }  // namespace
 
-glm::vec3 UnitOr(const glm::vec3& v, const glm::vec3& otherwise) {
-  const float length = glm::length(v);
-  return length > 1e-12f ? v / length : otherwise;
-}
-
 glm::mat3 ClothFrame(const glm::vec3& normal, const glm::vec3& edge) {
-  const glm::vec3 n = UnitOr(normal, glm::vec3(0.0f, 1.0f, 0.0f));
+  const glm::vec3 n = Direction(normal, glm::vec3(0.0f, 1.0f, 0.0f));
   const glm::vec3 fallback = std::abs(n.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-  const glm::vec3 across = UnitOr(glm::cross(n, edge), glm::cross(n, fallback));
+  const glm::vec3 across = Direction(glm::cross(n, edge), glm::cross(n, fallback));
   return {glm::cross(across, n), across, n};
 }
 

@@ -39,6 +39,8 @@ ClothState::ClothState(const ClothModel& model) : data_(std::make_unique<Data>()
   d.cones.resize(m.capsules.size());
   d.skin_matrices.resize(m.joint_from_actor.size());
   d.blocks.resize((m.free.size() + ClothBlock::kSize - 1) / ClothBlock::kSize);
+  d.skinned.resize(count);
+  d.skinned_normals.resize(count);
   d.contacts.reserve(count * m.capsules.size());
   d.pairs.reserve(count * kPairsPerParticle);
   d.grid.slots.resize(SlotCount(count));

@@ -9,20 +9,20 @@
 namespace lararium::human {
 namespace {
 
-glm::mat4 Matrix(const JointTransform& parent_from_joint) {
-  glm::mat4 matrix = glm::mat4_cast(parent_from_joint.rotation);
-  for (int column = 0; column < 3; ++column) {
-    matrix[column] *= parent_from_joint.scale[column];
-  }
-  matrix[3] = glm::vec4(parent_from_joint.translation, 1.0f);
-  return matrix;
-}
-
 bool IsAffine(const glm::mat4& m) {
   return m[0].w == 0.0f && m[1].w == 0.0f && m[2].w == 0.0f && m[3].w == 1.0f;
 }
 
 }  // namespace
+
+glm::mat4 ParentFromJoint(const JointTransform& joint) {
+  glm::mat4 matrix = glm::mat4_cast(joint.rotation);
+  for (int column = 0; column < 3; ++column) {
+    matrix[column] *= joint.scale[column];
+  }
+  matrix[3] = glm::vec4(joint.translation, 1.0f);
+  return matrix;
+}
 
 std::optional<size_t> Skeleton::Find(std::string_view name) const {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -61,7 +61,7 @@ void ComputeActorFromJoint(const Skeleton& skeleton,
                            std::span<glm::mat4> actor_from_joint) {
   CHECK(pose.size() == skeleton.size() && actor_from_joint.size() == skeleton.size());
   for (size_t i = 0; i < skeleton.size(); ++i) {
-    const glm::mat4 parent_from_joint = Matrix(pose[i]);
+    const glm::mat4 parent_from_joint = ParentFromJoint(pose[i]);
     const int16_t parent = skeleton.parents[i];
     actor_from_joint[i] = parent == Skeleton::kNoParent
                               ? parent_from_joint

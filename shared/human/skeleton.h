@@ -21,6 +21,8 @@ struct JointTransform {
   glm::vec3 scale = glm::vec3(1.0f);
 };
 
+glm::mat4 ParentFromJoint(const JointTransform& joint);
+
 // Joints in an order in which parents come before children. Names are
 // H-Anim's (humanoid_root, sacroiliac, vl5, skullbase, l_shoulder, ...). Actor
 // frame: metres, Y up, facing -Z, soles at y = 0.
