@@ -62,6 +62,7 @@ struct Box {
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
+  bool empty() const { return low.x > high.x; }
 };
 
 class CapsuleMaker {
@@ -174,7 +175,7 @@ class CapsuleMaker {
         box.Add(skin_.positions[v]);
       }
     }
-    if (box.low.x > box.high.x) {
+    if (box.empty()) {
       return;
     }
     const glm::vec3 size = box.high - box.low;
@@ -199,6 +200,9 @@ class CapsuleMaker {
       } else if (WeightOf(v, jaw) > 0.5f) {
         chin.Add(skin_.positions[v]);
       }
+    }
+    if (cranium.empty() || chin.empty()) {
+      return;
     }
     const float radius = 0.5f * (cranium.high.x - cranium.low.x);
     const float y = cranium.high.y - radius;

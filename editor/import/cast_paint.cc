@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -114,6 +115,30 @@ cv::Scalar LinearBgr(const glm::vec3& colour) {
   return {std::pow(colour.b, 2.2f), std::pow(colour.g, 2.2f), std::pow(colour.r, 2.2f)};
 }
 
+// One triangle of a picture: pixel corners, and the value at each.
+void FillTriangle(cv::Mat& picture, const glm::vec2 (&corners)[3], const glm::vec3& values) {
+  const glm::vec2 ab = corners[1] - corners[0];
+  const glm::vec2 ac = corners[2] - corners[0];
+  const float doubled_area = ab.x * ac.y - ab.y * ac.x;
+  if (std::abs(doubled_area) < 1e-6f) {
+    return;
+  }
+  const glm::vec2 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
+  const glm::vec2 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
+  const int bottom = std::min(picture.rows - 1, static_cast<int>(high.y));
+  const int right = std::min(picture.cols - 1, static_cast<int>(high.x));
+  for (int y = std::max(0, static_cast<int>(low.y)); y <= bottom; ++y) {
+    for (int x = std::max(0, static_cast<int>(low.x)); x <= right; ++x) {
+      const glm::vec2 ap = glm::vec2(x + 0.5f, y + 0.5f) - corners[0];
+      const float b = (ap.x * ac.y - ap.y * ac.x) / doubled_area;
+      const float c = (ab.x * ap.y - ab.y * ap.x) / doubled_area;
+      if (b >= 0.0f && c >= 0.0f && b + c <= 1.0f) {
+        picture.at<float>(y, x) = glm::dot(values, glm::vec3(1.0f - b - c, b, c));
+      }
+    }
+  }
+}
+
 // Values of vertices spread over the triangles that texture coordinates make.
 cv::Mat Spread(const SkinPaint& paint, std::span<const float> values) {
   cv::Mat picture = cv::Mat::zeros(kSkinSize, kSkinSize, CV_32F);
@@ -122,35 +147,39 @@ cv::Mat Spread(const SkinPaint& paint, std::span<const float> values) {
   }
   for (size_t i = 0; i + 2 < paint.indices.size(); i += 3) {
     const uint32_t* corners = &paint.indices[i];
-    const float mean = (values[corners[0]] + values[corners[1]] + values[corners[2]]) / 3.0f;
-    if (mean <= 0.0f) {
-      continue;
+    const glm::vec3 three(values[corners[0]], values[corners[1]], values[corners[2]]);
+    if (three.x + three.y + three.z > 0.0f) {
+      glm::vec2 pixels[3];
+      for (int k = 0; k < 3; ++k) {
+        pixels[k] = glm::clamp(paint.uvs[corners[k]], -1.0f, 2.0f) * float(kSkinSize);
+      }
+      FillTriangle(picture, pixels, three);
     }
-    cv::Point points[3];
-    for (int k = 0; k < 3; ++k) {
-      const glm::vec2 p = glm::clamp(paint.uvs[corners[k]], -1.0f, 2.0f) * float(kSkinSize);
-      points[k] = cv::Point(cvRound(p.x), cvRound(p.y));
-    }
-    cv::fillConvexPoly(picture, points, 3, mean);
   }
-  cv::GaussianBlur(picture, picture, {}, 3.0);
+  cv::GaussianBlur(picture, picture, {}, 2.0);
   return picture;
 }
 
 // Normal noise between two scales (standard deviations of blurs, pixels), of deviation 1.
 cv::Mat BandNoise(cv::RNG& random, double fine, double coarse) {
-  cv::Mat noise(kSkinSize, kSkinSize, CV_32F);
+  // Noise without fine detail is drawn small.
+  const int reduced = fine >= 4.0 ? 4 : 1;
+  cv::Mat noise(kSkinSize / reduced, kSkinSize / reduced, CV_32F);
   random.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
   cv::Mat low;
-  cv::GaussianBlur(noise, low, {}, coarse);
+  cv::GaussianBlur(noise, low, {}, coarse / reduced);
   if (fine > 0.0) {
-    cv::GaussianBlur(noise, noise, {}, fine);
+    cv::GaussianBlur(noise, noise, {}, fine / reduced);
   }
   noise -= low;
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(noise, mean, deviation);
-  return noise / std::max(deviation[0], 1e-6);
+  noise /= std::max(deviation[0], 1e-6);
+  if (reduced > 1) {
+    cv::resize(noise, noise, {kSkinSize, kSkinSize}, 0.0, 0.0, cv::INTER_CUBIC);
+  }
+  return noise;
 }
 
 // skin *= 1 + amount * noise, channel by channel.
@@ -187,6 +216,9 @@ void Tint(cv::Mat& skin, const SkinPaint& paint) {
 
 // Sun and years: what is dark gets darker, blood shows through in patches.
 void Weather(cv::Mat& skin, float amount, cv::RNG& random) {
+  if (amount <= 0.0f) {
+    return;
+  }
   cv::Mat smooth;
   cv::GaussianBlur(skin, smooth, {}, 14.0);
   skin += amount * 0.7 * (skin - smooth);

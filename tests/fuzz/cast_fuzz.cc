@@ -1,0 +1,31 @@
+// libFuzzer harness: whatever the bytes are, reading them as a recipe and as a mesh of
+// the cast library ends, and what is accepted names only what is there.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "editor/import/cast_mesh.h"
+#include "editor/import/cast_recipe.h"
+#include "shared/core/check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace lararium;
+  const auto json = ParseJson(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz");
+  if (!json.ok()) {
+    return 0;
+  }
+  const JsonView root(*json, "fuzz");
+  if (const auto mesh = import::ReadCastMesh(root); mesh.ok()) {
+    for (const import::CastFace& face : mesh->faces) {
+      for (const uint32_t vertex : face.vertices) {
+        CHECK(vertex < mesh->positions.size());
+      }
+    }
+  }
+  if (const auto recipe = import::ParseCastRecipe(root); recipe.ok()) {
+    const Json written = import::ToJson(*recipe);
+    CHECK(import::ParseCastRecipe(JsonView(written, "again")).ok());
+  }
+  return 0;
+}

@@ -1,0 +1,183 @@
+#include "editor/import/cast_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+
+#include "editor/import/cast_paint.h"
+#include "editor/import/levels_of_detail.h"
+
+namespace lararium::import {
+namespace {
+
+// A unit sphere of rings; its seam's vertices are doubled, with the same source.
+CastPiece Sphere(uint32_t rings, uint32_t columns) {
+  CastPiece piece;
+  for (uint32_t r = 0; r <= rings; ++r) {
+    for (uint32_t c = 0; c <= columns; ++c) {
+      const float latitude = std::numbers::pi_v<float> * r / rings;
+      const float longitude = 2.0f * std::numbers::pi_v<float> * (c % columns) / columns;
+      piece.mesh.positions.emplace_back(std::sin(latitude) * std::cos(longitude),
+                                        std::cos(latitude),
+                                        std::sin(latitude) * std::sin(longitude));
+      const bool pole = r == 0 || r == rings;
+      piece.source.push_back(r * (columns + 1) + (pole ? 0 : c % columns));
+      piece.mesh.uvs.emplace_back(float(c) / columns, float(r) / rings);
+    }
+  }
+  for (uint32_t r = 0; r < rings; ++r) {
+    for (uint32_t c = 0; c < columns; ++c) {
+      const uint32_t a = r * (columns + 1) + c;
+      const uint32_t b = a + columns + 1;
+      if (r > 0) {
+        piece.mesh.indices.insert(piece.mesh.indices.end(), {a, a + 1, b});
+      }
+      if (r + 1 < rings) {
+        piece.mesh.indices.insert(piece.mesh.indices.end(), {a + 1, b + 1, b});
+      }
+    }
+  }
+  const size_t count = piece.mesh.positions.size();
+  piece.base.assign(count, {0, 0, 0});
+  piece.base_weights.assign(count, glm::vec3(1, 0, 0));
+  piece.mesh.albedo.assign(count, glm::vec3(1.0f));
+  piece.mesh.joints.assign(count, {0, 0, 0, 0});
+  piece.mesh.weights.assign(count, glm::vec4(1, 0, 0, 0));
+  piece.mesh.normals = SmoothNormals(piece.mesh.positions, piece.source, piece.mesh.indices);
+  return piece;
+}
+
+TEST(SmoothNormals, OfASphereAreItsRadiiAlsoAlongTheSeam) {
+  const CastPiece sphere = Sphere(24, 48);
+  for (size_t v = 0; v < sphere.mesh.positions.size(); ++v) {
+    EXPECT_GT(glm::dot(sphere.mesh.normals[v], sphere.mesh.positions[v]), 0.999f) << v;
+  }
+  const size_t row = 12 * 49;
+  EXPECT_EQ(sphere.mesh.normals[row], sphere.mesh.normals[row + 48]);
+}
+
+TEST(RemoveHidden, LeavesWhatHasASeenCorner) {
+  CastPiece sphere = Sphere(8, 16);
+  std::vector<bool> hidden;
+  for (const glm::vec3& p : sphere.mesh.positions) {
+    hidden.push_back(p.y < 0.1f);
+  }
+  const size_t before = sphere.mesh.indices.size();
+  RemoveHidden(sphere, hidden);
+  EXPECT_LT(sphere.mesh.indices.size(), before);
+  EXPECT_GT(sphere.mesh.indices.size(), before / 4);
+  EXPECT_TRUE(sphere.mesh.Validate(1, 0, "sphere").ok());
+  EXPECT_EQ(sphere.source.size(), sphere.mesh.positions.size());
+  for (size_t i = 0; i < sphere.mesh.indices.size(); i += 3) {
+    float highest = -1.0f;
+    for (int k = 0; k < 3; ++k) {
+      highest = std::max(highest, sphere.mesh.positions[sphere.mesh.indices[i + k]].y);
+    }
+    EXPECT_GE(highest, 0.1f);
+  }
+}
+
+TEST(LevelsOfDetail, AreCoarserOneAfterTheOtherAndTheirErrorIsTrue) {
+  human::SkinnedMesh mesh = Sphere(48, 96).mesh;
+  OrderTriangles(mesh);
+  AddLevelsOfDetail(mesh);
+  ASSERT_EQ(mesh.coarser.size(), 3u);
+  EXPECT_TRUE(mesh.Validate(1, 0, "sphere").ok());
+  size_t triangles = mesh.indices.size();
+  float error = 0.0f;
+  for (const human::LevelOfDetail& level : mesh.coarser) {
+    EXPECT_LT(level.indices.size(), 0.86 * triangles);
+    EXPECT_GE(level.error, error);
+    triangles = level.indices.size();
+    error = level.error;
+    // A chord's middle lies that far inside the sphere.
+    float deepest = 0.0f;
+    for (size_t i = 0; i < level.indices.size(); i += 3) {
+      const glm::vec3 middle =
+          (mesh.positions[level.indices[i]] + mesh.positions[level.indices[i + 1]] +
+           mesh.positions[level.indices[i + 2]]) /
+          3.0f;
+      deepest = std::max(deepest, 1.0f - glm::length(middle));
+    }
+    EXPECT_LT(deepest, 0.1f);
+  }
+  EXPECT_LT(error, 0.1f);
+}
+
+TEST(LevelsOfDetail, OfAFewTrianglesAreNone) {
+  human::SkinnedMesh mesh = Sphere(3, 4).mesh;
+  AddLevelsOfDetail(mesh);
+  EXPECT_TRUE(mesh.coarser.empty());
+  human::SkinnedMesh empty;
+  OrderTriangles(empty);
+  AddLevelsOfDetail(empty);
+  EXPECT_TRUE(empty.coarser.empty());
+}
+
+std::vector<std::byte> Png(const cv::Mat& image) {
+  std::vector<uchar> bytes;
+  cv::imencode(".png", image, bytes);
+  std::vector<std::byte> result(bytes.size());
+  std::transform(bytes.begin(), bytes.end(), result.begin(),
+                 [](uchar b) { return static_cast<std::byte>(b); });
+  return result;
+}
+
+cv::Mat Decode(const human::Texture& texture) {
+  const cv::Mat bytes(1, static_cast<int>(texture.encoded.size()), CV_8U,
+                      const_cast<std::byte*>(texture.encoded.data()));
+  return cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+}
+
+TEST(CastPaint, DyesWhatIsCoveredAndKeepsTheCover) {
+  cv::Mat image(32, 32, CV_8UC4, cv::Scalar(40, 40, 40, 255));
+  image(cv::Rect(0, 0, 32, 16)) = cv::Scalar(90, 90, 90, 0);
+  const auto dyed = DyedTexture("hair", Png(image), glm::vec3(0.8f, 0.4f, 0.2f), 512);
+  ASSERT_TRUE(dyed.ok()) << dyed.message();
+  const cv::Mat result = Decode(*dyed);
+  ASSERT_EQ(result.channels(), 4);
+  const cv::Vec4b below = result.at<cv::Vec4b>(24, 16);
+  EXPECT_NEAR(below[2], 204, 2);
+  EXPECT_NEAR(below[1], 102, 2);
+  EXPECT_NEAR(below[0], 51, 2);
+  EXPECT_EQ(below[3], 255);
+  EXPECT_EQ(result.at<cv::Vec4b>(8, 16)[3], 0);
+}
+
+TEST(CastPaint, BringsTheSkinToItsTintAndOnlyPaintsHairsWhereTheyGrow) {
+  const cv::Mat image(64, 64, CV_8UC3, cv::Scalar(150, 180, 220));
+  // Two triangles: all of the picture; hair on the vertices at the left.
+  const std::vector<glm::vec2> uvs = {{0, 0}, {0.1, 0}, {0, 1}, {0.1, 1}, {1, 0}, {1, 1}};
+  const std::vector<uint32_t> indices = {0, 1, 2, 1, 3, 2, 1, 4, 3, 4, 5, 3};
+  SkinPaint paint;
+  paint.uvs = uvs;
+  paint.indices = indices;
+  paint.tint = glm::vec3(0.6f, 0.4f, 0.3f);
+  const auto plain = SkinTexture("skin", Png(image), paint);
+  ASSERT_TRUE(plain.ok()) << plain.message();
+  const cv::Scalar mean = cv::mean(Decode(*plain));
+  EXPECT_NEAR(mean[2], 0.6 * 255, 4.0);
+  EXPECT_NEAR(mean[1], 0.4 * 255, 4.0);
+  EXPECT_NEAR(mean[0], 0.3 * 255, 4.0);
+
+  paint.stubble = 1.0f;
+  paint.beard = {1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f};
+  const auto shaved = SkinTexture("skin", Png(image), paint);
+  ASSERT_TRUE(shaved.ok());
+  const cv::Mat result = Decode(*shaved);
+  const double left = cv::mean(result(cv::Rect(10, 100, 60, 800)))[1];
+  const double right = cv::mean(result(cv::Rect(800, 100, 200, 800)))[1];
+  EXPECT_LT(left, 0.85 * right);
+}
+
+TEST(CastPaint, RefusesWhatIsNoPicture) {
+  const std::vector<std::byte> noise(100, std::byte{7});
+  EXPECT_FALSE(DyedTexture("hair", noise, std::nullopt, 512).ok());
+  EXPECT_FALSE(SkinTexture("skin", {}, {}).ok());
+}
+
+}  // namespace
+}  // namespace lararium::import
