@@ -14,15 +14,16 @@ JointTransform Interpolate(const JointTransform& a, const JointTransform& b, flo
           glm::mix(a.translation, b.translation, t), glm::mix(a.scale, b.scale, t)};
 }
 
-double ClipTime(const Clip& clip, double time) {
-  if (!clip.loops || clip.duration <= 0.0f) {
-    return std::clamp(time, 0.0, static_cast<double>(clip.duration));
-  }
-  const double wrapped = std::fmod(time, static_cast<double>(clip.duration));
-  return wrapped < 0.0 ? wrapped + clip.duration : wrapped;
-}
-
 }  // namespace
+
+double ClipTime(double time, float duration, bool loops) {
+  const auto end = static_cast<double>(duration);
+  if (!loops || duration <= 0.0f) {
+    return std::clamp(time, 0.0, end);
+  }
+  const double wrapped = std::fmod(time, end);
+  return wrapped < 0.0 ? wrapped + end : wrapped;
+}
 
 Status Clip::Validate(size_t joint_count, const std::string& place) const {
   const std::string clip_place = place + ": clip '" + name + "'";
@@ -49,7 +50,7 @@ Status Clip::Validate(size_t joint_count, const std::string& place) const {
 void SampleClip(const Clip& clip, double time, std::span<JointTransform> pose) {
   const size_t key_count = clip.KeyCount(pose.size());
   CHECK(key_count > 0 && std::isfinite(time));
-  const double position = ClipTime(clip, time) * clip.keys_per_second;
+  const double position = ClipTime(time, clip.duration, clip.loops) * clip.keys_per_second;
   const size_t first = std::min(static_cast<size_t>(position), key_count - 1);
   const size_t second = std::min(first + 1, key_count - 1);
   const float t = std::min(static_cast<float>(position - static_cast<double>(first)), 1.0f);

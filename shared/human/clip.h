@@ -26,6 +26,9 @@ struct Clip {
   Status Validate(size_t joint_count, const std::string& place) const;
 };
 
+// A time within a clip: wraps where it loops, stays at the ends otherwise; seconds.
+double ClipTime(double time, float duration, bool loops);
+
 // The pose at a time: wraps where the clip loops, holds the last key otherwise.
 // A pure function of time: seeking equals playing.
 void SampleClip(const Clip& clip, double time, std::span<JointTransform> pose);

@@ -107,7 +107,7 @@ SwingPoint ComputeSwing(float swing) {
 
 float ComputeStancePitch(float stance) {
   const float pitch = SolePitch(kCurveStance * stance);
-  return pitch * glm::smoothstep(glm::radians(4.0f), glm::radians(14.0f), std::abs(pitch));
+  return pitch * glm::smoothstep(glm::radians(7.0f), glm::radians(16.0f), std::abs(pitch));
 }
 
 }  // namespace

@@ -16,6 +16,9 @@ std::shared_ptr<const PerformanceModel> MakePerformanceModel(std::shared_ptr<con
   model->hands = MakeHandModel(human->skeleton, body);
   model->face = MakeFaceModel(*human);
   model->masks = MakeJointMasks(human->skeleton, body);
+  for (const Clip& clip : human->clips) {
+    model->clips.emplace_back(clip, human->skeleton.size());
+  }
   model->human = std::move(human);
   return model;
 }
@@ -107,13 +110,13 @@ void Performer::LayClip(int clip, double time, BodyPart part, std::span<JointTra
   if (clip == Animation::kNoClip) {
     return;
   }
-  CHECK(clip >= 0 && static_cast<size_t>(clip) < human().clips.size());
-  const Clip& source = human().clips[static_cast<size_t>(clip)];
+  CHECK(clip >= 0 && static_cast<size_t>(clip) < model_->clips.size());
+  const CompressedClip& source = model_->clips[static_cast<size_t>(clip)];
   if (part == BodyPart::kWhole) {
-    SampleClip(source, time, pose);
+    source.Sample(time, pose);
     return;
   }
-  SampleClip(source, time, clip_pose_);
+  source.Sample(time, clip_pose_);
   BlendPose(pose, clip_pose_, 1.0f, model_->masks[static_cast<size_t>(part)]);
 }
 

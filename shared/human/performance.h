@@ -12,6 +12,7 @@
 
 #include "shared/human/animation.h"
 #include "shared/human/blend.h"
+#include "shared/human/compressed_clip.h"
 #include "shared/human/face.h"
 #include "shared/human/gaze.h"
 #include "shared/human/hand_pose.h"
@@ -43,6 +44,7 @@ struct Performance {
 // What performing knows of one human; build once, share between actors and threads.
 struct PerformanceModel {
   std::shared_ptr<const Human> human;
+  std::vector<CompressedClip> clips;  // parallel to Human::clips
   LocomotionModel locomotion;
   GazeModel gaze;
   ReachModel reach;

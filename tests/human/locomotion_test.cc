@@ -21,8 +21,10 @@ constexpr float kTick = 1.0f / 120.0f;
 // A person who goes where a test says, a tick at a time, and what they look like.
 class Walk {
  public:
-  explicit Walk(const Human& human)
-      : model_(MakePerformanceModel(std::make_shared<Human>(human))), performer_(model_) {
+  explicit Walk(const Human& human, FloorHeight floor = {})
+      : model_(MakePerformanceModel(std::make_shared<Human>(human))),
+        performer_(model_),
+        floor_(std::move(floor)) {
     performance_.seed = 7;
     Step(0.0f, 0.0f);
   }
@@ -55,7 +57,6 @@ class Walk {
   const Performance& shown() const { return shown_; }
   Performance& performance() { return performance_; }
   const Performer& performer() const { return performer_; }
-  FloorHeight& floor() { return floor_; }
   float walked() const { return glm::length(position_); }
   glm::vec3 position() const { return position_; }
 
@@ -149,13 +150,243 @@ TEST(Locomotion, PlantedFeetDoNotSlideOverTwentyMetresWithTurns) {
     Walk walk(FullBody(0.6f, axes));
     SlideMeter meter;
     int tick = 0;
+    float length = 0.0f;
+    glm::vec3 before = walk.position();
     WalkTwentyMetres(walk, [&] {
+      length += glm::distance(walk.position(), before);
+      before = walk.position();
       walk.Draw(0.25f * static_cast<float>(++tick % 4));
       meter.Look(walk);
     });
     EXPECT_GT(meter.steps(), 25u);
+    EXPECT_GT(length, 20.0f);
     EXPECT_LT(meter.worst(), 0.005f);
     RecordProperty("worst_slide_micrometres", static_cast<int>(1e6f * meter.worst()));
+  }
+}
+
+TEST(Locomotion, StepsAreAsLongAsTheSpeedAsks) {
+  // Walk ratio (Sekiya & Nagasaki, 1998): step length over cadence, about 6.4 mm per step
+  // a minute for grown people at any speed.
+  for (const float speed : {0.4f, 0.8f, 1.3f, 1.8f}) {
+    Walk walk(FullBody(0.6f, 0));
+    for (int tick = 0; tick < 3 * 120; ++tick) {
+      walk.Step(speed, 0.0f);
+    }
+    int steps = 0;
+    std::array<bool, 2> stood = {true, true};
+    const float begin = walk.walked();
+    constexpr float kSeconds = 12.0f;
+    for (float time = 0.0f; time < kSeconds; time += kTick) {
+      walk.Step(speed, 0.0f);
+      for (size_t side = 0; side < 2; ++side) {
+        const bool stands = walk.performance().locomotion.feet[side].planted;
+        steps += stands && !stood[side] ? 1 : 0;
+        stood[side] = stands;
+      }
+    }
+    const float length = (walk.walked() - begin) / static_cast<float>(steps);
+    const float cadence = 60.0f * static_cast<float>(steps) / kSeconds;
+    EXPECT_NEAR(length / cadence, 0.0064f, 0.0010f) << speed;
+  }
+}
+
+TEST(Locomotion, BendsKneesOnlyBackwardsAndLikeWalkers) {
+  Walk walk(FullBody(0.6f, 5));
+  float most = 0.0f;
+  for (int tick = 0; tick < 8 * 120; ++tick) {
+    walk.Step(std::min(1.3f, 2.0f * kTick * static_cast<float>(tick)), 0.0f);
+    walk.Draw(1.0f);
+    for (const Body::Leg& leg : walk.body().legs) {
+      const glm::vec3 hip = walk.InActor(leg.hip), knee = walk.InActor(leg.knee);
+      const glm::vec3 ankle = walk.InActor(leg.ankle);
+      const glm::vec3 bend = glm::cross(knee - hip, ankle - knee);
+      EXPECT_LT(bend.x, 1e-3f);  // shanks go back
+      const float flexion = std::asin(std::clamp(
+          glm::length(bend) / glm::distance(hip, knee) / glm::distance(knee, ankle), 0.0f, 1.0f));
+      most = std::max(most, flexion);
+    }
+  }
+  // 60 degrees in swing (Perry & Burnfield, 2010).
+  EXPECT_GT(most, 0.80f);
+  EXPECT_LT(most, 1.35f);
+}
+
+TEST(Locomotion, KeepsToesOffTheFloorInSwing) {
+  for (const float speed : {0.3f, 0.9f, 1.3f, 1.9f}) {
+    Walk walk(FullBody(0.6f, 0));
+    float lowest = 1.0f;
+    for (int tick = 0; tick < 6 * 120; ++tick) {
+      walk.Step(std::min(speed, 2.0f * kTick * static_cast<float>(tick)), 0.0f);
+      walk.Draw(1.0f);
+      for (size_t side = 0; side < 2; ++side) {
+        const Locomotion::Foot& foot = walk.shown().locomotion.feet[side];
+        if (!foot.planted && foot.swing > 0.3f && foot.swing < 0.9f) {
+          const Body::Leg& leg = walk.body().legs[side];
+          lowest = std::min(lowest, walk.InStage(leg.toes[0]).y - leg.ball.y);
+        }
+      }
+    }
+    EXPECT_GT(lowest, 0.004f) << speed;
+    EXPECT_LT(lowest, 0.05f) << speed;  // and does not march
+  }
+}
+
+TEST(Locomotion, SwingsArmsAgainstLegsAndClearOfTheBody) {
+  Walk walk(FullBody(0.6f, 2));
+  float together = 0.0f;
+  for (int tick = 0; tick < 8 * 120; ++tick) {
+    walk.Step(1.3f, 0.0f);
+    walk.Draw(1.0f);
+    if (tick < 240) {
+      continue;
+    }
+    const auto ahead = [&](JointIndex joint) { return -walk.InActor(joint).z; };
+    const auto& body = walk.body();
+    const float arms = ahead(body.arms[kRight].wrist) - ahead(body.arms[kLeft].wrist);
+    const float legs = ahead(body.legs[kRight].ankle) - ahead(body.legs[kLeft].ankle);
+    together += arms * legs;
+    for (const int side : {kRight, kLeft}) {
+      const JointIndex wrist = body.arms[static_cast<size_t>(side)].wrist;
+      EXPECT_GT(SideSign(side) * walk.InActor(wrist).x, 0.16f);
+    }
+  }
+  EXPECT_LT(together, -1.0f);
+}
+
+TEST(Locomotion, StandsStillWithBothFeetFlatUnderTheHips) {
+  Walk walk(FullBody(0.6f, 0));
+  for (int tick = 0; tick < 240; ++tick) {
+    walk.Step(1.2f, 0.0f);
+  }
+  for (int tick = 0; tick < 360; ++tick) {
+    walk.Step(0.0f, 0.0f);
+  }
+  const Locomotion before = walk.performance().locomotion;
+  walk.Step(0.0f, 0.0f);
+  const Locomotion after = walk.performance().locomotion;
+  EXPECT_FALSE(after.stepping);
+  for (size_t side = 0; side < 2; ++side) {
+    EXPECT_TRUE(after.feet[side].planted);
+    EXPECT_EQ(after.feet[side].ankle, before.feet[side].ankle);
+    EXPECT_NEAR(after.feet[side].pitch, 0.0f, 1e-3f);
+    const glm::vec3 from_root = after.feet[side].print.position - after.position;
+    EXPECT_LT(std::abs(from_root.z), 0.09f);
+  }
+}
+
+TEST(Locomotion, TurnsOnTheSpotInSteps) {
+  Walk walk(FullBody(0.6f, 0));
+  SlideMeter meter;
+  for (int tick = 0; tick < 4 * 120; ++tick) {
+    walk.Step(0.0f, tick < 180 ? 2.0f : 0.0f);
+    walk.Draw(0.5f);
+    meter.Look(walk);
+    for (const Locomotion::Foot& foot : walk.shown().locomotion.feet) {
+      const float turned =
+          std::remainder(foot.print.heading - walk.shown().locomotion.heading, 2.0f * kPi);
+      EXPECT_LT(std::abs(turned), 1.1f);  // no leg is wrung
+    }
+  }
+  EXPECT_GE(meter.steps(), 4u);
+  EXPECT_LT(meter.worst(), 0.005f);
+}
+
+TEST(Locomotion, FollowsAFloorThatIsNotLevel) {
+  const FloorHeight floor = [](float x, float z) { return 0.04f * std::sin(2.0f * z) + 0.1f * x; };
+  Walk walk(FullBody(0.6f, 0), floor);
+  SlideMeter meter;
+  for (int tick = 0; tick < 6 * 120; ++tick) {
+    walk.Step(1.1f, 0.0f);
+    walk.Draw(1.0f);
+    meter.Look(walk);
+    for (size_t side = 0; side < 2; ++side) {
+      const Locomotion::Foot& foot = walk.shown().locomotion.feet[side];
+      if (foot.planted && std::abs(foot.pitch) < 1e-6f) {
+        const Body::Leg& leg = walk.body().legs[side];
+        const glm::vec3 ball = walk.InStage(leg.toes[0]);
+        EXPECT_NEAR(ball.y - leg.ball.y, floor(ball.x, ball.z), 0.012f);
+      }
+    }
+  }
+  EXPECT_LT(meter.worst(), 0.005f);
+}
+
+TEST(Locomotion, PutsTheFeetDownAnewAfterATeleport) {
+  const auto model = MakePerformanceModel(std::make_shared<Human>(FullBody(0.6f, 0)));
+  Locomotion state;
+  UpdateLocomotion(model->locomotion, glm::vec3(0.0f), 0.0f, kTick, {}, state);
+  const Locomotion before = state;
+  const glm::vec3 there(3.0f, 0.0f, -4.0f);
+  UpdateLocomotion(model->locomotion, there, 1.0f, kTick, {}, state);
+  for (const Locomotion::Foot& foot : state.feet) {
+    EXPECT_TRUE(foot.planted);
+    EXPECT_LT(glm::distance(foot.print.position, there), 0.2f);
+  }
+  EXPECT_EQ(state.velocity, glm::vec3(0.0f));
+  EXPECT_EQ(Interpolate(before, state, 0.3f), state);
+}
+
+TEST(Locomotion, LooksTheSameWhereverOneSeeks) {
+  Walk played(FullBody(0.6f, 0)), replayed(FullBody(0.6f, 0));
+  WalkTwentyMetres(played, [] {});
+  WalkTwentyMetres(replayed, [] {});
+  EXPECT_EQ(played.performance(), replayed.performance());
+}
+
+TEST(Locomotion, MovesWithoutJumps) {
+  Walk walk(FullBody(0.6f, 0));
+  std::vector<glm::vec3> before;
+  float fastest = 0.0f;
+  WalkTwentyMetres(walk, [&] {
+    walk.Draw(1.0f);
+    std::vector<glm::vec3> now;
+    for (size_t joint = 0; joint < walk.performer().actor_from_joint().size(); ++joint) {
+      now.push_back(walk.InStage(static_cast<JointIndex>(joint)));
+    }
+    for (size_t joint = 0; joint < before.size(); ++joint) {
+      fastest = std::max(fastest, glm::distance(now[joint], before[joint]) / kTick);
+    }
+    before = now;
+  });
+  EXPECT_LT(fastest, 7.5f);  // m/s; a swinging foot at 2 m/s reaches about 6
+}
+
+TEST(Locomotion, LeavesAFigureWithoutLegsAtRest) {
+  Human human = FullBody(0.6f, 0);
+  human.skeleton.names[*human.skeleton.Find("l_knee")] = "something";
+  Walk walk(human);
+  walk.Step(1.0f, 0.0f);
+  walk.Draw(1.0f);
+  const Body& body = walk.body();
+  EXPECT_FALSE(body.walks());
+  EXPECT_LT(glm::distance(walk.InActor(body.legs[kRight].ankle),
+                          body.rest[static_cast<size_t>(body.legs[kRight].ankle)].position),
+            1e-5f);
+}
+
+TEST(StrideAt, ChildrenStepFasterThanGrownPeople) {
+  const Stride grown = StrideAt(1.0f, 1.0f, 0.0f, 0.9f, {});
+  const Stride child = StrideAt(1.0f, 1.0f, 0.0f, 0.6f, {});
+  EXPECT_GT(child.per_second, 1.15f * grown.per_second);
+  EXPECT_GT(child.amount, grown.amount);
+}
+
+TEST(StancePitch, BeginsOnTheHeelRestsFlatAndEndsOnTheToes) {
+  EXPECT_GT(StancePitch(0.0f), 0.2f);
+  EXPECT_EQ(StancePitch(0.4f), 0.0f);
+  EXPECT_LT(StancePitch(1.0f), -0.9f);
+}
+
+TEST(SwingAt, GoesFromWhereTheFootLeftToWhereItLands) {
+  EXPECT_NEAR(SwingAt(0.0f).progress, 0.0f, 1e-6f);
+  EXPECT_NEAR(SwingAt(1.0f).progress, 1.0f, 1e-6f);
+  EXPECT_NEAR(SwingAt(0.0f).height, 0.0f, 1e-6f);
+  EXPECT_NEAR(SwingAt(1.0f).height, 0.0f, 1e-6f);
+  float before = -1.0f;
+  for (float swing = 0.0f; swing <= 1.0f; swing += 0.05f) {
+    EXPECT_GT(SwingAt(swing).progress, before);
+    before = SwingAt(swing).progress;
   }
 }
 
