@@ -99,6 +99,18 @@ void AddModifier(std::vector<TargetShare>& shares, const CastModifier& modifier,
   Add(shares, value < 0.0f ? modifier.min_target : modifier.max_target, std::abs(value));
 }
 
+// The sliders that share a name's first word.
+std::string Like(const CastLibrary& library, const std::string& name) {
+  const std::string word = name.substr(0, name.find('-') + 1);
+  std::string like;
+  for (const CastModifier& modifier : library.modifiers()) {
+    if (!word.empty() && modifier.name.find(word) != std::string::npos) {
+      like += (like.empty() ? "" : ", ") + modifier.name;
+    }
+  }
+  return like.empty() ? "none; src/json/modifiers of the cast library names all" : like;
+}
+
 Status AddModifiers(const CastLibrary& library,
                     const CastRecipe& recipe,
                     std::vector<TargetShare>& shares) {
@@ -108,7 +120,7 @@ Status AddModifiers(const CastLibrary& library,
     const CastModifier* right = library.FindModifier("r-" + name);
     if (whole == nullptr && (left == nullptr || right == nullptr)) {
       return Status::Error(recipe.name + ": modifiers", "there is no slider '" + name + "'",
-                           "lararium-editor cast --list-modifiers names them all");
+                           "those like it: " + Like(library, name));
     }
     for (const CastModifier* modifier : {whole, left, right}) {
       if (modifier != nullptr) {
