@@ -21,6 +21,8 @@
 
 namespace lararium::human {
 
+struct Human;
+
 // How somebody walks; what a grown healthy person does is 1 or 0.
 struct GaitStyle {
   float cadence = 1.0f;     // factor; children step faster, the old slower
@@ -83,7 +85,10 @@ struct Locomotion {
 // What locomotion knows of one body; build once.
 struct LocomotionModel {
   Body body;
+  // By how much arms hang out, radians, so that hands pass the hips and what is worn there.
+  float arm_spread = 0.12f;
 };
+LocomotionModel MakeLocomotionModel(const Human& human, const Body& body);
 
 // One tick: the root has come to this place. Steps longer than kTeleport in one tick
 // put the feet down anew. Without a floor the feet stand at the root's height.

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
+#include "shared/human/human.h"
 #include "shared/human/locomotion.h"
 #include "shared/human/turns.h"
 #include "shared/human/two_bone_ik.h"
@@ -13,6 +15,8 @@ namespace {
 
 constexpr glm::vec3 kDown(0.0f, -1.0f, 0.0f);
 constexpr glm::vec3 kForward(0.0f, 0.0f, -1.0f);
+
+constexpr float kForearmSpread = 0.35f;  // of the upper arm's
 
 // How the segments of the trunk are turned from rest, actor frame.
 struct Trunk {
@@ -30,15 +34,20 @@ float SoftMin(float a, float b) {
 
 class WalkingPose {
  public:
-  WalkingPose(const Body& body,
+  WalkingPose(const LocomotionModel& model,
               const Skeleton& skeleton,
               const Locomotion& state,
               const LifeSample& life,
               std::span<JointTransform> pose)
-      : body_(body), skeleton_(skeleton), state_(state), life_(life), pose_(pose) {
+      : model_(model),
+        body_(model.body),
+        skeleton_(skeleton),
+        state_(state),
+        life_(life),
+        pose_(pose) {
     turn_ = 2.0f * kPi * static_cast<float>(state.phase - std::floor(state.phase));
     amount_ = state.amount;
-    leg_ = body.leg_length();
+    leg_ = body_.leg_length();
   }
 
   void Apply() {
@@ -169,12 +178,12 @@ class WalkingPose {
     const glm::vec3 elbow_rest = Rest(arm.elbow).position;
     const glm::vec3 upper = glm::normalize(elbow_rest - Rest(arm.shoulder).position);
     const glm::vec3 lower = glm::normalize(Rest(arm.wrist).position - elbow_rest);
-    const float spread = 0.12f + state_.style.arm_spread;
+    const float spread = model_.arm_spread + state_.style.arm_spread;
     const glm::quat hang = Arc(upper, kDown);
     const glm::quat straight = Arc(hang * lower, kDown) * hang;
     const glm::quat upper_turn = TurnX(swing) * TurnZ(SideSign(side) * spread) * hang;
     const glm::quat lower_turn =
-        TurnX(swing + elbow) * TurnZ(SideSign(side) * 0.35f * spread) * straight;
+        TurnX(swing + elbow) * TurnZ(SideSign(side) * kForearmSpread * spread) * straight;
     SetActorRotation(skeleton_, arm.shoulder, chest * upper_turn * Rest(arm.shoulder).rotation,
                      pose_);
     SetActorRotation(skeleton_, arm.elbow, chest * lower_turn * Rest(arm.elbow).rotation, pose_);
@@ -203,6 +212,7 @@ class WalkingPose {
     }
   }
 
+  const LocomotionModel& model_;
   const Body& body_;
   const Skeleton& skeleton_;
   const Locomotion& state_;
@@ -213,14 +223,72 @@ class WalkingPose {
   float leg_ = 0.0f;
 };
 
+// True for joints of arms and what they bear.
+std::vector<bool> FindArmJoints(const Skeleton& skeleton, const Body& body) {
+  std::vector<bool> of_arm(skeleton.size(), false);
+  for (size_t i = 0; i < skeleton.size(); ++i) {
+    const auto joint = static_cast<JointIndex>(i);
+    const int16_t parent = skeleton.parents[i];
+    of_arm[i] = parent != Skeleton::kNoParent && of_arm[static_cast<size_t>(parent)];
+    for (const Body::Arm& arm : body.arms) {
+      of_arm[i] = of_arm[i] || joint == arm.clavicle || joint == arm.shoulder;
+    }
+  }
+  return of_arm;
+}
+
+// Half the width of all but the arms between two heights in the bind pose.
+float HalfWidth(const Human& human, const Body& body, float low, float high) {
+  const std::vector<bool> of_arm = FindArmJoints(human.skeleton, body);
+  float half = 0.0f;
+  for (const SkinnedMesh& mesh : human.meshes) {
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+      const glm::vec3& at = mesh.positions[v];
+      if (at.y < low || at.y > high || std::abs(at.x) <= half) {
+        continue;
+      }
+      float arm = 0.0f;
+      for (int k = 0; k < 4; ++k) {
+        arm += of_arm[mesh.joints[v][static_cast<size_t>(k)]] ? mesh.weights[v][k] : 0.0f;
+      }
+      half = arm < 0.1f ? std::abs(at.x) : half;
+    }
+  }
+  return half;
+}
+
 }  // namespace
+
+LocomotionModel MakeLocomotionModel(const Human& human, const Body& body) {
+  constexpr float kLeast = 0.12f, kMost = 0.50f;  // radians
+  constexpr float kHand = 0.045f;                 // half a hand and some air, metres
+  LocomotionModel model;
+  model.body = body;
+  const Body::Arm& arm = body.arms[kRight];
+  if (!arm.whole() || !body.arms[kLeft].whole()) {
+    return model;
+  }
+  const glm::vec3 shoulder = body.rest[static_cast<size_t>(arm.shoulder)].position;
+  const float wrist_height = shoulder.y - arm.upper_length - arm.lower_length;
+  const float hips = HalfWidth(human, body, wrist_height - 0.4f * arm.lower_length,
+                               wrist_height + 0.4f * arm.lower_length);
+  const auto wrist = [&](float spread) {
+    return shoulder.x + arm.upper_length * std::sin(spread) +
+           arm.lower_length * std::sin(kForearmSpread * spread);
+  };
+  model.arm_spread = kLeast;
+  while (model.arm_spread < kMost && wrist(model.arm_spread) < hips + kHand) {
+    model.arm_spread += 0.01f;
+  }
+  return model;
+}
 
 void ApplyLocomotion(const LocomotionModel& model,
                      const Skeleton& skeleton,
                      const Locomotion& state,
                      const LifeSample& life,
                      std::span<JointTransform> pose) {
-  WalkingPose(model.body, skeleton, state, life, pose).Apply();
+  WalkingPose(model, skeleton, state, life, pose).Apply();
 }
 
 }  // namespace lararium::human

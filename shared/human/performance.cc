@@ -10,7 +10,7 @@ std::shared_ptr<const PerformanceModel> MakePerformanceModel(std::shared_ptr<con
   CHECK(human != nullptr);
   auto model = std::make_shared<PerformanceModel>();
   const Body body = MakeBody(human->skeleton);
-  model->locomotion = {body};
+  model->locomotion = MakeLocomotionModel(*human, body);
   model->gaze = MakeGazeModel(body);
   model->reach = MakeReachModel(body);
   model->hands = MakeHandModel(human->skeleton, body);
