@@ -46,7 +46,11 @@ class Reacher {
   }
 
   void Bring(const ReachGoal& goal) {
-    const GripFrame palm = Mix(ActorFromPalm(), goal.actor_from_grip, goal.weight);
+    const GripFrame from = ActorFromPalm();
+    GripFrame palm = Mix(from, goal.actor_from_grip, goal.weight);
+    // Around the body in a slight arc.
+    const float way = glm::distance(from.position, goal.actor_from_grip.position);
+    palm.position.z -= 0.12f * way * std::sin(kPi * goal.weight);
     const GripFrame wrist = ActorFromWrist(palm);
     const glm::vec3 elbow_way = ElbowWay();
     RaiseShoulder(wrist.position, goal.weight);
