@@ -1,0 +1,259 @@
+#include "editor/import/foot_lock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "editor/import/clip_track.h"
+#include "shared/human/turns.h"
+#include "shared/human/two_bone_ik.h"
+
+namespace lararium::import {
+namespace {
+
+using human::JointTransform;
+
+constexpr float kReach = 0.992f;      // of the leg's length
+constexpr float kDeepestSink = 0.2f;  // metres
+constexpr float kSinkSpan = 0.12f;    // seconds on either side over which hips sink
+
+enum class Stands { kNo, kHeel, kBall };
+
+float SmoothStep(float x) { return x * x * (3.0f - 2.0f * x); }
+
+// One foot over a clip: where it goes and by how much that is to be corrected.
+struct Foot {
+  std::vector<Stands> stands;
+  PointTrack ankle, heel, ball;       // as the keys have them
+  std::vector<glm::vec3> correction;  // what they are moved by
+};
+
+class FootLock {
+ public:
+  FootLock(const human::Skeleton& skeleton,
+           const human::Body& body,
+           const std::array<FootContacts, 2>& contacts,
+           human::Clip& clip)
+      : skeleton_(skeleton), body_(body), clip_(clip), keys_(clip.KeyCount(skeleton.size())) {
+    const BodyTrack track = TrackBody(skeleton, body, clip);
+    for (size_t side = 0; side < 2; ++side) {
+      Follow(track.feet[side], body.legs[side], contacts[side], feet_[side]);
+    }
+  }
+
+  void Run() {
+    for (Foot& foot : feet_) {
+      Correct(foot);
+    }
+    SinkHips();
+    for (size_t key = 0; key < keys_; ++key) {
+      for (size_t side = 0; side < 2; ++side) {
+        Solve(key, side);
+      }
+    }
+  }
+
+ private:
+  std::span<JointTransform> Pose(size_t key) {
+    return std::span(clip_.keys).subspan(key * skeleton_.size(), skeleton_.size());
+  }
+
+  void Follow(const FootTrack& track,
+              const human::Body::Leg& leg,
+              const FootContacts& contacts,
+              Foot& foot) const {
+    const glm::quat toe_out = human::TurnY(leg.toe_out);
+    const glm::vec3 drop(0.0f, -leg.ankle_height, 0.0f);
+    foot.ankle = track.ankle;
+    for (size_t key = 0; key < keys_; ++key) {
+      const glm::quat turn = track.turn[key] * toe_out;
+      foot.heel.push_back(track.ankle[key] + turn * (leg.heel + drop));
+      // The sole under the ball: toes may bend above it.
+      foot.ball.push_back(track.ankle[key] + turn * (leg.ball + drop));
+      foot.stands.push_back(contacts.ball[key]   ? Stands::kBall
+                            : contacts.heel[key] ? Stands::kHeel
+                                                 : Stands::kNo);
+    }
+    foot.correction.assign(keys_, glm::vec3(0.0f));
+  }
+
+  static const glm::vec3& Point(const Foot& foot, size_t key) {
+    return foot.stands[key] == Stands::kHeel ? foot.heel[key] : foot.ball[key];
+  }
+
+  void Correct(Foot& foot) const {
+    for (size_t begin = 0; begin < keys_;) {
+      size_t end = begin;
+      while (end < keys_ &&
+             (foot.stands[end] == Stands::kNo) == (foot.stands[begin] == Stands::kNo)) {
+        ++end;
+      }
+      if (foot.stands[begin] != Stands::kNo) {
+        HoldStance(begin, end, foot);
+      }
+      begin = end;
+    }
+    BlendSwings(foot);
+    KeepAboveFloor(foot);
+  }
+
+  // From the middle of a stance outwards: what stands stays where it is; where heel and
+  // ball take turns, the next one stays where the last one has brought it.
+  void HoldStance(size_t begin, size_t end, Foot& foot) const {
+    const size_t middle = Anchor(begin, end, foot);
+    foot.correction[middle] = glm::vec3(0.0f, -Point(foot, middle).y, 0.0f);
+    for (size_t key = middle + 1; key < end; ++key) {
+      Continue(key - 1, key, foot);
+    }
+    for (size_t key = middle; key-- > begin;) {
+      Continue(key + 1, key, foot);
+    }
+  }
+
+  // The middle of the keys on the ball, or of all.
+  static size_t Anchor(size_t begin, size_t end, const Foot& foot) {
+    size_t first = end, last = begin;
+    for (size_t key = begin; key < end; ++key) {
+      if (foot.stands[key] == Stands::kBall) {
+        first = std::min(first, key);
+        last = key;
+      }
+    }
+    return first < end ? (first + last) / 2 : (begin + end) / 2;
+  }
+
+  static void Continue(size_t from, size_t to, Foot& foot) {
+    const bool heel = foot.stands[to] == Stands::kHeel;
+    const glm::vec3& before = heel ? foot.heel[from] : foot.ball[from];
+    const glm::vec3& here = heel ? foot.heel[to] : foot.ball[to];
+    glm::vec3 place = before + foot.correction[from];
+    if (foot.stands[from] == foot.stands[to]) {
+      place.y = 0.0f;
+    } else {
+      // It touches down: as far as the floor in one key is a step of centimetres, over
+      // several it is not seen.
+      place.y *= 0.5f;
+    }
+    foot.correction[to] = place - here;
+  }
+
+  void BlendSwings(Foot& foot) const {
+    for (size_t begin = 0; begin < keys_;) {
+      if (foot.stands[begin] != Stands::kNo) {
+        ++begin;
+        continue;
+      }
+      size_t end = begin;
+      while (end < keys_ && foot.stands[end] == Stands::kNo) {
+        ++end;
+      }
+      const glm::vec3 from = begin > 0     ? foot.correction[begin - 1]
+                             : end < keys_ ? foot.correction[end]
+                                           : glm::vec3(0.0f);
+      const glm::vec3 to = end < keys_ ? foot.correction[end] : from;
+      for (size_t key = begin; key < end; ++key) {
+        const float share =
+            static_cast<float>(key - begin + 1) / static_cast<float>(end - begin + 1);
+        foot.correction[key] = glm::mix(from, to, SmoothStep(share));
+      }
+      begin = end;
+    }
+  }
+
+  void KeepAboveFloor(Foot& foot) const {
+    for (size_t key = 0; key < keys_; ++key) {
+      const float lowest = std::min(foot.heel[key].y, foot.ball[key].y) + foot.correction[key].y;
+      if (foot.stands[key] == Stands::kNo && lowest < 0.0f) {
+        foot.correction[key].y -= lowest;
+      }
+    }
+  }
+
+  // By how much the hip must sink for the leg to reach.
+  float MissingReach(size_t key, size_t side) {
+    const human::Body::Leg& leg = body_.legs[side];
+    const Foot& foot = feet_[side];
+    const glm::vec3 hip = human::ActorFromJoint(skeleton_, Pose(key), leg.hip).position;
+    const glm::vec3 goal = foot.ankle[key] + foot.correction[key];
+    const float length = kReach * (leg.upper_length + leg.lower_length);
+    const float aside = std::hypot(goal.x - hip.x, goal.z - hip.z);
+    const float below = std::sqrt(std::max(length * length - aside * aside, 0.0f));
+    return std::clamp(hip.y - goal.y - below, 0.0f, kDeepestSink);
+  }
+
+  void SinkHips() {
+    std::vector<float> needed(keys_, 0.0f);
+    for (size_t key = 0; key < keys_; ++key) {
+      for (size_t side = 0; side < 2; ++side) {
+        needed[key] = std::max(needed[key], MissingReach(key, side));
+      }
+    }
+    const auto span = static_cast<std::ptrdiff_t>(std::ceil(kSinkSpan * clip_.keys_per_second));
+    const auto at = [&](const std::vector<float>& values, std::ptrdiff_t key) {
+      return values[static_cast<size_t>(
+          std::clamp<std::ptrdiff_t>(key, 0, static_cast<std::ptrdiff_t>(values.size()) - 1))];
+    };
+    std::vector<float> widened(keys_, 0.0f), smooth(keys_, 0.0f);
+    for (std::ptrdiff_t key = 0; key < static_cast<std::ptrdiff_t>(keys_); ++key) {
+      for (std::ptrdiff_t k = -span; k <= span; ++k) {
+        widened[static_cast<size_t>(key)] =
+            std::max(widened[static_cast<size_t>(key)], at(needed, key + k));
+      }
+    }
+    for (std::ptrdiff_t key = 0; key < static_cast<std::ptrdiff_t>(keys_); ++key) {
+      for (std::ptrdiff_t k = -span; k <= span; ++k) {
+        smooth[static_cast<size_t>(key)] += at(widened, key + k) / static_cast<float>(2 * span + 1);
+      }
+      MoveHips(static_cast<size_t>(key), -smooth[static_cast<size_t>(key)]);
+    }
+  }
+
+  void MoveHips(size_t key, float up) {
+    const auto root = static_cast<size_t>(body_.root);
+    const int16_t parent = skeleton_.parents[root];
+    const human::JointFrame above = human::ActorFromJoint(skeleton_, Pose(key), parent);
+    Pose(key)[root].translation +=
+        glm::conjugate(above.rotation) * glm::vec3(0.0f, up, 0.0f) / above.scale;
+  }
+
+  void Solve(size_t key, size_t side) {
+    const human::Body::Leg& leg = body_.legs[side];
+    const std::span<JointTransform> pose = Pose(key);
+    const glm::vec3 hip = human::ActorFromJoint(skeleton_, pose, leg.hip).position;
+    const glm::vec3 knee = human::ActorFromJoint(skeleton_, pose, leg.knee).position;
+    const human::JointFrame ankle = human::ActorFromJoint(skeleton_, pose, leg.ankle);
+    const glm::vec3 along = human::Direction(ankle.position - hip, glm::vec3(0, -1, 0));
+    const glm::vec3 forward = human::Across(
+        ankle.rotation * glm::conjugate(body_.rest[static_cast<size_t>(leg.ankle)].rotation) *
+            glm::vec3(0.0f, 0.0f, -1.0f),
+        along);
+    human::TwoBoneIk ik;
+    ik.upper = leg.hip;
+    ik.lower = leg.knee;
+    ik.end = leg.ankle;
+    ik.target = feet_[side].ankle[key] + feet_[side].correction[key];
+    // Straight knees bend to where the foot points.
+    ik.pole = human::Across(knee - hip, along) + 0.02f * forward;
+    ik.hinge = glm::vec3(1.0f, 0.0f, 0.0f);
+    ik.Solve(skeleton_, body_, pose);
+    human::SetActorRotation(skeleton_, leg.ankle, ankle.rotation, pose);
+  }
+
+  const human::Skeleton& skeleton_;
+  const human::Body& body_;
+  human::Clip& clip_;
+  size_t keys_;
+  std::array<Foot, 2> feet_;
+};
+
+}  // namespace
+
+void LockFeet(const human::Skeleton& skeleton,
+              const human::Body& body,
+              const std::array<FootContacts, 2>& contacts,
+              human::Clip& clip) {
+  FootLock(skeleton, body, contacts, clip).Run();
+}
+
+}  // namespace lararium::import
