@@ -1,0 +1,42 @@
+#pragma once
+
+// A garment between its draping and the mesh that is drawn.
+
+#include <cstdint>
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "editor/import/cast_body.h"
+#include "editor/import/garment/body_field.h"
+#include "editor/import/garment/garment_pattern.h"
+#include "editor/import/garment/posed_body.h"
+#include "editor/import/garment/sheet.h"
+
+namespace lararium::import {
+
+// How people stand when nothing moves them: what garments are draped on. Arms hang,
+// legs stand below the hips.
+std::vector<JointTurn> StandingTurns(const FittedBody& body, float share);
+
+// A plain part that is worn with the cloth: belt, cord, knot.
+struct Trim {
+  Sheet sheet;  // with weights
+  glm::vec3 colour = glm::vec3(0.5f);
+};
+
+struct DrapedGarment {
+  std::vector<glm::mat4> skin;  // of the pose it was draped in
+  Sheet sheet;                  // with weights
+  size_t coarse_particles = 0;  // the first of sheet's particles, those of the coarse sheet
+  std::vector<Triangle> coarse_triangles;  // of these particles
+  std::vector<float> reach;                // of each particle; 0: plain skin
+  std::function<glm::vec3(uint8_t panel, const glm::vec2& flat)> dye;  // linear RGB
+  std::vector<Trim> trims;
+  float hide_margin = 0.03f;   // metres from the cloth's edges within which skin stays
+  float loose_margin = 0.16f;  // the same from hems of loose parts, seen from below
+};
+
+}  // namespace lararium::import

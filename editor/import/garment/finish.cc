@@ -1,0 +1,376 @@
+#include "editor/import/garment/finish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/mat3x3.hpp>
+#include <numeric>
+#include <unordered_map>
+
+#include "editor/import/cast_rig.h"
+#include "editor/import/garment/skin_weights.h"
+#include "editor/import/garment/weave.h"
+#include "shared/core/parallel.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr float kFoldShade = 0.5f;  // how much darker the bottom of a deep fold is
+
+// Which small cubes of space cloth passes through.
+class Screen {
+ public:
+  static constexpr float kCell = 0.015f;
+
+  void Add(std::span<const glm::vec3> x, std::span<const Triangle> triangles) {
+    for (const auto& [a, b, c] : triangles) {
+      const float longest = std::max(
+          {glm::distance(x[a], x[b]), glm::distance(x[b], x[c]), glm::distance(x[c], x[a])});
+      const glm::vec3 normal = glm::cross(x[b] - x[a], x[c] - x[a]);
+      const int steps = static_cast<int>(longest / (0.6f * kCell)) + 1;
+      for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; i + j <= steps; ++j) {
+          const float u = static_cast<float>(i) / static_cast<float>(steps);
+          const float v = static_cast<float>(j) / static_cast<float>(steps);
+          cells_[Key(x[a] + u * (x[b] - x[a]) + v * (x[c] - x[a]))] += normal;
+        }
+      }
+    }
+  }
+
+  // What leaves the body under a garment meets its inner side. The floor blocks too.
+  bool Blocks(const glm::vec3& from, const glm::vec3& direction, float length) const {
+    for (float t = 0.002f; t < length; t += 0.5f * kCell) {
+      const glm::vec3 at = from + t * direction;
+      const auto cell = cells_.find(Key(at));
+      if (at.y < 0.01f || (cell != cells_.end() && glm::dot(cell->second, direction) > 0.0f)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static uint64_t Key(const glm::vec3& p) {
+    const auto cell = [](float v) {
+      return uint64_t(static_cast<uint32_t>(static_cast<int>(std::floor(v / kCell)) + (1 << 20)));
+    };
+    return cell(p.x) << 42 | cell(p.y) << 21 | cell(p.z);
+  }
+  std::unordered_map<uint64_t, glm::vec3> cells_;  // and where the outside is
+};
+
+// Directions within a cone about a normal.
+std::vector<glm::vec3> ConeAbout(const glm::vec3& normal) {
+  const glm::vec3 other = std::abs(normal.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+  const glm::vec3 u = glm::normalize(glm::cross(normal, other));
+  const glm::vec3 v = glm::cross(normal, u);
+  std::vector<glm::vec3> directions = {normal};
+  for (const float tilt : {0.45f, 0.85f}) {
+    for (int k = 0; k < 6; ++k) {
+      const float turn = glm::pi<float>() * (static_cast<float>(k) + 2.0f * tilt) / 3.0f;
+      directions.push_back(std::cos(tilt) * normal +
+                           std::sin(tilt) * (std::cos(turn) * u + std::sin(turn) * v));
+    }
+  }
+  return directions;
+}
+
+bool IsNear(const glm::vec3& p, std::span<const glm::vec3> places, float distance) {
+  return std::any_of(places.begin(), places.end(), [&](const glm::vec3& q) {
+    const glm::vec3 d = p - q;
+    return glm::dot(d, d) < distance * distance;
+  });
+}
+
+// Places along the openings and hems of a garment: where it is fixed, where it swings.
+struct Rims {
+  std::vector<glm::vec3> fixed;
+  std::vector<glm::vec3> loose;
+};
+
+Rims RimsOf(const DrapedGarment& draped) {
+  Rims rims;
+  for (const auto& [a, b] : OpenEdges(draped.sheet.ParticleTriangles())) {
+    const bool swings = !draped.reach.empty() && draped.reach[a] + draped.reach[b] > 0.02f;
+    (swings ? rims.loose : rims.fixed)
+        .push_back(0.5f * (draped.sheet.positions[a] + draped.sheet.positions[b]));
+  }
+  return rims;
+}
+
+// Of places with outward normals: never seen from outside under the garment, with its
+// margins kept.
+std::vector<bool> CoveredBy(const DrapedGarment& draped,
+                            std::span<const glm::vec3> places,
+                            std::span<const glm::vec3> normals) {
+  Screen screen;
+  screen.Add(draped.sheet.positions, draped.sheet.ParticleTriangles());
+  const Rims rims = RimsOf(draped);
+  std::vector<uint8_t> covered(places.size(), 0);
+  ParallelFor(places.size(), [&](size_t i) {
+    if (glm::dot(normals[i], normals[i]) < 0.5f) {
+      return;
+    }
+    const std::vector<glm::vec3> directions = ConeAbout(normals[i]);
+    const bool blocked = std::all_of(
+        directions.begin(), directions.end(),
+        [&](const glm::vec3& direction) { return screen.Blocks(places[i], direction, 0.6f); });
+    covered[i] = blocked && !IsNear(places[i], rims.fixed, draped.hide_margin) &&
+                 !IsNear(places[i], rims.loose, draped.loose_margin);
+  });
+  return {covered.begin(), covered.end()};
+}
+
+// Of each vertex of FittedBody::skin.
+std::vector<bool> HiddenSkin(const DrapedGarment& draped, const FittedBody& body) {
+  std::vector<glm::vec3> places;
+  for (size_t v = 0; v < body.base.positions.size(); ++v) {
+    glm::vec3 sum(0.0f);
+    for (int k = 0; k < 4; ++k) {
+      sum += body.base.weights[v][k] * glm::vec3(draped.skin[body.base.joints[v][k]] *
+                                                 glm::vec4(body.base.positions[v], 1.0f));
+    }
+    places.push_back(sum);
+  }
+  const PosedBody bound = PoseBody(body, {});
+  std::vector<glm::vec3> normals = Normals(places, bound.triangles);
+  const std::vector<bool> is_body = IsBody(body);
+  for (size_t v = 0; v < normals.size(); ++v) {
+    normals[v] = is_body[v] ? normals[v] : glm::vec3(0.0f);
+  }
+  const std::vector<bool> covered = CoveredBy(draped, places, normals);
+  std::vector<bool> hidden;
+  for (const uint32_t base : body.base_of_skin) {
+    hidden.push_back(covered[base]);
+  }
+  return hidden;
+}
+
+Influences StrongestOf(std::span<const float> weights) {
+  std::vector<std::pair<uint8_t, float>> influences;
+  for (size_t j = 0; j < weights.size(); ++j) {
+    if (weights[j] > 1e-4f) {
+      influences.emplace_back(static_cast<uint8_t>(j), weights[j]);
+    }
+  }
+  return Strongest(influences);
+}
+
+// The matrix that moves a particle with these influences from the bind pose.
+glm::mat4 BlendOf(const Influences& influences, std::span<const glm::mat4> skin) {
+  glm::mat4 sum(0.0f);
+  for (int k = 0; k < 4; ++k) {
+    sum += influences.weights[k] * skin[influences.joints[k]];
+  }
+  return sum;
+}
+
+// Darker where the cloth is hollow: little light comes down there.
+std::vector<float> FoldShades(const Sheet& sheet) {
+  const std::vector<Triangle> triangles = sheet.ParticleTriangles();
+  const std::vector<glm::vec3> normals = Normals(sheet.positions, triangles);
+  const auto neighbours = NeighboursOf(sheet.positions.size(), triangles);
+  std::vector<float> shade(sheet.positions.size(), 1.0f);
+  for (size_t p = 0; p < shade.size(); ++p) {
+    float hollow = 0.0f;
+    for (const uint32_t q : neighbours[p]) {
+      const glm::vec3 d = sheet.positions[q] - sheet.positions[p];
+      hollow += glm::dot(normals[p], d) / std::max(glm::length(d), 1e-6f);
+    }
+    hollow /= std::max<float>(1.0f, static_cast<float>(neighbours[p].size()));
+    shade[p] = 1.0f - kFoldShade * std::clamp(hollow, -0.12f, 0.5f);
+  }
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<float> before = shade;
+    for (size_t p = 0; p < shade.size(); ++p) {
+      float sum = before[p];
+      for (const uint32_t q : neighbours[p]) {
+        sum += before[q];
+      }
+      shade[p] = sum / static_cast<float>(neighbours[p].size() + 1);
+    }
+  }
+  return shade;
+}
+
+// Appends a sheet in the bind pose.
+void AddSheet(const Sheet& sheet,
+              std::span<const glm::mat4> skin,
+              const std::function<glm::vec3(size_t vertex)>& albedo,
+              human::SkinnedMesh& mesh) {
+  const uint32_t first = static_cast<uint32_t>(mesh.positions.size());
+  const std::vector<glm::vec3> normals = Normals(sheet.positions, sheet.ParticleTriangles());
+  std::vector<Influences> influences;
+  std::vector<glm::vec3> places;
+  std::vector<glm::vec3> turned;
+  for (size_t p = 0; p < sheet.positions.size(); ++p) {
+    influences.push_back(StrongestOf(sheet.WeightsOf(p)));
+    const glm::mat4 back = glm::inverse(BlendOf(influences[p], skin));
+    places.emplace_back(back * glm::vec4(sheet.positions[p], 1.0f));
+    turned.push_back(glm::normalize(glm::mat3(back) * normals[p]));
+  }
+  for (size_t v = 0; v < sheet.flat.size(); ++v) {
+    const uint32_t p = sheet.particle[v];
+    mesh.positions.push_back(places[p]);
+    mesh.normals.push_back(turned[p]);
+    mesh.albedo.push_back(glm::clamp(albedo(v), 0.0f, 1.0f));
+    mesh.uvs.push_back(sheet.flat[v] / kWeaveTile);
+    mesh.joints.push_back(influences[p].joints);
+    mesh.weights.push_back(influences[p].weights);
+  }
+  for (const Triangle& t : sheet.triangles) {
+    mesh.indices.insert(mesh.indices.end(), {first + t[0], first + t[1], first + t[2]});
+  }
+}
+
+// Weights of a triangle's first two corners and offset along its normal (Cloth).
+glm::vec3 OnTriangle(const glm::vec3& p,
+                     const glm::vec3& a,
+                     const glm::vec3& b,
+                     const glm::vec3& c) {
+  const glm::vec3 ab = b - a;
+  const glm::vec3 ac = c - a;
+  const glm::vec3 cross = glm::cross(ab, ac);
+  const float area = std::max(glm::dot(cross, cross), 1e-16f);
+  const float wb = glm::dot(glm::cross(p - a, ac), cross) / area;
+  const float wc = glm::dot(glm::cross(ab, p - a), cross) / area;
+  return {1.0f - wb - wc, wb, glm::dot(p - a, cross) / std::sqrt(area)};
+}
+
+class ClothMaker {
+ public:
+  ClothMaker(const DrapedGarment& draped, const human::SkinnedMesh& mesh)
+      : draped_(draped), mesh_(mesh), particle_(draped.coarse_particles, human::Cloth::kUnbound) {}
+
+  std::optional<human::Cloth> Make() {
+    triangle_.assign(draped_.coarse_triangles.size(), human::Cloth::kUnbound);
+    for (size_t t = 0; t < triangle_.size(); ++t) {
+      const Triangle& corners = draped_.coarse_triangles[t];
+      if (std::any_of(corners.begin(), corners.end(),
+                      [this](uint32_t p) { return draped_.reach[p] > 0.0f; })) {
+        triangle_[t] = static_cast<uint32_t>(cloth_.triangles.size() / 3);
+        for (const uint32_t p : corners) {
+          cloth_.triangles.push_back(Particle(p));
+        }
+      }
+    }
+    if (cloth_.triangles.empty()) {
+      return std::nullopt;
+    }
+    Bind();
+    return std::move(cloth_);
+  }
+
+ private:
+  // A vertex that stands for each coarse particle exists: it was there before.
+  uint32_t Particle(uint32_t p) {
+    if (particle_[p] == human::Cloth::kUnbound) {
+      particle_[p] = static_cast<uint32_t>(cloth_.positions.size());
+      const std::vector<uint32_t>& particles = draped_.sheet.particle;
+      const size_t v = size_t(std::find(particles.begin(), particles.end(), p) - particles.begin());
+      cloth_.positions.push_back(mesh_.positions[v]);
+      cloth_.joints.push_back(mesh_.joints[v]);
+      cloth_.weights.push_back(mesh_.weights[v]);
+      cloth_.reach.push_back(draped_.reach[p]);
+    }
+    return particle_[p];
+  }
+
+  // Four triangles of the sheet were one of the coarse sheet.
+  void Bind() {
+    cloth_.vertex_triangle.assign(mesh_.positions.size(), human::Cloth::kUnbound);
+    cloth_.vertex_weights.assign(mesh_.positions.size(), glm::vec3(0.0f));
+    for (size_t t = 0; t < draped_.sheet.triangles.size(); ++t) {
+      const uint32_t coarse = triangle_[t / 4];
+      if (coarse == human::Cloth::kUnbound) {
+        continue;
+      }
+      for (const uint32_t v : draped_.sheet.triangles[t]) {
+        if (cloth_.vertex_triangle[v] == human::Cloth::kUnbound) {
+          cloth_.vertex_triangle[v] = coarse;
+          const auto corner = [&](int k) {
+            return cloth_.positions[cloth_.triangles[3 * coarse + size_t(k)]];
+          };
+          cloth_.vertex_weights[v] =
+              OnTriangle(mesh_.positions[v], corner(0), corner(1), corner(2));
+        }
+      }
+    }
+  }
+
+  const DrapedGarment& draped_;
+  const human::SkinnedMesh& mesh_;
+  human::Cloth cloth_;
+  std::vector<uint32_t> particle_;
+  std::vector<uint32_t> triangle_;
+};
+
+}  // namespace
+
+Result<Garment> FinishGarment(const DrapedGarment& draped,
+                              const GarmentPattern& pattern,
+                              const FittedBody& body) {
+  Garment garment;
+  const std::string name = NameOf(pattern.kind);
+  garment.mesh.name = name;
+  const std::vector<float> shade = FoldShades(draped.sheet);
+  AddSheet(
+      draped.sheet, draped.skin,
+      [&](size_t v) {
+        return draped.dye(draped.sheet.panel[v], draped.sheet.flat[v]) *
+               shade[draped.sheet.particle[v]];
+      },
+      garment.mesh);
+  for (const Trim& trim : draped.trims) {
+    AddSheet(
+        trim.sheet, draped.skin, [&](size_t) { return trim.colour; }, garment.mesh);
+  }
+  garment.material.name = name;
+  garment.material.surface = human::Surface::kCloth;
+  garment.material.roughness = 0.9f;
+  garment.material.two_sided = true;
+  const Weave weave = WeaveOf(pattern);
+  LARARIUM_ASSIGN_OR_RETURN(garment.colour, WeaveColour(weave, pattern.seed));
+  LARARIUM_ASSIGN_OR_RETURN(garment.normal, WeaveNormals(weave, pattern.seed));
+  if (!draped.reach.empty()) {
+    garment.cloth = ClothMaker(draped, garment.mesh).Make();
+    if (garment.cloth) {
+      garment.cloth->name = name;
+    }
+  }
+  garment.hidden = HiddenSkin(draped, body);
+  return garment;
+}
+
+void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner) {
+  const std::vector<glm::vec3> normals =
+      Normals(inner.sheet.positions, inner.sheet.ParticleTriangles());
+  std::vector<bool> covered(inner.sheet.positions.size(), false);
+  for (const DrapedGarment& garment : outer) {
+    const std::vector<bool> by_this = CoveredBy(garment, inner.sheet.positions, normals);
+    for (size_t p = 0; p < covered.size(); ++p) {
+      covered[p] = covered[p] || by_this[p];
+    }
+  }
+  // Whole triangles of the coarse sheet, so that what follows one still has it.
+  std::vector<Triangle> kept;
+  std::vector<Triangle> kept_coarse;
+  for (size_t t = 0; t < inner.sheet.triangles.size(); t += 4) {
+    bool seen = inner.coarse_triangles.empty();
+    for (size_t k = t; k < t + 4 && !seen; ++k) {
+      const Triangle corners = inner.sheet.Particles(inner.sheet.triangles[k]);
+      seen = std::any_of(corners.begin(), corners.end(), [&](uint32_t p) { return !covered[p]; });
+    }
+    if (seen) {
+      kept.insert(kept.end(), inner.sheet.triangles.begin() + ptrdiff_t(t),
+                  inner.sheet.triangles.begin() + ptrdiff_t(t + 4));
+      kept_coarse.push_back(inner.coarse_triangles[t / 4]);
+    }
+  }
+  inner.sheet.triangles = std::move(kept);
+  inner.coarse_triangles = std::move(kept_coarse);
+}
+
+}  // namespace lararium::import

@@ -1,0 +1,22 @@
+#pragma once
+
+// From a draped garment to what is drawn and simulated.
+
+#include <span>
+#include <vector>
+
+#include "editor/import/cast_body.h"
+#include "editor/import/garment/draped.h"
+#include "editor/import/garment/garment_pattern.h"
+#include "shared/core/status.h"
+
+namespace lararium::import {
+
+Result<Garment> FinishGarment(const DrapedGarment& draped,
+                              const GarmentPattern& pattern,
+                              const FittedBody& body);
+
+// Leaves out of an inner garment what outer ones cover.
+void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner);
+
+}  // namespace lararium::import

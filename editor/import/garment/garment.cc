@@ -1,0 +1,44 @@
+#include "editor/import/garment/garment.h"
+
+#include <utility>
+
+#include "editor/import/garment/draped.h"
+#include "editor/import/garment/finish.h"
+#include "editor/import/garment/tunic.h"
+
+namespace lararium::import {
+namespace {
+
+Result<DrapedGarment> Drape(const GarmentPattern& pattern,
+                            const FittedBody& body,
+                            std::span<const DrapedGarment>) {
+  switch (pattern.kind) {
+    case GarmentKind::kTunic:
+    case GarmentKind::kStola:
+      return DrapeTunic(pattern, body);
+    default:
+      return Status::Error(NameOf(pattern.kind), "cannot be cut yet");
+  }
+}
+
+}  // namespace
+
+Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> patterns,
+                                         const FittedBody& body) {
+  std::vector<DrapedGarment> worn;
+  for (const GarmentPattern& pattern : patterns) {
+    LARARIUM_ASSIGN_OR_RETURN(DrapedGarment draped, Drape(pattern, body, worn));
+    worn.push_back(std::move(draped));
+  }
+  for (size_t i = 0; i + 1 < worn.size(); ++i) {
+    LeaveOutCovered(std::span(worn).subspan(i + 1), worn[i]);
+  }
+  std::vector<Garment> garments;
+  for (size_t i = 0; i < worn.size(); ++i) {
+    LARARIUM_ASSIGN_OR_RETURN(Garment garment, FinishGarment(worn[i], patterns[i], body));
+    garments.push_back(std::move(garment));
+  }
+  return garments;
+}
+
+}  // namespace lararium::import

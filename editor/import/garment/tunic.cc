@@ -1,0 +1,532 @@
+#include "editor/import/garment/tunic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <optional>
+
+#include "editor/import/garment/drape.h"
+#include "editor/import/garment/girdle.h"
+#include "editor/import/garment/skin_weights.h"
+#include "shared/core/random.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr float kCoarseParticles = 1150.0f;  // about so many
+constexpr float kAboveSkin = 0.012f;
+constexpr uint8_t kFront = 0;
+constexpr uint8_t kBack = 1;
+
+// The line over shoulders and arms that the cloth's upper edge lies on, from the
+// middle outward: height and side at a length along it.
+class ShoulderLine {
+ public:
+  ShoulderLine(const FittedBody& body, const PosedBody& posed) {
+    const std::vector<float> head = HeadShare(body);
+    const std::vector<bool> is_body = IsBody(body);
+    const glm::vec3 wrist = JointPlace(body, posed, "r_wrist");
+    depth_ = JointPlace(body, posed, "r_shoulder").z;
+    const size_t bins = static_cast<size_t>(wrist.x / kBin);
+    std::vector<float> top(bins + 1, 0.0f);
+    for (size_t v = 0; v < posed.positions.size(); ++v) {
+      const glm::vec3& p = posed.positions[v];
+      const size_t bin = static_cast<size_t>(std::abs(p.x) / kBin);
+      if (is_body[v] && head[v] < 0.5f && bin <= bins) {
+        top[bin] = std::max(top[bin], p.y);
+      }
+    }
+    float highest = *std::max_element(top.begin(), top.end());
+    for (float& y : top) {
+      highest = y = std::min(highest, y > 0.0f ? y : highest);
+    }
+    float length = 0.0f;
+    for (size_t b = 0; b <= bins; ++b) {
+      places_.emplace_back(kBin * static_cast<float>(b), top[b] + kAboveSkin);
+      length += b > 0 ? glm::distance(places_[b], places_[b - 1]) : 0.0f;
+      lengths_.push_back(length);
+    }
+  }
+
+  // x and y at this length from the middle (negative: to the person's left).
+  glm::vec2 At(float s) const {
+    const float length = std::min(std::abs(s), lengths_.back());
+    const size_t next = std::max<size_t>(
+        1, size_t(std::lower_bound(lengths_.begin(), lengths_.end(), length) - lengths_.begin()));
+    const float f = (length - lengths_[next - 1]) / (lengths_[next] - lengths_[next - 1]);
+    const glm::vec2 p = glm::mix(places_[next - 1], places_[next], f);
+    const float beyond = std::abs(s) - length;
+    return {std::copysign(p.x + 0.7f * beyond, s), p.y - 0.7f * beyond};
+  }
+  float LengthTo(float x) const {
+    const size_t bin = std::min(places_.size() - 1, static_cast<size_t>(x / kBin));
+    return lengths_[bin];
+  }
+  float depth() const { return depth_; }
+
+ private:
+  static constexpr float kBin = 0.015f;
+  float depth_ = 0.0f;
+  std::vector<glm::vec2> places_;
+  std::vector<float> lengths_;
+};
+
+// Sizes of the two rectangles.
+struct TunicCut {
+  float half_width = 0.4f;   // below the waist
+  float half_top = 0.3f;     // along the shoulders
+  float neck = 0.13f;        // half of the opening
+  float neck_front = 0.05f;  // how deep it is scooped
+  float neck_back = 0.015f;
+  float arm = 0.28f;  // opening at the side, from the top
+  float shoulder = 0.18f;
+  float hem_height = 0.5f;  // above the floor, without belt
+  size_t columns = 0;
+  size_t rows = 0;
+};
+
+class TunicDraper {
+ public:
+  TunicDraper(const GarmentPattern& pattern, const FittedBody& body)
+      : pattern_(pattern),
+        body_(body),
+        bound_(PoseBody(body, {})),
+        standing_(PoseBody(body, StandingTurns(body, 1.0f))),
+        line_(body, bound_),
+        walls_(standing_) {
+    Measure();
+    material_.own_gap = std::min(0.016f, 0.45f * thread_);
+  }
+
+  DrapedGarment Drape() {
+    LayOut();
+    SettleInBindPose();
+    TieBelt(bound_, 160);
+    const std::vector<float> distances = TakeWeights(body_, bound_, WeightSource::kSkirted, sheet_);
+    SmoothWeights(sheet_, 8, distances);
+    LowerArms();
+    DrapedGarment result;
+    for (int round = 0; round < 2; ++round) {
+      LevelHem();
+      TieBelt(standing_, 60);
+    }
+    KeepHemLine();
+    result.coarse_particles = sheet_.positions.size();
+    result.coarse_triangles = sheet_.ParticleTriangles();
+    sheet_ = Subdivided(sheet_);
+    SettleFine();
+    Finish(result);
+    return result;
+  }
+
+ private:
+  void Measure() {
+    const auto place = [&](const char* joint) { return JointPlace(body_, bound_, joint); };
+    const glm::vec3 shoulder = place("r_shoulder");
+    const float upper_arm = glm::distance(shoulder, place("r_elbow"));
+    const float hip = place("r_hip").y;
+    const float knee = place("r_knee").y;
+    float widest = 0.0f;
+    for (float y = knee; y < shoulder.y; y += 0.03f) {
+      widest = std::max(widest, Girth(body_, standing_, y, 0.03f).Length());
+    }
+    cut_.shoulder = line_.LengthTo(shoulder.x);
+    const float sleeve = pattern_.sleeve == Sleeve::kNone    ? 0.12f
+                         : pattern_.sleeve == Sleeve::kShort ? 0.45f
+                                                             : 0.9f;
+    cut_.half_top = cut_.shoulder + sleeve * upper_arm;
+    cut_.half_width = std::max(cut_.half_top, 0.25f * pattern_.ease * widest);
+    cut_.neck = 0.72f * cut_.shoulder;
+    cut_.neck_front = 0.28f * cut_.shoulder;
+    cut_.arm = std::max(0.85f * upper_arm, 0.6f * cut_.half_top);
+    cut_.hem_height = pattern_.hem < 1.0f ? glm::mix(hip, knee, pattern_.hem)
+                                          : glm::mix(knee, 0.0f, pattern_.hem - 1.0f);
+    belt_height_ = BeltHeight(pattern_, body_);
+    const float blouse = pattern_.belt == Belt::kNone ? 0.0f : pattern_.blouse;
+    longest_ = line_.At(0.0f).y - cut_.hem_height + blouse;
+    thread_ =
+        std::clamp(std::sqrt(4.0f * cut_.half_width * longest_ / kCoarseParticles), 0.026f, 0.05f);
+    // An even number, so that there is a middle column.
+    cut_.columns = 2 * static_cast<size_t>(std::round(cut_.half_width / thread_)) + 1;
+    cut_.rows = static_cast<size_t>(std::round(longest_ / thread_)) + 1;
+  }
+
+  // Along the upper edge.
+  float Across(size_t column) const { return cut_.half_top * Share(column); }
+  // -1 at the person's left seam, 1 at the right one.
+  float Share(size_t column) const {
+    return 2.0f * static_cast<float>(column) / static_cast<float>(cut_.columns - 1) - 1.0f;
+  }
+  // Below the arms the cloth is wider.
+  float HalfWidth(float down) const {
+    const float share = glm::smoothstep(0.5f * cut_.arm, cut_.arm + 0.25f, down);
+    return glm::mix(cut_.half_top, cut_.half_width, share);
+  }
+  // Before the hem is levelled.
+  float FirstLength(float s) const {
+    return longest_ - line_.At(0.0f).y + line_.At(std::min(std::abs(s), cut_.shoulder)).y;
+  }
+  float Top(uint8_t panel, float s) const {
+    const float depth = panel == kFront ? cut_.neck_front : cut_.neck_back;
+    const float share = std::min(1.0f, std::abs(s) / cut_.neck);
+    return depth * (1.0f - share * share);
+  }
+
+  void LayOut() {
+    Random random(pattern_.seed);
+    const float front = 0.06f + 0.5f * ChestDepth();
+    for (const uint8_t panel : {kFront, kBack}) {
+      GridPanel grid;
+      grid.columns = cut_.columns;
+      grid.rows = cut_.rows;
+      grid.mirrored = panel == kFront;
+      grid.flat = [&, panel](size_t column, size_t row) {
+        const float s = Across(column);
+        const float share = static_cast<float>(row) / static_cast<float>(cut_.rows - 1);
+        const float down = glm::mix(Top(panel, s), FirstLength(s), share);
+        return glm::vec2(Share(column) * HalfWidth(down), down);
+      };
+      grid.place = [&, panel](size_t column, size_t row) {
+        const glm::vec2 flat = grid.flat(column, row);
+        const glm::vec2 top = line_.At(Across(column));
+        const float away = front * std::min(1.0f, flat.y / 0.15f);
+        const float ripple = 0.004f * static_cast<float>(random.Normal());
+        return glm::vec3(top.x + flat.x - Across(column),
+                         top.y - std::max(0.0f, flat.y - 0.7f * away),
+                         line_.depth() + (panel == kFront ? -away : away) + ripple);
+      };
+      first_[panel] = AddPanel(sheet_, grid, panel);
+    }
+    SewUp();
+  }
+
+  float ChestDepth() const {
+    float deepest = 0.0f;
+    for (float y = belt_height_ - 0.2f; y < line_.At(0.0f).y - 0.1f; y += 0.04f) {
+      const Girth girth(body_, bound_, y, 0.02f);
+      deepest = std::max(deepest, girth.Radius(0.0f) + girth.Radius(glm::pi<float>()));
+    }
+    return deepest;
+  }
+
+  uint32_t Vertex(uint8_t panel, size_t column, size_t row) const {
+    return first_[panel] + static_cast<uint32_t>(row * cut_.columns + column);
+  }
+
+  void SewUp() {
+    std::vector<std::array<uint32_t, 2>> seams;
+    for (size_t c = 0; c < cut_.columns; ++c) {
+      const float s = Across(c);
+      const bool bare = pattern_.one_shoulder && s > 0.0f;
+      if (std::abs(s) >= cut_.neck && !bare && IsPinned(s)) {
+        seams.push_back({Vertex(kFront, c, 0), Vertex(kBack, c, 0)});
+      }
+    }
+    for (size_t r = 0; r < cut_.rows; ++r) {
+      for (const size_t c : {size_t{0}, cut_.columns - 1}) {
+        if (sheet_.flat[Vertex(kFront, c, r)].y >= cut_.arm) {
+          seams.push_back({Vertex(kFront, c, r), Vertex(kBack, c, r)});
+        }
+      }
+    }
+    Sew(sheet_, seams);
+  }
+
+  // A woman's sleeve is pinned at a few places; between them it gapes.
+  bool IsPinned(float s) const {
+    if (pattern_.kind != GarmentKind::kStola) {
+      return true;
+    }
+    const float along = (std::abs(s) - cut_.neck) / (cut_.half_top - cut_.neck);
+    const float phase = along * 3.0f - std::floor(along * 3.0f);
+    return along < 0.06f || along > 0.97f || phase < 0.34f;
+  }
+
+  // The cloth hangs from its upper edge.
+  void AddTethers(Draper& draper) const {
+    for (const uint8_t panel : {kFront, kBack}) {
+      for (size_t c = 0; c < cut_.columns; ++c) {
+        const uint32_t top = Vertex(panel, c, 0);
+        for (size_t r = 1; r < cut_.rows; ++r) {
+          const uint32_t v = Vertex(panel, c, r);
+          draper.Tether(sheet_.particle[v], sheet_.particle[top],
+                        1.03f * (sheet_.flat[v].y - sheet_.flat[top].y));
+        }
+      }
+    }
+  }
+
+  void SettleInBindPose() {
+    const BodyField field = FieldOf(bound_, 0.015f, 0.045f);
+    Draper draper(sheet_, material_);
+    AddTethers(draper);
+    draper.damping = 0.04f;
+    draper.Run(240, field);
+  }
+
+  void LowerArms() {
+    constexpr int kPoses = 12;
+    Draper draper(sheet_, material_);
+    AddTethers(draper);
+    const Girth girth(body_, standing_, belt_height_, 0.025f);
+    const std::vector<float> angles = GatheredAngles(girth);
+    std::optional<ArmWalls> walls;
+    if (tied_) {
+      draper.Gather(belted_);
+      draper.rule = [&](std::vector<glm::vec3>& x) {
+        Girdle(girth, angles, belt_heights_, 1.0f, x);
+        KeepFromHands(*walls, x);
+      };
+    }
+    PosedBody from = bound_;
+    for (int i = 1; i <= kPoses; ++i) {
+      const float share = static_cast<float>(i) / kPoses;
+      PosedBody to = PoseBody(body_, StandingTurns(body_, share));
+      sheet_.positions = Carried(sheet_, from.skin, to.skin);
+      draper.Rest();
+      walls.emplace(to);
+      draper.Run(i == kPoses ? 100 : 12, FieldOf(to, 0.015f, 0.045f, false));
+      from = std::move(to);
+    }
+  }
+
+  // Draws the cloth at belt height, less what blouses over it, onto the waist.
+  void TieBelt(const PosedBody& posed, int steps) {
+    Draper draper(sheet_, material_);
+    AddTethers(draper);
+    HoldShoulders(draper);
+    draper.gravity = 2.0f;
+    const BodyField field = FieldOf(posed, 0.0125f, 0.04f, false);
+    if (pattern_.belt == Belt::kNone) {
+      if (&posed == &standing_) {
+        draper.rule = [this](std::vector<glm::vec3>& x) { KeepFromHands(walls_, x); };
+      }
+      draper.Run(steps, field);
+      return;
+    }
+    const Girth girth(body_, standing_, belt_height_, 0.025f);
+    if (belted_.empty()) {
+      ChooseBelted();
+    }
+    draper.Gather(belted_);
+    const std::vector<float> angles = GatheredAngles(girth);
+    int calls = 0;
+    draper.rule = [&](std::vector<glm::vec3>& x) {
+      const float tightness = tied_ ? 1.0f : std::min(1.0f, static_cast<float>(++calls) / 600.0f);
+      Girdle(girth, angles, belt_heights_, tightness, x);
+      if (tied_) {
+        KeepFromHands(walls_, x);
+      }
+    };
+    draper.Run(steps, field);
+    tied_ = true;
+  }
+
+  // Where round the waist each particle's thread is gathered, so that the folds spread.
+  std::vector<float> GatheredAngles(const Girth& girth) const {
+    std::vector<float> angles(sheet_.positions.size(), 0.0f);
+    for (size_t v = 0; v < sheet_.flat.size(); ++v) {
+      const float quarter = 0.25f * sheet_.flat[v].x / HalfWidth(sheet_.flat[v].y);
+      angles[sheet_.particle[v]] =
+          girth.AngleAt(sheet_.panel[v] == kFront ? 0.5f - quarter : quarter);
+    }
+    return angles;
+  }
+
+  void ChooseBelted() {
+    const float lifted = belt_height_ - pattern_.blouse;
+    for (const glm::vec3& p : sheet_.positions) {
+      const float off = p.y - lifted;
+      belted_.push_back(std::abs(off) < 0.6f * thread_);
+      belt_heights_.push_back(belt_height_ + std::clamp(off, -0.012f, 0.012f));
+    }
+  }
+
+  // Cuts off or adds what the hem hangs too low or too high.
+  void LevelHem() {
+    for (const uint8_t panel : {kFront, kBack}) {
+      for (size_t c = 0; c < cut_.columns; ++c) {
+        const uint32_t hem = Vertex(panel, c, cut_.rows - 1);
+        const float change = sheet_.positions[sheet_.particle[hem]].y - cut_.hem_height;
+        const float top = sheet_.flat[Vertex(panel, c, 0)].y;
+        const float from = top + 0.55f * (sheet_.flat[hem].y - top);
+        const float longer = std::max(0.3f, 1.0f + change / (sheet_.flat[hem].y - from));
+        for (size_t r = 0; r < cut_.rows; ++r) {
+          float& down = sheet_.flat[Vertex(panel, c, r)].y;
+          down = down > from ? from + longer * (down - from) : down;
+        }
+      }
+    }
+  }
+
+  void KeepHemLine() {
+    for (const uint8_t panel : {kFront, kBack}) {
+      for (size_t c = 0; c < cut_.columns; ++c) {
+        hem_[panel].push_back(sheet_.flat[Vertex(panel, c, cut_.rows - 1)].y);
+      }
+    }
+  }
+
+  void Girdle(const Girth& girth,
+              const std::vector<float>& angles,
+              const std::vector<float>& height,
+              float tightness,
+              std::vector<glm::vec3>& x) const {
+    for (size_t p = 0; p < belted_.size(); ++p) {
+      if (!belted_[p]) {
+        continue;
+      }
+      const float at = girth.AngleOf(x[p]);
+      const float round = std::remainder(angles[p] - at, glm::two_pi<float>());
+      const float angle = at + 0.15f * tightness * round;
+      const float now =
+          glm::length(glm::vec2(x[p].x - girth.middle().x, x[p].z - girth.middle().z));
+      const float wanted = girth.Radius(angle) + material_.gap;
+      const float radius = std::min(now, glm::mix(now, wanted, 0.3f * tightness));
+      x[p] = glm::mix(x[p],
+                      girth.middle() + radius * glm::vec3(std::sin(angle), 0.0f, std::cos(angle)),
+                      glm::vec3(1.0f, 0.0f, 1.0f));
+      x[p].y = glm::mix(x[p].y, height[p], 0.3f * tightness);
+    }
+  }
+
+  // Forearms and hands hang outside of the skirt.
+  void KeepFromHands(const ArmWalls& walls, std::vector<glm::vec3>& x) const {
+    for (glm::vec3& p : x) {
+      if (p.y < belt_height_ - 0.02f) {
+        walls.Keep(p);
+      }
+    }
+  }
+
+  void SettleFine() {
+    DrapeMaterial fine = material_;
+    fine.own_gap = 0.5f * material_.own_gap;
+    Draper draper(sheet_, fine);
+    AddTethers(draper);
+    HoldShoulders(draper);
+    draper.gravity = 1.2f;
+    const Girth girth(body_, standing_, belt_height_, 0.025f);
+    std::vector<float> height;
+    std::vector<float> angles;
+    if (pattern_.belt != Belt::kNone) {
+      belted_.assign(sheet_.positions.size(), false);
+      for (size_t p = 0; p < sheet_.positions.size(); ++p) {
+        const glm::vec3& x = sheet_.positions[p];
+        const float out = glm::length(glm::vec2(x.x - girth.middle().x, x.z - girth.middle().z));
+        belted_[p] =
+            std::abs(x.y - belt_height_) < 0.014f && out < girth.Radius(girth.AngleOf(x)) + 0.03f;
+        height.push_back(x.y);
+      }
+      draper.Gather(belted_);
+      angles = GatheredAngles(girth);
+    }
+    draper.rule = [&](std::vector<glm::vec3>& x) {
+      Girdle(girth, angles, height, 1.0f, x);
+      KeepFromHands(walls_, x);
+    };
+    draper.floor = true;
+    draper.Run(140, FieldOf(standing_, 0.01f, 0.03f));
+  }
+
+  // Where they lie by now.
+  void HoldShoulders(Draper& draper) const {
+    for (const uint8_t panel : {kFront, kBack}) {
+      for (size_t c = 0; c < cut_.columns; ++c) {
+        const float s = std::abs(Across(c));
+        const uint32_t particle = sheet_.particle[Vertex(panel, c, 0)];
+        if (s >= cut_.neck && s <= cut_.shoulder + 0.02f) {
+          draper.pins.push_back({particle, sheet_.positions[particle], 0.3f});
+        }
+      }
+    }
+  }
+
+  void Finish(DrapedGarment& result) {
+    result.skin = standing_.skin;
+    // Nobody looks under what reaches the floor.
+    result.loose_margin = std::clamp(0.4f * cut_.hem_height, 0.05f, 0.18f);
+    SetReach(result);
+    result.dye = Dye();
+    if (pattern_.belt != Belt::kNone) {
+      result.trims.push_back(TieGirdle(pattern_, body_, standing_, sheet_, belt_height_));
+    }
+    result.sheet = std::move(sheet_);
+  }
+
+  // What hangs below the belt swings, the more the lower it is.
+  void SetReach(DrapedGarment& result) const {
+    const float top = pattern_.belt == Belt::kNone
+                          ? JointPlace(body_, standing_, "r_hip").y + 0.05f
+                          : std::min(belt_height_, JointPlace(body_, standing_, "vl1").y);
+    for (const glm::vec3& p : sheet_.positions) {
+      const float below = top - 0.05f - p.y;
+      result.reach.push_back(below <= 0.0f ? 0.0f : 0.02f + 0.8f * below);
+    }
+  }
+
+  std::function<glm::vec3(uint8_t, const glm::vec2&)> Dye() const {
+    const float stripe = pattern_.stripes == Stripes::kNarrow  ? 0.5f * 0.028f
+                         : pattern_.stripes == Stripes::kBroad ? 0.5f * 0.075f
+                                                               : 0.0f;
+    const float stripe_at = pattern_.stripes == Stripes::kBroad ? 0.045f : 0.6f * cut_.neck + 0.02f;
+    const std::array<std::vector<float>, 2> hem = {hem_[kFront], hem_[kBack]};
+    return [=, pattern = pattern_, half_width = cut_.half_width](uint8_t panel,
+                                                                 const glm::vec2& flat) {
+      const float column = 0.5f * (flat.x / half_width + 1.0f) * float(hem[panel].size() - 1);
+      const float from_hem = hem[panel][static_cast<size_t>(column + 0.5f)] - flat.y;
+      const bool striped = stripe > 0.0f && std::abs(std::abs(flat.x) - stripe_at) <= stripe;
+      const bool banded = pattern.border && from_hem < 0.045f && from_hem > 0.012f;
+      const glm::vec3 colour = striped || banded ? pattern.stripe_colour : pattern.colour;
+      const float soil = pattern.wear * std::clamp(1.0f - from_hem / 0.2f, 0.0f, 1.0f);
+      return colour * (1.0f - 0.35f * soil);
+    };
+  }
+
+  const GarmentPattern pattern_;
+  const FittedBody& body_;
+  PosedBody bound_;
+  PosedBody standing_;
+  ShoulderLine line_;
+  ArmWalls walls_;
+  DrapeMaterial material_;
+  TunicCut cut_;
+  float belt_height_ = 1.0f;
+  float thread_ = 0.036f;  // metres between the rows of the coarse sheet
+  float longest_ = 1.0f;
+  uint32_t first_[2] = {0, 0};
+  Sheet sheet_;
+  std::vector<bool> belted_;
+  std::vector<float> belt_heights_;
+  bool tied_ = false;
+  std::vector<float> hem_[2];
+};
+
+}  // namespace
+
+std::vector<JointTurn> StandingTurns(const FittedBody& body, float share) {
+  std::vector<JointTurn> turns = ArmsLowered(body, 0.3f, share);
+  // Legs: the ankles a little further apart than the hip joints.
+  for (const bool right : {false, true}) {
+    const auto place = [&](const char* r, const char* l) {
+      return glm::vec3(
+          glm::inverse(body.skeleton.joint_from_actor[JointNumber(body, right ? r : l)])[3]);
+    };
+    const glm::vec3 hip = place("r_hip", "l_hip");
+    const glm::vec3 ankle = place("r_ankle", "l_ankle");
+    const float now = std::atan2(ankle.x - hip.x, hip.y - ankle.y);
+    const float wanted = std::atan2(0.35f * hip.x, hip.y - ankle.y);
+    const glm::quat turn = glm::angleAxis(share * (wanted - now), glm::vec3(0.0f, 0.0f, 1.0f));
+    turns.emplace_back(right ? "r_hip" : "l_hip", turn);
+    turns.emplace_back(right ? "r_ankle" : "l_ankle", glm::inverse(turn));
+  }
+  return turns;
+}
+
+Result<DrapedGarment> DrapeTunic(const GarmentPattern& pattern, const FittedBody& body) {
+  return TunicDraper(pattern, body).Drape();
+}
+
+}  // namespace lararium::import
