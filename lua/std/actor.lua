@@ -10,9 +10,7 @@ Actor.__tostring = function(self)
   return "actor '" .. self.name .. "'"
 end
 
-local TURN_SPEED = 180 -- degrees per second
 local FADE = 0.3 -- seconds from one clip to the next
-local ROUNDING = 1e-6 -- seconds: a motion that is over but for this is over
 
 local known = {}
 
@@ -80,10 +78,13 @@ function Actor:where()
   return { x = x, y = y, z = z, heading = math.deg(heading) }
 end
 
--- Plays a clip of the actor from now on: {fade = seconds, rate = 1}.
+-- Plays a clip of the actor from now on: {fade = seconds, rate = 1}; nothing: the body
+-- moves by itself.
 function Actor:play(clip, options)
   options = options_of(options, "play")
-  check_clip(self, clip, "play")
+  if clip ~= nil then
+    check_clip(self, clip, "play")
+  end
   local fade = number(options, "fade", FADE, "play")
   local rate = number(options, "rate", 1, "play")
   host.play(self.id, clip, fade, rate)
@@ -95,69 +96,223 @@ function Actor:length(clip)
   return (host.clip(self.id, clip))
 end
 
+-- An object, or its name, as its id.
+local function object_id(value, what)
+  if type(value) == "string" then
+    local id = host.object(value)
+    if not id then
+      error(what .. ": there is no object '" .. value .. "'", 3)
+    end
+    return id
+  end
+  if type(value) ~= "table" or not value.is_object then
+    error(what .. ": give an object", 3)
+  end
+  return value.id
+end
+
+-- Another actor, or its name, as its id.
+local function actor_id(value, what)
+  if type(value) == "string" then
+    local id = host.actor(value)
+    if not id then
+      error(what .. ": there is no '" .. value .. "' in the cast", 3)
+    end
+    return id
+  end
+  if type(value) ~= "table" or value.is_object or not value.id then
+    error(what .. ": give an actor", 3)
+  end
+  return value.id
+end
+
+local stops = {
+  __close = function(self)
+    host.stop_task(self.task)
+  end,
+}
+
+-- Waits until a task is over: what was not quite as asked, or "". Whoever stops
+-- waiting stops the task. Its errors are blamed on who called the caller.
+local function await(what, task, problem)
+  if not task then
+    error(what .. ": " .. problem, 3)
+  end
+  local guard <close> = setmetatable({ task = task }, stops)
+  while true do
+    local state, message = host.task(task)
+    if state == "done" then
+      return message
+    elseif state == "failed" then
+      error(what .. ": " .. message, 3)
+    end
+    host.wait(0)
+  end
+end
+
 -- Turns to a heading the shorter way: turn_to(90, {speed = degrees per second}).
 function Actor:turn_to(degrees, options)
   options = options_of(options, "turn_to")
-  local target = math.rad(number({ degrees = degrees }, "degrees", nil, "turn_to"))
-  local speed = math.rad(number(options, "speed", TURN_SPEED, "turn_to"))
-  if speed <= 0 then
+  local heading = math.rad(number({ degrees = degrees }, "degrees", nil, "turn_to"))
+  local speed = number(options, "speed", 0, "turn_to")
+  if speed < 0 then
     error("turn_to: speed must be more than 0", 2)
   end
-  local _, _, _, from = host.pose(self.id)
-  local turn = (target - from + math.pi) % (2 * math.pi) - math.pi
-  local begin, duration = host.time(), math.abs(turn) / speed
-  while host.time() - begin < duration - ROUNDING do
-    local x, y, z = host.pose(self.id)
-    host.place(self.id, x, y, z, from + turn * (host.time() - begin) / duration)
-    host.wait(0)
-  end
-  local x, y, z = host.pose(self.id)
-  host.place(self.id, x, y, z, target)
+  await("turn_to", host.turn(self.id, heading, math.rad(speed)))
 end
 
--- Plays what was played before, or "idle", when a walk ends, however it ends.
-local function after_walk(self, before)
-  if not before or before == "walk" then
-    before = "idle"
+-- Walks to {x=, z=, heading=, speed = metres per second}, around what is in the way
+-- and past other people. Where it cannot get there it walks as near as it can, says so
+-- to the author and gives false.
+function Actor:walk_to(target)
+  target = options_of(target, "walk_to")
+  local x0, _, z0 = host.pose(self.id)
+  local x, z = number(target, "x", x0, "walk_to"), number(target, "z", z0, "walk_to")
+  local speed = number(target, "speed", 0, "walk_to")
+  if target.speed ~= nil and speed <= 0 then
+    error("walk_to: speed must be more than 0", 2)
   end
-  return setmetatable({}, {
-    __close = function()
-      if host.clip(self.id, before) then
-        host.play(self.id, before, FADE, 1)
+  local heading = nil
+  if target.heading ~= nil then
+    heading = math.rad(number(target, "heading", 0, "walk_to"))
+  end
+  local message = await("walk_to", host.walk(self.id, x, z, heading, speed))
+  if message ~= "" then
+    host.warn("walk_to: " .. message)
+    return false
+  end
+  return true
+end
+
+-- Does with an object what it is for: use("jar", "open"), {seconds = at least so long}.
+-- Walks there, waits for its turn, and goes on when it is done.
+function Actor:use(thing, action, options)
+  options = options_of(options, "use")
+  local id = object_id(thing, "use")
+  if type(action) ~= "string" then
+    error("use: give the name of an action", 2)
+  end
+  await("use", host.use(self.id, id, action, number(options, "seconds", 0, "use")))
+end
+
+-- Takes an object into the hands and carries it from now on.
+function Actor:take(thing)
+  await("take", host.take(self.id, object_id(thing, "take")))
+end
+
+-- Puts down what it carries: put("cup", "table"), put("cup", "table", "top"), or on
+-- the floor: put("jar", {x = 1, z = -2, heading = 0}).
+function Actor:put(thing, where, surface)
+  local id = object_id(thing, "put")
+  if type(where) == "table" and not where.is_object then
+    local x, z = number(where, "x", nil, "put"), number(where, "z", nil, "put")
+    local heading = math.rad(number(where, "heading", 0, "put"))
+    await("put", host.put(self.id, id, nil, x, z, heading))
+  else
+    await("put", host.put(self.id, id, object_id(where, "put"), surface))
+  end
+end
+
+-- Hands what it carries to somebody else.
+function Actor:give(thing, to)
+  await("give", host.give(self.id, object_id(thing, "give"), actor_id(to, "give")))
+end
+
+-- Sits down on an object and stays until its next task, or stand().
+function Actor:sit(thing, action)
+  await("sit", host.use(self.id, object_id(thing, "sit"), action or "sit", 0))
+end
+
+function Actor:stand()
+  await("stand", host.stand_up(self.id))
+end
+
+-- Looks at an actor, an object, "visitor" or a point {x=, y=, z=}; false: straight
+-- ahead; nothing: wherever it likes.
+function Actor:look_at(target)
+  if target == nil then
+    host.look(self.id, "self")
+  elseif target == false then
+    host.look(self.id, "nothing")
+  elseif target == "visitor" then
+    host.look(self.id, "visitor")
+  elseif type(target) == "table" and target.is_object then
+    host.look(self.id, "object", target.id)
+  elseif type(target) == "table" and target.id then
+    host.look(self.id, "actor", target.id)
+  elseif type(target) == "table" then
+    host.look(self.id, "point", number(target, "x", nil, "look_at"),
+      number(target, "y", 1.5, "look_at"), number(target, "z", nil, "look_at"))
+  else
+    error("look_at: give an actor, an object, \"visitor\", a point, false or nothing", 2)
+  end
+end
+
+-- Whether it looks about by itself where it was not told at what: attention(false).
+function Actor:attention(on)
+  host.attend(self.id, on ~= false)
+end
+
+-- joy, sadness, anger, fear, disgust, surprise or neutral, 0 to 1, over seconds.
+function Actor:express(expression, intensity, fade)
+  local options = { intensity = intensity, fade = fade }
+  if type(expression) ~= "string" then
+    error("express: give the name of an expression", 2)
+  end
+  local strength = number(options, "intensity", 1, "express")
+  if strength < 0 or strength > 1 then
+    error("express: the intensity must lie between 0 and 1", 2)
+  end
+  host.express(self.id, expression, strength, number(options, "fade", 0.4, "express"))
+end
+
+local falls_silent = {
+  __close = function(self)
+    host.say(self.id, nil)
+  end,
+}
+
+-- Says something that was recorded: audio/NAME.visemes.json. Waits until it is said.
+function Actor:say(speech)
+  if type(speech) ~= "string" then
+    error("say: give the name of a speech", 2)
+  end
+  local duration = host.say(self.id, speech)
+  if not duration then
+    error("say: there is no speech '" .. speech .. "'; add audio/" .. speech ..
+      ".visemes.json to the project", 2)
+  end
+  local guard <close> = setmetatable({ id = self.id }, falls_silent)
+  host.wait(duration)
+end
+
+local parts = { whole = true, upper = true, arms = true, head = true }
+
+-- Plays a clip once with a part of the body ("upper", "arms", "head", "whole"), over
+-- whatever the rest of it does, and goes on when it is over.
+function Actor:gesture(clip, part)
+  check_clip(self, clip, "gesture")
+  part = part or "upper"
+  if not parts[part] then
+    error("gesture: the part must be upper, arms, head or whole", 2)
+  end
+  host.wait(host.gesture(self.id, clip, part))
+end
+
+local gaits = { "cadence", "step_width", "stoop", "arm_swing", "arm_spread", "sway", "lift" }
+
+-- How it walks; what a grown healthy person does is 1: {cadence=, step_width=,
+-- arm_swing=, sway=, lift=}, or 0: {stoop = degrees, arm_spread = degrees}.
+function Actor:gait(style)
+  style = options_of(style, "gait")
+  for _, name in ipairs(gaits) do
+    if style[name] ~= nil then
+      local value = number(style, name, 1, "gait")
+      local is_angle = name == "stoop" or name == "arm_spread"
+      if value < 0 or value > (is_angle and 60 or 3) then
+        error("gait: " .. name .. " is out of range", 2)
       end
-    end,
-  })
-end
-
--- Walks in a straight line: {x=, z=, speed = metres per second}. Without speed it
--- is that of the clip "walk"; with one the clip plays faster or slower, so that
--- the feet do not slide.
-function Actor:move_to(target)
-  target = options_of(target, "move_to")
-  local x0, y0, z0, heading = host.pose(self.id)
-  local x1, z1 = number(target, "x", x0, "move_to"), number(target, "z", z0, "move_to")
-  local dx, dz = x1 - x0, z1 - z0
-  local distance = math.sqrt(dx * dx + dz * dz)
-  if distance == 0 then
-    return
+      host.gait(self.id, name, is_angle and math.rad(value) or value)
+    end
   end
-  local duration, stride = host.clip(self.id, "walk")
-  local natural = duration and duration > 0 and stride > 0 and stride / duration or nil
-  local speed = number(target, "speed", natural or 1.2, "move_to")
-  if speed <= 0 then
-    error("move_to: speed must be more than 0", 2)
-  end
-  heading = math.atan(-dx, -dz)
-  self:turn_to(math.deg(heading))
-  local walk <close> = after_walk(self, host.playing(self.id))
-  if duration then
-    host.play(self.id, "walk", FADE, natural and speed / natural or 1)
-  end
-  local begin, walk_time = host.time(), distance / speed
-  while host.time() - begin < walk_time - ROUNDING do
-    local done = (host.time() - begin) / walk_time
-    host.place(self.id, x0 + done * dx, y0, z0 + done * dz, heading)
-    host.wait(0)
-  end
-  host.place(self.id, x1, y0, z1, heading)
 end

@@ -14,10 +14,10 @@ function main()
 
   while true do
     -- Walks there in a straight line and goes on when the place is reached.
-    keeper:move_to{ x = 0.5, z = -1 }
+    keeper:walk_to{ x = 0.5, z = -1 }
     keeper:turn_to(180)
     wait(3)
-    keeper:move_to{ x = -0.5, z = -1 }
+    keeper:walk_to{ x = -0.5, z = -1 }
     keeper:turn_to(180)
     wait(3)
   end

@@ -25,8 +25,8 @@ struct DramaOptions {
   Status Validate() const;
 };
 
-// What went wrong in a script, and when. It ended the coroutine that it
-// happened in; the show went on.
+// What went wrong in a script, and when. An error ended the coroutine that it
+// happened in (a place that cannot be reached does not); the show went on.
 struct ScriptError {
   double time = 0.0;      // of the drama, seconds
   std::string message;    // "drama.lua:12: ..."
@@ -53,8 +53,8 @@ class Drama {
   virtual void Tick() = 0;
 
   // To the tick nearest to a time: the stage is then exactly as if the drama had
-  // played until there. Tracks alone are evaluated directly; what coroutines did
-  // is played again without drawing.
+  // played until there, but for gazes at a visitor who moved. What coroutines did is
+  // played again without drawing; a drama of tracks alone goes on from a checkpoint.
   virtual Status Seek(double time) = 0;
 
   virtual double time() const = 0;                          // seconds since the beginning

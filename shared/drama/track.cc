@@ -16,22 +16,23 @@ double Fraction(double time, double length) {
 
 }  // namespace
 
-stage::ActorState EvaluateTrack(std::span<const TrackSegment> segments, double time) {
-  stage::ActorState state;
+void ApplyTrack(std::span<const TrackSegment> segments, double time, stage::ActorState& state) {
   const auto next =
       std::upper_bound(segments.begin(), segments.end(), time,
                        [](double t, const TrackSegment& segment) { return t < segment.begin; });
-  if (next == segments.begin()) {
-    return state;
+  state.visible = next != segments.begin();
+  if (!state.visible) {
+    state.performance.locomotion.placed = false;
+    return;
   }
   const TrackSegment& now = *(next - 1);
   const TrackSegment* before = next - 1 == segments.begin() ? nullptr : &*(next - 2);
   const double elapsed = time - now.begin;
 
-  state.visible = true;
   state.position = glm::mix(now.from, now.to, static_cast<float>(Fraction(elapsed, now.length)));
   state.heading = now.heading;
-  stage::Animation& animation = state.animation;
+  human::Animation& animation = state.performance.animation;
+  animation = human::Animation();
   animation.clip = now.clip;
   animation.rate = now.rate;
   animation.clip_time = elapsed * now.rate;
@@ -47,7 +48,6 @@ stage::ActorState EvaluateTrack(std::span<const TrackSegment> segments, double t
       animation.previous_time = (time - before->begin) * before->rate;
     }
   }
-  return state;
 }
 
 }  // namespace lararium::drama

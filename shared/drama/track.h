@@ -16,7 +16,7 @@ namespace lararium::drama {
 struct TrackSegment {
   double begin = 0.0;   // seconds of the drama
   double length = 0.0;  // seconds
-  int clip = stage::Animation::kNoClip;
+  int clip = human::Animation::kNoClip;
   double rate = 1.0;  // of the clip
   double fade = 0.0;  // seconds, from the segment before
   glm::vec3 from = glm::vec3(0.0f);
@@ -29,7 +29,8 @@ struct Track {
   std::vector<TrackSegment> segments;  // begin increases
 };
 
-// Before the first segment the actor is hidden.
-stage::ActorState EvaluateTrack(std::span<const TrackSegment> segments, double time);
+// Sets where the actor is, which clip it plays, and that it is seen: before the first
+// segment it is hidden. What its body does besides is left alone.
+void ApplyTrack(std::span<const TrackSegment> segments, double time, stage::ActorState& state);
 
 }  // namespace lararium::drama

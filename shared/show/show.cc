@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shared/core/check.h"
+#include "shared/geometry/glm_convert.h"
 
 namespace lararium::show {
 namespace {
@@ -23,14 +24,26 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
   for (const CastMember& member : show->content_.cast) {
     LARARIUM_ASSIGN_OR_RETURN(const stage::ActorId id, show->stage_.Add(member.name, member.human));
     show->actor_ids_.push_back(id);
-    show->posers_.emplace_back(member.human);
+    show->performers_.emplace_back(show->stage_.Find(id)->model);
   }
+  show->PrepareFloor(log);
   LARARIUM_ASSIGN_OR_RETURN(show->drama_,
                             drama::Drama::Create(show->content_.drama, show->content_.drama_file,
                                                  show->stage_, options, log));
   show->stage_.Capture(show->current_);
   show->previous_ = show->current_;
   return show;
+}
+
+// The show goes on where nobody can walk, but for the walks.
+void Show::PrepareFloor(Log& log) {
+  std::vector<stage::Place> places;
+  for (const ShowPlace& place : content_.places) {
+    places.push_back(place.stage);
+  }
+  if (const Status status = stage_.SetFloor({}, places); !status.ok()) {
+    log.warn("{}", status.message());
+  }
 }
 
 void Show::TickOnce() {
@@ -69,8 +82,10 @@ void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
     staged.camera_from_stage =
         stage::CameraFromStage(content_.places[place_].stage, *tracked.camera_from_map);
     staged.gain = gain_filter_.Update(tracked.gain, tracked.frame.capture_time);
+    stage_.SetVisitor(geometry::ToGlm(staged.camera_from_stage->Center()));
   } else {
     gain_filter_.Reset();
+    stage_.SetVisitor(std::nullopt);
   }
   staged.place = place_;
   staged.tracked = std::move(tracked);
@@ -94,8 +109,8 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
     if (entry == drawn_.actors.end() || !entry->state.visible) {
       continue;
     }
-    posers_[cast].Pose(entry->state.animation);
-    const std::span<const glm::mat4> skin = posers_[cast].skin();
+    performers_[cast].Pose(entry->state.performance);
+    const std::span<const glm::mat4> skin = performers_[cast].skin();
     staged.actors.push_back({cast, stage::StageFromActor(entry->state),
                              static_cast<uint32_t>(staged.skin.size()),
                              static_cast<uint32_t>(skin.size())});

@@ -14,6 +14,7 @@
 #include "shared/core/status.h"
 #include "shared/drama/drama.h"
 #include "shared/geometry/transform.h"
+#include "shared/human/performance.h"
 #include "shared/show/gain_filter.h"
 #include "shared/show/show_content.h"
 #include "shared/stage/stage.h"
@@ -70,6 +71,7 @@ class Show {
  private:
   explicit Show(ShowContent content) : content_(std::move(content)) {}
 
+  void PrepareFloor(Log& log);
   void AdvanceTo(double time);
   void TickOnce();
   // Fills what of staged depends on where the camera is.
@@ -77,8 +79,8 @@ class Show {
 
   ShowContent content_;
   stage::Stage stage_;
-  std::vector<stage::ActorId> actor_ids_;  // of each cast member
-  std::vector<stage::Poser> posers_;       // of each cast member
+  std::vector<stage::ActorId> actor_ids_;     // of each cast member
+  std::vector<human::Performer> performers_;  // of each cast member
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
   GainFilter gain_filter_;

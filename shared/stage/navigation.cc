@@ -323,16 +323,20 @@ struct Navigation::Parts {
     return std::nullopt;
   }
 
-  float WayLength(glm::vec2 from, glm::vec2 to, int polygons) const {
+  // Fills corner and length of a way through the first polygons of path.
+  void MeasureWay(glm::vec2 from, int polygons, Reached& reached) const {
     int count = 0;
-    query->findStraightPath(Point3(from), Point3(to), path.data(), polygons, corners.data(),
-                            nullptr, nullptr, &count, kMaxPath);
-    float length = 0.0f;
+    query->findStraightPath(Point3(from), Point3(reached.point), path.data(), polygons,
+                            corners.data(), nullptr, nullptr, &count, kMaxPath);
+    reached.corner = reached.point;
+    reached.length = 0.0f;
     for (int i = 1; i < count; ++i) {
-      length += glm::distance(OnFloor(&corners[3 * static_cast<size_t>(i)]),
-                              OnFloor(&corners[3 * static_cast<size_t>(i - 1)]));
+      const glm::vec2 corner = OnFloor(&corners[3 * static_cast<size_t>(i)]);
+      if (i == 1) {
+        reached.corner = corner;
+      }
+      reached.length += glm::distance(corner, OnFloor(&corners[3 * static_cast<size_t>(i - 1)]));
     }
-    return length;
   }
 
   void ListGates(size_t count) {
@@ -428,6 +432,15 @@ Result<std::unique_ptr<Navigation>> Navigation::Create(const NavigationOptions& 
   return std::unique_ptr<Navigation>(new Navigation(std::move(parts)));
 }
 
+void Navigation::Reset() {
+  for (size_t gate = 0; gate < parts_->gates.size(); ++gate) {
+    OpenGate(gate, false);
+  }
+  parts_->walkers = {};
+  parts_->ticks = 0;
+  CHECK(parts_->StartCrowd());
+}
+
 void Navigation::OpenGate(size_t gate, bool open) {
   CHECK(gate < parts_->gates.size());
   for (const dtPolyRef polygon : parts_->gates[gate]) {
@@ -457,7 +470,7 @@ std::optional<Navigation::Reached> Navigation::FindWay(glm::vec2 from, glm::vec2
     parts.query->closestPointOnPoly(last, Point3(to), nearest, nullptr);
     reached.point = OnFloor(nearest);
   }
-  reached.length = parts.WayLength(start->point, reached.point, count);
+  parts.MeasureWay(start->point, count, reached);
   return reached;
 }
 

@@ -60,14 +60,18 @@ class Navigation {
   Navigation(const Navigation&) = delete;
   Navigation& operator=(const Navigation&) = delete;
 
+  // No walkers, all gates shut: as created.
+  void Reset();
+
   // Gates are counted among the areas that are gates, in their order; shut at first.
   void OpenGate(size_t gate, bool open);
 
   // Where a walk from one point towards another ends.
   struct Reached {
-    glm::vec2 point = glm::vec2(0.0f);  // on the mesh: as near to the target as one gets
-    float length = 0.0f;                // of the way, metres
-    bool complete = false;              // the point is the target's nearest on the mesh
+    glm::vec2 point = glm::vec2(0.0f);   // on the mesh: as near to the target as one gets
+    glm::vec2 corner = glm::vec2(0.0f);  // where the way first bends, or its end
+    float length = 0.0f;                 // of the way, metres
+    bool complete = false;               // the point is the target's nearest on the mesh
   };
   // None where from is further than kStepOn from the mesh.
   std::optional<Reached> FindWay(glm::vec2 from, glm::vec2 to) const;

@@ -2,159 +2,526 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
-#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
+
+#include "shared/human/animation.h"
+#include "shared/stage/attention.h"
+#include "shared/stage/hands.h"
+#include "shared/stage/walking.h"
+#include "shared/stage/world.h"
 
 namespace lararium::stage {
 namespace {
 
-// A step this long in one tick is no motion but a change of place: 30 m/s.
-constexpr float kJump = 0.25f;
+constexpr auto kTick = static_cast<float>(Stage::kTickSeconds);
+constexpr float kClipFade = 0.3f;    // seconds
+constexpr float kMovingPace = 0.1f;  // m/s
 
-float MixAngles(float a, float b, float alpha) {
-  const float turn = std::remainder(b - a, 2.0f * std::numbers::pi_v<float>);
-  return a + alpha * turn;
+// Differs between people, and is the same whenever somebody of that name is added.
+uint64_t SeedOf(std::string_view name) {
+  uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
+  for (const char c : name) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  }
+  return hash | 1u;
 }
 
-Animation Mix(const Animation& a, const Animation& b, float alpha) {
-  const bool continues =
-      a.clip == b.clip && a.previous_clip == b.previous_clip && a.clip_time <= b.clip_time;
-  if (!continues) {
-    return b;
+// Everything of an actor that a drama changes, as Add leaves it.
+void ResetActor(Actor& actor) {
+  const std::string name = std::move(actor.name);
+  const auto model = std::move(actor.model);
+  actor = Actor();
+  actor.name = name;
+  actor.model = model;
+  actor.state.performance.seed = SeedOf(name);
+  actor.attention.random = Random(SeedOf(name), 7);
+  const int walk = FindClip(actor.human(), "walk");
+  if (walk >= 0 && actor.human().clips[static_cast<size_t>(walk)].stride > 0.0f &&
+      actor.human().clips[static_cast<size_t>(walk)].duration > 0.0f) {
+    actor.walk_clip = walk;
   }
-  Animation mixed = b;
-  mixed.clip_time = a.clip_time + alpha * (b.clip_time - a.clip_time);
-  mixed.previous_time = a.previous_time + alpha * (b.previous_time - a.previous_time);
-  mixed.weight = glm::mix(a.weight, b.weight, alpha);
-  return mixed;
+  actor.idle_clip = FindClip(actor.human(), "idle");
 }
 
-ActorState Mix(const ActorState& a, const ActorState& b, float alpha) {
-  ActorState mixed = b;
-  if (a.visible == b.visible && glm::distance(a.position, b.position) < kJump) {
-    mixed.position = glm::mix(a.position, b.position, alpha);
-    mixed.heading = MixAngles(a.heading, b.heading, alpha);
-    mixed.animation = Mix(a.animation, b.animation, alpha);
-  }
-  return mixed;
+void ResetObject(Object& object) {
+  object.state = InitialState(object);
+  object.held = {};
 }
 
-void SamplePose(const human::Human& human,
-                int clip,
-                double time,
-                std::span<human::JointTransform> pose) {
-  if (clip == Animation::kNoClip) {
-    std::copy(human.skeleton.rest.begin(), human.skeleton.rest.end(), pose.begin());
-    return;
+float PaceOf(const World& world, const Actor& actor) {
+  switch (actor.walk.phase) {
+    case Walk::Phase::kGo:
+      return glm::length(world.navigation->velocity(actor.walker));
+    case Walk::Phase::kLeave:
+    case Walk::Phase::kDock:
+      return actor.walk.pace;
+    default:
+      return 0.0f;
   }
-  CHECK(clip >= 0 && static_cast<size_t>(clip) < human.clips.size());
-  human::SampleClip(human.clips[static_cast<size_t>(clip)], time, pose);
 }
 
 }  // namespace
 
-void StartClip(Animation& animation, int clip, double rate, float fade_seconds) {
-  animation.previous_clip = animation.clip;
-  animation.previous_time = animation.clip_time;
-  animation.previous_rate = animation.rate;
-  animation.clip = clip;
-  animation.clip_time = 0.0;
-  animation.rate = rate;
-  const bool fades = fade_seconds > 0.0f;
-  animation.weight = fades ? 0.0f : 1.0f;
-  animation.weight_per_second = fades ? 1.0f / fade_seconds : 0.0f;
+Stage::Stage() : world_(std::make_unique<World>()), tasks_(*world_) {}
+Stage::~Stage() = default;
+
+// ---- who and what is there ----
+
+bool Stage::IsNameTaken(std::string_view name) const {
+  return Find(name).has_value() || FindObject(name).has_value();
 }
 
 Result<ActorId> Stage::Add(std::string name, std::shared_ptr<const human::Human> human) {
   CHECK(human != nullptr);
-  if (Find(name).has_value()) {
-    return Status::Error("stage", "two actors are called '" + name + "'", "rename one of them");
+  if (IsNameTaken(name)) {
+    return Status::Error("stage", "two actors or objects are called '" + name + "'",
+                         "rename one of them");
   }
-  const ActorId id = actors_.Add({std::move(name), std::move(human), ActorState()});
-  order_ = actors_.ids();
+  Actor actor;
+  actor.name = std::move(name);
+  actor.model = human::MakePerformanceModel(std::move(human));
+  ResetActor(actor);
+  const ActorId id = world_->actors.Add(std::move(actor));
+  world_->actor_ids = world_->actors.ids();
+  return id;
+}
+
+Result<ObjectId> Stage::AddObject(std::string name,
+                                  std::shared_ptr<const ObjectModel> model,
+                                  const Pose& stage_from_object) {
+  CHECK(model != nullptr);
+  if (IsNameTaken(name)) {
+    return Status::Error("stage", "two actors or objects are called '" + name + "'",
+                         "rename one of them");
+  }
+  Object object;
+  object.name = std::move(name);
+  object.model = std::move(model);
+  object.initial_pose = stage_from_object;
+  ResetObject(object);
+  const ObjectId id = world_->objects.Add(std::move(object));
+  world_->object_ids = world_->objects.ids();
+  floor_changed_ = true;
   return id;
 }
 
 bool Stage::Remove(ActorId id) {
-  const bool removed = actors_.Remove(id);
-  order_ = actors_.ids();
-  return removed;
+  Actor* actor = Find(id);
+  if (actor == nullptr) {
+    return false;
+  }
+  Show(id, false);
+  SyncWalkers(*world_);
+  world_->actors.Remove(id);
+  world_->actor_ids = world_->actors.ids();
+  return true;
+}
+
+bool Stage::Remove(ObjectId id) {
+  if (!world_->objects.Remove(id)) {
+    return false;
+  }
+  tasks_.Reset();
+  world_->object_ids = world_->objects.ids();
+  floor_changed_ = true;
+  return true;
+}
+
+Status Stage::AddSpeech(std::string name, human::VisemeTrack track) {
+  LARARIUM_RETURN_IF_ERROR(track.Validate(name));
+  if (FindSpeech(name)) {
+    return Status::Error("stage", "two speeches are called '" + name + "'", "rename one of them");
+  }
+  world_->speeches.push_back({std::move(name), std::move(track)});
+  return Status();
+}
+
+Status Stage::SetFloor(const NavigationOptions& options, std::span<const stage::Place> places) {
+  LARARIUM_RETURN_IF_ERROR(options.Validate());
+  floor_ = options;
+  solids_.clear();
+  for (const stage::Place& place : places) {
+    for (const Occluder& occluder : place.occluders) {
+      solids_.emplace_back(occluder.mesh, occluder.stage_from_mesh);
+    }
+  }
+  floor_changed_ = true;
+  return BuildNavigation();
 }
 
 std::optional<ActorId> Stage::Find(std::string_view name) const {
-  const auto found = std::find_if(order_.begin(), order_.end(),
-                                  [&](ActorId id) { return actors_.Find(id)->name == name; });
-  return found == order_.end() ? std::nullopt : std::optional(*found);
+  for (const ActorId id : world_->actor_ids) {
+    if (world_->actors.Find(id)->name == name) {
+      return id;
+    }
+  }
+  return std::nullopt;
 }
 
-void Stage::Advance(double seconds) {
-  for (const ActorId id : order_) {
-    Animation& animation = actors_.Find(id)->state.animation;
-    if (animation.clip == Animation::kNoClip) {
+std::optional<ObjectId> Stage::FindObject(std::string_view name) const {
+  for (const ObjectId id : world_->object_ids) {
+    if (world_->objects.Find(id)->name == name) {
+      return id;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<int> Stage::FindSpeech(std::string_view name) const {
+  const auto& speeches = world_->speeches;
+  const auto found = std::find_if(speeches.begin(), speeches.end(),
+                                  [name](const World::Speech& s) { return s.name == name; });
+  return found == speeches.end() ? std::nullopt
+                                 : std::optional(static_cast<int>(found - speeches.begin()));
+}
+
+double Stage::SpeechSeconds(int speech) const {
+  return world_->speeches[static_cast<size_t>(speech)].track.duration;
+}
+
+Actor* Stage::Find(ActorId id) { return world_->actors.Find(id); }
+const Actor* Stage::Find(ActorId id) const { return world_->actors.Find(id); }
+Object* Stage::Find(ObjectId id) { return world_->objects.Find(id); }
+const Object* Stage::Find(ObjectId id) const { return world_->objects.Find(id); }
+void Stage::SetVisitor(const std::optional<glm::vec3>& position) { world_->visitor = position; }
+std::span<const ActorId> Stage::actors() const { return world_->actor_ids; }
+std::span<const ObjectId> Stage::objects() const { return world_->object_ids; }
+
+// ---- the floor ----
+
+Status Stage::BuildNavigation() {
+  std::vector<NavigationSolid> solids;
+  solids.reserve(solids_.size());
+  for (const auto& [mesh, stage_from_mesh] : solids_) {
+    solids.push_back({&mesh, stage_from_mesh});
+  }
+  std::vector<BlockedArea> areas;
+  gates_.clear();
+  for (const ObjectId id : world_->object_ids) {
+    const Object& object = world_->object(id);
+    const Footprint& footprint = object.use().footprint;
+    if (footprint.outline.empty() || object.use().carry) {
       continue;
     }
-    animation.clip_time += seconds * animation.rate;
-    if (animation.weight < 1.0f) {
-      animation.previous_time += seconds * animation.previous_rate;
-      const float step = static_cast<float>(seconds) * animation.weight_per_second;
-      animation.weight = std::min(1.0f, animation.weight + step);
+    BlockedArea area;
+    for (const glm::vec2& corner : footprint.outline) {
+      const glm::vec3 point = object.state.stage_from_object * glm::vec3(corner.x, 0.0f, corner.y);
+      area.outline.emplace_back(point.x, point.z);
+    }
+    const uint32_t all =
+        object.use().states.size() == 32 ? ~0u : (1u << object.use().states.size()) - 1u;
+    area.gate = (footprint.states & all) != all;
+    if (area.gate) {
+      gates_.push_back({id, false});
+    }
+    areas.push_back(std::move(area));
+  }
+  floor_changed_ = false;
+  for (const ActorId id : world_->actor_ids) {
+    world_->actor(id).walker = -1;
+  }
+  world_->navigation.reset();
+  LARARIUM_ASSIGN_OR_RETURN(world_->navigation, Navigation::Create(floor_, solids, areas));
+  UpdateGates();
+  RestartWalks();
+  return Status();
+}
+
+// On a new floor.
+void Stage::RestartWalks() {
+  for (const ActorId id : world_->actor_ids) {
+    Actor& actor = world_->actor(id);
+    if (actor.walk.phase != Walk::Phase::kNone) {
+      const Walk walk = actor.walk;
+      actor.walk = {};
+      if (!BeginWalk(*world_, actor, walk.goal, walk.heading, walk.speed).ok()) {
+        actor.walk = {};
+      }
     }
   }
 }
 
+void Stage::UpdateGates() {
+  for (size_t i = 0; i < gates_.size(); ++i) {
+    const Object& object = world_->object(gates_[i].object);
+    const bool open = (object.use().footprint.states >> object.state.state & 1u) == 0;
+    if (open != gates_[i].open) {
+      world_->navigation->OpenGate(i, open);
+      gates_[i].open = open;
+    }
+  }
+}
+
+// ---- what a drama tells ----
+
+void Stage::Place(ActorId id, const glm::vec3& position, float heading) {
+  Actor* actor = Find(id);
+  if (actor == nullptr) {
+    return;
+  }
+  tasks_.StopAll(id, "'" + actor->name + "' was placed elsewhere");
+  if (actor->walk.phase != Walk::Phase::kNone) {
+    EndWalk(*world_, *actor);
+  }
+  actor->state.position = position;
+  actor->state.heading = heading;
+}
+
+void Stage::Show(ActorId id, bool visible) {
+  Actor* actor = Find(id);
+  if (actor == nullptr || actor->state.visible == visible) {
+    return;
+  }
+  if (!visible) {
+    tasks_.StopAll(id, "'" + actor->name + "' has left the stage");
+    if (actor->walk.phase != Walk::Phase::kNone) {
+      EndWalk(*world_, *actor);
+    }
+  }
+  actor->state.visible = visible;
+  actor->state.performance.locomotion.placed = false;
+}
+
+void Stage::Place(ObjectId id, const Pose& stage_from_object) {
+  Object* object = Find(id);
+  if (object == nullptr) {
+    return;
+  }
+  if (Actor* holder = Find(object->state.holder)) {
+    tasks_.StopAll(object->state.holder, "'" + object->name + "' was placed elsewhere");
+    LetGo(*holder, object->state.hands);
+    PutAway(*object);
+  }
+  object->state.support = {};
+  object->state.stage_from_object = stage_from_object;
+  floor_changed_ =
+      floor_changed_ || (!object->use().footprint.outline.empty() && !object->use().carry);
+}
+
+Status Stage::PlaceOn(ObjectId id, const Support& support) {
+  Object* object = Find(id);
+  const Object* base = Find(support.object);
+  if (object == nullptr || base == nullptr) {
+    return Status::Error("stage", "the object has left the stage");
+  }
+  const std::string what = "'" + object->name + "' cannot stand on '" + base->name + "'";
+  if (RestsOn(*world_, support.object, id)) {
+    return Status::Error(what, "that stands on it");
+  }
+  if (IsOccupied(*world_, support.object, support.surface, support.spot)) {
+    return Status::Error(what, "the spot is taken", "choose another one");
+  }
+  Place(id, base->state.stage_from_object *
+                ObjectFromSpot(*base->model, base->state.joints, support.surface, support.spot));
+  object->state.support = support;
+  return Status();
+}
+
+void Stage::SetState(ObjectId id, int state) {
+  if (Object* object = Find(id)) {
+    CHECK(state >= 0 && static_cast<size_t>(state) < object->use().states.size());
+    object->state.state = state;
+  }
+}
+
+void Stage::Say(ActorId id, int speech) {
+  if (Actor* actor = Find(id)) {
+    actor->speech = speech;
+    actor->speech_time = 0.0;
+    if (speech < 0) {
+      actor->state.performance.face.visemes = {};
+    }
+  }
+}
+
+void Stage::Gesture(ActorId id, int clip, human::BodyPart part) {
+  Actor* actor = Find(id);
+  if (actor == nullptr) {
+    return;
+  }
+  human::Animation& animation = actor->state.performance.animation;
+  if (actor->clip_ends < 0.0 && !actor->in_gait) {
+    actor->clip_after = animation.clip;
+  }
+  human::StartClip(animation, clip, 1.0, kClipFade, part);
+  const double length = actor->human().clips[static_cast<size_t>(clip)].duration;
+  actor->clip_ends = std::max(0.0, length - static_cast<double>(kClipFade));
+}
+
+// ---- time ----
+
+// A figure with a clip of walking walks by it, in step with its pace; one without
+// walks by itself, so that no other clip may move its legs.
+void Stage::AnimateWalk(Actor& actor) const {
+  human::Animation& animation = actor.state.performance.animation;
+  if (actor.clip_ends >= 0.0) {
+    return;  // a gesture
+  }
+  const float pace = PaceOf(*world_, actor);
+  const bool moves = pace > kMovingPace;
+  if (moves && !actor.in_gait) {
+    if (animation.clip != actor.walk_clip) {
+      actor.clip_after = animation.clip;
+      human::StartClip(animation, actor.walk_clip, 1.0, kClipFade);
+    }
+    actor.in_gait = true;
+  } else if (actor.in_gait && actor.walk.phase == Walk::Phase::kNone) {
+    actor.in_gait = false;
+    const int after =
+        actor.clip_after == human::Animation::kNoClip ? actor.idle_clip : actor.clip_after;
+    if (animation.clip == actor.walk_clip && after != actor.walk_clip) {
+      human::StartClip(animation, after, 1.0, kClipFade);
+    }
+  }
+  if (actor.in_gait && actor.walk_clip >= 0 && animation.clip == actor.walk_clip) {
+    const human::Clip& clip = actor.human().clips[static_cast<size_t>(actor.walk_clip)];
+    animation.rate = pace / (clip.stride / clip.duration);
+  }
+}
+
+void Stage::Advance() {
+  if (tasks_.any()) {
+    if (floor_changed_ || world_->navigation == nullptr) {
+      if (const Status status = BuildNavigation(); !status.ok()) {
+        tasks_.FailAll(status.message());
+      }
+    }
+  }
+  if (world_->navigation != nullptr) {
+    UpdateGates();
+    SyncWalkers(*world_);
+    world_->navigation->Tick();
+    tasks_.Advance(kTick);
+  }
+  AdvanceObjects(*world_, kTick);
+  for (const ActorId id : world_->actor_ids) {
+    Actor& actor = world_->actor(id);
+    AnimateWalk(actor);
+    human::UpdateAnimation(actor.state.performance.animation, kTickSeconds);
+    if (actor.clip_ends >= 0.0) {
+      actor.clip_ends -= kTickSeconds;
+      if (actor.clip_ends < 0.0) {
+        human::StartClip(actor.state.performance.animation,
+                         actor.in_gait ? actor.walk_clip : actor.clip_after, 1.0, kClipFade);
+      }
+    }
+    actor.speech_time += kTickSeconds;
+    if (actor.speech >= 0 &&
+        actor.speech_time >= world_->speeches[static_cast<size_t>(actor.speech)].track.duration) {
+      Say(id, -1);
+    }
+  }
+}
+
+void Stage::Perform() {
+  DirectAttention(*world_, tasks_, kTick);
+  for (const ActorId id : world_->actor_ids) {
+    Actor& actor = world_->actor(id);
+    if (!actor.state.visible) {
+      continue;
+    }
+    human::Performance& performance = actor.state.performance;
+    if (actor.speech >= 0) {
+      performance.face.visemes = human::SampleVisemes(
+          world_->speeches[static_cast<size_t>(actor.speech)].track, actor.speech_time);
+    }
+    // Clips run in Advance(): what the drama began in this tick is at its beginning.
+    const human::Animation animation = performance.animation;
+    human::UpdatePerformance(*actor.model, actor.state.position, actor.state.heading, kTick, {},
+                             performance);
+    performance.animation = animation;
+  }
+}
+
 void Stage::Reset() {
-  for (const ActorId id : order_) {
-    actors_.Find(id)->state = ActorState();
+  tasks_.Reset();
+  for (const ActorId id : world_->actor_ids) {
+    ResetActor(world_->actor(id));
+  }
+  for (const ObjectId id : world_->object_ids) {
+    Object& object = world_->object(id);
+    floor_changed_ = floor_changed_ || object.state.stage_from_object != object.initial_pose;
+    ResetObject(object);
+  }
+  for (Gate& gate : gates_) {
+    gate.open = false;
+  }
+  if (world_->navigation != nullptr) {
+    world_->navigation->Reset();
   }
 }
 
 void Stage::Capture(StageSnapshot& snapshot) const {
   snapshot.actors.clear();
-  for (const ActorId id : order_) {
-    snapshot.actors.push_back({id, actors_.Find(id)->state});
+  for (const ActorId id : world_->actor_ids) {
+    snapshot.actors.push_back({id, Find(id)->state});
+  }
+  snapshot.objects.clear();
+  for (const ObjectId id : world_->object_ids) {
+    snapshot.objects.push_back({id, Find(id)->state});
+    // What somebody carries comes and goes with them.
+    if (const Actor* holder = Find(snapshot.objects.back().state.holder)) {
+      snapshot.objects.back().state.visible &= holder->state.visible;
+    }
   }
 }
+
+Stage::Checkpoint Stage::Save() const {
+  Checkpoint checkpoint;
+  for (const ActorId id : world_->actor_ids) {
+    checkpoint.actors.push_back(*Find(id));
+  }
+  for (const ObjectId id : world_->object_ids) {
+    checkpoint.objects.push_back(*Find(id));
+  }
+  return checkpoint;
+}
+
+void Stage::Restore(const Checkpoint& checkpoint) {
+  tasks_.Reset();
+  CHECK(checkpoint.actors.size() == world_->actor_ids.size() &&
+        checkpoint.objects.size() == world_->object_ids.size());
+  for (size_t i = 0; i < checkpoint.actors.size(); ++i) {
+    world_->actor(world_->actor_ids[i]) = checkpoint.actors[i];
+  }
+  for (size_t i = 0; i < checkpoint.objects.size(); ++i) {
+    world_->object(world_->object_ids[i]) = checkpoint.objects[i];
+  }
+}
+
+namespace {
+
+// Of entries in the order of slots; id is the member that names whose they are.
+template <typename Entry, typename Id>
+void InterpolateEntries(const std::vector<Entry>& previous,
+                        const std::vector<Entry>& current,
+                        Id Entry::*id,
+                        float alpha,
+                        std::vector<Entry>& result) {
+  result.clear();
+  auto before = previous.begin();
+  for (const Entry& now : current) {
+    while (before != previous.end() && ((*before).*id).index < (now.*id).index) {
+      ++before;
+    }
+    const bool known = before != previous.end() && (*before).*id == now.*id;
+    result.push_back(now);
+    if (known) {
+      result.back().state = Interpolate(before->state, now.state, alpha);
+    }
+  }
+}
+
+}  // namespace
 
 void Interpolate(const StageSnapshot& previous,
                  const StageSnapshot& current,
                  float alpha,
                  StageSnapshot& result) {
-  result.actors.clear();
-  auto before = previous.actors.begin();  // both lists are in the order of slots
-  for (const StageSnapshot::Entry& now : current.actors) {
-    while (before != previous.actors.end() && before->actor.index < now.actor.index) {
-      ++before;
-    }
-    const bool known = before != previous.actors.end() && before->actor == now.actor;
-    result.actors.push_back({now.actor, known ? Mix(before->state, now.state, alpha) : now.state});
-  }
-}
-
-glm::mat4 StageFromActor(const ActorState& state) {
-  const glm::mat4 moved = glm::translate(glm::mat4(1.0f), state.position);
-  return glm::rotate(moved, state.heading, glm::vec3(0.0f, 1.0f, 0.0f));
-}
-
-Poser::Poser(std::shared_ptr<const human::Human> human) : human_(std::move(human)) {
-  const size_t joints = human_->skeleton.size();
-  pose_.resize(joints);
-  faded_in_.resize(joints);
-  actor_from_joint_.resize(joints, glm::mat4(1.0f));
-  skin_.resize(joints, glm::mat4(1.0f));
-}
-
-void Poser::Pose(const Animation& animation) {
-  if (animation.weight < 1.0f) {
-    SamplePose(*human_, animation.previous_clip, animation.previous_time, pose_);
-    SamplePose(*human_, animation.clip, animation.clip_time, faded_in_);
-    human::BlendPose(pose_, faded_in_, animation.weight);
-  } else {
-    SamplePose(*human_, animation.clip, animation.clip_time, pose_);
-  }
-  human::ComputeActorFromJoint(human_->skeleton, pose_, actor_from_joint_);
-  human::ComputeSkinMatrices(human_->skeleton, actor_from_joint_, skin_);
+  InterpolateEntries(previous.actors, current.actors, &StageSnapshot::ActorEntry::actor, alpha,
+                     result.actors);
+  InterpolateEntries(previous.objects, current.objects, &StageSnapshot::ObjectEntry::object, alpha,
+                     result.objects);
 }
 
 }  // namespace lararium::stage

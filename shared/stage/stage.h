@@ -1,11 +1,12 @@
 #pragma once
 
-// The running stage: its actors and what they do at one moment. A drama changes
-// it in fixed ticks; whoever draws takes snapshots and interpolates between two
-// of them. Nothing here draws.
+// The running stage: its actors and objects and what they do at one moment. A drama
+// changes it in fixed ticks; whoever draws takes snapshots and interpolates between
+// two of them. Nothing here draws.
+//
+// A tick: Advance(), then the drama's commands, then Perform().
 
 #include <cstdint>
-#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -14,120 +15,136 @@
 #include <string_view>
 #include <vector>
 
-#include "shared/core/id.h"
-#include "shared/human/human.h"
+#include "shared/stage/actor.h"
+#include "shared/stage/navigation.h"
+#include "shared/stage/object.h"
+#include "shared/stage/place.h"
+#include "shared/stage/tasks.h"
 
 namespace lararium::stage {
 
-// Which clip an actor plays and how far it has come. Times count on past the
-// end of a clip: looping is the sampler's business, so that times interpolate.
-struct Animation {
-  static constexpr int kNoClip = -1;
-
-  int clip = kNoClip;           // index into Human::clips; none: the rest pose
-  double clip_time = 0.0;       // seconds into the clip
-  double rate = 1.0;            // how fast it plays
-  int previous_clip = kNoClip;  // fades out while weight < 1
-  double previous_time = 0.0;
-  double previous_rate = 1.0;
-  float weight = 1.0f;             // of clip against previous_clip, 0..1
-  float weight_per_second = 0.0f;  // how fast weight grows
-
-  friend bool operator==(const Animation&, const Animation&) = default;
-};
-
-// All that a drama changes about an actor; plain values.
-struct ActorState {
-  glm::vec3 position = glm::vec3(0.0f);  // stage, metres; the ground between the feet
-  float heading = 0.0f;                  // radians about +Y; 0 faces -Z, a quarter turn faces -X
-  Animation animation;
-  bool visible = false;
-
-  friend bool operator==(const ActorState&, const ActorState&) = default;
-};
-
-struct Actor {
-  std::string name;
-  std::shared_ptr<const human::Human> human;
-  ActorState state;
-};
-using ActorId = Id<Actor>;
-
-// The states of all actors at one moment, in the order of their slots.
+// The states of everybody and everything at one moment, in the order of their slots.
 struct StageSnapshot {
-  struct Entry {
+  struct ActorEntry {
     ActorId actor;
     ActorState state;
-    friend bool operator==(const Entry&, const Entry&) = default;
+    friend bool operator==(const ActorEntry&, const ActorEntry&) = default;
   };
-  std::vector<Entry> actors;
+  struct ObjectEntry {
+    ObjectId object;
+    ObjectState state;
+    friend bool operator==(const ObjectEntry&, const ObjectEntry&) = default;
+  };
+  std::vector<ActorEntry> actors;
+  std::vector<ObjectEntry> objects;
 
   friend bool operator==(const StageSnapshot&, const StageSnapshot&) = default;
 };
 
-// Fades from what the actor plays to clip, from its beginning, over fade_seconds.
-// A fade that was still going on is cut short.
-void StartClip(Animation& animation, int clip, double rate, float fade_seconds);
-
 class Stage {
  public:
-  // Names are unique: an error says which is taken. A new actor is hidden and
-  // stands at the origin in its rest pose.
+  static constexpr double kTickSeconds = 1.0 / Navigation::kTicksPerSecond;
+
+  Stage();
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  // ---- who and what is there; not while a drama runs ----
+
+  // Names are unique among actors and objects: an error says which is taken. A new
+  // actor is hidden and stands at the origin.
   Result<ActorId> Add(std::string name, std::shared_ptr<const human::Human> human);
+  Result<ObjectId> AddObject(std::string name,
+                             std::shared_ptr<const ObjectModel> model,
+                             const Pose& stage_from_object);
   // False when the id is stale.
   bool Remove(ActorId id);
+  bool Remove(ObjectId id);
+  // What somebody can say, by name.
+  Status AddSpeech(std::string name, human::VisemeTrack track);
+  // The floor, and what of all places is in the way: a drama runs alike wherever it is
+  // staged, so that nobody may walk where any of its places has something solid.
+  Status SetFloor(const NavigationOptions& options, std::span<const Place> places);
 
   std::optional<ActorId> Find(std::string_view name) const;
+  std::optional<ObjectId> FindObject(std::string_view name) const;
+  std::optional<int> FindSpeech(std::string_view name) const;
+  double SpeechSeconds(int speech) const;
   // nullptr when the id is stale.
-  Actor* Find(ActorId id) { return actors_.Find(id); }
-  const Actor* Find(ActorId id) const { return actors_.Find(id); }
+  Actor* Find(ActorId id);
+  const Actor* Find(ActorId id) const;
+  Object* Find(ObjectId id);
+  const Object* Find(ObjectId id) const;
   // In the order of their slots.
-  std::span<const ActorId> actors() const { return order_; }
+  std::span<const ActorId> actors() const;
+  std::span<const ObjectId> objects() const;
 
-  // Lets clips and fades run on.
-  void Advance(double seconds);
-  // Every actor as Add leaves it.
+  // ---- what a drama tells ----
+
+  Tasks& tasks() { return tasks_; }
+  const Tasks& tasks() const { return tasks_; }
+  // At once. An actor stops whatever it was doing; an object leaves whoever had it.
+  void Place(ActorId id, const glm::vec3& position, float heading);
+  void Show(ActorId id, bool visible);
+  void Place(ObjectId id, const Pose& stage_from_object);
+  Status PlaceOn(ObjectId id, const Support& support);  // fails where the spot is taken
+  void SetState(ObjectId id, int state);
+  // Says it from its beginning; a negative speech: falls silent.
+  void Say(ActorId id, int speech);
+  // Plays a clip once on a part of the body, then goes on as before.
+  void Gesture(ActorId id, int clip, human::BodyPart part);
+
+  // Where the visitor's eyes are, in the stage frame; none: nobody knows. Only gazes
+  // depend on it. While seeking it is as it was last set.
+  void SetVisitor(const std::optional<glm::vec3>& position);
+
+  // ---- time ----
+
+  // Walks, tasks, objects, clips and speech go on for one tick.
+  void Advance();
+  // Bodies, gazes and faces follow, after whatever the drama told in this tick.
+  void Perform();
+  // Everybody and everything as at the beginning.
   void Reset();
 
-  // Allocates nothing once the snapshot has held as many actors.
+  // Allocates nothing once the snapshot has held as many.
   void Capture(StageSnapshot& snapshot) const;
 
+  // All that a stage remembers on which nobody has a task: a place in time to come
+  // back to.
+  struct Checkpoint {
+    std::vector<Actor> actors;
+    std::vector<Object> objects;
+  };
+  Checkpoint Save() const;
+  void Restore(const Checkpoint& checkpoint);
+
  private:
-  SlotMap<Actor> actors_;
-  std::vector<ActorId> order_;
+  bool IsNameTaken(std::string_view name) const;
+  Status BuildNavigation();
+  void RestartWalks();
+  void UpdateGates();
+  void AnimateWalk(Actor& actor) const;
+
+  std::unique_ptr<World> world_;
+  Tasks tasks_;
+  NavigationOptions floor_;
+  std::vector<std::pair<geometry::TriangleMesh, geometry::Similarity3>> solids_;
+  struct Gate {
+    ObjectId object;
+    bool open = false;
+  };
+  std::vector<Gate> gates_;    // in the order of the navigation's
+  bool floor_changed_ = true;  // since the navigation was built
 };
 
-// The stage between two snapshots of neighbouring ticks, alpha 0..1. Headings
-// turn the shorter way. What does not go on from previous (a new actor, one that
-// was shown, hidden or put elsewhere, another clip) is as in current. Allocates
-// nothing in steady state.
+// The stage between two snapshots of neighbouring ticks, alpha 0..1. Headings turn the
+// shorter way. What does not go on from previous (new, shown, hidden or put elsewhere)
+// is as in current. Allocates nothing in steady state.
 void Interpolate(const StageSnapshot& previous,
                  const StageSnapshot& current,
                  float alpha,
                  StageSnapshot& result);
-
-// stage_from_actor of an actor that stands and faces as its state says.
-glm::mat4 StageFromActor(const ActorState& state);
-
-// Poses one human again and again without allocating.
-class Poser {
- public:
-  explicit Poser(std::shared_ptr<const human::Human> human);
-
-  const human::Human& human() const { return *human_; }
-  // Computes the pose of an animation: clips sampled and cross-faded.
-  void Pose(const Animation& animation);
-
-  // Of the last pose. What linear blend skinning takes, one for each joint.
-  std::span<const glm::mat4> skin() const { return skin_; }
-  std::span<const glm::mat4> actor_from_joint() const { return actor_from_joint_; }
-
- private:
-  std::shared_ptr<const human::Human> human_;
-  std::vector<human::JointTransform> pose_;
-  std::vector<human::JointTransform> faded_in_;
-  std::vector<glm::mat4> actor_from_joint_;
-  std::vector<glm::mat4> skin_;
-};
 
 }  // namespace lararium::stage

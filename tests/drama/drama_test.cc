@@ -38,10 +38,10 @@ constexpr char kTasks[] = R"(
     end)
     while true do
       together(
-        function() keeper:move_to{ x = 1, z = -2 } end,
+        function() keeper:walk_to{ x = 1, z = -2 } end,
         function() wait(1) end)
       race(
-        function() keeper:move_to{ x = -1, z = -3, speed = 0.5 } end,
+        function() keeper:walk_to{ x = -1, z = -3, speed = 0.5 } end,
         function() wait(2) end)
       keeper:turn_to(0)
     end
@@ -78,7 +78,7 @@ TEST_F(DramaTest, PlayFadesFromClipToClip) {
       keeper:play("walk", {fade = 0.5})
     end)");
   PlayTo(*drama, 1.25);
-  const stage::Animation& animation = State("keeper").animation;
+  const human::Animation& animation = State("keeper").performance.animation;
   EXPECT_EQ(animation.clip, 1);
   EXPECT_EQ(animation.previous_clip, 0);
   EXPECT_NEAR(animation.clip_time, 0.25, 1e-9);
@@ -92,28 +92,30 @@ TEST_F(DramaTest, PlayingALoopAgainGoesOn) {
       while true do actor("keeper"):play("idle") wait(0.1) end
     end)");
   PlayTo(*drama, 1.0);
-  EXPECT_NEAR(State("keeper").animation.clip_time, 1.0, 1e-9);
+  EXPECT_NEAR(State("keeper").performance.animation.clip_time, 1.0, 1e-9);
 }
 
-TEST_F(DramaTest, WalksInAStraightLineAtTheClipsOwnSpeed) {
+TEST_F(DramaTest, WalksAtTheClipsOwnSpeedAndEndsExactly) {
   const auto drama = Make(R"(
     local keeper = actor("keeper")
     function main()
       keeper:place{ x = 0, z = 0, heading = 0 }
-      keeper:move_to{ x = 0, z = -2.8 }
-      arrived = now()
+      keeper:walk_to{ x = 0, z = -2.8, heading = 90 }
       keeper:hide()
     end)");
   PlayTo(*drama, 1.0);
-  EXPECT_NEAR(State("keeper").position.z, -1.4f, 1e-5);
-  EXPECT_EQ(State("keeper").animation.clip, 1);
-  EXPECT_EQ(State("keeper").animation.rate, 1.0);
-  PlayTo(*drama, 1.99);
-  EXPECT_TRUE(State("keeper").visible);
+  const float begin = State("keeper").position.z;
+  PlayTo(*drama, 1.5);
+  EXPECT_NEAR(State("keeper").position.z - begin, -0.7f, 0.02f);
+  EXPECT_EQ(State("keeper").performance.animation.clip, 1);
+  EXPECT_NEAR(State("keeper").performance.animation.rate, 1.0, 0.02);
   PlayTo(*drama, 2.0);
+  EXPECT_TRUE(State("keeper").visible);
+  PlayTo(*drama, 5.0);
   EXPECT_FALSE(State("keeper").visible);
-  EXPECT_EQ(State("keeper").position.z, -2.8f);
-  EXPECT_EQ(State("keeper").animation.clip, 0) << "idles after a walk";
+  EXPECT_EQ(State("keeper").position, glm::vec3(0.0f, 0.0f, -2.8f));
+  EXPECT_FLOAT_EQ(State("keeper").heading, std::numbers::pi_v<float> / 2.0f);
+  EXPECT_EQ(State("keeper").performance.animation.clip, 0) << "idles after a walk";
   EXPECT_EQ(FirstError(*drama), "");
 }
 
@@ -122,26 +124,59 @@ TEST_F(DramaTest, AWalkAtAnotherSpeedKeepsStep) {
     local keeper = actor("keeper")
     function main()
       keeper:place{ heading = 0 }
-      keeper:move_to{ z = -10, speed = 0.7 }
+      keeper:walk_to{ z = -10, speed = 0.7 }
     end)");
   PlayTo(*drama, 2.0);
-  EXPECT_NEAR(State("keeper").position.z, -1.4f, 1e-5);
-  EXPECT_NEAR(State("keeper").animation.rate, 0.5, 1e-6);
+  const float begin = State("keeper").position.z;
+  PlayTo(*drama, 4.0);
+  EXPECT_NEAR(State("keeper").position.z - begin, -1.4f, 0.02f);
+  EXPECT_NEAR(State("keeper").performance.animation.rate, 0.5, 0.01);
 }
 
 TEST_F(DramaTest, FacesWhereItWalks) {
   const auto drama = Make(R"(
     local keeper = actor("keeper")
     function main()
-      keeper:place{ heading = 0 }
-      keeper:move_to{ x = 5 }
+      keeper:place{ heading = 90 }
+      keeper:walk_to{ x = 5 }
     end)");
-  PlayTo(*drama, 0.25);
-  EXPECT_NEAR(State("keeper").heading, -std::numbers::pi / 4.0, 1e-5) << "turns first";
-  EXPECT_EQ(State("keeper").position.x, 0.0f);
-  PlayTo(*drama, 1.5);
-  EXPECT_NEAR(State("keeper").heading, -std::numbers::pi / 2.0, 1e-5) << "+x is to the right";
-  EXPECT_NEAR(State("keeper").position.x, 1.4f, 1e-5);
+  PlayTo(*drama, 0.5);
+  EXPECT_EQ(State("keeper").position.x, 0.0f) << "turns first";
+  PlayTo(*drama, 3.0);
+  EXPECT_NEAR(State("keeper").heading, -std::numbers::pi / 2.0, 0.02) << "+x is to the right";
+  EXPECT_GT(State("keeper").position.x, 1.4f);
+}
+
+TEST_F(DramaTest, TurnsTheShorterWayAtItsSpeed) {
+  const auto drama = Make(R"(
+    local keeper = actor("keeper")
+    function main()
+      keeper:place{ heading = 170 }
+      keeper:turn_to(-100, {speed = 45})
+      keeper:hide()
+    end)");
+  PlayTo(*drama, 1.0);
+  EXPECT_NEAR(State("keeper").heading, 215.0 / 180.0 * std::numbers::pi, 0.01);
+  PlayTo(*drama, 1.95);
+  EXPECT_TRUE(State("keeper").visible);
+  PlayTo(*drama, 2.1);
+  EXPECT_FALSE(State("keeper").visible);
+  EXPECT_NEAR(State("keeper").heading, 260.0 / 180.0 * std::numbers::pi, 1e-4);
+}
+
+TEST_F(DramaTest, WhereNobodyCanWalkItGoesAsNearAsItCan) {
+  const auto drama = Make(R"(
+    local keeper = actor("keeper")
+    function main()
+      keeper:place{ x = 8 }
+      local reached = keeper:walk_to{ x = 14 }
+      keeper:place{ z = reached and 1 or 2 }
+    end)");
+  PlayTo(*drama, 6.0);
+  EXPECT_NEAR(State("keeper").position.x, 9.75f, 0.1f) << "the floor ends at 10 m";
+  EXPECT_EQ(State("keeper").position.z, 2.0f);
+  EXPECT_THAT(FirstError(*drama), StartsWith("drama.lua:5: walk_to: 'keeper' cannot get there"));
+  EXPECT_THAT(FirstError(*drama), HasSubstr("the nearest place is x = 9.68"));
 }
 
 TEST_F(DramaTest, TogetherWaitsForAllAndRaceForOne) {
@@ -177,11 +212,14 @@ TEST_F(DramaTest, AnInterruptedWalkEndsInIdle) {
   const auto drama = Make(R"(
     function main()
       actor("keeper"):place{}
-      race(function() wait(1) end, function() actor("keeper"):move_to{ z = -9 } end)
+      race(function() wait(1) end, function() actor("keeper"):walk_to{ z = -9 } end)
     end)");
   PlayTo(*drama, 1.5);
-  EXPECT_EQ(State("keeper").animation.clip, 0);
-  EXPECT_NEAR(State("keeper").position.z, -1.4f, 0.02f);
+  EXPECT_EQ(State("keeper").performance.animation.clip, 0);
+  const float stopped = State("keeper").position.z;
+  EXPECT_LT(stopped, -0.5f);
+  PlayTo(*drama, 2.0);
+  EXPECT_EQ(State("keeper").position.z, stopped);
 }
 
 TEST_F(DramaTest, CompileErrorsNameFileAndLine) {
@@ -226,7 +264,7 @@ TEST_F(DramaTest, MistakesInCallsAreBlamedOnTheScript) {
       {"actor('keeper'):play('fly')", "has no clip 'fly'"},
       {"actor('keeper'):place{ x = 'left' }", "x must be a number"},
       {"actor('keeper'):place{ x = 0/0 }", "x must be a number"},
-      {"actor('keeper'):move_to{ x = 1, speed = 0 }", "speed must be more than 0"},
+      {"actor('keeper'):walk_to{ x = 1, speed = 0 }", "speed must be more than 0"},
       {"wait('long')", "give a number of seconds"},
       {"wait(-1)", "give a number of seconds"},
       {"together(1)", "give functions"},
@@ -251,15 +289,16 @@ TEST_F(DramaTest, TracksIdleBetweenTheirClips) {
   ASSERT_EQ(FirstError(*drama), "");
   PlayTo(*drama, 7.0);
   EXPECT_NEAR(State("keeper").position.x, 2.1f, 1e-5);
-  EXPECT_NEAR(State("keeper").animation.rate, 0.5, 1e-6) << "0.7 m/s with a 1.4 m/s walk";
+  EXPECT_NEAR(State("keeper").performance.animation.rate, 0.5, 1e-6)
+      << "0.7 m/s with a 1.4 m/s walk";
   EXPECT_NEAR(State("keeper").heading, -std::numbers::pi / 2.0, 1e-5);
   PlayTo(*drama, 11.0);
-  EXPECT_EQ(State("keeper").animation.clip, 0);
+  EXPECT_EQ(State("keeper").performance.animation.clip, 0);
   EXPECT_FLOAT_EQ(State("keeper").position.x, 4.2f);
   PlayTo(*drama, 12.5);
-  EXPECT_EQ(State("keeper").animation.clip, 2);
+  EXPECT_EQ(State("keeper").performance.animation.clip, 2);
   PlayTo(*drama, 20.0);
-  EXPECT_EQ(State("keeper").animation.clip, 0);
+  EXPECT_EQ(State("keeper").performance.animation.clip, 0);
 }
 
 // Seeking gives what playing gives, bit for bit.

@@ -25,37 +25,52 @@ std::vector<TrackSegment> TwoSegments() {
   return {first, second};
 }
 
+stage::ActorState Evaluate(std::span<const TrackSegment> segments, double time) {
+  stage::ActorState state;
+  ApplyTrack(segments, time, state);
+  return state;
+}
+
 TEST(Track, HidesTheActorBeforeItsFirstSegment) {
-  EXPECT_EQ(EvaluateTrack(TwoSegments(), 0.99), stage::ActorState());
-  EXPECT_EQ(EvaluateTrack({}, 5.0), stage::ActorState());
-  EXPECT_TRUE(EvaluateTrack(TwoSegments(), 1.0).visible);
+  EXPECT_FALSE(Evaluate(TwoSegments(), 0.99).visible);
+  EXPECT_FALSE(Evaluate({}, 5.0).visible);
+  EXPECT_TRUE(Evaluate(TwoSegments(), 1.0).visible);
+}
+
+TEST(Track, LeavesAloneWhatTheBodyDoesBesides) {
+  stage::ActorState state;
+  state.performance.face.visemes[3] = 0.5f;
+  state.performance.animation.previous_clip = 7;
+  ApplyTrack(TwoSegments(), 1.5, state);
+  EXPECT_EQ(state.performance.face.visemes[3], 0.5f);
+  EXPECT_EQ(state.performance.animation.previous_clip, human::Animation::kNoClip);
 }
 
 TEST(Track, MovesAtConstantSpeedAndStays) {
   const auto segments = TwoSegments();
-  EXPECT_EQ(EvaluateTrack(segments, 2.0).position.x, 1.0f);
-  EXPECT_EQ(EvaluateTrack(segments, 4.0).position.x, 2.0f);
-  EXPECT_EQ(EvaluateTrack(segments, 6.5).position.x, 4.5f);
-  EXPECT_EQ(EvaluateTrack(segments, 100.0).position.x, 5.0f);
+  EXPECT_EQ(Evaluate(segments, 2.0).position.x, 1.0f);
+  EXPECT_EQ(Evaluate(segments, 4.0).position.x, 2.0f);
+  EXPECT_EQ(Evaluate(segments, 6.5).position.x, 4.5f);
+  EXPECT_EQ(Evaluate(segments, 100.0).position.x, 5.0f);
 }
 
 TEST(Track, FadesFromTheClipBeforeWhichPlaysOn) {
-  const stage::Animation animation = EvaluateTrack(TwoSegments(), 3.25).animation;
+  const human::Animation animation = Evaluate(TwoSegments(), 3.25).performance.animation;
   EXPECT_EQ(animation.clip, 1);
   EXPECT_DOUBLE_EQ(animation.clip_time, 0.125);
   EXPECT_EQ(animation.previous_clip, 0);
   EXPECT_DOUBLE_EQ(animation.previous_time, 2.25);
   EXPECT_FLOAT_EQ(animation.weight, 0.25f);
-  EXPECT_EQ(EvaluateTrack(TwoSegments(), 4.0).animation.weight, 1.0f);
+  EXPECT_EQ(Evaluate(TwoSegments(), 4.0).performance.animation.weight, 1.0f);
 }
 
 TEST(Track, TurnsTheShorterWay) {
   auto segments = TwoSegments();
   segments[0].heading = 3.0f;
   segments[1].heading = -3.0f;  // 0.28 rad further, across pi
-  const float halfway = EvaluateTrack(segments, 3.25).heading;
+  const float halfway = Evaluate(segments, 3.25).heading;
   EXPECT_NEAR(std::abs(std::remainder(halfway, 2.0 * std::numbers::pi)), std::numbers::pi, 1e-5);
-  EXPECT_FLOAT_EQ(EvaluateTrack(segments, 5.0).heading, -3.0f);
+  EXPECT_FLOAT_EQ(Evaluate(segments, 5.0).heading, -3.0f);
 }
 
 }  // namespace

@@ -33,15 +33,21 @@ TEST(Stage, StaleIdsReachNobody) {
 TEST(Stage, AdvanceRunsClipsAndFades) {
   Stage stage;
   const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
-  Animation& animation = stage.Find(id)->state.animation;
-  StartClip(animation, 0, 1.0, 0.0f);
-  stage.Advance(1.0);
-  StartClip(animation, 1, 2.0, 0.5f);
-  stage.Advance(0.25);
-  EXPECT_DOUBLE_EQ(animation.clip_time, 0.5);
-  EXPECT_DOUBLE_EQ(animation.previous_time, 1.25);
-  EXPECT_FLOAT_EQ(animation.weight, 0.5f);
-  stage.Advance(1.0);
+  human::Animation& animation = stage.Find(id)->state.performance.animation;
+  const auto advance = [&stage](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      stage.Advance();
+      stage.Perform();
+    }
+  };
+  human::StartClip(animation, 0, 1.0, 0.0f);
+  advance(120);
+  human::StartClip(animation, 1, 2.0, 0.5f);
+  advance(30);
+  EXPECT_NEAR(animation.clip_time, 0.5, 1e-9);
+  EXPECT_NEAR(animation.previous_time, 1.25, 1e-9);
+  EXPECT_NEAR(animation.weight, 0.5f, 1e-5);
+  advance(120);
   EXPECT_EQ(animation.weight, 1.0f);
 }
 
@@ -53,13 +59,13 @@ TEST(Stage, InterpolatesBetweenSnapshots) {
   b.actors[0].state.position = {0.1f, 0.0f, 0.0f};
   a.actors[0].state.heading = kPi - 0.1f;
   b.actors[0].state.heading = -kPi + 0.1f;
-  b.actors[0].state.animation.clip_time = 1.0;
+  b.actors[0].state.performance.animation.clip_time = 1.0;
   b.actors[1].state.position = {3.0f, 0.0f, 0.0f};  // too far for one tick
   StageSnapshot between;
   Interpolate(a, b, 0.25f, between);
   EXPECT_FLOAT_EQ(between.actors[0].state.position.x, 0.025f);
   EXPECT_NEAR(between.actors[0].state.heading, kPi - 0.05f, 1e-5);
-  EXPECT_NEAR(between.actors[0].state.animation.clip_time, 0.25, 1e-9);
+  EXPECT_NEAR(between.actors[0].state.performance.animation.clip_time, 0.25, 1e-9);
   EXPECT_EQ(between.actors[1].state.position.x, 3.0f);
 }
 
@@ -82,29 +88,6 @@ TEST(Stage, AQuarterTurnFacesMinusX) {
   EXPECT_NEAR(ahead.x, 0.0f, 1e-6);
   EXPECT_NEAR(ahead.y, 2.0f, 1e-6);
   EXPECT_NEAR(ahead.z, 3.0f, 1e-6);
-}
-
-TEST(Poser, WithoutAClipSkinsTheRestPose) {
-  Poser poser(test::MakeTestHuman());
-  poser.Pose(Animation());
-  for (const glm::mat4& matrix : poser.skin()) {
-    EXPECT_EQ(matrix, glm::mat4(1.0f));
-  }
-}
-
-TEST(Poser, CrossFadesTwoClips) {
-  const auto human = test::MakeTestHuman();
-  Poser poser(human);
-  Animation animation;
-  animation.clip = 2;
-  animation.clip_time = 0.25;  // half of "bow": x = 0.2
-  poser.Pose(animation);
-  EXPECT_NEAR(poser.skin()[1][3].x, 0.2f, 1e-6);
-  animation.previous_clip = 0;
-  animation.previous_time = 0.0;  // x = 0
-  animation.weight = 0.25f;
-  poser.Pose(animation);
-  EXPECT_NEAR(poser.skin()[1][3].x, 0.05f, 1e-6);
 }
 
 TEST(Place, TheNudgeMovesTheCameraAlongItsAxes) {

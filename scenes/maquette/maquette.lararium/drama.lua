@@ -7,7 +7,7 @@ local guest = actor("guest")
 local function serve()
   keeper:place{x = -0.75, z = -1.95, heading = -90}
   keeper:show()
-  keeper:move_to{x = 0.75, z = -1.95, speed = 1.0}
+  keeper:walk_to{x = 0.75, z = -1.95, speed = 1.0}
   keeper:play("idle", {fade = 0.3})
   keeper:turn_to(180)
 end

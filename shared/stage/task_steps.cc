@@ -1,0 +1,450 @@
+// What tasks do, phase by phase; tasks.cc has tickets and turns.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "shared/human/animation.h"
+#include "shared/stage/hands.h"
+#include "shared/stage/tasks.h"
+#include "shared/stage/walking.h"
+#include "shared/stage/world.h"
+
+namespace lararium::stage {
+namespace {
+
+constexpr float kCarrySeconds = 0.9f;  // from where it was taken to where it is carried
+constexpr float kOverSeconds = 0.8f;   // to above its spot
+constexpr float kLowerSeconds = 0.5f;
+constexpr float kAbove = 0.10f;  // metres
+constexpr float kOfferSeconds = 0.9f;
+constexpr float kBothSeconds = 0.35f;  // that both hold it
+constexpr float kSitSeconds = 1.2f;
+constexpr float kClipFade = 0.3f;
+constexpr float kOfferHeight = 1.12f;  // metres, between people 1.7 m tall
+constexpr float kGreet = 2.5f;         // metres from which one turns to who comes
+
+float MinimumJerk(float t) {
+  t = std::clamp(t, 0.0f, 1.0f);
+  return t * t * t * (10.0f + t * (6.0f * t - 15.0f));
+}
+
+Pose InHolderFrame(const Actor& holder, const Pose& stage_from_object) {
+  return StageFromActorPose(holder.state).Inverse() * stage_from_object;
+}
+
+void PlayClip(Actor& actor, int clip) {
+  human::StartClip(actor.state.performance.animation, clip, 1.0, kClipFade);
+}
+
+// Where the object comes between two people, upright, its front to who gives.
+Pose Between(const Actor& giver, const Actor& receiver) {
+  const float height = 0.5f * (ScaledTo(giver, {{0.0f, kOfferHeight, 0.0f}}).position.y +
+                               ScaledTo(receiver, {{0.0f, kOfferHeight, 0.0f}}).position.y);
+  glm::vec3 middle = 0.5f * (giver.state.position + receiver.state.position);
+  middle.y = giver.state.position.y + height;
+  return {middle, StageFromActorPose(giver.state).rotation};
+}
+
+// The pose of a path at a time; rest before the first key and after the last, over
+// what time there is.
+Pose SamplePath(const std::vector<ObjectAction::Key>& path,
+                const Pose& rest,
+                float duration,
+                float time) {
+  ObjectAction::Key before = {0.0f, rest};
+  for (const ObjectAction::Key& key : path) {
+    if (time < key.time) {
+      return Mix(before.pose, key.pose,
+                 MinimumJerk((time - before.time) / (key.time - before.time)));
+    }
+    before = key;
+  }
+  if (time >= duration || duration <= before.time) {
+    return rest;
+  }
+  return Mix(before.pose, rest, MinimumJerk((time - before.time) / (duration - before.time)));
+}
+
+}  // namespace
+
+void Tasks::Enter(Task& task, Phase phase) {
+  task.phase = phase;
+  task.time = 0.0f;
+  if (phase == Phase::kSit || phase == Phase::kRise) {
+    task.begin = StageFromActorPose(world_.actor(task.actor).state);
+  }
+  if (phase == Phase::kRise) {
+    EndAction(task);  // moves as it did before it sat down
+  }
+}
+
+void Tasks::Finish(Task& task, std::string message) {
+  task.stage = Stage::kDone;
+  task.is_over = true;
+  if (!message.empty()) {
+    task.message = std::move(message);
+  }
+}
+
+void Tasks::Fail(Task& task, std::string message) {
+  task.stage = Stage::kFailed;
+  task.is_over = true;
+  task.message = std::move(message);
+}
+
+// Leaves everybody and everything as a person would who thinks better of it.
+void Tasks::Abandon(Task& task) {
+  Actor& actor = world_.actor(task.actor);
+  EndWalk(world_, actor);
+  if (task.kind == Kind::kWalk || task.phase == Phase::kApproach) {
+    return;
+  }
+  Object* object = world_.objects.Find(task.object);
+  if (object == nullptr) {
+    return;
+  }
+  if (task.kind == Kind::kUse) {
+    EndAction(task);
+  }
+  for (const auto& [id, hands] :
+       {std::pair(task.actor, task.hands), std::pair(task.partner, task.partner_hands)}) {
+    Actor* who = world_.actors.Find(id);
+    if (who != nullptr && object->state.holder != id) {
+      LetGo(*who, hands);
+    }
+  }
+  if (const Actor* holder = world_.actors.Find(object->state.holder)) {
+    CarryAlong(*holder, *object, kCarrySeconds);
+  }
+}
+
+void Tasks::EndAction(Task& task) {
+  Object& object = world_.object(task.object);
+  object.state.action = -1;
+  object.state.action_time = 0.0f;
+  Actor& actor = world_.actor(task.actor);
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  if (!action.clip.empty() || action.seat) {
+    PlayClip(actor, task.clip_before);
+  }
+}
+
+void Tasks::Step(Task& task, float seconds) {
+  if (task.phase == Phase::kApproach) {
+    Actor& actor = world_.actor(task.actor);
+    const WalkResult result = AdvanceWalk(world_, actor, seconds);
+    if (result == WalkResult::kBlocked) {
+      EndWalk(world_, actor);
+      Fail(task, "'" + actor.name + "' cannot get there: somebody or something is in the way");
+    } else if (result == WalkResult::kArrived) {
+      Arrive(task);
+    }
+    if (task.kind == Kind::kGive && task.phase == Phase::kApproach) {
+      Actor& partner = world_.actor(task.partner);
+      if (glm::distance(actor.place(), partner.place()) < kGreet) {
+        TurnTowards(partner, HeadingOf(actor.place() - partner.place()), seconds);
+      }
+    }
+    return;
+  }
+  switch (task.kind) {
+    case Kind::kWalk:
+      return;
+    case Kind::kUse:
+      return StepAct(task);
+    case Kind::kTake:
+      return StepReach(task);
+    case Kind::kPut:
+      return StepPut(task);
+    case Kind::kGive:
+      return StepGive(task, seconds);
+  }
+}
+
+// At the place where it is done.
+void Tasks::Arrive(Task& task) {
+  Actor& actor = world_.actor(task.actor);
+  if (task.kind == Kind::kWalk) {
+    Finish(task);
+    return;
+  }
+  Object& object = world_.object(task.object);
+  if (task.kind == Kind::kUse || task.kind == Kind::kTake) {
+    if (task.kind == Kind::kUse && object.use().actions[static_cast<size_t>(task.action)].seat) {
+      task.clip_before = actor.state.performance.animation.clip;
+      Enter(task, Phase::kSit);
+      return;
+    }
+    task.reach_seconds = ReachFor(actor, object, task.hands);
+    Enter(task, Phase::kReach);
+    return;
+  }
+  if (!object.use().carry->holder_from_object) {
+    ReachFor(actor, object, task.hands);  // it hung; now the arm leads it
+  }
+  object.held.rests = false;
+  if (task.kind == Kind::kPut) {
+    Enter(task, Phase::kOver);
+    Pose above = PutGoal(task);
+    above.position.y += kAbove;
+    MoveHeld(object, InHolderFrame(actor, above), kOverSeconds);
+    return;
+  }
+  Enter(task, Phase::kOffer);
+  MoveHeld(object, InHolderFrame(actor, Between(actor, world_.actor(task.partner))), kOfferSeconds);
+}
+
+// ---- use ----
+
+void Tasks::MoveJoints(const Task& task, Object& object) const {
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  for (const ObjectAction::Move& move : action.moves) {
+    const auto joint = static_cast<size_t>(move.joint);
+    const float span = move.end - move.begin;
+    const float done =
+        span > 0.0f ? (task.time - move.begin) / span : (task.time >= move.begin ? 1.0f : 0.0f);
+    if (task.time >= move.begin) {
+      object.state.joints[joint] = glm::mix(task.joints[joint], move.to, MinimumJerk(done));
+    }
+  }
+}
+
+void Tasks::FollowPath(const Task& task, Object& object) {
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  Actor& actor = world_.actor(task.actor);
+  if (!action.held) {
+    MoveHands(actor, object, task.hands,
+              SamplePath(action.path, Pose(), action.duration, task.time));
+    return;
+  }
+  if (action.path.empty()) {
+    return;
+  }
+  // Paths are written for somebody 1.7 m tall, as carry poses are.
+  const Pose rest = CarryPose(actor, object, object.state.hands);
+  Pose unscaled = rest;
+  const float scale = ScaledTo(actor, {{1.0f, 0.0f, 0.0f}}).position.x;
+  unscaled.position /= scale;
+  const Pose pose = ScaledTo(actor, SamplePath(action.path, unscaled, action.duration, task.time));
+  object.held = {pose, pose, 0.0f, 0.0f, task.time >= action.duration, false};
+}
+
+void Tasks::StepSeat(Task& task) {
+  Object& object = world_.object(task.object);
+  Actor& actor = world_.actor(task.actor);
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  const float done = MinimumJerk(task.time / kSitSeconds);
+  Pose goal;
+  if (task.phase == Phase::kSit) {
+    const Pose& base = object.state.stage_from_object;
+    goal = base * Pose{action.seat->position,
+                       glm::angleAxis(action.seat->heading, glm::vec3(0.0f, 1.0f, 0.0f))};
+  } else {
+    const ApproachPlace& place = object.use().places[static_cast<size_t>(task.place)];
+    goal = object.state.stage_from_object * Pose{{place.position.x, 0.0f, place.position.y}};
+    goal.rotation = task.begin.rotation;
+  }
+  goal.position.y = task.begin.position.y;
+  const Pose pose = Mix(task.begin, goal, done);
+  actor.state.position = pose.position;
+  const glm::vec3 forward = pose.rotation * glm::vec3(0.0f, 0.0f, -1.0f);
+  actor.state.heading = HeadingOf({forward.x, forward.z});
+  if (task.phase == Phase::kSit && task.time > 0.3f * kSitSeconds && object.state.action < 0) {
+    PlayClip(actor, FindClip(actor.human(), "sit"));
+    object.state.action = static_cast<int8_t>(task.action);
+  }
+  if (task.time < kSitSeconds) {
+    return;
+  }
+  if (task.phase == Phase::kRise) {
+    task.stage = Stage::kDone;
+    return;
+  }
+  if (action.to >= 0) {
+    object.state.state = action.to;
+  }
+  object.state.action = -1;
+  Finish(task);
+  task.stage = Stage::kLingering;
+}
+
+void Tasks::StepAct(Task& task) {
+  if (task.phase == Phase::kSit || task.phase == Phase::kRise) {
+    StepSeat(task);
+    return;
+  }
+  Object& object = world_.object(task.object);
+  Actor& actor = world_.actor(task.actor);
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  switch (task.phase) {
+    case Phase::kReach:
+      MoveHands(actor, object, task.hands);
+      if (task.time < task.reach_seconds) {
+        return;
+      }
+      if ((action.from >> object.state.state & 1u) == 0) {  // another user was quicker
+        LetGo(actor, action.held ? kNoHands : task.hands);
+        Fail(task, "'" + actor.name + "' cannot '" + action.name + "' '" + object.name +
+                       "' any more: it is '" +
+                       object.use().states[static_cast<size_t>(object.state.state)] + "'");
+        return;
+      }
+      task.joints = object.state.joints;
+      object.state.action = static_cast<int8_t>(task.action);
+      if (action.held && !object.use().carry->holder_from_object && !action.path.empty()) {
+        ReachFor(actor, object, task.hands);
+        object.held.rests = false;
+      }
+      if (!action.clip.empty()) {
+        task.clip_before = actor.state.performance.animation.clip;
+        if (const int clip = FindClip(actor.human(), action.clip); clip >= 0) {
+          PlayClip(actor, clip);
+        }
+      }
+      Enter(task, Phase::kAct);
+      return;
+    case Phase::kAct: {
+      object.state.action_time = task.time;
+      MoveJoints(task, object);
+      FollowPath(task, object);
+      if (task.time >= action.duration && action.to >= 0) {
+        object.state.state = action.to;
+      }
+      if (task.time < std::max(action.duration, task.seconds)) {
+        return;
+      }
+      EndAction(task);
+      if (action.held) {
+        CarryAlong(actor, object, kCarrySeconds);
+      } else {
+        LetGo(actor, task.hands);
+      }
+      Enter(task, Phase::kLetGo);
+      return;
+    }
+    default:
+      if (task.time >= kLetGoSeconds || task.hands == kNoHands) {
+        Finish(task);
+      }
+  }
+}
+
+// ---- take ----
+
+void Tasks::StepReach(Task& task) {
+  Object& object = world_.object(task.object);
+  Actor& actor = world_.actor(task.actor);
+  if (task.phase == Phase::kReach) {
+    MoveHands(actor, object, task.hands);
+    if (task.time >= task.reach_seconds) {
+      TakeHold(world_, task.actor, task.object, task.hands);
+      CarryAlong(actor, object, kCarrySeconds);
+      Enter(task, Phase::kCarry);
+    }
+    return;
+  }
+  if (task.time >= kCarrySeconds) {
+    Finish(task);
+  }
+}
+
+// ---- put ----
+
+// stage_from_object of what is put down.
+Pose Tasks::PutGoal(const Task& task) const {
+  if (const Object* on = world_.objects.Find(task.target.object)) {
+    return on->state.stage_from_object *
+           ObjectFromSpot(*on->model, on->state.joints, task.target.surface, task.spot);
+  }
+  const float ground = world_.actor(task.actor).state.position.y;
+  return {{task.target.place.x, ground, task.target.place.y},
+          glm::angleAxis(task.target.heading, glm::vec3(0.0f, 1.0f, 0.0f))};
+}
+
+void Tasks::StepPut(Task& task) {
+  Object& object = world_.object(task.object);
+  Actor& actor = world_.actor(task.actor);
+  const Pose goal = PutGoal(task);
+  switch (task.phase) {
+    case Phase::kOver:
+      if (task.time >= kOverSeconds) {
+        MoveHeld(object, InHolderFrame(actor, goal), kLowerSeconds);
+        Enter(task, Phase::kLower);
+      }
+      return;
+    case Phase::kLower:
+      object.held.comes_loose = task.time > 0.5f * kLowerSeconds;
+      if (task.time < kLowerSeconds) {
+        return;
+      }
+      PutAway(object);
+      object.state.stage_from_object = goal;
+      if (task.target.object) {
+        object.state.support = {task.target.object, static_cast<int8_t>(task.target.surface),
+                                static_cast<int8_t>(task.spot)};
+      }
+      LetGo(actor, task.hands);
+      Enter(task, Phase::kLetGo);
+      return;
+    default:
+      if (task.time >= kLetGoSeconds) {
+        Finish(task);
+      }
+  }
+}
+
+// ---- give ----
+
+void Tasks::StepGive(Task& task, float seconds) {
+  Object& object = world_.object(task.object);
+  Actor& giver = world_.actor(task.actor);
+  Actor& receiver = world_.actor(task.partner);
+  if (task.phase == Phase::kOffer || task.phase == Phase::kReach) {
+    TurnTowards(receiver, HeadingOf(giver.place() - receiver.place()), seconds);
+  }
+  switch (task.phase) {
+    case Phase::kOffer: {
+      if (task.time < 0.6f * kOfferSeconds) {
+        return;
+      }
+      const Pose offered = StageFromActorPose(giver.state) * object.held.to;
+      const auto hands =
+          ChooseReceivingHands(world_, task.partner, task.object, InHolderFrame(receiver, offered));
+      if (!hands) {
+        CarryAlong(giver, object, kCarrySeconds);
+        Fail(task, "'" + giver.name + "' cannot give '" + object.name + "' to '" + receiver.name +
+                       "', whose hands are full");
+        return;
+      }
+      task.partner_hands = *hands;
+      task.reach_seconds = std::max(ReachFor(receiver, object, *hands), kOfferSeconds - task.time);
+      Enter(task, Phase::kReach);
+      return;
+    }
+    case Phase::kReach:
+      MoveHands(receiver, object, task.partner_hands);
+      if (task.time >= task.reach_seconds) {
+        Enter(task, Phase::kBoth);
+      }
+      return;
+    case Phase::kBoth:
+      MoveHands(receiver, object, task.partner_hands);
+      object.held.comes_loose = task.time > 0.5f * kBothSeconds;
+      if (task.time >= kBothSeconds) {
+        TakeHold(world_, task.partner, task.object, task.partner_hands);
+        LetGo(giver, task.hands);
+        CarryAlong(receiver, object, kCarrySeconds);
+        Enter(task, Phase::kCarry);
+      }
+      return;
+    default:
+      if (task.time >= kCarrySeconds) {
+        Finish(task);
+      }
+  }
+}
+
+}  // namespace lararium::stage

@@ -1,0 +1,17 @@
+#pragma once
+
+// audio/NAME.visemes.json: what a mouth does while something is said
+// (docs/file-formats.md).
+
+#include <string>
+#include <string_view>
+
+#include "shared/core/status.h"
+#include "shared/human/face.h"
+
+namespace lararium::stage {
+
+// place: what errors call the text; they name the field.
+Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string& place);
+
+}  // namespace lararium::stage

@@ -1,0 +1,307 @@
+#include "shared/stage/walking.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace lararium::stage {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kSameSpot = 0.02f;      // metres: no walk is worth it
+constexpr float kSideStep = 0.4f;       // metres that are stepped without turning first
+constexpr float kSetOff = 1.0f;         // radians off the way at which one sets off
+constexpr float kBraking = 1.3f;        // m/s^2
+constexpr float kStarting = 1.6f;       // m/s^2
+constexpr float kRoomAtGoal = 0.42f;    // metres from anybody else
+constexpr float kSqueezeAfter = 3.0f;   // seconds without getting nearer
+constexpr float kGiveUpAfter = 15.0f;   // likewise
+constexpr float kNearer = 0.05f;        // metres that count as getting nearer
+constexpr float kTurnPerRadian = 5.0f;  // 1/s
+constexpr float kTurnFastest = kPi;     // radians per second
+
+bool HasSpot(const Walk& walk) {
+  return walk.phase != Walk::Phase::kNone && walk.phase != Walk::Phase::kTurn;
+}
+
+void TurnAlong(Actor& actor, glm::vec2 direction, float seconds) {
+  TurnTowards(actor, HeadingOf(direction), seconds);
+}
+
+// A straight step towards a point, gently from and to standing; true once there.
+bool StepTowards(Actor& actor, glm::vec2 point, float speed, bool stops, float seconds) {
+  Walk& walk = actor.walk;
+  const glm::vec2 way = point - actor.place();
+  const float left = glm::length(way);
+  const float allowed = stops ? std::min(speed, std::sqrt(2.0f * kBraking * left) + 0.02f) : speed;
+  walk.pace = std::min(allowed, walk.pace + kStarting * seconds);
+  const float step = walk.pace * seconds;
+  const glm::vec2 next = step >= left ? point : actor.place() + step / left * way;
+  actor.state.position.x = next.x;
+  actor.state.position.z = next.y;
+  return step >= left;
+}
+
+void Go(World& world, Actor& actor) {
+  Walk& walk = actor.walk;
+  walk.phase = Walk::Phase::kGo;
+  walk.stuck = 0.0f;
+  walk.nearest = glm::distance(actor.place(), walk.on_mesh);
+  world.navigation->Place(actor.walker, actor.place(), walk.pace * Direction(actor.state.heading));
+  world.navigation->Aim(actor.walker, walk.on_mesh, walk.speed);
+}
+
+void Dock(World& world, Actor& actor) {
+  Walk& walk = actor.walk;
+  walk.phase = Walk::Phase::kDock;
+  walk.pace = glm::length(world.navigation->velocity(actor.walker));
+  world.navigation->Squeeze(actor.walker, false);
+  world.navigation->Hold(actor.walker);
+}
+
+// Near the goal, with nothing in between.
+bool MayDock(const World& world, ActorId id, const Actor& actor, glm::vec2 velocity) {
+  const Walk& walk = actor.walk;
+  const float pace = glm::length(velocity);
+  const float left = glm::distance(actor.place(), walk.goal);
+  if (left > std::max(0.25f, pace * pace / (2.0f * kBraking) + 0.05f) +
+                 glm::distance(walk.goal, walk.on_mesh)) {
+    return false;
+  }
+  if (!IsFree(world, id, walk.goal, kRoomAtGoal)) {
+    return false;
+  }
+  const auto way = world.navigation->FindWay(actor.place(), walk.on_mesh);
+  const float straight = glm::distance(actor.place(), walk.on_mesh);
+  return way.has_value() && way->length < 1.1f * straight + 0.05f;
+}
+
+WalkResult AdvanceGo(World& world, ActorId id, Actor& actor, float seconds) {
+  Walk& walk = actor.walk;
+  const glm::vec2 place = world.navigation->position(actor.walker);
+  const glm::vec2 velocity = world.navigation->velocity(actor.walker);
+  actor.state.position.x = place.x;
+  actor.state.position.z = place.y;
+  if (glm::length(velocity) > 0.1f) {
+    TurnAlong(actor, velocity, seconds);
+  }
+  if (MayDock(world, id, actor, velocity)) {
+    Dock(world, actor);
+    return WalkResult::kGoing;
+  }
+  const float left = glm::distance(place, walk.on_mesh);
+  // A way may lead away from the goal for a while: then one moves.
+  if (left < walk.nearest - kNearer || glm::length(velocity) > 0.35f * walk.speed) {
+    walk.nearest = std::min(left, walk.nearest);
+    walk.stuck = std::max(0.0f, walk.stuck - 2.0f * seconds);
+  } else {
+    walk.stuck += seconds;
+  }
+  world.navigation->Squeeze(actor.walker, walk.stuck > kSqueezeAfter);
+  return walk.stuck > kGiveUpAfter ? WalkResult::kBlocked : WalkResult::kGoing;
+}
+
+WalkResult AdvanceDock(Actor& actor, float seconds) {
+  Walk& walk = actor.walk;
+  const glm::vec2 way = walk.goal - actor.place();
+  const float left = glm::length(way);
+  if (walk.heading && left < kSideStep) {
+    TurnTowards(actor, *walk.heading, seconds);
+  } else if (left > 0.1f) {
+    TurnAlong(actor, way, seconds);
+  }
+  if (StepTowards(actor, walk.goal, walk.speed, true, seconds)) {
+    walk.phase = Walk::Phase::kFace;
+    walk.pace = 0.0f;
+  }
+  return WalkResult::kGoing;
+}
+
+ActorId IdOf(const World& world, const Actor& actor) {
+  for (const ActorId id : world.actor_ids) {
+    if (world.actors.Find(id) == &actor) {
+      return id;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+bool TurnTowards(Actor& actor, float heading, float seconds, float speed) {
+  const float turn = TurnBetween(actor.state.heading, heading);
+  const float pace =
+      speed > 0.0f ? speed : std::min(kTurnPerRadian * std::abs(turn) + 0.1f, kTurnFastest);
+  const float most = pace * seconds;
+  actor.state.heading += std::clamp(turn, -most, most);
+  return std::abs(turn) <= most;
+}
+
+Status BeginWalk(
+    World& world, Actor& actor, glm::vec2 goal, std::optional<float> heading, float speed) {
+  EndWalk(world, actor);
+  SyncWalkers(world);
+  if (actor.walker < 0) {
+    return Status::Error(actor.name, "is not on the stage", "place it there first");
+  }
+  const glm::vec2 from = actor.place();
+  Walk walk;
+  walk.goal = goal;
+  walk.heading = heading;
+  walk.speed = speed;
+  if (glm::distance(from, goal) < kSameSpot) {
+    walk.phase = Walk::Phase::kDock;
+    walk.on_mesh = goal;
+    actor.walk = walk;
+    return Status();
+  }
+  const auto way = world.navigation->FindWay(from, goal);
+  if (!way) {
+    return Status::Error(actor.name, "stands where nobody can walk",
+                         "place it on the stage's floor");
+  }
+  walk.on_mesh = way->point;
+  walk.complete = way->complete && glm::distance(way->point, goal) <= Navigation::kStepOn;
+  if (!walk.complete) {
+    walk.goal = way->point;
+  }
+  const float straight = glm::distance(from, walk.goal);
+  const auto start = world.navigation->Nearest(from, Navigation::kStepOn);
+  const bool is_step = straight < kSideStep && way->length < 1.2f * straight + 0.05f;
+  walk.corner = start && glm::distance(*start, from) > 0.03f ? *start : way->corner;
+  walk.phase = is_step ? Walk::Phase::kDock : Walk::Phase::kTurn;
+  actor.walk = walk;
+  return Status();
+}
+
+WalkResult AdvanceWalk(World& world, Actor& actor, float seconds) {
+  Walk& walk = actor.walk;
+  const ActorId id = IdOf(world, actor);
+  switch (walk.phase) {
+    case Walk::Phase::kNone:
+      return WalkResult::kArrived;
+    case Walk::Phase::kTurn: {
+      const glm::vec2 way = walk.corner - actor.place();
+      const bool off_mesh = !world.navigation->Nearest(actor.place(), 0.03f).has_value();
+      const bool short_way = glm::length(way) < 0.05f;
+      if (!short_way) {
+        TurnAlong(actor, way, seconds);
+      }
+      if (short_way || std::abs(TurnBetween(actor.state.heading, HeadingOf(way))) < kSetOff) {
+        if (off_mesh) {
+          walk.phase = Walk::Phase::kLeave;
+        } else {
+          Go(world, actor);
+        }
+      }
+      return WalkResult::kGoing;
+    }
+    case Walk::Phase::kLeave:
+      TurnAlong(actor, walk.corner - actor.place(), seconds);
+      if (StepTowards(actor, walk.corner, walk.speed, false, seconds)) {
+        Go(world, actor);
+      }
+      return WalkResult::kGoing;
+    case Walk::Phase::kGo:
+      return AdvanceGo(world, id, actor, seconds);
+    case Walk::Phase::kDock:
+      return AdvanceDock(actor, seconds);
+    case Walk::Phase::kFace:
+      if (walk.heading && !TurnTowards(actor, *walk.heading, seconds, walk.turn_speed)) {
+        return WalkResult::kGoing;
+      }
+      EndWalk(world, actor);
+      return WalkResult::kArrived;
+  }
+  return WalkResult::kArrived;
+}
+
+void EndWalk(World& world, Actor& actor) {
+  if (actor.walk.phase == Walk::Phase::kGo) {
+    world.navigation->Squeeze(actor.walker, false);
+    world.navigation->Hold(actor.walker);
+  }
+  actor.walk.phase = Walk::Phase::kNone;
+  actor.walk.pace = 0.0f;
+}
+
+void SyncWalkers(World& world) {
+  if (world.navigation == nullptr) {
+    return;
+  }
+  for (const ActorId id : world.actor_ids) {
+    Actor& actor = world.actor(id);
+    const bool is_there = actor.walker >= 0;
+    if (actor.state.visible && !is_there) {
+      actor.walker = world.navigation->AddWalker(actor.place()).value_or(-1);
+    } else if (!actor.state.visible && is_there) {
+      world.navigation->RemoveWalker(actor.walker);
+      actor.walker = -1;
+    }
+    if (actor.walker >= 0 && actor.walk.phase != Walk::Phase::kGo) {
+      world.navigation->Place(actor.walker, actor.place(),
+                              actor.walk.pace * Direction(actor.state.heading));
+    }
+  }
+}
+
+bool IsFree(const World& world, ActorId except, glm::vec2 place, float within) {
+  return std::none_of(world.actor_ids.begin(), world.actor_ids.end(), [&](ActorId id) {
+    const Actor& other = *world.actors.Find(id);
+    if (id == except || !other.state.visible) {
+      return false;
+    }
+    const bool stands_there = glm::distance(other.place(), place) < within;
+    const bool is_off = HasSpot(other.walk) && glm::distance(other.walk.goal, place) >= within;
+    const bool comes =
+        other.walk.phase == Walk::Phase::kDock && glm::distance(other.walk.goal, place) < within;
+    return (stands_there && !is_off) || comes;
+  });
+}
+
+std::optional<glm::vec2> FindStand(
+    const World& world, ActorId actor, glm::vec2 point, float nearest, float furthest) {
+  constexpr int kDirections = 16;
+  constexpr int kRings = 4;
+  constexpr int kMaxWays = 12;  // that are looked for
+  struct Candidate {
+    glm::vec2 place;
+    float distance;
+  };
+  std::array<Candidate, static_cast<size_t>(kDirections * kRings)> candidates;
+  size_t count = 0;
+  const glm::vec2 from = world.actors.Find(actor)->place();
+  for (int ring = 0; ring < kRings; ++ring) {
+    const float radius =
+        glm::mix(nearest, furthest, static_cast<float>(ring) / static_cast<float>(kRings - 1));
+    for (int i = 0; i < kDirections; ++i) {
+      const float angle = 2.0f * kPi * static_cast<float>(i) / kDirections;
+      const glm::vec2 place = point + radius * Direction(angle);
+      if (world.navigation->Nearest(place, 0.05f) && IsFree(world, actor, place, kRoomAtGoal)) {
+        // Nearer to the point is better than a shorter way.
+        candidates[count++] = {place, glm::distance(from, place) + 2.0f * radius};
+      }
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
+                   [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  std::optional<glm::vec2> best;
+  float shortest = 1e9f;
+  for (size_t i = 0; i < std::min<size_t>(count, kMaxWays); ++i) {
+    const auto way = world.navigation->FindWay(from, candidates[i].place);
+    if (way && way->complete && way->length < shortest) {
+      shortest = way->length;
+      best = candidates[i].place;
+    }
+  }
+  return best;
+}
+
+std::optional<glm::vec2> FindAside(const World& world, ActorId actor, glm::vec2 place) {
+  return FindStand(world, actor, place, 0.8f, 1.6f);
+}
+
+}  // namespace lararium::stage
