@@ -47,9 +47,11 @@ int StepsPerBeat(ClothDetail detail) {
 // What one step of constraints needs to know.
 struct StepContext {
   float seconds = 0.0f;
+  float square = 0.0f;          // s^2
   float inverse_square = 0.0f;  // 1/s^2
   int steps_between_bends = 1;  // bending is soft: it needs fewer steps
   float damping = 0.0f;         // share of the relative velocity that remains
+  float farthest = 0.0f;        // metres that cloth moves relative to the skin in a step
   float floor = 0.0f;           // local
   bool touches_itself = false;
 };
@@ -160,22 +162,24 @@ bool HasLeapt(float elapsed, const State& state) {
 
 // --- One step -----------------------------------------------------------------
 
+// The skin, and the particles by their velocity over the last step.
 void Predict(const Model& model, const StepContext& context, State& state) {
-  const float inverse_seconds = 1.0f / context.seconds;
   const Float4 gravity(glm::vec3(0.0f, -model.settings.gravity, 0.0f));
   for (const uint32_t i : model.free) {
-    const Float4 skin_velocity = state.skin_steps[i] * inverse_seconds;
-    Float4 relative = (state.velocities[i] - skin_velocity) * context.damping;
+    const Float4 position = state.positions[i];
+    const Float4 skin_motion = state.skin_steps[i];
+    state.beat.skin[i] += skin_motion;
+    Float4 relative = (position - state.before[i] - skin_motion) * context.damping;
     const float square = Dot(relative, relative);
-    if (square > kFastest * kFastest) {
-      relative = relative * (kFastest / std::sqrt(square));
+    if (square > context.farthest * context.farthest) {
+      relative = relative * (context.farthest / std::sqrt(square));
     }
-    const Float4 velocity =
-        skin_velocity + relative + (gravity + state.accelerations[i]) * context.seconds;
-    state.before[i] = state.positions[i];
-    state.positions[i] += velocity * context.seconds;
+    state.before[i] = position;
+    state.positions[i] =
+        position + skin_motion + relative + (gravity + state.accelerations[i]) * context.square;
   }
   for (const uint32_t i : model.pinned) {
+    state.beat.skin[i] += state.skin_steps[i];
     state.before[i] = state.positions[i];
     state.positions[i] = state.beat.skin[i];
   }
@@ -208,9 +212,12 @@ void SolveEdges(const Model& model, const StepContext& context, State& state) {
   const float* w = model.inverse_mass.data();
   for (const ClothEdge& edge : model.edges) {
     const Float4 along = x[edge.b] - x[edge.a];
-    const float length = std::sqrt(Dot(along, along)) + 1e-12f;
+    // (length - rest) / length to first order, without a root (Jakobsen, "Advanced
+    // Character Physics", GDC 2001).
+    const float square = Dot(along, along);
+    const float rest = edge.length * edge.length;
     const float weight = w[edge.a] + w[edge.b] + edge.compliance * context.inverse_square;
-    const Float4 pull = along * ((length - edge.length) / (length * weight));
+    const Float4 pull = along * ((square - rest) / ((square + rest) * weight));
     x[edge.a] += pull * w[edge.a];
     x[edge.b] -= pull * w[edge.b];
   }
@@ -303,13 +310,9 @@ void SolveContacts(const Model& model, const StepContext& context, State& state)
   }
 }
 
-// The body moves on by one of the steps that are left of this beat.
-void MoveBody(const Model& model, int steps_left, State& state) {
+// The capsules move on by one of the steps that are left of this beat.
+void MoveCapsules(const Model& model, int steps_left, State& state) {
   const float share = 1.0f / static_cast<float>(steps_left);
-  for (size_t i = 0; i < state.skin_steps.size(); ++i) {
-    state.skin_steps[i] = (state.target.skin[i] - state.beat.skin[i]) * share;
-    state.beat.skin[i] += state.skin_steps[i];
-  }
   for (size_t c = 0; c < model.capsules.size(); ++c) {
     const Float4 motion_a = (state.target.ends[2 * c] - state.beat.ends[2 * c]) * share;
     const Float4 motion_b = (state.target.ends[2 * c + 1] - state.beat.ends[2 * c + 1]) * share;
@@ -322,15 +325,24 @@ void MoveBody(const Model& model, int steps_left, State& state) {
   }
 }
 
-void TakeVelocities(const Model& model, float seconds, State& state) {
-  const float inverse = 1.0f / seconds;
-  for (size_t i = 0; i < model.rest.size(); ++i) {
+// Steps take velocities as positions before and after: from one form to the other.
+void PrepareSteps(const StepContext& context, State& state) {
+  const float share = context.seconds / kBeat;
+  for (size_t i = 0; i < state.positions.size(); ++i) {
+    state.skin_steps[i] = (state.target.skin[i] - state.beat.skin[i]) * share;
+    state.before[i] = state.positions[i] - state.velocities[i] * context.seconds;
+  }
+}
+
+void TakeVelocities(const StepContext& context, State& state) {
+  const float inverse = 1.0f / context.seconds;
+  for (size_t i = 0; i < state.positions.size(); ++i) {
     state.velocities[i] = (state.positions[i] - state.before[i]) * inverse;
   }
 }
 
 void StepOnce(const Model& model, const StepContext& context, int steps_left, State& state) {
-  MoveBody(model, steps_left, state);
+  MoveCapsules(model, steps_left, state);
   Predict(model, context, state);
   if (steps_left % context.steps_between_bends == 0) {
     SolveHinges(model, context, state);
@@ -341,7 +353,6 @@ void StepOnce(const Model& model, const StepContext& context, int steps_left, St
   }
   SolveTethersAndReach(model, state);
   SolveContacts(model, context, state);
-  TakeVelocities(model, context.seconds, state);
 }
 
 // --- One beat -----------------------------------------------------------------
@@ -472,24 +483,30 @@ bool Beat(
   const int steps = StepsPerBeat(detail);
   StepContext context;
   context.seconds = kBeat / static_cast<float>(steps);
-  context.inverse_square = 1.0f / (context.seconds * context.seconds);
+  context.square = context.seconds * context.seconds;
+  context.inverse_square = 1.0f / context.square;
+  context.farthest = kFastest * context.seconds;
   context.steps_between_bends = std::min(steps, 2);
   context.damping = std::exp(-damping * context.seconds);
   context.floor = std::isfinite(step.floor_height)
                       ? (step.floor_height - state.origin_in_stage.y) / state.scale
                       : -2.0f * kFarthestPlace;
   context.touches_itself = steps > 1;
-  if (state.beats % kBeatsBetweenAims == 0) {
+  if (state.beats % kBeatsBetweenAir == 0) {
     SetAir(model, step.wind, state);
-    AimHinges(model, state);
   }
   FindContacts(model, state);
   if (context.touches_itself && state.beats % kBeatsBetweenPairs == 0) {
     FindPairs(model, state);
   }
+  if (state.beats % kBeatsBetweenAims == 0) {
+    AimHinges(model, state);
+  }
+  PrepareSteps(context, state);
   for (int left = steps; left > 0; --left) {
     StepOnce(model, context, left, state);
   }
+  TakeVelocities(context, state);
   ++state.beats;
   const bool whole = IsWhole(state);
   if (!whole) {
@@ -499,12 +516,14 @@ bool Beat(
   return whole;
 }
 
+// Over the last beat, relative to the body; steps within a beat ripple.
 float FastestParticle(const State& state) {
   float square = 0.0f;
-  for (const Float4& velocity : state.velocities) {
-    square = std::max(square, Dot(velocity, velocity));
+  for (size_t i = 0; i < state.offsets.size(); ++i) {
+    const glm::vec3 motion = state.offsets[i] - state.offsets_before[i];
+    square = std::max(square, glm::dot(motion, motion));
   }
-  return std::sqrt(square);
+  return std::sqrt(square) / kBeat;
 }
 
 // The body holds still at state.next.

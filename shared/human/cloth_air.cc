@@ -91,7 +91,7 @@ void SetAir(const ClothModel::Data& model, const Wind& wind, ClothState::Data& s
     const float rate = half_density * speed * kNormalDrag / model.triangle_density[t];
     const float area = 0.5f * std::sqrt(square);
     const Float4 force = drag * (half_density * speed * area /
-                                 std::max(2.0f * rate * kBeatsBetweenAims * kBeat, 1.0f));
+                                 std::max(2.0f * rate * kBeatsBetweenAir * kBeat, 1.0f));
     for (const uint32_t i : corner) {
       state.accelerations[i] += force * (model.inverse_mass[i] * (1.0f / 3.0f));
     }

@@ -16,8 +16,9 @@
 namespace lararium::human {
 
 inline constexpr float kBeat = 1.0f / 120.0f;  // seconds
-inline constexpr int kBeatsBetweenAims = 2;    // evaluations of the air and of hinge targets
-inline constexpr int kBeatsBetweenPairs = 4;   // searches for pairs
+inline constexpr int kBeatsBetweenAir = 2;     // evaluations of the air
+inline constexpr int kBeatsBetweenAims = 4;    // of where hinges rest
+inline constexpr int kBeatsBetweenPairs = 8;   // searches for pairs
 
 // Two particles that keep their distance.
 struct ClothEdge {

