@@ -16,6 +16,7 @@ using human::JointTransform;
 
 constexpr float kReach = 0.992f;      // of the leg's length
 constexpr float kDeepestSink = 0.2f;  // metres
+constexpr float kLevelSpan = 0.1f;    // seconds on either side over which a foot gets level
 constexpr float kSinkSpan = 0.12f;    // seconds on either side over which hips sink
 
 enum class Stands { kNo, kHeel, kBall };
@@ -25,6 +26,8 @@ float SmoothStep(float x) { return x * x * (3.0f - 2.0f * x); }
 // One foot over a clip: where it goes and by how much that is to be corrected.
 struct Foot {
   std::vector<Stands> stands;
+  std::vector<glm::quat> turn;        // from rest, level where the whole sole stands
+  std::vector<float> toes_flat;       // 0..1: the toes lie on the floor
   PointTrack ankle, heel, ball;       // as the keys have them
   std::vector<glm::vec3> correction;  // what they are moved by
 };
@@ -65,17 +68,54 @@ class FootLock {
               Foot& foot) const {
     const glm::quat toe_out = human::TurnY(leg.toe_out);
     const glm::vec3 drop(0.0f, -leg.ankle_height, 0.0f);
+    // The sole under the ball: toes may bend above it.
+    const glm::vec3 sole(0.0f, 0.0f, leg.ball.z);
     foot.ankle = track.ankle;
+    std::vector<float> flat(keys_, 0.0f);
     for (size_t key = 0; key < keys_; ++key) {
-      const glm::quat turn = track.turn[key] * toe_out;
-      foot.heel.push_back(track.ankle[key] + turn * (leg.heel + drop));
-      // The sole under the ball: toes may bend above it.
-      foot.ball.push_back(track.ankle[key] + turn * (leg.ball + drop));
       foot.stands.push_back(contacts.ball[key]   ? Stands::kBall
                             : contacts.heel[key] ? Stands::kHeel
                                                  : Stands::kNo);
+      const float heel = (track.turn[key] * toe_out * leg.heel).y;
+      const float ball = (track.turn[key] * toe_out * sole).y;
+      // Also where what does not stand would be below what does.
+      const bool through = (foot.stands[key] == Stands::kBall && heel < ball) ||
+                           (foot.stands[key] == Stands::kHeel && ball < heel);
+      flat[key] = through || (contacts.heel[key] && contacts.ball[key]) ? 1.0f : 0.0f;
+    }
+    flat = Smoothed(flat, kLevelSpan);
+    for (const Stands stands : foot.stands) {
+      foot.toes_flat.push_back(stands == Stands::kBall ? 1.0f : 0.0f);
+    }
+    foot.toes_flat = Smoothed(foot.toes_flat, kLevelSpan);
+    for (size_t key = 0; key < keys_; ++key) {
+      const glm::quat& turn = track.turn[key];
+      foot.turn.push_back(glm::slerp(turn, Level(turn), flat[key]));
+      foot.heel.push_back(track.ankle[key] + foot.turn[key] * (toe_out * leg.heel + drop));
+      foot.ball.push_back(track.ankle[key] + foot.turn[key] * (toe_out * sole + drop));
     }
     foot.correction.assign(keys_, glm::vec3(0.0f));
+  }
+
+  // A turn without what tilts the sole.
+  static glm::quat Level(const glm::quat& turn) {
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    return human::Arc(turn * up, up) * turn;
+  }
+
+  // The mean over so many seconds on either side.
+  std::vector<float> Smoothed(const std::vector<float>& values, float seconds) const {
+    const auto span = static_cast<std::ptrdiff_t>(std::ceil(seconds * clip_.keys_per_second));
+    const auto last = static_cast<std::ptrdiff_t>(values.size()) - 1;
+    std::vector<float> smooth(values.size(), 0.0f);
+    for (std::ptrdiff_t key = 0; key <= last; ++key) {
+      for (std::ptrdiff_t k = -span; k <= span; ++k) {
+        smooth[static_cast<size_t>(key)] +=
+            values[static_cast<size_t>(std::clamp<std::ptrdiff_t>(key + k, 0, last))] /
+            static_cast<float>(2 * span + 1);
+      }
+    }
+    return smooth;
   }
 
   static const glm::vec3& Point(const Foot& foot, size_t key) {
@@ -189,23 +229,16 @@ class FootLock {
         needed[key] = std::max(needed[key], MissingReach(key, side));
       }
     }
-    const auto span = static_cast<std::ptrdiff_t>(std::ceil(kSinkSpan * clip_.keys_per_second));
-    const auto at = [&](const std::vector<float>& values, std::ptrdiff_t key) {
-      return values[static_cast<size_t>(
-          std::clamp<std::ptrdiff_t>(key, 0, static_cast<std::ptrdiff_t>(values.size()) - 1))];
-    };
-    std::vector<float> widened(keys_, 0.0f), smooth(keys_, 0.0f);
-    for (std::ptrdiff_t key = 0; key < static_cast<std::ptrdiff_t>(keys_); ++key) {
-      for (std::ptrdiff_t k = -span; k <= span; ++k) {
-        widened[static_cast<size_t>(key)] =
-            std::max(widened[static_cast<size_t>(key)], at(needed, key + k));
+    const auto span = static_cast<size_t>(std::ceil(kSinkSpan * clip_.keys_per_second));
+    std::vector<float> widened(keys_, 0.0f);
+    for (size_t key = 0; key < keys_; ++key) {
+      for (size_t k = key < span ? 0 : key - span; k < std::min(keys_, key + span + 1); ++k) {
+        widened[key] = std::max(widened[key], needed[k]);
       }
     }
-    for (std::ptrdiff_t key = 0; key < static_cast<std::ptrdiff_t>(keys_); ++key) {
-      for (std::ptrdiff_t k = -span; k <= span; ++k) {
-        smooth[static_cast<size_t>(key)] += at(widened, key + k) / static_cast<float>(2 * span + 1);
-      }
-      MoveHips(static_cast<size_t>(key), -smooth[static_cast<size_t>(key)]);
+    const std::vector<float> smooth = Smoothed(widened, kSinkSpan);
+    for (size_t key = 0; key < keys_; ++key) {
+      MoveHips(key, -smooth[key]);
     }
   }
 
@@ -222,12 +255,10 @@ class FootLock {
     const std::span<JointTransform> pose = Pose(key);
     const glm::vec3 hip = human::ActorFromJoint(skeleton_, pose, leg.hip).position;
     const glm::vec3 knee = human::ActorFromJoint(skeleton_, pose, leg.knee).position;
-    const human::JointFrame ankle = human::ActorFromJoint(skeleton_, pose, leg.ankle);
-    const glm::vec3 along = human::Direction(ankle.position - hip, glm::vec3(0, -1, 0));
-    const glm::vec3 forward = human::Across(
-        ankle.rotation * glm::conjugate(body_.rest[static_cast<size_t>(leg.ankle)].rotation) *
-            glm::vec3(0.0f, 0.0f, -1.0f),
-        along);
+    const glm::vec3 ankle = human::ActorFromJoint(skeleton_, pose, leg.ankle).position;
+    const glm::quat& turn = feet_[side].turn[key];
+    const glm::vec3 along = human::Direction(ankle - hip, glm::vec3(0, -1, 0));
+    const glm::vec3 forward = human::Across(turn * glm::vec3(0.0f, 0.0f, -1.0f), along);
     human::TwoBoneIk ik;
     ik.upper = leg.hip;
     ik.lower = leg.knee;
@@ -237,7 +268,14 @@ class FootLock {
     ik.pole = human::Across(knee - hip, along) + 0.02f * forward;
     ik.hinge = glm::vec3(1.0f, 0.0f, 0.0f);
     ik.Solve(skeleton_, body_, pose);
-    human::SetActorRotation(skeleton_, leg.ankle, ankle.rotation, pose);
+    human::SetActorRotation(skeleton_, leg.ankle,
+                            turn * body_.rest[static_cast<size_t>(leg.ankle)].rotation, pose);
+    // Captured toes are seldom good: ours lie on the floor or go with the foot.
+    const glm::quat toes = glm::slerp(turn, Level(turn), feet_[side].toes_flat[key]);
+    for (const human::JointIndex toe : leg.toes) {
+      human::SetActorRotation(skeleton_, toe, toes * body_.rest[static_cast<size_t>(toe)].rotation,
+                              pose);
+    }
   }
 
   const human::Skeleton& skeleton_;
