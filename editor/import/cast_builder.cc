@@ -34,18 +34,26 @@ struct Look {
 Look LookOf(CastPart part) {
   switch (part) {
     case CastPart::kEyes:
-      return {human::Surface::kEye, 0.15f, 0.5f, false, 256};
+      return {human::Surface::kEye, 0.15f, 0.5f, false, 512};
     case CastPart::kTeeth:
       return {human::Surface::kPlain, 0.35f, 0.0f, false, 256};
     case CastPart::kTongue:
       return {human::Surface::kSkin, 0.4f, 0.0f, false, 128};
     case CastPart::kEyebrows:
     case CastPart::kEyelashes:
-      return {human::Surface::kHair, 0.7f, 0.5f, true, 512};
+      return {human::Surface::kHair, 0.7f, 0.4f, true, 512};
     case CastPart::kHair:
       return {human::Surface::kHair, 0.6f, 0.4f, true, 512};
   }
   return {human::Surface::kPlain, 0.8f, 0.0f, false, 512};
+}
+
+// Eyes and teeth do not bend: each vertex goes with its strongest joint.
+void MakeRigid(human::SkinnedMesh& mesh) {
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    mesh.joints[v].fill(mesh.joints[v][0]);
+    mesh.weights[v] = {1.0f, 0.0f, 0.0f, 0.0f};
+  }
 }
 
 BaseShape ShapeOf(const CastLibrary& library,
@@ -78,7 +86,7 @@ class CastBuilder {
     human_.skeleton = body_.skeleton;
     human_.credits = "base mesh, rig, targets and skins: MakeHuman Team; AGPL3\n";
     LARARIUM_RETURN_IF_ERROR(AddSkin());
-    LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kEyes, {"HighPolyEyes", {}}));
+    LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kEyes, {"HighPolyEyes", recipe_.eyes.colour}));
     LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kTeeth, {recipe_.teeth, {}}));
     LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kTongue, {recipe_.tongue, {}}));
     LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kEyelashes, {recipe_.eyelashes, {}}));
@@ -140,11 +148,11 @@ class CastBuilder {
     paint.weathering = recipe_.weathering;
     paint.seed = recipe_.seed;
     if (recipe_.hair) {
-      LARARIUM_ASSIGN_OR_RETURN(paint.scalp, NearnessTo({recipe_.hair->name}, skin));
+      LARARIUM_ASSIGN_OR_RETURN(paint.scalp, CoverBy({*recipe_.hair}, skin));
       paint.scalp_colour = paint.beard_colour = HairColour(*recipe_.hair);
     }
     if (recipe_.stubble > 0.0f) {
-      LARARIUM_ASSIGN_OR_RETURN(paint.beard, NearnessTo({kBeards[0], kBeards[1]}, skin));
+      LARARIUM_ASSIGN_OR_RETURN(paint.beard, CoverBy({{kBeards[0], {}}, {kBeards[1], {}}}, skin));
       if (!recipe_.beard.empty()) {
         paint.beard_colour = HairColour(recipe_.beard[0]);
       }
@@ -156,28 +164,32 @@ class CastBuilder {
     return hair.colour.value_or(glm::vec3(0.12f, 0.09f, 0.07f));
   }
 
-  // Of each vertex of the skin's head: 1 where one of these parts lies close to it.
-  Result<std::vector<float>> NearnessTo(const std::vector<std::string>& parts,
-                                        const CastPiece& skin) const {
-    constexpr float kNear = 0.003f;  // metres: surely covered
-    constexpr float kFar = 0.010f;   // metres: surely bare
-    const float shoulders = body_.height - kHeadShare * body_.height;
+  // Of each vertex of the skin's head: 1 where one of these parts lies over it, and goes
+  // on below it: the skin beyond the ends of the hair stays bare.
+  Result<std::vector<float>> CoverBy(const std::vector<CastDyed>& parts,
+                                     const CastPiece& skin) const {
+    constexpr float kNear = 0.005f;   // metres: surely covered
+    constexpr float kFar = 0.008f;    // metres: surely bare
+    constexpr float kAround = 0.02f;  // metres: where there must be more of it
+    constexpr float kBelow = 0.006f;  // metres
+    const float lowest = body_.height - kHeadShare * body_.height;
     std::vector<float> nearest(skin.mesh.positions.size(), kFar);
-    for (const std::string& part : parts) {
-      LARARIUM_ASSIGN_OR_RETURN(const CastProxy proxy, library_.LoadPart(CastPart::kHair, part));
-      const std::vector<glm::vec3> positions =
-          FitPositions(proxy, body_.base.positions, UnshapedBase(library_));
+    std::vector<bool> goes_on(nearest.size(), false);
+    for (const CastDyed& part : parts) {
+      LARARIUM_ASSIGN_OR_RETURN(const CastProxy proxy,
+                                library_.LoadPart(CastPart::kHair, part.name));
+      const std::vector<glm::vec3> positions = Fit(CastPart::kHair, part, proxy).mesh.positions;
       for (size_t v = 0; v < nearest.size(); ++v) {
-        if (skin.mesh.positions[v].y < shoulders) {
-          continue;
-        }
-        for (const glm::vec3& p : positions) {
-          nearest[v] = std::min(nearest[v], glm::distance(p, skin.mesh.positions[v]));
+        const glm::vec3& place = skin.mesh.positions[v];
+        for (size_t i = 0; place.y > lowest && i < positions.size(); ++i) {
+          const float distance = glm::distance(positions[i], place);
+          nearest[v] = std::min(nearest[v], distance);
+          goes_on[v] = goes_on[v] || (distance < kAround && positions[i].y < place.y - kBelow);
         }
       }
     }
-    for (float& distance : nearest) {
-      distance = 1.0f - glm::smoothstep(kNear, kFar, distance);
+    for (size_t v = 0; v < nearest.size(); ++v) {
+      nearest[v] = goes_on[v] ? 1.0f - glm::smoothstep(kNear, kFar, nearest[v]) : 0.0f;
     }
     return nearest;
   }
@@ -198,19 +210,35 @@ class CastBuilder {
     if (!file.empty()) {
       LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> picture,
                                 ReadBytes(proxy.folder / file));
-      auto texture = look.alpha_cutoff > 0.0f
-                         ? DyedTexture(chosen.name, picture, chosen.colour, look.texture_size)
-                         : OpaqueTexture(chosen.name, picture, look.texture_size);
+      auto texture = DrawnTexture(part, chosen, picture);
       LARARIUM_RETURN_IF_ERROR(texture.status());
       material.colour_texture = AddTexture(*std::move(texture));
     }
     human_.credits += proxy.credits + "\n";
+    AddPiece(Fit(part, chosen, proxy), std::move(material));
+    return Status();
+  }
+
+  CastPiece Fit(CastPart part, const CastDyed& chosen, const CastProxy& proxy) const {
     CastPiece piece = FitPart(library_, proxy, body_.base);
     if (part == CastPart::kHair) {
-      LayHair(piece, body_, {.volume = chosen.volume});
+      LayHair(piece, body_, {.volume = chosen.volume, .tilt = chosen.tilt});
+    } else if (part == CastPart::kEyes || part == CastPart::kTeeth) {
+      MakeRigid(piece.mesh);
     }
-    AddPiece(std::move(piece), std::move(material));
-    return Status();
+    return piece;
+  }
+
+  static Result<human::Texture> DrawnTexture(CastPart part,
+                                             const CastDyed& chosen,
+                                             std::span<const std::byte> picture) {
+    const Look look = LookOf(part);
+    if (part == CastPart::kEyes) {
+      return EyeTexture(chosen.name, picture, chosen.colour, look.texture_size);
+    }
+    return look.alpha_cutoff > 0.0f
+               ? DyedTexture(chosen.name, picture, chosen.colour, look.texture_size)
+               : OpaqueTexture(chosen.name, picture, look.texture_size);
   }
 
   // Eyes come in several colours.
@@ -220,12 +248,12 @@ class CastBuilder {
     }
     std::string known;
     for (const CastMaterial& material : proxy.mesh.materials) {
-      if (material.name == recipe_.eye_colour) {
+      if (material.name == recipe_.eyes.name) {
         return material.colour_texture;
       }
       known += (known.empty() ? "" : ", ") + material.name;
     }
-    return Status::Error(recipe_.name + ": eyes", "there is no colour '" + recipe_.eye_colour + "'",
+    return Status::Error(recipe_.name + ": eyes", "there is no colour '" + recipe_.eyes.name + "'",
                          "choose one of: " + known);
   }
 

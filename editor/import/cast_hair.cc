@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "editor/import/plain_skeleton.h"
 
 namespace lararium::import {
 namespace {
 
-constexpr float kOfTheWhole = 0.7f;  // of a shading normal: the rounded whole's share
+constexpr float kOfTheWhole = 0.5f;  // of a shading normal: the rounded whole's share
 constexpr float kDeepest = 0.03f;    // metres: what is deeper inside is meant to be
 
 // The vertices of the head and neck, where hair can lie.
@@ -68,7 +69,9 @@ void LayHair(CastPiece& hair, const FittedBody& body, const HairFit& fit) {
                                  RestPosition(body.skeleton, "r_eyeball_joint"));
   const glm::vec3 middle(0.0f, eyes.y,
                          0.5f * (eyes.z + RestPosition(body.skeleton, "skullbase").z));
+  const glm::quat forward = glm::angleAxis(-fit.tilt, glm::vec3(1.0f, 0.0f, 0.0f));
   for (glm::vec3& p : hair.mesh.positions) {
+    p = middle + forward * (p - middle);
     const uint32_t v = Nearest(body.skin, head, p);
     p = Laid(p, body.skin.positions[v], body.skin.normals[v], fit);
   }

@@ -7,9 +7,10 @@
 namespace lararium::import {
 
 // How hair is laid on a head. volume: its height above the scalp, of what it was
-// modelled with.
+// modelled with. tilt: radians about the ears, into the face.
 struct HairFit {
   float volume = 1.0f;
+  float tilt = 0.0f;
   float clearance = 0.003f;  // metres above the skin, at least
 };
 

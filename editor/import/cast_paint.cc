@@ -41,6 +41,16 @@ cv::Mat Reduced(const cv::Mat& image, int max_size) {
   return smaller;
 }
 
+Result<cv::Mat> DecodeWithAlpha(const std::string& name,
+                                std::span<const std::byte> encoded,
+                                int max_size) {
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, Decode(name, encoded, cv::IMREAD_UNCHANGED));
+  if (image.channels() != 4) {
+    cv::cvtColor(image, image, image.channels() == 3 ? cv::COLOR_BGR2BGRA : cv::COLOR_GRAY2BGRA);
+  }
+  return Reduced(image, max_size);
+}
+
 Result<human::Texture> Encode(const std::string& name,
                               const cv::Mat& image,
                               const std::string& ending,
@@ -87,6 +97,37 @@ void Dye(cv::Mat& bgra, const glm::vec3& colour) {
       const double shade = std::clamp(std::sqrt(std::max(grey(p), 1.0) / mean), 0.45, 1.8);
       for (int channel = 0; channel < 3; ++channel) {
         p[channel] = cv::saturate_cast<uchar>(shade * colour[2 - channel] * 255.0);
+      }
+    }
+  }
+}
+
+// Irises are what is coloured in a picture of eyes: the white is hardly.
+float Colourfulness(const cv::Vec4b& p) {
+  const int most = std::max({p[0], p[1], p[2]});
+  const int least = std::min({p[0], p[1], p[2]});
+  return glm::smoothstep(0.15f, 0.3f, static_cast<float>(most - least) / std::max(most, 1));
+}
+
+void DyeIrises(cv::Mat& bgra, const glm::vec3& colour) {
+  double sum = 0.0;
+  double weight = 0.0;
+  for (int y = 0; y < bgra.rows; ++y) {
+    for (int x = 0; x < bgra.cols; ++x) {
+      const cv::Vec4b& p = bgra.at<cv::Vec4b>(y, x);
+      sum += Colourfulness(p) * std::max({p[0], p[1], p[2]});
+      weight += Colourfulness(p);
+    }
+  }
+  const double mean = weight > 0.0 ? std::max(sum / weight, 1.0) : 128.0;
+  for (int y = 0; y < bgra.rows; ++y) {
+    for (int x = 0; x < bgra.cols; ++x) {
+      cv::Vec4b& p = bgra.at<cv::Vec4b>(y, x);
+      const float share = Colourfulness(p);
+      const double shade = std::max({p[0], p[1], p[2]}) / mean;
+      for (int channel = 0; channel < 3; ++channel) {
+        const double dyed = shade * colour[2 - channel] * 255.0;
+        p[channel] = cv::saturate_cast<uchar>(p[channel] + share * (dyed - p[channel]));
       }
     }
   }
@@ -250,7 +291,7 @@ Result<human::Texture> SkinTexture(const std::string& name,
   Modulate(skin, BandNoise(random, 0.7, 1.8), cv::Scalar(0.035, 0.03, 0.025));
   Modulate(skin, BandNoise(random, 8.0, 30.0), cv::Scalar(-0.03, -0.025, 0.015));
   Weather(skin, paint.weathering, random);
-  PaintHairs(skin, Spread(paint, paint.scalp), paint.scalp_colour, 0.9f, random);
+  PaintHairs(skin, Spread(paint, paint.scalp), paint.scalp_colour, 0.8f, random);
   PaintHairs(skin, Spread(paint, paint.beard), paint.beard_colour, 0.75f * paint.stubble, random);
   return EncodeJpeg(name, ToBytes(skin));
 }
@@ -259,13 +300,20 @@ Result<human::Texture> DyedTexture(const std::string& name,
                                    std::span<const std::byte> encoded,
                                    const std::optional<glm::vec3>& colour,
                                    int max_size) {
-  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, Decode(name, encoded, cv::IMREAD_UNCHANGED));
-  if (image.channels() != 4) {
-    cv::cvtColor(image, image, image.channels() == 3 ? cv::COLOR_BGR2BGRA : cv::COLOR_GRAY2BGRA);
-  }
-  image = Reduced(image, max_size);
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, DecodeWithAlpha(name, encoded, max_size));
   if (colour) {
     Dye(image, *colour);
+  }
+  return EncodePng(name, image);
+}
+
+Result<human::Texture> EyeTexture(const std::string& name,
+                                  std::span<const std::byte> encoded,
+                                  const std::optional<glm::vec3>& colour,
+                                  int max_size) {
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, DecodeWithAlpha(name, encoded, max_size));
+  if (colour) {
+    DyeIrises(image, *colour);
   }
   return EncodePng(name, image);
 }

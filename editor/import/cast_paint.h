@@ -44,7 +44,14 @@ Result<human::Texture> DyedTexture(const std::string& name,
                                    const std::optional<glm::vec3>& colour,
                                    int max_size);
 
-// The same picture without alpha as a JPEG.
+// A picture of eyeballs whose irises take a colour; what is transparent (the cornea)
+// stays so.
+Result<human::Texture> EyeTexture(const std::string& name,
+                                  std::span<const std::byte> encoded,
+                                  const std::optional<glm::vec3>& colour,
+                                  int max_size);
+
+// A picture without its alpha, as a JPEG.
 Result<human::Texture> OpaqueTexture(const std::string& name,
                                      std::span<const std::byte> encoded,
                                      int max_size);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <string_view>
 
 namespace lararium::import {
@@ -96,15 +97,18 @@ Status ReadDyed(const JsonView& field, CastDyed& dyed) {
     LARARIUM_ASSIGN_OR_RETURN(dyed.name, field.Text(200));
     return Status();
   }
-  constexpr std::string_view kKnown[] = {"name", "colour", "volume"};
+  constexpr std::string_view kKnown[] = {"name", "colour", "volume", "tilt_deg"};
   LARARIUM_RETURN_IF_ERROR(OnlyFields(field, kKnown));
   LARARIUM_ASSIGN_OR_RETURN(dyed.name, field.Text("name", 200));
   LARARIUM_RETURN_IF_ERROR(ReadNumber(field, "volume", 0.1, 2.0, dyed.volume));
+  float degrees = 0.0f;
+  LARARIUM_RETURN_IF_ERROR(ReadNumber(field, "tilt_deg", -45.0, 45.0, degrees));
+  dyed.tilt = glm::radians(degrees);
   return ReadColour(field, "colour", dyed.colour);
 }
 
 Json DyedJson(const CastDyed& dyed) {
-  Json json = {{"name", dyed.name}, {"volume", dyed.volume}};
+  Json json = {{"name", dyed.name}, {"volume", dyed.volume}, {"tilt_deg", glm::degrees(dyed.tilt)}};
   if (dyed.colour) {
     json["colour"] = ColourText(*dyed.colour);
   }
@@ -172,7 +176,11 @@ Status ReadSkin(const JsonView& root, CastRecipe& recipe) {
   return ReadNumber(field, "weathering", 0.0, 1.0, recipe.weathering);
 }
 
-Status ReadHair(const JsonView& root, CastRecipe& recipe) {
+Status ReadDyedParts(const JsonView& root, CastRecipe& recipe) {
+  if (root.Has("eyes")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, root.Field("eyes"));
+    LARARIUM_RETURN_IF_ERROR(ReadDyed(field, recipe.eyes));
+  }
   if (root.Has("eyebrows")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, root.Field("eyebrows"));
     LARARIUM_RETURN_IF_ERROR(ReadDyed(field, recipe.eyebrows));
@@ -228,11 +236,10 @@ Result<CastRecipe> ParseCastRecipe(const JsonView& root) {
   LARARIUM_RETURN_IF_ERROR(ReadEthnicity(root, recipe));
   LARARIUM_RETURN_IF_ERROR(ReadModifiers(root, recipe));
   LARARIUM_RETURN_IF_ERROR(ReadSkin(root, recipe));
-  LARARIUM_RETURN_IF_ERROR(ReadText(root, "eyes", recipe.eye_colour));
   LARARIUM_RETURN_IF_ERROR(ReadText(root, "eyelashes", recipe.eyelashes));
   LARARIUM_RETURN_IF_ERROR(ReadText(root, "teeth", recipe.teeth));
   LARARIUM_RETURN_IF_ERROR(ReadText(root, "tongue", recipe.tongue));
-  LARARIUM_RETURN_IF_ERROR(ReadHair(root, recipe));
+  LARARIUM_RETURN_IF_ERROR(ReadDyedParts(root, recipe));
   LARARIUM_RETURN_IF_ERROR(ReadGarments(root, recipe));
   if (root.Has("seed")) {
     LARARIUM_ASSIGN_OR_RETURN(const int64_t seed, root.Integer("seed", 0, int64_t{1} << 53));
@@ -275,7 +282,7 @@ Json ToJson(const CastRecipe& recipe) {
                {"ethnicity", ethnicity},
                {"modifiers", recipe.modifiers},
                {"skin", skin},
-               {"eyes", recipe.eye_colour},
+               {"eyes", DyedJson(recipe.eyes)},
                {"eyebrows", DyedJson(recipe.eyebrows)},
                {"eyelashes", recipe.eyelashes},
                {"teeth", recipe.teeth},

@@ -6,9 +6,9 @@
 //     "weight": 0.8, "muscle": 0.55, "ethnicity": {"caucasian": 0.7, "african": 0.3},
 //     "modifiers": {"nose-hump-lesshump|morehump": 0.5, "ear-size-small|big": 0.2},
 //     "skin": {"name": "middleage_caucasian_male", "tint": "#c9a182", "stubble": 0.4},
-//     "eyes": "brown", "hair": {"name": "short02", "colour": "#2a1c14"},
-//     "beard": [{"name": "Full_beard", "colour": "#2a1c14"}],
-//     "garments": [{"name": "tunic", ...}], "seed": 7 }
+//     "eyes": {"name": "brownlight", "colour": "#4a2f1c"}, "hair": {"name": "short02", "colour":
+//     "#2a1c14"}, "beard": [{"name": "Full_beard", "colour": "#2a1c14"}], "garments": [{"name":
+//     "tunic", ...}], "seed": 7 }
 
 #include <filesystem>
 #include <glm/vec3.hpp>
@@ -26,7 +26,10 @@ namespace lararium::import {
 struct CastDyed {
   std::string name;
   std::optional<glm::vec3> colour;
-  float volume = 1.0f;  // of hair: how far it stands off, of what it was modelled with
+  // Of hair: how far it stands off, of what it was modelled with; and how far it is drawn
+  // into the face, radians about the ears.
+  float volume = 1.0f;
+  float tilt = 0.0f;
 };
 
 struct CastRecipe {
@@ -47,7 +50,7 @@ struct CastRecipe {
   std::optional<glm::vec3> skin_tint;  // mean colour that the skin is brought to
   float stubble = 0.0f;                // 0..1, painted where a beard would grow
   float weathering = 0.0f;             // 0..1, sun and years
-  std::string eye_colour = "brown";
+  CastDyed eyes{"brownlight", {}};     // one of the colours that there are, dyed
   CastDyed eyebrows{"eyebrow010", {}};
   std::string eyelashes = "eyelashes02";
   std::string teeth = "Teeth_Base";

@@ -1,0 +1,256 @@
+// The presets, built from the real cast library: skipped where it is not fetched.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <map>
+#include <set>
+
+#include "editor/import/cast_builder.h"
+#include "editor/import/cast_presets.h"
+#include "editor/import/cast_shape.h"
+#include "editor/import/plain_skeleton.h"
+
+namespace lararium::import {
+namespace {
+
+std::filesystem::path LibraryFolder() {
+  const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
+  return chosen != nullptr ? chosen : LARARIUM_SOURCE_DIR "/build/cast-library";
+}
+
+// Opened once for all tests.
+const CastLibrary* Library() {
+  static const auto* library = [] {
+    auto opened = CastLibrary::Open(LibraryFolder());
+    return opened.ok() ? new CastLibrary(*std::move(opened)) : nullptr;
+  }();
+  return library;
+}
+
+// As FitBody shapes it, undressed: garments have tests of their own.
+const human::Human& Preset(const std::string& name) {
+  static std::map<std::string, human::Human> built;
+  if (!built.contains(name)) {
+    CastRecipe recipe = *LoadCastPreset(name);
+    recipe.garments.clear();
+    auto human = BuildCast(*Library(), recipe);
+    EXPECT_TRUE(human.ok()) << human.status().message();
+    built[name] = *std::move(human);
+  }
+  return built[name];
+}
+
+class CastPresets : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (Library() == nullptr) {
+      GTEST_SKIP() << "needs the cast library: run scripts/fetch_cast_library.sh";
+    }
+  }
+};
+
+const human::SkinnedMesh& Mesh(const human::Human& human, const std::string& name) {
+  for (const human::SkinnedMesh& mesh : human.meshes) {
+    if (mesh.name == name) {
+      return mesh;
+    }
+  }
+  ADD_FAILURE() << "there is no part " << name;
+  return human.meshes[0];
+}
+
+TEST_P(CastPresets, AreAsTallAsTheyShallBeAndStandOnTheirSoles) {
+  const auto recipe = LoadCastPreset(GetParam());
+  const auto body = FitBody(*Library(), *recipe);
+  ASSERT_TRUE(body.ok()) << body.status().message();
+  ASSERT_TRUE(recipe->height);
+  EXPECT_NEAR(body->height, *recipe->height, 1e-3);
+  float lowest = 1.0f;
+  for (const glm::vec3& p : body->skin.positions) {
+    lowest = std::min(lowest, p.y);
+  }
+  EXPECT_NEAR(lowest, 0.0f, 1e-5f);
+}
+
+TEST_P(CastPresets, FaceTheStage) {
+  const human::Human& human = Preset(GetParam());
+  EXPECT_LT(RestPosition(human.skeleton, "l_eyeball_joint").z,
+            RestPosition(human.skeleton, "skullbase").z);
+  EXPECT_LT(RestPosition(human.skeleton, "l_shoulder").x, 0.0f);
+  EXPECT_LT(RestPosition(human.skeleton, "l_midtarsal").z,
+            RestPosition(human.skeleton, "l_ankle").z);
+}
+
+TEST_P(CastPresets, AreSmallEnoughForABundle) {
+  EXPECT_LT(human::SerializeHuman(Preset(GetParam())).size(), size_t{8} << 20);
+}
+
+TEST_P(CastPresets, AreTheSameEveryTime) {
+  CastRecipe recipe = *LoadCastPreset(GetParam());
+  recipe.garments.clear();
+  const auto again = BuildCast(*Library(), recipe);
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(human::SerializeHuman(*again), human::SerializeHuman(Preset(GetParam())));
+}
+
+TEST_P(CastPresets, HaveEveryVisemeExpressionAndBlink) {
+  std::set<std::string> names;
+  for (const human::FaceShape& shape : Preset(GetParam()).face) {
+    names.insert(shape.name);
+    EXPECT_FALSE(shape.morphs.empty()) << shape.name;
+  }
+  for (const char* name :
+       {"sil",     "PP",    "FF",   "TH",      "DD",       "kk",      "CH",     "SS",
+        "nn",      "RR",    "aa",   "E",       "ih",       "oh",      "ou",     "joy",
+        "sadness", "anger", "fear", "disgust", "surprise", "blink_l", "blink_r"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+}
+
+// How far a face shape moves a vertex of a part, at most; metres.
+float MostMoved(const human::Human& human, const std::string& shape, uint32_t mesh, float side) {
+  float most = 0.0f;
+  for (const human::FaceShape& face : human.face) {
+    for (size_t i = 0; face.name == shape && i < face.morphs.size(); ++i) {
+      for (const human::MorphTarget::Part& part : human.morphs[face.morphs[i].morph].parts) {
+        for (size_t v = 0; part.mesh == mesh && v < part.vertices.size(); ++v) {
+          if (human.meshes[mesh].positions[part.vertices[v]].x * side > 0.0f) {
+            most = std::max(most, face.morphs[i].weight * glm::length(part.position_deltas[v]));
+          }
+        }
+      }
+    }
+  }
+  return most;
+}
+
+TEST_P(CastPresets, CloseTheEyeThatBlinks) {
+  const human::Human& human = Preset(GetParam());
+  EXPECT_GT(MostMoved(human, "blink_l", 0, -1.0f), 0.006f);
+  EXPECT_LT(MostMoved(human, "blink_l", 0, 1.0f), 0.001f);
+  EXPECT_GT(MostMoved(human, "blink_r", 0, 1.0f), 0.006f);
+  EXPECT_GT(MostMoved(human, "aa", 0, 1.0f), 0.01f);
+}
+
+TEST_P(CastPresets, TurnTheirEyesAboutTheMiddleOfTheBall) {
+  const human::Human& human = Preset(GetParam());
+  const human::SkinnedMesh& eyes = Mesh(human, "HighPolyEyes");
+  for (const char* joint : {"l_eyeball_joint", "r_eyeball_joint"}) {
+    const size_t index = JointIndex(human.skeleton, joint);
+    const glm::vec3 centre = RestPosition(human.skeleton, joint);
+    float least = 1.0f;
+    float most = 0.0f;
+    for (size_t v = 0; v < eyes.positions.size(); ++v) {
+      if (eyes.joints[v][0] == index) {
+        EXPECT_EQ(eyes.weights[v][0], 1.0f);
+        least = std::min(least, glm::distance(eyes.positions[v], centre));
+        most = std::max(most, glm::distance(eyes.positions[v], centre));
+      }
+    }
+    EXPECT_GT(least, 0.010f);         // the ball's hollow front: the iris lies in it
+    EXPECT_LT(most - least, 0.005f);  // the cornea's bulge is the rest
+  }
+}
+
+TEST_P(CastPresets, AreCoarserFromAfar) {
+  for (const human::SkinnedMesh& mesh : Preset(GetParam()).meshes) {
+    if (mesh.indices.size() > 3000) {
+      EXPECT_GE(mesh.coarser.size(), 2u) << mesh.name;
+    }
+  }
+  const human::SkinnedMesh& skin = Preset(GetParam()).meshes[0];
+  ASSERT_EQ(skin.coarser.size(), 3u);
+  EXPECT_LT(skin.coarser[2].indices.size(), 0.15 * skin.indices.size());
+  EXPECT_LT(skin.coarser[2].error, 0.01f);
+}
+
+float OutsideCapsules(const human::Human& human, const glm::vec3& p) {
+  float least = 1e9f;
+  for (const human::BodyCapsule& capsule : human.capsules) {
+    const glm::vec3 origin = RestPosition(human.skeleton, human.skeleton.names[capsule.joint]);
+    const glm::vec3 a = origin + capsule.a;
+    const glm::vec3 ab = capsule.b - capsule.a;
+    const float squared = glm::dot(ab, ab);
+    const float t = squared > 0.0f ? glm::clamp(glm::dot(p - a, ab) / squared, 0.0f, 1.0f) : 0.0f;
+    least = std::min(
+        least, glm::distance(p, a + t * ab) - glm::mix(capsule.radius_a, capsule.radius_b, t));
+  }
+  return least;
+}
+
+// Of what clothes lie on: trunk, upper arms and thighs.
+TEST_P(CastPresets, HaveCapsulesThatFollowTheirSkin) {
+  const human::Human& human = Preset(GetParam());
+  std::set<size_t> clothed;
+  for (const char* joint : {"sacroiliac", "vl1", "vt10", "vt4", "vt1", "l_hip", "r_hip",
+                            "l_shoulder", "r_shoulder", "l_knee", "r_knee"}) {
+    clothed.insert(JointIndex(human.skeleton, joint));
+  }
+  std::vector<float> outside;
+  const human::SkinnedMesh& skin = human.meshes[0];
+  for (size_t v = 0; v < skin.positions.size(); ++v) {
+    if (skin.weights[v][0] > 0.6f && clothed.contains(skin.joints[v][0])) {
+      outside.push_back(OutsideCapsules(human, skin.positions[v]));
+    }
+  }
+  std::sort(outside.begin(), outside.end());
+  EXPECT_LT(outside[outside.size() * 95 / 100], 0.025f);
+  EXPECT_GT(outside[outside.size() * 5 / 100], -0.045f);
+}
+
+TEST_P(CastPresets, SayWhoMadeTheirParts) {
+  const human::Human& human = Preset(GetParam());
+  EXPECT_NE(human.credits.find("MakeHuman"), std::string::npos);
+  EXPECT_NE(human.credits.find("AGPL"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         CastPresets,
+                         testing::ValuesIn(CastPresetNames()),
+                         [](const auto& info) { return info.param; });
+
+TEST(CastLibraryData, TargetsMoveWhatTheirNamesSay) {
+  if (Library() == nullptr) {
+    GTEST_SKIP() << "needs the cast library: run scripts/fetch_cast_library.sh";
+  }
+  const std::vector<glm::vec3> base = UnshapedBase(*Library());
+  const std::pair<const char*, const char*> kNear[] = {{"l-foot-scale-incr", "foot.L"},
+                                                       {"r-hand-scale-incr", "finger3-1.R"},
+                                                       {"l-eye-size-big", "eye.L"},
+                                                       {"neck-scale-vert-more", "neck02"},
+                                                       {"chin-width-max", "special04"}};
+  for (const auto& [target, bone] : kNear) {
+    const auto found = Library()->FindTarget(target);
+    ASSERT_TRUE(found) << target;
+    const TargetShare whole[] = {{*found, 1.0f}};
+    const std::vector<glm::vec3> deltas = TargetDeltas(*Library(), whole);
+    glm::vec3 centre(0.0f);
+    float sum = 0.0f;
+    for (size_t v = 0; v < base.size(); ++v) {
+      centre += glm::length(deltas[v]) * base[v];
+      sum += glm::length(deltas[v]);
+    }
+    const auto& bones = Library()->base().bones;
+    const auto where =
+        std::find_if(bones.begin(), bones.end(), [&](const CastBone& b) { return b.name == bone; });
+    ASSERT_NE(where, bones.end());
+    EXPECT_LT(glm::distance(centre / sum, base[where->head_vertices[0]]), 0.15f) << target;
+  }
+}
+
+TEST(CastLibraryData, EverySliderHasItsTargets) {
+  if (Library() == nullptr) {
+    GTEST_SKIP() << "needs the cast library: run scripts/fetch_cast_library.sh";
+  }
+  EXPECT_GT(Library()->modifiers().size(), 200u);
+  for (const CastModifier& modifier : Library()->modifiers()) {
+    EXPECT_TRUE(modifier.max_target) << modifier.name;
+    EXPECT_EQ(modifier.min_target.has_value(), modifier.name.find('|') != std::string::npos)
+        << modifier.name;
+  }
+}
+
+}  // namespace
+}  // namespace lararium::import
