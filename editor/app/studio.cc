@@ -82,17 +82,21 @@ struct Subject {
   float half_width = 0.5f;
 };
 
-Subject WholeFigure(const PosedPerson& person) {
-  glm::vec3 low(1e9f);
-  glm::vec3 high(-1e9f);
-  for (const std::vector<glm::vec3>& positions : person.positions) {
-    for (const glm::vec3& position : positions) {
-      low = glm::min(low, position);
-      high = glm::max(high, position);
+// All that is drawn of a person, about the person's own axis.
+Subject WholeFigure(const PosedPerson& person, float azimuth) {
+  const glm::vec3 right(std::cos(azimuth), 0.0f, -std::sin(azimuth));
+  float bottom = 1e9f;
+  float top = -1e9f;
+  float width = 0.0f;
+  for (size_t i = 0; i < person.positions.size(); ++i) {
+    for (const uint32_t vertex : person.morphed.meshes[i].indices) {
+      const glm::vec3& position = person.positions[i][vertex];
+      bottom = std::min(bottom, position.y);
+      top = std::max(top, position.y);
+      width = std::max(width, std::abs(glm::dot(position, right)));
     }
   }
-  const glm::vec3 half = 0.5f * (high - low);
-  return {low + half, half.y, std::max(half.x, half.z)};
+  return {{0.0f, 0.5f * (bottom + top), 0.0f}, 0.5f * (top - bottom), width};
 }
 
 // The head's joint with those below it.
@@ -107,9 +111,9 @@ std::vector<bool> HeadJoints(const human::Skeleton& skeleton, size_t skull) {
 }
 
 // From a little below the chin to above the crown, around the head's joint.
-Subject Head(const human::Human& human, const PosedPerson& person) {
+Subject Head(const human::Human& human, const PosedPerson& person, float azimuth) {
   const std::optional<size_t> skull = human.skeleton.Find("skullbase");
-  const Subject whole = WholeFigure(person);
+  const Subject whole = WholeFigure(person, azimuth);
   if (!skull) {
     const float top = whole.centre.y + whole.half_height;
     const float half = 0.16f * whole.half_height;
@@ -193,8 +197,9 @@ geometry::CameraModel Lens(cv::Size size) {
 geometry::Rigid3 PlaceCamera(const Subject& subject, const StudioView& view, cv::Size size) {
   const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
   const float half = kMargin * std::max(subject.half_height, subject.half_width / aspect);
-  const float distance =
-      half / static_cast<float>(std::tan(0.5 * kFieldOfView)) + subject.half_width;
+  // What comes towards the viewer looks larger.
+  const float nearer = 0.3f * subject.half_height;
+  const float distance = half / static_cast<float>(std::tan(0.5 * kFieldOfView)) + nearer;
   const float level = std::cos(view.elevation);
   // The person faces -Z and has their left at -X.
   const glm::vec3 direction(-std::sin(view.azimuth) * level, std::sin(view.elevation),
@@ -238,7 +243,8 @@ Result<cv::Mat> Studio::Shoot(const human::Human& human,
   scene.background = Backdrop(size);
   scene.camera = scene.display = Lens(size);
   scene.camera_from_stage =
-      PlaceCamera(view.face ? Head(human, person) : WholeFigure(person), view, size);
+      PlaceCamera(view.face ? Head(human, person, view.azimuth) : WholeFigure(person, view.azimuth),
+                  view, size);
   scene.humans = {&shown, 1};
   scene.light = StudioLight(view.azimuth);
   const Status drawn = renderer_->Draw(scene, target);

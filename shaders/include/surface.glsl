@@ -89,7 +89,8 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
   matte += Fuzz(albedo, normal, to_eye, even);
 #endif
 #ifdef SURFACE_EYE
-  // The film of tears is smooth whatever lies beneath.
-  highlight = Highlight(normal, to_eye, 0.025, 0.22);
+  // Lids and brows keep light off; the film of tears is smooth whatever lies beneath.
+  matte *= 0.8;
+  highlight = Highlight(normal, to_eye, 0.025, 0.3);
 #endif
 }
