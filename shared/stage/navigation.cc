@@ -26,8 +26,9 @@ constexpr int kCrowdTicks = 4;
 constexpr float kCrowdSeconds =
     static_cast<float>(kCrowdTicks) / static_cast<float>(Navigation::kTicksPerSecond);
 constexpr int kMaxPath = 256;
-constexpr float kRoom = 0.22f;         // radius that a person takes against others
-constexpr float kSqueezedRoom = 0.1f;  // sideways
+constexpr float kRoom = 0.22f;  // radius that a person takes against others
+constexpr unsigned char kSteering = DT_CROWD_ANTICIPATE_TURNS | DT_CROWD_OBSTACLE_AVOIDANCE |
+                                    DT_CROWD_OPTIMIZE_VIS | DT_CROWD_OPTIMIZE_TOPO;
 constexpr float kAcceleration = 2.5f;  // m/s^2
 constexpr unsigned char kFirstGateArea = 1;
 constexpr unsigned short kOpenFlag = 1;
@@ -488,8 +489,7 @@ std::optional<int> Navigation::AddWalker(glm::vec2 position) {
   params.collisionQueryRange = 2.5f;
   params.pathOptimizationRange = 6.0f;
   params.separationWeight = 0.0f;
-  params.updateFlags = DT_CROWD_ANTICIPATE_TURNS | DT_CROWD_OBSTACLE_AVOIDANCE |
-                       DT_CROWD_OPTIMIZE_VIS | DT_CROWD_OPTIMIZE_TOPO;
+  params.updateFlags = kSteering;
   const int walker = parts_->crowd->addAgent(Point3(position), &params);
   if (walker < 0) {
     return std::nullopt;
@@ -525,9 +525,14 @@ void Navigation::Place(int walker, glm::vec2 position, glm::vec2 velocity) {
   held.speed = velocity;
 }
 
-void Navigation::Squeeze(int walker, bool on) {
+void Navigation::Squeeze(int walker, int how) {
+  constexpr float kRooms[] = {kRoom, 0.1f, 0.02f};
   dtCrowdAgentParams params = parts_->Agent(walker).params;
-  params.radius = on ? kSqueezedRoom : kRoom;
+  params.radius = kRooms[how];
+  params.updateFlags = kSteering;
+  if (how == 2) {
+    params.updateFlags &= static_cast<unsigned char>(~DT_CROWD_OBSTACLE_AVOIDANCE);
+  }
   parts_->crowd->updateAgentParameters(walker, &params);
 }
 

@@ -86,8 +86,9 @@ class Navigation {
   // Is moved by Place() alone from now on; others avoid it.
   void Hold(int walker);
   void Place(int walker, glm::vec2 position, glm::vec2 velocity);
-  // Somebody who squeezes past others takes less room.
-  void Squeeze(int walker, bool on);
+  // Somebody who cannot get past others takes less room: 0 as usual, 1 sideways, 2 none,
+  // where nothing else helps.
+  void Squeeze(int walker, int how);
 
   // One tick. The crowd is computed at kTicksPerSecond / 4 and moves evenly between.
   // Allocates nothing.

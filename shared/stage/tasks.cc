@@ -22,7 +22,9 @@ constexpr float kReachFurthest = 0.75f;
 constexpr float kGiveNearest = 0.75f;  // metres between two people
 constexpr float kGiveFurthest = 1.05f;
 constexpr float kMakeWayWithin = 0.5f;  // metres
-constexpr float kMakeWayFrom = 1.6f;    // metres, of who comes
+constexpr float kMakeWayStuck = 0.75f;
+constexpr float kStuckAfter = 1.5f;   // seconds
+constexpr float kMakeWayFrom = 1.6f;  // metres, of who comes
 constexpr size_t kKeptReports = 1024;
 constexpr float kMaxSeconds = 24.0f * 3600.0f;
 
@@ -458,6 +460,11 @@ bool Tasks::ApproachNear(Task& task, const glm::vec3& point) {
 }
 
 bool Tasks::ApproachPlaceOf(Task& task, ObjectId id, int place) {
+  if (IsPlaceTaken(id, place, task)) {
+    return false;
+  }
+  task.place_of = id;
+  task.place = place;
   const Object& object = world_.object(id);
   const ApproachPlace& at = object.use().places[static_cast<size_t>(place)];
   return Approach(task, InStage(object, at.position), HeadingInStage(object, at.heading));
@@ -472,8 +479,7 @@ int Tasks::UsersOf(ObjectId object, const Task& except) const {
 
 bool Tasks::IsPlaceTaken(ObjectId object, int place, const Task& except) const {
   return std::any_of(tasks_.begin(), tasks_.end(), [&](const Task& task) {
-    return task.id != except.id && task.kind == Kind::kUse && task.object == object &&
-           task.place == place &&
+    return task.id != except.id && task.place_of == object && task.place == place &&
            (task.stage == Stage::kRunning || task.stage == Stage::kLingering);
   });
 }
@@ -532,7 +538,6 @@ bool Tasks::GrantUse(Task& task) {
   if (chosen < 0 && any) {
     return false;
   }
-  task.place = chosen;
   return ApproachPlaceOf(task, task.object, chosen);
 }
 
@@ -603,6 +608,11 @@ bool Tasks::GrantPut(Task& task) {
                other.spot == at_i;
       });
       if (is_wanted || IsOccupied(world_, task.target.object, at_s, at_i)) {
+        continue;
+      }
+      const int place = on.use().surfaces[s].spots[i].place;
+      if (place >= 0 && IsPlaceTaken(task.target.object, place, task)) {
+        may_become_free = true;
         continue;
       }
       const glm::vec3 point = on.state.stage_from_object *
@@ -716,11 +726,12 @@ void Tasks::WaitInLine(Task& task, float) {
   }
 }
 
-// Whoever stands about where somebody has to stand steps aside.
+// Whoever stands about where somebody has to stand, or cannot get past, steps aside.
 void Tasks::MakeWay(const Task& task) {
   const Actor& comes = world_.actor(task.actor);
-  if (comes.walk.phase != Walk::Phase::kGo ||
-      glm::distance(comes.place(), comes.walk.goal) > kMakeWayFrom) {
+  const bool is_near = glm::distance(comes.place(), comes.walk.goal) < kMakeWayFrom;
+  const bool is_stuck = comes.walk.stuck > kStuckAfter;
+  if (comes.walk.phase != Walk::Phase::kGo || !(is_near || is_stuck)) {
     return;
   }
   const glm::vec2 goal = comes.walk.goal;
@@ -735,7 +746,7 @@ void Tasks::MakeWay(const Task& task) {
     if (!stands_about) {
       continue;
     }
-    if (const auto aside = FindAside(world_, id, goal)) {
+    if (const auto aside = FindAside(world_, id, is_near ? goal : comes.place())) {
       (void)BeginWalk(world_, other, *aside, other.state.heading, kWalkSpeed).ok();
     }
   }

@@ -123,6 +123,7 @@ class Tasks {
 
     float time = 0.0f;  // in the phase
     float waited = 0.0f;
+    ObjectId place_of;  // the object at one of whose places it is done
     int place = -1;
     int spot = -1;
     HandGrips hands = kNoHands;

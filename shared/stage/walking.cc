@@ -18,6 +18,7 @@ constexpr float kBraking = 1.3f;        // m/s^2
 constexpr float kStarting = 1.6f;       // m/s^2
 constexpr float kRoomAtGoal = 0.42f;    // metres from anybody else
 constexpr float kSqueezeAfter = 3.0f;   // seconds without getting nearer
+constexpr float kPushAfter = 8.0f;      // likewise
 constexpr float kGiveUpAfter = 15.0f;   // likewise
 constexpr float kNearer = 0.05f;        // metres that count as getting nearer
 constexpr float kTurnPerRadian = 5.0f;  // 1/s
@@ -58,7 +59,7 @@ void Dock(World& world, Actor& actor) {
   Walk& walk = actor.walk;
   walk.phase = Walk::Phase::kDock;
   walk.pace = glm::length(world.navigation->velocity(actor.walker));
-  world.navigation->Squeeze(actor.walker, false);
+  world.navigation->Squeeze(actor.walker, 0);
   world.navigation->Hold(actor.walker);
 }
 
@@ -100,7 +101,9 @@ WalkResult AdvanceGo(World& world, ActorId id, Actor& actor, float seconds) {
   } else {
     walk.stuck += seconds;
   }
-  world.navigation->Squeeze(actor.walker, walk.stuck > kSqueezeAfter);
+  world.navigation->Squeeze(actor.walker, walk.stuck > kPushAfter      ? 2
+                                          : walk.stuck > kSqueezeAfter ? 1
+                                                                       : 0);
   return walk.stuck > kGiveUpAfter ? WalkResult::kBlocked : WalkResult::kGoing;
 }
 
@@ -221,7 +224,7 @@ WalkResult AdvanceWalk(World& world, Actor& actor, float seconds) {
 
 void EndWalk(World& world, Actor& actor) {
   if (actor.walk.phase == Walk::Phase::kGo) {
-    world.navigation->Squeeze(actor.walker, false);
+    world.navigation->Squeeze(actor.walker, 0);
     world.navigation->Hold(actor.walker);
   }
   actor.walk.phase = Walk::Phase::kNone;
