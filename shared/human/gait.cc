@@ -105,9 +105,13 @@ SwingPoint ComputeSwing(float swing) {
           (SolePitch(phase) - pitch_from) / (pitch_to - pitch_from)};
 }
 
+// The sole meets the floor at 20 degrees and is flat after a ninth of the stride (Perry &
+// Burnfield, 2010); the heel rises as the curves have it.
 float ComputeStancePitch(float stance) {
-  const float pitch = SolePitch(kCurveStance * stance);
-  return pitch * glm::smoothstep(glm::radians(7.0f), glm::radians(16.0f), std::abs(pitch));
+  constexpr float kFlat = 0.18f;  // of the stance
+  const float landing = glm::radians(20.0f) * (1.0f - glm::smoothstep(0.0f, kFlat, stance));
+  const float rise = stance > kFlat ? std::min(SolePitch(kCurveStance * stance), 0.0f) : 0.0f;
+  return landing + rise * glm::smoothstep(glm::radians(7.0f), glm::radians(16.0f), -rise);
 }
 
 }  // namespace

@@ -28,6 +28,18 @@ struct RootPose {
   glm::vec3 Stage(const glm::vec3& actor) const { return position + TurnY(heading) * actor; }
 };
 
+Footprint Mix(const Footprint& a, const Footprint& b, float t) {
+  return {glm::mix(a.position, b.position, t), MixAngles(a.heading, b.heading, t),
+          glm::mix(a.slope_pitch, b.slope_pitch, t), glm::mix(a.slope_roll, b.slope_roll, t)};
+}
+
+// The smaller of two angles; where they are near to one another, without a kink.
+float SmoothMin(float a, float b) {
+  constexpr float kWidth = 0.5f;  // radians
+  const float near = std::max(1.0f - std::abs(a - b) / kWidth, 0.0f);
+  return std::min(a, b) - 0.25f * kWidth * near * near;
+}
+
 // One tick of one walking body.
 class Walker {
  public:
@@ -59,7 +71,7 @@ class Walker {
   }
 
  private:
-  Foot& FootOf(int side) { return state_.feet[static_cast<size_t>(side)]; }
+  Foot& FootOf(int side) const { return state_.feet[static_cast<size_t>(side)]; }
   const Body::Leg& Leg(int side) const { return body_.legs[static_cast<size_t>(side)]; }
   RootPose Root() const { return {state_.position, state_.heading}; }
 
@@ -127,12 +139,25 @@ class Walker {
     return PrintAt(at, root.heading - SideSign(side) * kToeOut, side);
   }
 
+  // At the present acceleration, until it stops; what nobody keeps up for long counts half.
+  glm::vec3 Travel(float seconds) const {
+    const glm::vec3 acceleration = 0.5f * state_.acceleration;
+    const float along = glm::dot(acceleration, state_.velocity);
+    if (along >= 0.0f) {
+      const float time = std::min(seconds, 0.5f);
+      return seconds * state_.velocity + 0.5f * time * time * acceleration;
+    }
+    const float stops = speed_ * speed_ / -along;
+    const float time = std::min(seconds, stops);
+    return time * state_.velocity + 0.5f * time * time * acceleration;
+  }
+
   // Where the root will be, if it goes on as it does.
   RootPose Foretell(float seconds) const {
     constexpr float kFurthest = 0.8f;  // radians: a foot cannot turn in more
     const float turn = std::clamp(state_.turn_rate * seconds, -kFurthest, kFurthest);
-    const glm::vec3 way = TurnY(0.5f * state_.turn_rate * seconds) * state_.velocity;
-    return {state_.position + seconds * way, state_.heading + turn};
+    const glm::vec3 way = TurnY(0.5f * state_.turn_rate * seconds) * Travel(seconds);
+    return {state_.position + way, state_.heading + turn};
   }
 
   // Where the foot in swing will land: at the middle of its stance the root is above it.
@@ -231,10 +256,11 @@ class Walker {
 
   void UpdateFoot(int side) {
     Foot& foot = FootOf(side);
+    const glm::vec3 before = foot.ankle;
     const float phase = OwnPhase(side);
     const bool other_stands = FootOf(1 - side).planted;
     if (foot.planted && state_.stepping && other_stands && MayLeave(side, phase)) {
-      Lift(foot, std::max(phase, 0.5f));
+      Lift(foot, std::max(phase - stride_.per_second * seconds_, 0.5f));
     }
     if (foot.planted) {
       UpdateStance(side, phase);
@@ -243,10 +269,15 @@ class Walker {
     } else {
       UpdateSwing(side, phase);
     }
+    foot.velocity = (foot.ankle - before) / seconds_;
   }
 
   bool MayLeave(int side, float phase) const {
-    return phase >= stride_.stance_share && phase < 0.95f && WantsStep(side);
+    // A foot left far behind does not wait for its time.
+    constexpr float kFarBehind = 1.25f;  // radians of the heel's rise
+    const bool due = phase >= stride_.stance_share;
+    const bool early = phase >= 0.5f && HeelRise(side) > kFarBehind;
+    return (due || early) && phase < 0.95f && WantsStep(side);
   }
 
   static void Lift(Foot& foot, float phase) {
@@ -255,6 +286,7 @@ class Walker {
     foot.swing = 0.0f;
     foot.lifted_from = foot.goal = foot.print;
     foot.lifted_ankle = foot.ankle;
+    foot.lifted_velocity = foot.velocity;
     foot.lifted_pitch = foot.pitch;
   }
 
@@ -269,10 +301,32 @@ class Walker {
   void UpdateStance(int side, float phase) {
     Foot& foot = FootOf(side);
     const float stance = phase / stride_.stance_share;
-    const float goal = stance < 1.0f ? state_.amount * StancePitch(stance) : 0.0f;
+    const float usual = stance < 1.0f ? state_.amount * StancePitch(stance) : 0.0f;
+    const float goal = SmoothMin(usual, -HeelRise(side));
     constexpr float kFastest = 11.0f;  // rad/s
     foot.pitch += std::clamp(goal - foot.pitch, -kFastest * seconds_, kFastest * seconds_);
     Stand(side);
+  }
+
+  // By how much the heel of a foot left behind must come up for its leg to reach it; below
+  // 0 while the leg has some way to go.
+  float HeelRise(int side) const {
+    constexpr float kLowest = -1.0f, kHighest = 1.35f;  // radians
+    const Body::Leg& leg = Leg(side);
+    const glm::vec3 hip = Root().Stage(body_.rest[static_cast<size_t>(leg.hip)].position);
+    const Footprint& print = FootOf(side).print;
+    const glm::vec3 way = hip - print.position;
+    const glm::vec3 ahead = TurnY(print.heading) * glm::vec3(0.0f, 0.0f, -1.0f);
+    if (glm::dot(way, ahead) <= 0.0f) {
+      return kLowest;
+    }
+    const float length = 0.995f * (leg.upper_length + leg.lower_length);
+    const float drop = body_.leg_length() * (0.02f + 0.055f * std::min(state_.amount, 1.25f));
+    const float height = way.y - drop - leg.ankle_height;
+    const float reached = std::sqrt(std::max(length * length - height * height, 0.0f));
+    const float usual = 0.03f * body_.leg_length();  // what the gait's own roll makes up for
+    const float missing = glm::length(glm::vec2(way.x, way.z)) - reached - usual;
+    return std::clamp(missing / (1.5f * -leg.ball.z), kLowest, kHighest);
   }
 
   // The ankle of a planted foot; the toes stay on the floor while the heel is up.
@@ -296,7 +350,9 @@ class Walker {
     Foot& foot = FootOf(side);
     constexpr float kDecided = 0.85f;  // of the swing: the place is chosen
     if (foot.swing < kDecided) {
-      foot.goal = Goal(side);
+      // Feet do not follow every change of mind at once.
+      const float share = foot.swing > 0.0f ? Approach(seconds_, 0.06f) : 1.0f;
+      foot.goal = Mix(foot.goal, Goal(side), share);
     }
     foot.swing = std::clamp((phase - foot.lift_phase) / (1.0f - foot.lift_phase), 0.0f, 1.0f);
     const SwingPoint point = SwingAt(foot.swing);
@@ -310,24 +366,51 @@ class Walker {
     foot.print.heading = MixAngles(from.heading, foot.goal.heading, turned);
     foot.print.slope_pitch = glm::mix(from.slope_pitch, foot.goal.slope_pitch, turned);
     foot.print.slope_roll = glm::mix(from.slope_roll, foot.goal.slope_roll, turned);
-    foot.ankle = glm::mix(foot.lifted_ankle, AnkleOver(side, foot.goal, landing), point.progress);
-    const float straight_up =
-        glm::mix(foot.lifted_ankle.y, AnkleOver(side, foot.goal, landing).y, foot.swing);
-    foot.ankle.y =
-        straight_up + body_.leg_length() * Rise(foot.swing, point.height) + StepRise(foot);
+    foot.ankle = SwingAnkle(side, foot);
+  }
+
+  // Along the path, but leaving as fast as the foot rolled off, and landing likewise.
+  glm::vec3 SwingAnkle(int side, const Foot& foot) const {
+    constexpr float kStep = 0.02f;
+    const float s = foot.swing, left = 1.0f - foot.swing;
+    const float seconds = (1.0f - foot.lift_phase) / stride_.per_second;
+    const glm::vec3 begins = (SwingPath(side, foot, kStep) - SwingPath(side, foot, 0.0f)) / kStep;
+    const glm::vec3 ends =
+        (SwingPath(side, foot, 1.0f) - SwingPath(side, foot, 1.0f - kStep)) / kStep;
+    return SwingPath(side, foot, s) +
+           s * left * left * left * left * (seconds * foot.lifted_velocity - begins) +
+           left * s * s * s * s * (ends - seconds * LandingVelocity(side, foot.goal));
+  }
+
+  // Of the ankle, as the foot begins to roll over its heel.
+  glm::vec3 LandingVelocity(int side, const Footprint& print) const {
+    constexpr float kStep = 0.02f;  // of the stance
+    const float seconds = kStep * stride_.stance_share / stride_.per_second;
+    return (AnkleOver(side, print, state_.amount * StancePitch(kStep)) -
+            AnkleOver(side, print, state_.amount * StancePitch(0.0f))) /
+           seconds;
+  }
+
+  glm::vec3 SwingPath(int side, const Foot& foot, float swing) const {
+    const SwingPoint point = SwingAt(swing);
+    const glm::vec3 to = AnkleOver(side, foot.goal, state_.amount * StancePitch(0.0f));
+    glm::vec3 ankle = glm::mix(foot.lifted_ankle, to, point.progress);
+    ankle.y = glm::mix(foot.lifted_ankle.y, to.y, swing) +
+              body_.leg_length() * Rise(swing, point.height) + StepRise(foot, swing);
+    return ankle;
   }
 
   // Over the straight way, in leg lengths: a wide step's, or a small one's.
   float Rise(float swing, float height) const {
     const float wide = std::min(state_.amount, 1.0f);
     const float bump = std::pow(std::sin(kPi * swing), 2.0f);
-    return state_.style.lift * (wide * height + glm::mix(0.045f, 0.016f, wide) * bump);
+    return state_.style.lift * (wide * height + glm::mix(0.045f, 0.022f, wide) * bump);
   }
 
   // A step up or down is taken from above.
-  static float StepRise(const Foot& foot) {
+  static float StepRise(const Foot& foot, float swing) {
     const float step = std::abs(foot.goal.position.y - foot.lifted_from.position.y);
-    return 0.6f * step * std::sin(kPi * foot.swing);
+    return 0.6f * step * std::sin(kPi * swing);
   }
 
   const Body& body_;
@@ -348,11 +431,6 @@ void MeasureMotion(const glm::vec3& position, float heading, float seconds, Loco
   state.turn_rate += share * (rate - state.turn_rate);
   const glm::vec3 acceleration = (state.velocity - before) / seconds;
   state.acceleration += Approach(seconds, 0.15f) * (acceleration - state.acceleration);
-}
-
-Footprint Mix(const Footprint& a, const Footprint& b, float t) {
-  return {glm::mix(a.position, b.position, t), MixAngles(a.heading, b.heading, t),
-          glm::mix(a.slope_pitch, b.slope_pitch, t), glm::mix(a.slope_roll, b.slope_roll, t)};
 }
 
 Foot Mix(const Foot& a, const Foot& b, float t) {

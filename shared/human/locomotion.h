@@ -56,12 +56,14 @@ struct Locomotion {
     Footprint lifted_from;                     // in swing: the last print
     Footprint goal;                            // in swing: the next print, foretold
     glm::vec3 lifted_ankle = glm::vec3(0.0f);  // where the ankle left
+    glm::vec3 lifted_velocity = glm::vec3(0.0f);
     float lifted_pitch = 0.0f;
-    float lift_phase = 0.0f;            // of its own stride, when it left
-    float swing = 0.0f;                 // 0..1 of the swing
-    glm::vec3 ankle = glm::vec3(0.0f);  // where the ankle joint is to be
-    float pitch = 0.0f;                 // toes up, of the sole against the print
-    float toe_bend = 0.0f;              // of the toes against the sole, up
+    float lift_phase = 0.0f;               // of its own stride, when it left
+    float swing = 0.0f;                    // 0..1 of the swing
+    glm::vec3 ankle = glm::vec3(0.0f);     // where the ankle joint is to be
+    glm::vec3 velocity = glm::vec3(0.0f);  // of the ankle, m/s
+    float pitch = 0.0f;                    // toes up, of the sole against the print
+    float toe_bend = 0.0f;                 // of the toes against the sole, up
 
     friend bool operator==(const Foot&, const Foot&) = default;
   };

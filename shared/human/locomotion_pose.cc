@@ -28,7 +28,7 @@ struct Trunk {
 
 // At most the smaller, without a kink; metres.
 float SoftMin(float a, float b) {
-  constexpr float kSoftness = 0.008f;
+  constexpr float kSoftness = 0.010f;
   return std::min(a, b) - kSoftness * std::log1p(std::exp(-std::abs(a - b) / kSoftness));
 }
 
@@ -79,7 +79,7 @@ class WalkingPose {
   // and moves 2 cm towards the leg that stands; the chest turns against it; the trunk is
   // highest over either leg.
   Trunk TrunkOfWalk() const {
-    const float walking = std::min(amount_, 1.2f);
+    const float walking = std::min(amount_, 1.25f);
     const float sway = state_.style.sway;
     Trunk trunk;
     const float yaw = 0.070f * walking * std::cos(turn_);
@@ -88,8 +88,8 @@ class WalkingPose {
     const float shift = life_.weight_shift * state_.settled;
     trunk.hips.x = leg_ * (sway * 0.024f * walking * std::cos(turn_ - 0.6f * kPi) +
                            0.035f * side_step + 0.022f * shift);
-    const float bounce = std::cos(2.0f * (turn_ - 0.6f * kPi));
-    trunk.hips.y = leg_ * (-0.004f - walking * walking * (0.030f - 0.022f * bounce));
+    const float bounce = std::cos(2.0f * (turn_ - 0.57f * kPi));
+    trunk.hips.y = leg_ * (-0.006f - walking * (0.036f - 0.024f * bounce));
     const float lean = Lean();
     const float bank = Bank();
     trunk.pelvis = TurnY(yaw) * TurnZ(list + 0.030f * shift + bank) * TurnX(-0.02f - 0.5f * lean);
@@ -110,7 +110,8 @@ class WalkingPose {
     const float in_place = std::max(1.0f - 2.0f * amount_, 0.0f);
     float step = 0.0f;
     for (const int side : {kRight, kLeft}) {
-      step -= Foot(side).planted ? 0.0f : SideSign(side) * std::sin(kPi * Foot(side).swing);
+      const float lifted = std::sin(kPi * Foot(side).swing);  // 0 where it stands
+      step -= SideSign(side) * lifted * lifted;
     }
     return in_place * step;
   }
@@ -150,7 +151,10 @@ class WalkingPose {
     const float across = glm::length(glm::vec2(ankle.x - hip.x, ankle.z - hip.z));
     const float length = 0.9985f * TwoBoneIk::kExact * (leg.upper_length + leg.lower_length);
     const float rise = std::sqrt(std::max(length * length - across * across, 0.0f));
-    return ankle.y + rise - hip_offset.y;
+    // A foot in swing comes along; it need not be reached all the way.
+    const float swing = Foot(side).swing;
+    const float slack = glm::smoothstep(0.0f, 0.3f, swing) - glm::smoothstep(0.5f, 1.0f, swing);
+    return ankle.y + rise - hip_offset.y + 0.06f * slack;
   }
 
   // From one turn below the chain to another at its end.
