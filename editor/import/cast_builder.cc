@@ -12,6 +12,7 @@
 #include "editor/import/cast_parts.h"
 #include "editor/import/cast_rig.h"
 #include "editor/import/cast_shape.h"
+#include "editor/import/garment/garment.h"
 #include "editor/import/levels_of_detail.h"
 #include "shared/core/file.h"
 
@@ -85,7 +86,8 @@ class CastBuilder {
     human_.name = recipe_.name;
     human_.skeleton = body_.skeleton;
     human_.credits = "base mesh, rig, targets and skins: MakeHuman Team; AGPL3\n";
-    LARARIUM_RETURN_IF_ERROR(AddSkin());
+    LARARIUM_ASSIGN_OR_RETURN(std::vector<Garment> garments, Dress());
+    LARARIUM_RETURN_IF_ERROR(AddSkin(garments));
     LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kEyes, {"HighPolyEyes", recipe_.eyes.colour}));
     LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kTeeth, {recipe_.teeth, {}}));
     LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kTongue, {recipe_.tongue, {}}));
@@ -101,6 +103,9 @@ class CastBuilder {
     for (CastPiece& piece : pieces_) {
       AddLevelsOfDetail(piece.mesh);
       human_.meshes.push_back(std::move(piece.mesh));
+    }
+    for (Garment& garment : garments) {
+      AddGarment(std::move(garment));
     }
     human_.capsules = body_.capsules;
     LARARIUM_RETURN_IF_ERROR(human_.Validate(recipe_.name));
@@ -125,7 +130,40 @@ class CastBuilder {
     return static_cast<int16_t>(human_.textures.size() - 1);
   }
 
-  Status AddSkin() {
+  Result<std::vector<Garment>> Dress() const {
+    std::vector<GarmentPattern> patterns;
+    for (size_t i = 0; i < recipe_.garments.size(); ++i) {
+      const JsonView view(recipe_.garments[i],
+                          recipe_.name + ": garments[" + std::to_string(i) + "]");
+      LARARIUM_ASSIGN_OR_RETURN(const GarmentPattern pattern, ParseGarmentPattern(view));
+      patterns.push_back(pattern);
+    }
+    return CutGarments(patterns, body_);
+  }
+
+  // Its vertices stay in their order: its cloth counts them.
+  void AddGarment(Garment garment) {
+    OrderTriangles(garment.mesh);
+    AddLevelsOfDetail(garment.mesh);
+    if (garment.colour) {
+      garment.material.colour_texture = AddTexture(*std::move(garment.colour));
+    }
+    if (garment.normal) {
+      garment.material.normal_texture = AddTexture(*std::move(garment.normal));
+    }
+    garment.mesh.material = static_cast<int16_t>(human_.materials.size());
+    human_.materials.push_back(std::move(garment.material));
+    if (garment.cloth) {
+      garment.cloth->mesh = static_cast<uint32_t>(human_.meshes.size());
+      human_.cloths.push_back(*std::move(garment.cloth));
+    }
+    human_.meshes.push_back(std::move(garment.mesh));
+    if (!garment.credits.empty()) {
+      human_.credits += garment.credits + "\n";
+    }
+  }
+
+  Status AddSkin(std::span<const Garment> garments) {
     LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, library_.LoadSkin(SkinName()));
     CastPiece piece = SkinPiece(library_, body_.base);
     LARARIUM_ASSIGN_OR_RETURN(const SkinPaint paint, PaintOf(piece));
@@ -135,6 +173,13 @@ class CastBuilder {
     material.surface = human::Surface::kSkin;
     material.roughness = 0.55f;
     material.colour_texture = AddTexture(std::move(texture));
+    std::vector<bool> hidden(piece.mesh.positions.size(), false);
+    for (const Garment& garment : garments) {
+      for (size_t v = 0; v < std::min(hidden.size(), garment.hidden.size()); ++v) {
+        hidden[v] = hidden[v] || garment.hidden[v];
+      }
+    }
+    RemoveHidden(piece, hidden);
     AddPiece(std::move(piece), std::move(material));
     return Status();
   }

@@ -53,6 +53,7 @@ constexpr Slice kSlices[] = {
 constexpr const char* kTrunkJoints[] = {"sacroiliac", "humanoid_root", "vl5",   "vl1",  "vt10",
                                         "vt4",        "vt1",           "l_hip", "r_hip"};
 constexpr float kSliceHalfHeight = 0.02f;  // metres
+constexpr float kMostSliceRadius = 0.10f;  // metres
 
 struct Box {
   glm::vec3 low{1e9f};
@@ -178,13 +179,21 @@ class CapsuleMaker {
     if (box.empty()) {
       return;
     }
+    // Thick ones bulge up and down: a stout trunk takes one in front and one behind.
     const glm::vec3 size = box.high - box.low;
-    const float radius = 0.5f * std::min(size.x, size.z);
-    const glm::vec3 middle(0.5f * (box.low.x + box.high.x), height,
-                           0.5f * (box.low.z + box.high.z));
-    const glm::vec3 along = size.x > size.z ? glm::vec3(0.5f * size.x - radius, 0.0f, 0.0f)
-                                            : glm::vec3(0.0f, 0.0f, 0.5f * size.z - radius);
-    Add(slice.joint, middle - along, middle + along, radius, radius);
+    const float radius = std::min(0.5f * std::min(size.x, size.z), kMostSliceRadius);
+    const glm::vec3 along(0.5f * size.x - radius, 0.0f, 0.0f);
+    const float x = 0.5f * (box.low.x + box.high.x);
+    const auto add_at = [&](float z) {
+      const glm::vec3 middle(x, height, z);
+      Add(slice.joint, middle - along, middle + along, radius, radius);
+    };
+    if (size.z < 2.0f * radius + 0.02f) {
+      add_at(0.5f * (box.low.z + box.high.z));
+      return;
+    }
+    add_at(box.low.z + radius);
+    add_at(box.high.z - radius);
   }
 
   // The skull above the eyes, and the face from there down to the chin.
