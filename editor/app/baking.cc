@@ -10,7 +10,9 @@
 #include "editor/bake/probe.h"
 #include "editor/import/cast_builder.h"
 #include "editor/import/cast_library.h"
+#include "editor/import/clip_import.h"
 #include "editor/import/model_import.h"
+#include "editor/import/objects/object_import.h"
 #include "editor/import/objects/object_models.h"
 #include "editor/import/plain_figure.h"
 #include "shared/bundle/sha256.h"
@@ -18,6 +20,7 @@
 #include "shared/core/json.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/stage/mesh_file.h"
+#include "shared/stage/object_use.h"
 
 namespace lararium::app {
 
@@ -39,10 +42,13 @@ std::filesystem::path MeshFile(const ProjectPaths& paths,
 // Beside the product: the hash of what it was made from.
 std::filesystem::path HashFile(std::filesystem::path product) { return product += ".from"; }
 
-std::string HashOf(std::string_view settings, std::span<const std::byte> source) {
-  const std::string source_hash = bundle::FormatSha256(bundle::ComputeSha256(source));
-  const std::string all =
-      std::string(kBakerVersion) + "\n" + std::string(settings) + "\n" + source_hash;
+Result<std::string> HashOf(std::string_view settings,
+                           const std::vector<std::filesystem::path>& sources) {
+  std::string all = std::string(kBakerVersion) + "\n" + std::string(settings);
+  for (const std::filesystem::path& source : sources) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(source));
+    all += "\n" + bundle::FormatSha256(bundle::ComputeSha256(bytes));
+  }
   return bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(all))));
 }
 
@@ -66,10 +72,15 @@ Status WriteProduct(const std::filesystem::path& product,
   return WriteFileAtomically(HashFile(product), std::string_view(hash));
 }
 
+bool Exists(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
 struct BakeStep {
   std::string name;
   std::filesystem::path product;
-  std::filesystem::path source;  // empty: made from nothing but settings
+  std::vector<std::filesystem::path> sources;  // none: made from nothing but settings
   std::string settings;
   // Bytes of the product; adds warnings.
   std::function<Result<std::vector<std::byte>>(std::vector<std::string>&)> make;
@@ -100,7 +111,9 @@ BakeStep LightStep(const ProjectPaths& paths, const PlaceDocument& place) {
   const ProbeDocument probe = *place.probe;
   const std::filesystem::path file = paths.Resolve(probe.file);
   const Eigen::Vector4d q = probe.stage_from_probe.coeffs();
-  return {"light of " + place.name, LightFile(paths, place), file,
+  return {"light of " + place.name,
+          LightFile(paths, place),
+          {file},
           Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale}).dump(),
           [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); }};
 }
@@ -109,7 +122,10 @@ BakeStep MeshStep(const ProjectPaths& paths,
                   const PlaceDocument& place,
                   const OccluderDocument& occluder) {
   const std::filesystem::path file = paths.Resolve(occluder.file);
-  return {"occluder " + occluder.name, MeshFile(paths, place, occluder), file, "occluder",
+  return {"occluder " + occluder.name,
+          MeshFile(paths, place, occluder),
+          {file},
+          "occluder",
           [=](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
             LARARIUM_ASSIGN_OR_RETURN(const geometry::TriangleMesh mesh, import::ImportMesh(file));
             return stage::SerializeMesh(mesh);
@@ -125,69 +141,126 @@ human::Human MakePlainFigure(const CastDocument& member) {
   return human;
 }
 
-BakeStep PlainFigureStep(const ProjectPaths& paths, const CastDocument& member) {
+// How a figure is made, apart from its clips.
+struct FigureSource {
+  std::string settings;
+  std::vector<std::filesystem::path> sources;
+  std::function<Result<human::Human>(std::vector<std::string>&)> make;
+};
+
+FigureSource PlainFigure(const CastDocument& member) {
   std::ostringstream settings;
-  settings << "plain figure " << member.name << " " << member.height << " "
-           << member.tunic.transpose();
-  return {"human " + member.name,
-          paths.Human(member.name),
-          {},
-          settings.str(),
-          [member](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
-            return human::SerializeHuman(MakePlainFigure(member));
+  settings << "plain figure " << member.height << " " << member.tunic.transpose();
+  return {settings.str(), {}, [member](std::vector<std::string>&) -> Result<human::Human> {
+            return MakePlainFigure(member);
           }};
 }
 
-BakeStep RecipeStep(const ProjectPaths& paths,
-                    const CastDocument& member,
-                    const import::CastRecipe& recipe,
-                    const std::filesystem::path& library) {
-  return {"human " + member.name,
-          paths.Human(member.name),
+FigureSource FigureOfRecipe(const import::CastRecipe& recipe,
+                            const std::filesystem::path& library) {
+  return {"recipe " + import::ToJson(recipe).dump(),
           {},
-          "recipe " + member.name + import::ToJson(recipe).dump(),
-          [=, name = member.name](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+          [=](std::vector<std::string>&) -> Result<human::Human> {
             LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary opened,
                                       import::CastLibrary::Open(library));
-            LARARIUM_ASSIGN_OR_RETURN(human::Human human, import::BuildCast(opened, recipe));
-            human.name = name;
-            return human::SerializeHuman(human);
-          }};
-}
-
-BakeStep ModelStep(const ProjectPaths& paths, const CastDocument& member) {
-  const std::filesystem::path file = paths.Resolve(member.model);
-  return {"human " + member.name, paths.Human(member.name), file, "model " + member.name,
-          [=, name = member.name](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
-            import::ImportOptions options;
-            options.name = name;
-            LARARIUM_ASSIGN_OR_RETURN(const human::Human human, import::ImportHuman(file, options));
-            return human::SerializeHuman(human);
+            return import::BuildCast(opened, recipe);
           }};
 }
 
 // Without the library a recipe's person is the plain figure, and a warning says so.
-BakeStep StandInStep(const ProjectPaths& paths, const CastDocument& member) {
-  BakeStep step = PlainFigureStep(paths, member);
-  step.make = [make = step.make, name = member.name](std::vector<std::string>& warnings) {
-    warnings.push_back(name +
+FigureSource StandIn(const CastDocument& member) {
+  FigureSource figure = PlainFigure(member);
+  figure.make = [member](std::vector<std::string>& warnings) -> Result<human::Human> {
+    warnings.push_back(member.name +
                        ": the plain figure stands in, because the cast library is not "
                        "installed; fetch it with scripts/fetch_cast_library.sh");
-    return make(warnings);
+    return MakePlainFigure(member);
+  };
+  return figure;
+}
+
+FigureSource ImportedFigure(const ProjectPaths& paths, const CastDocument& member) {
+  FigureSource figure{"model", {paths.Resolve(member.model)}, {}};
+  const bool mapped = !member.bone_map.empty();
+  if (mapped) {
+    figure.sources.push_back(paths.Resolve(member.bone_map));
+  }
+  figure.make =
+      [=, sources = figure.sources](std::vector<std::string>& warnings) -> Result<human::Human> {
+    import::ImportOptions options;
+    if (mapped) {
+      LARARIUM_ASSIGN_OR_RETURN(options.bones, import::LoadBoneNames(sources[1]));
+    }
+    LARARIUM_ASSIGN_OR_RETURN(import::ImportedHuman imported,
+                              import::ImportPerson(sources[0], options));
+    for (const std::string& note : imported.notes) {
+      warnings.push_back(member.name + ": " + note);
+    }
+    return std::move(imported.human);
+  };
+  return figure;
+}
+
+Result<FigureSource> FigureOf(const ProjectPaths& paths, const CastDocument& member) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::optional<import::CastRecipe> recipe, RecipeOf(member));
+  if (recipe) {
+    const std::optional<std::filesystem::path> library = FindCastLibrary();
+    return library ? FigureOfRecipe(*recipe, *library) : StandIn(member);
+  }
+  return member.model.empty() ? PlainFigure(member) : ImportedFigure(paths, member);
+}
+
+Status AddClips(const ProjectPaths& paths, const CastDocument& member, human::Human& human) {
+  for (const ClipDocument& document : member.clips) {
+    LARARIUM_ASSIGN_OR_RETURN(import::ImportedClip imported,
+                              import::ImportClip(paths.Resolve(document.file), human.skeleton, {}));
+    imported.clip.name = document.name;
+    imported.clip.loops = document.loops;
+    LARARIUM_RETURN_IF_ERROR(import::AddClip(std::move(imported.clip), human));
+  }
+  return Status();
+}
+
+Result<BakeStep> HumanStep(const ProjectPaths& paths, const CastDocument& member) {
+  LARARIUM_ASSIGN_OR_RETURN(const FigureSource figure, FigureOf(paths, member));
+  BakeStep step{"human " + member.name,
+                paths.Human(member.name),
+                figure.sources,
+                member.name + " " + figure.settings,
+                {}};
+  for (const ClipDocument& clip : member.clips) {
+    step.sources.push_back(paths.Resolve(clip.file));
+    step.settings += " " + clip.name + (clip.loops ? " loops" : "");
+  }
+  step.make = [paths, member, make = figure.make](
+                  std::vector<std::string>& warnings) -> Result<std::vector<std::byte>> {
+    LARARIUM_ASSIGN_OR_RETURN(human::Human human, make(warnings));
+    human.name = member.name;
+    LARARIUM_RETURN_IF_ERROR(AddClips(paths, member, human));
+    return human::SerializeHuman(human);
   };
   return step;
 }
 
-Result<BakeStep> HumanStep(const ProjectPaths& paths, const CastDocument& member) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::optional<import::CastRecipe> recipe, RecipeOf(member));
-  if (recipe) {
-    const std::optional<std::filesystem::path> library = FindCastLibrary();
-    return library ? RecipeStep(paths, member, *recipe, *library) : StandInStep(paths, member);
+BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
+  const std::filesystem::path file = paths.Resolve(object.file);
+  BakeStep step{"object " + object.name, paths.Prop(object.name), {file}, "object file", {}};
+  const std::filesystem::path use = import::UseFileBeside(file);
+  if (use != file && Exists(use)) {
+    step.sources.push_back(use);
   }
-  return member.model.empty() ? PlainFigureStep(paths, member) : ModelStep(paths, member);
+  step.make = [file](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+    LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop, import::ImportObject(file));
+    LARARIUM_RETURN_IF_ERROR(stage::ObjectModel::Create(prop, file.string()).status());
+    return stage::SerializeProp(prop);
+  };
+  return step;
 }
 
-BakeStep PropStep(const ProjectPaths& paths, const ObjectDocument& object) {
+BakeStep ObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
+  if (!object.file.empty()) {
+    return ImportedObjectStep(paths, object);
+  }
   return {"object " + object.name,
           paths.Prop(object.name),
           {},
@@ -214,18 +287,14 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths, const ProjectDocu
     steps.push_back(std::move(step));
   }
   for (const ObjectDocument& object : document.objects) {
-    steps.push_back(PropStep(paths, object));
+    steps.push_back(ObjectStep(paths, object));
   }
   return steps;
 }
 
 // True when the product had to be made.
 Result<bool> RunStep(const BakeStep& step, std::vector<std::string>& warnings) {
-  std::vector<std::byte> source;
-  if (!step.source.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(source, ReadBytes(step.source));
-  }
-  const std::string hash = HashOf(step.settings, source);
+  LARARIUM_ASSIGN_OR_RETURN(const std::string hash, HashOf(step.settings, step.sources));
   if (UpToDate(step.product, hash)) {
     return false;
   }
@@ -236,11 +305,6 @@ Result<bool> RunStep(const BakeStep& step, std::vector<std::string>& warnings) {
 
 Status NotBaked(const std::filesystem::path& product) {
   return Status::Error(product.string(), "was not baked yet", "bake the project");
-}
-
-bool Exists(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
 }
 
 // What a place without a probe is lit by: the same white from everywhere.
