@@ -21,7 +21,8 @@ glm::quat Between(const glm::quat& a, const glm::quat& b, float t) {
     return glm::slerp(a, b, t);
   }
   const float tb = cosine < 0.0f ? -t : t;
-  return glm::normalize(a * (1.0f - t) + b * tb);
+  const glm::quat mixed = a * (1.0f - t) + b * tb;
+  return mixed * (1.0f / std::sqrt(glm::dot(mixed, mixed)));
 }
 
 }  // namespace
