@@ -17,6 +17,9 @@ constexpr float kTetherSlack = 1.01f;
 // A diagonal of a quad of threads: cloth shears far more easily than it stretches.
 constexpr float kDiagonalRatio = 1.15f;
 constexpr float kShearCompliance = 2e-3f;  // m/N
+constexpr float kHighestBulge = 0.03f;     // metres of skin outside its capsule
+constexpr float kBulgeWidth = 0.02f;       // metres
+constexpr float kBodyNear = 0.15f;         // metres from cloth within which bulges count
 constexpr float kThickest = 0.015f;        // metres added to the thickness
 // Places of cloth keep this far apart, in edges: half the diagonal of a quad is 0.62 of
 // its mean edge, so that no particle slips between four others.
@@ -344,23 +347,96 @@ class Builder {
 
   void MeasureStandoffs() {
     const std::vector<float> spacing = LongestEdges();
+    std::vector<RoundCone> cones;
     for (const ClothCapsule& capsule : model_.capsules) {
-      const glm::mat4 actor_from_joint = glm::inverse(model_.joint_from_actor[capsule.joint]);
-      const auto to_actor = [&](const glm::vec3& p) {
-        return Float4(glm::vec3(actor_from_joint * glm::vec4(p, 1.0f)));
-      };
-      const RoundCone cone = MakeRoundCone(to_actor(capsule.a), to_actor(capsule.b),
-                                           capsule.radius_a, capsule.radius_b);
+      cones.push_back(BoundCone(capsule));
+    }
+    const std::vector<std::vector<Bulge>> bulges = FindBulges(cones);
+    for (size_t c = 0; c < cones.size(); ++c) {
       for (size_t i = 0; i < model_.rest.size(); ++i) {
-        const NearestSphere sphere = FindNearestSphere(cone, model_.rest[i]);
+        const NearestSphere sphere = FindNearestSphere(cones[c], model_.rest[i]);
         const float around = sphere.radius + model_.thickness[i];
         const float arrow = std::min(spacing[i] * spacing[i] / (8.0f * around + 1e-6f), kThickest);
         const float as_bound = sphere.distance - sphere.radius;
-        const float wanted = model_.thickness[i] + arrow;
+        const float wanted = model_.thickness[i] + arrow +
+                             (as_bound < kBodyNear ? HeightOfBulge(i, bulges[c]) : 0.0f);
         model_.standoff.push_back(std::isfinite(as_bound) ? std::min(wanted, as_bound) : wanted);
         model_.largest_standoff = std::max(model_.largest_standoff, wanted);
       }
     }
+  }
+
+  // In the bind pose, actor frame.
+  RoundCone BoundCone(const ClothCapsule& capsule) const {
+    const glm::mat4 actor_from_joint = glm::inverse(model_.joint_from_actor[capsule.joint]);
+    const auto to_actor = [&](const glm::vec3& p) {
+      return Float4(glm::vec3(actor_from_joint * glm::vec4(p, 1.0f)));
+    };
+    return MakeRoundCone(to_actor(capsule.a), to_actor(capsule.b), capsule.radius_a,
+                         capsule.radius_b);
+  }
+
+  // A place of the skin outside all capsules.
+  struct Bulge {
+    Float4 place;
+    float height = 0.0f;  // metres above the nearest capsule
+  };
+
+  // The skin that is drawn, by the capsule that it lies nearest to.
+  std::vector<std::vector<Bulge>> FindBulges(const std::vector<RoundCone>& cones) const {
+    std::vector<std::vector<Bulge>> bulges(cones.size());
+    for (const SkinnedMesh& mesh : human_.meshes) {
+      if (mesh.material < 0 || human_.materials[mesh.material].surface != Surface::kSkin) {
+        continue;
+      }
+      std::vector<bool> is_drawn(mesh.positions.size(), false);
+      for (const uint32_t v : mesh.indices) {
+        is_drawn[v] = true;
+      }
+      for (size_t v = 0; v < is_drawn.size() && !cones.empty(); ++v) {
+        if (is_drawn[v]) {
+          AddBulge(cones, Float4(mesh.positions[v]), bulges);
+        }
+      }
+    }
+    return bulges;
+  }
+
+  static void AddBulge(const std::vector<RoundCone>& cones,
+                       const Float4& place,
+                       std::vector<std::vector<Bulge>>& bulges) {
+    float least = std::numeric_limits<float>::infinity();
+    size_t nearest = 0;
+    for (size_t c = 0; c < cones.size(); ++c) {
+      const NearestSphere sphere = FindNearestSphere(cones[c], place);
+      const float height = sphere.distance - sphere.radius;
+      if (height < least) {
+        least = height;
+        nearest = c;
+      }
+    }
+    if (least > 0.0f) {
+      bulges[nearest].push_back({place, std::min(least, kHighestBulge)});
+    }
+  }
+
+  // The highest of those about where the particle lies on the body.
+  float HeightOfBulge(size_t particle, const std::vector<Bulge>& bulges) const {
+    const Float4& x = model_.rest[particle];
+    float least = kBodyNear * kBodyNear;
+    for (const Bulge& bulge : bulges) {
+      const Float4 apart = bulge.place - x;
+      least = std::min(least, Dot(apart, apart));
+    }
+    const float around = std::sqrt(least) + kBulgeWidth;
+    float highest = 0.0f;
+    for (const Bulge& bulge : bulges) {
+      const Float4 apart = bulge.place - x;
+      if (Dot(apart, apart) < around * around) {
+        highest = std::max(highest, bulge.height);
+      }
+    }
+    return highest;
   }
 
   // At each particle, metres.

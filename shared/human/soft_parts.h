@@ -49,7 +49,7 @@ struct Cloth {
 
   float density = 0.25f;             // kg/m^2
   float stretch_compliance = 1e-7f;  // m/N, of an edge (XPBD)
-  float bend_compliance = 5000.0f;   // rad/(N m), of a hinge of equilateral triangles
+  float bend_compliance = 400.0f;    // rad/(N m), of a hinge of equilateral triangles
   float friction = 0.4f;             // against body and floor
   float thickness = 0.006f;          // metres, kept from the body
 

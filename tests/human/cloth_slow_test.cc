@@ -59,8 +59,8 @@ TEST(ClothAtLength, AMillionJoltsLoseNoParticle) {
     }
     step.stage_from_actor = glm::rotate(
         glm::translate(glm::mat4(1.0f),
-                       glm::vec3(random.Normal(), random.Normal(), random.Normal()) * 0.05f),
-        static_cast<float>(random.Normal()) * 0.2f, glm::vec3(0.0f, 1.0f, 0.0f));
+                       glm::vec3(random.Normal(), random.Normal(), random.Normal()) * 0.02f),
+        static_cast<float>(random.Normal()) * 0.1f, glm::vec3(0.0f, 1.0f, 0.0f));
     step.wind.velocity = glm::vec3(random.Normal(), random.Normal(), random.Normal()) * 10.0f;
     // Each frame is one step of the solver.
     step.elapsed = 1.0f / 120.0f;

@@ -573,6 +573,42 @@ TEST(Cloth, SheetsThatFallOnOneAnotherStayApart) {
   }
 }
 
+// A capsule is a rough body: where the skin that is drawn stands out of it, cloth does
+// too.
+TEST(Cloth, LiesOnSkinThatStandsOutOfItsCapsule) {
+  std::array<float, 2> heights = {};
+  for (const bool has_skin : {false, true}) {
+    Cloth cloth = Sheet(10, 10, 0.03f, 0.0f);
+    for (glm::vec3& p : cloth.positions) {
+      p = {p.x - 0.15f, 0.15f, p.y + 0.15f};
+    }
+    Human human = Hanging::Dress(cloth);
+    human.capsules.push_back({0, {-0.2f, 0.0f, 0.0f}, {0.2f, 0.0f, 0.0f}, 0.08f, 0.08f});
+    if (has_skin) {
+      human.materials.emplace_back();
+      human.materials.back().surface = Surface::kSkin;
+      SkinnedMesh skin;
+      for (int i = 0; i < 30; ++i) {
+        skin.positions.emplace_back(-0.15f + 0.01f * static_cast<float>(i), 0.1f, 0.0f);
+        skin.indices.push_back(static_cast<uint32_t>(i));
+      }
+      skin.material = 0;
+      human.meshes.push_back(skin);
+    }
+    const ClothModel model(human);
+    ClothState state(model);
+    const std::vector<glm::mat4> identity{glm::mat4(1.0f)};
+    ClothStep step;
+    step.actor_from_joint = identity;
+    step.floor_height = -1.0f;
+    step.elapsed = 1.0f / 60.0f;
+    StepCloth(model, step, state);
+    heights[has_skin ? 1 : 0] = state.particles(0)[60].y;
+  }
+  EXPECT_NEAR(heights[0], 0.08f + 0.006f, 0.004f);
+  EXPECT_NEAR(heights[1] - heights[0], 0.02f, 0.003f);
+}
+
 TEST(Cloth, DrapedMeshTurnsWithTheBodyAndItsNormalsToo) {
   Human human = SkirtedWalker(16, 8);
   for (float& reach : human.cloths[0].reach) {
