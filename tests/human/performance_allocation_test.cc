@@ -1,0 +1,73 @@
+// Performing allocates nothing. Its own program: it replaces the global allocator.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "shared/human/performance.h"
+#include "shared/human/turns.h"
+#include "tests/human/full_body.h"
+
+namespace {
+
+bool counting = false;
+int allocations = 0;
+
+void* Allocate(size_t size) {
+  allocations += counting ? 1 : 0;
+  void* memory = std::malloc(size == 0 ? 1 : size);
+  if (memory == nullptr) {
+    std::abort();
+  }
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(size_t size) { return Allocate(size); }
+void* operator new[](size_t size) { return Allocate(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
+
+namespace lararium::human {
+namespace {
+
+TEST(Performance, AllocatesNothingOnceItIsBuilt) {
+  auto human = std::make_shared<Human>(FullBody(0.7f, 3));
+  Clip clip{"still", 0.0f, 30.0f, false, 0.0f, human->skeleton.rest};
+  human->clips.push_back(clip);
+  const auto model = MakePerformanceModel(human);
+  Performer performer(model);
+  Performance performance, previous;
+  VisemeTrack track;
+  track.keys = {{0.0f, Viseme::kAa, 1.0f}, {0.2f, Viseme::kPP, 1.0f}};
+  track.duration = 0.4f;
+  const FloorHeight floor = [](float x, float) { return 0.02f * x; };
+  glm::vec3 position(0.0f);
+  constexpr float kTick = 1.0f / 120.0f;
+  counting = true;
+  for (int tick = 0; tick < 600; ++tick) {
+    position.z -= 1.2f * kTick;
+    if (tick == 100) {
+      StartClip(performance.animation, 0, 1.0, 0.3f, BodyPart::kUpper);
+      StartReach(performance.reaches[kRight], {{0.2f, 0.2f, -0.4f}, kNoTurn}, 0.5f);
+      SetHandPose(performance.hands[kRight], HandPose::kPinch, 0.3f);
+      SetExpression(performance.face, Expression::kJoy, 1.0f, 0.3f);
+    }
+    performance.gaze.kind = GazeKind::kPerson;
+    performance.gaze.target = position + glm::vec3(0.5f, 1.6f, -1.5f);
+    performance.face.visemes = SampleVisemes(track, 0.001 * tick);
+    previous = performance;
+    UpdatePerformance(*model, position, 0.0f, kTick, floor, performance);
+    performer.Pose(Interpolate(previous, performance, 0.3f));
+  }
+  counting = false;
+  EXPECT_EQ(allocations, 0);
+}
+
+}  // namespace
+}  // namespace lararium::human
