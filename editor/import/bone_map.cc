@@ -107,11 +107,11 @@ class Mapper {
   }
 
   void AddGiven(const GivenBones& given) {
-    for (const auto& [joint, bone] : given.names) {
-      if (bone.empty()) {
+    for (const auto& [joint, bone] : given.bones) {
+      if (bone == Rig::kNoParent) {
         absent_.insert(joint);
-      } else if (const auto index = rig_.Find(bone)) {
-        Add(joint, static_cast<int>(*index), given.found_by, 1.0f);
+      } else {
+        Add(joint, bone, given.found_by, 1.0f);
       }
     }
   }
@@ -398,6 +398,19 @@ BoneMap MapBones(const Rig& rig, const std::vector<GivenBones>& given) {
   std::sort(map.bones.begin(), map.bones.end(),
             [](const MappedBone& a, const MappedBone& b) { return a.bone < b.bone; });
   return map;
+}
+
+GivenBones FindGiven(const Rig& rig, const BoneNames& names) {
+  GivenBones given;
+  for (const auto& [joint, name] : names) {
+    const auto bone = rig.Find(name);
+    if (name.empty()) {
+      given.bones[joint] = Rig::kNoParent;
+    } else if (bone) {
+      given.bones[joint] = static_cast<int>(*bone);
+    }
+  }
+  return given;
 }
 
 std::string Preview(const Rig& rig, const BoneMap& map) {

@@ -54,11 +54,13 @@ struct BoneMap {
   bool IsHuman() const;
 };
 
-// given: maps to trust, the first first.
+// given: maps to trust, the first first. A bone of Rig::kNoParent: the joint is not there.
 struct GivenBones {
-  BoneNames names;
+  std::map<std::string, int> bones;
   FoundBy found_by = FoundBy::kSavedMap;
 };
+// Bones that the rig does not have are left out.
+GivenBones FindGiven(const Rig& rig, const BoneNames& names);
 BoneMap MapBones(const Rig& rig, const std::vector<GivenBones>& given = {});
 
 // The map as people read it: a line for each joint, then the bones that no joint is.

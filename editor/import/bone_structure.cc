@@ -124,7 +124,21 @@ class StructureFinder {
     return best.reach > 0.0f ? std::optional(best) : std::nullopt;
   }
 
-  // The legs' branch is above the arms' in the tree, and not in a leg.
+  bool IsInPair(const Pair& pair, int bone) const {
+    return rig_.IsBelow(pair.a, bone) || rig_.IsBelow(pair.b, bone);
+  }
+
+  // How far what else hangs from a pair's branch reaches: beside the arms, the head.
+  float BesidesPair(const Pair& pair) const {
+    float reach = 0.0f;
+    for (const int child : Below(pair.branch)) {
+      reach = child == pair.a || child == pair.b ? reach : std::max(reach, LimbReach(child));
+    }
+    return reach;
+  }
+
+  // The legs' branch is above the arms' in the tree, or both hang from one pelvis and the
+  // arms' bears the head.
   bool FindPairs() {
     std::vector<Pair> pairs;
     for (size_t bone = 0; bone < rig_.size(); ++bone) {
@@ -140,8 +154,10 @@ class StructureFinder {
     float best = 0.0f;
     for (const Pair& legs : pairs) {
       for (const Pair& arms : pairs) {
-        const bool apart = legs.branch != arms.branch && rig_.IsBelow(legs.branch, arms.branch) &&
-                           !rig_.IsBelow(legs.a, arms.branch) && !rig_.IsBelow(legs.b, arms.branch);
+        const bool apart =
+            legs.branch != arms.branch && !IsInPair(legs, arms.branch) &&
+            !IsInPair(arms, legs.branch) && !rig_.IsBelow(arms.branch, legs.branch) &&
+            (rig_.IsBelow(legs.branch, arms.branch) || BesidesPair(arms) > BesidesPair(legs));
         const float smaller = std::min(legs.reach, arms.reach);
         if (apart && smaller > 0.4f * std::max(legs.reach, arms.reach) &&
             Distance(legs.branch, arms.branch) > 0.1f * smaller && smaller > best) {
@@ -184,9 +200,13 @@ class StructureFinder {
   // wrist, which bears the fingers.
   std::optional<Arm> FindArm(int first) const {
     std::vector<int> chain = MainChain(first);
+    // Three fingers or more; else the last fork, as of a thumb and a mitten.
     size_t wrist = 0;
     for (size_t i = 2; i < chain.size() && wrist == 0; ++i) {
       wrist = Below(chain[i]).size() >= 3 ? i : 0;
+    }
+    for (size_t i = chain.size(); i-- > 2 && wrist == 0;) {
+      wrist = Below(chain[i]).size() >= 2 ? i : 0;
     }
     std::optional<Arm> best;
     float lowest = std::numeric_limits<float>::max();

@@ -35,7 +35,7 @@ constexpr size_t kMaxKeys = 8'000'000;          // joints times keys, in all cli
 constexpr size_t kMaxSamples = 400'000'000;     // nodes times keys, in all clips
 constexpr size_t kMaxMorphDeltas = 20'000'000;  // vertices moved, in all morph targets
 constexpr float kSmallestDelta = 1e-5f;         // metres, of a morph target
-constexpr float kLeast = 0.4f, kMost = 2.7f;    // metres, of a possible person
+constexpr float kLeast = 0.4f, kMost = 2.4f;    // metres, of a possible person
 constexpr float kStature = 1.75f;               // metres, where nothing says how tall
 constexpr float kWellPlaced = 0.02f;            // metres from the floor that are left alone
 
@@ -284,10 +284,17 @@ class ModelBuilder {
       }
     }
     const int instead = bones.empty() ? part.node : *std::min_element(bones.begin(), bones.end());
+    size_t bare = 0;
     for (Influences& influences : part.influences) {
+      bare += influences[0].weight > 0.0f ? 0 : 1;
       Normalise(instead, influences);
     }
-    return Status();
+    // Assimp silently drops weights that are no numbers.
+    return bones.empty() || 2 * bare < part.influences.size()
+               ? Status()
+               : Status::Error(place_,
+                               "part '" + part.name + "': most of its vertices have no skin weight",
+                               "export the figure again");
   }
 
   // Keeps the four largest, in descending order.
@@ -428,18 +435,21 @@ class ModelBuilder {
     return bones;
   }
 
-  std::vector<GivenBones> GivenMaps(const std::vector<int>& bone_of_node) const {
-    std::vector<GivenBones> given;
-    if (!options_.bones.empty()) {
-      given.push_back({options_.bones, FoundBy::kSavedMap});
+  std::vector<GivenBones> GivenMaps(const std::vector<int>& bone_of_node) {
+    std::vector<GivenBones> given = {FindGiven(rig_, options_.bones)};
+    for (const auto& [joint, bone] : options_.bones) {
+      if (!bone.empty() && !rig_.Find(bone)) {
+        Note("the bone map names '" + bone + "' for " + joint + ", which the figure does not have");
+      }
     }
     if (vrm_) {
       GivenBones file;
       file.found_by = FoundBy::kFile;
       for (const auto& [joint, gltf_node] : vrm_->bones) {
         const int node = nodes_.FindGltf(gltf_node);
-        if (node != kNone && bone_of_node[static_cast<size_t>(node)] != Rig::kNoParent) {
-          file.names[joint] = nodes_.names[static_cast<size_t>(node)];
+        const int bone = node == kNone ? kNone : bone_of_node[static_cast<size_t>(node)];
+        if (bone != Rig::kNoParent && node_of_bone_[static_cast<size_t>(bone)] == node) {
+          file.bones[joint] = bone;
         }
       }
       given.push_back(std::move(file));
@@ -523,6 +533,8 @@ class ModelBuilder {
     return false;
   }
 
+  static bool Possible(float metres) { return metres > kLeast && metres < kMost; }
+
   Result<float> FindScale(float height) {
     if (!(height > 0.0f) || !std::isfinite(height)) {
       return Status::Error(place_, "the figure has no height", "export it again");
@@ -535,14 +547,20 @@ class ModelBuilder {
       return stated;
     }
     if (model_.HasUnits() || content_ == Content::kFigure) {
-      for (const float scale : {stated, 1.0f, 0.01f, 0.001f, 0.0254f, 0.3048f}) {
-        if (scale * height > kLeast && scale * height < kMost) {
-          if (scale != stated) {
-            Note("its unit is taken to be " + std::to_string(scale) + " m, for a height of " +
-                 std::to_string(scale * height) + " m");
-          }
-          return scale;
+      if (Possible(stated * height)) {
+        return stated;
+      }
+      float best = 0.0f;
+      for (const float scale : {1.0f, 0.01f, 0.001f, 0.0254f, 0.3048f}) {
+        const auto far = [&](float s) { return std::abs(std::log(s * height / kStature)); };
+        if (Possible(scale * height) && (best == 0.0f || far(scale) < far(best))) {
+          best = scale;
         }
+      }
+      if (best > 0.0f) {
+        Note("its unit is taken to be " + std::to_string(best) + " m, for a height of " +
+             std::to_string(best * height) + " m");
+        return best;
       }
       Note("no unit gives a possible height; it is made 1.75 m tall");
     }

@@ -35,7 +35,7 @@ TEST(ParseBoneName, KnowsMixamoAndCmu) {
              {"mixamorig:LeftHandIndex2", kL, BonePart::kIndex, 2},
              {"RightToeBase", kR, BonePart::kToes},
              {"LowerBack", kM, BonePart::kSpine},
-             {"LHipJoint", kL, BonePart::kUnknown},
+             {"LHipJoint", kM, BonePart::kUnknown},
              {"LThumb", kL, BonePart::kThumb, 1}});
 }
 
