@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "shared/human/hand_pose.h"
-
 namespace lararium::stage {
 namespace {
 
@@ -16,10 +14,6 @@ constexpr int kMaxPile = 8;               // things on things
 constexpr glm::vec3 kHangingHand = {0.24f, 0.78f, -0.03f};
 
 human::GripFrame ToGripFrame(const Pose& pose) { return {pose.position, pose.rotation}; }
-
-human::HandPose FingersFor(const Grip& grip) {
-  return human::HandPoseNamed(grip.hand_pose).value_or(human::HandPose::kCylinder);
-}
 
 // actor_from_hand of a hand that hangs by the side.
 Pose HangingHand(int side) {
@@ -111,7 +105,7 @@ float ReachFor(Actor& actor, const Object& object, const HandGrips& hands) {
     auto& performance = actor.state.performance;
     human::StartReach(performance.reaches[static_cast<size_t>(side)], goal, seconds);
     human::SetHandPose(performance.hands[static_cast<size_t>(side)],
-                       FingersFor(object.use().grips[static_cast<size_t>(grip)]), seconds);
+                       object.use().grips[static_cast<size_t>(grip)].hand_pose, seconds);
     longest = std::max(longest, seconds);
   }
   return longest;

@@ -282,7 +282,15 @@ class UseReader {
       }
       grip.fits = {hand != "left", hand != "right"};
     }
-    LARARIUM_ASSIGN_OR_RETURN(grip.hand_pose, ReadName(view, "pose"));
+    LARARIUM_ASSIGN_OR_RETURN(const std::string pose, ReadName(view, "pose"));
+    if (!pose.empty()) {
+      const auto named = human::HandPoseNamed(pose);
+      if (!named) {
+        return view.Problem("there is no pose '" + pose + "' of a hand",
+                            "use relaxed, flat, fist, cylinder, pinch, point, ladle or bowl");
+      }
+      grip.hand_pose = *named;
+    }
     use_.grips.push_back(std::move(grip));
     return Status();
   }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/human/hand_pose.h"
 #include "shared/stage/prop.h"
 
 namespace lararium::stage {
@@ -43,7 +44,7 @@ struct Grip {
   int part = -1;  // that the grip moves with; -1: the object as a whole
   Pose part_from_hand;
   std::array<bool, 2> fits = {true, true};  // which hands, by side
-  std::string hand_pose;                    // of the fingers: one of the names that figures know
+  human::HandPose hand_pose = human::HandPose::kCylinder;
 };
 
 // Where somebody stands who uses the object. Object frame, on the ground.

@@ -93,7 +93,7 @@ inline stage::Prop MakeCup() {
 
 inline std::shared_ptr<const stage::ObjectModel> Model(stage::Prop prop) {
   auto model = stage::ObjectModel::Create(std::move(prop), "test.larprop");
-  EXPECT_TRUE(model.ok()) << model.message();
+  CHECK(model.ok());
   return *std::move(model);
 }
 
