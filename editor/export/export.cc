@@ -6,6 +6,9 @@
 #include "shared/bundle/bundle_writer.h"
 #include "shared/human/human.h"
 #include "shared/stage/mesh_file.h"
+#include "shared/stage/object_use.h"
+#include "shared/stage/prop.h"
+#include "shared/stage/viseme_file.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::exporter {
@@ -19,6 +22,12 @@ struct Packing {
   bundle::ShowManifest manifest;
   std::vector<bundle::MemberContent> members;
   std::vector<std::vector<std::byte>> meshes;
+
+  struct PackedProp {
+    const std::vector<std::byte>* bytes = nullptr;
+    std::string member;
+  };
+  std::vector<PackedProp> props;
 };
 
 // The credits of a show: the project's own and then each person's, once.
@@ -59,6 +68,51 @@ Status PackCast(const CastContent& content, size_t index, Packing& packing) {
   return Status();
 }
 
+// Objects of one model share its member.
+Status PackObject(const ObjectContent& content, size_t index, Packing& packing) {
+  const std::string place = "object '" + content.name + "'";
+  const auto same = std::find_if(
+      packing.props.begin(), packing.props.end(),
+      [&](const Packing::PackedProp& packed) { return *packed.bytes == content.prop; });
+  if (same != packing.props.end()) {
+    packing.manifest.objects.push_back({content.name, same->member, content.stage_from_object});
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(content.prop, place));
+  AddCredits(packing.manifest.credits, prop.credits);
+  LARARIUM_RETURN_IF_ERROR(stage::ObjectModel::Create(std::move(prop), place).status());
+  const std::string member = "props/" + std::to_string(index) + ".larprop";
+  packing.members.push_back({member, content.prop});
+  packing.props.push_back({&content.prop, member});
+  packing.manifest.objects.push_back({content.name, member, content.stage_from_object});
+  return Status();
+}
+
+Status PackSpeech(const SpeechContent& content, size_t index, Packing& packing) {
+  LARARIUM_RETURN_IF_ERROR(
+      stage::ParseVisemes(content.visemes, "speech '" + content.name + "'").status());
+  const std::string member = "speech/" + std::to_string(index) + ".json";
+  packing.members.push_back({member, std::as_bytes(std::span(content.visemes))});
+  packing.manifest.speech.push_back({content.name, member});
+  return Status();
+}
+
+// Packs the parts of one kind, one after the other.
+template <typename Content>
+Status PackAll(const std::vector<Content>& contents,
+               Status (*pack)(const Content&, size_t, Packing&),
+               Packing& packing,
+               Progress& progress) {
+  for (size_t i = 0; i < contents.size(); ++i) {
+    progress.Report("checking", static_cast<double>(i) / static_cast<double>(contents.size()));
+    if (progress.Cancelled()) {
+      return Status::Error("export", "cancelled");
+    }
+    LARARIUM_RETURN_IF_ERROR(pack(contents[i], i, packing));
+  }
+  return Status();
+}
+
 }  // namespace
 
 Status ExportBundle(const ExportContent& content,
@@ -69,25 +123,10 @@ Status ExportBundle(const ExportContent& content,
   packing.manifest.credits = content.credits;
   packing.manifest.drama = kDramaName;
   packing.members.push_back({kDramaName, std::as_bytes(std::span(content.drama))});
-  const auto parts = static_cast<double>(content.places.size() + content.cast.size());
-  size_t done = 0;
-  const auto report = [&] {
-    progress.Report("checking", static_cast<double>(done++) / std::max(parts, 1.0));
-    return !progress.Cancelled();
-  };
-  const Status cancelled = Status::Error("export", "cancelled");
-  for (size_t i = 0; i < content.places.size(); ++i) {
-    if (!report()) {
-      return cancelled;
-    }
-    LARARIUM_RETURN_IF_ERROR(PackPlace(content.places[i], i, packing));
-  }
-  for (size_t i = 0; i < content.cast.size(); ++i) {
-    if (!report()) {
-      return cancelled;
-    }
-    LARARIUM_RETURN_IF_ERROR(PackCast(content.cast[i], i, packing));
-  }
+  LARARIUM_RETURN_IF_ERROR(PackAll(content.places, PackPlace, packing, progress));
+  LARARIUM_RETURN_IF_ERROR(PackAll(content.cast, PackCast, packing, progress));
+  LARARIUM_RETURN_IF_ERROR(PackAll(content.objects, PackObject, packing, progress));
+  LARARIUM_RETURN_IF_ERROR(PackAll(content.speech, PackSpeech, packing, progress));
   progress.Report("writing", 0.0);
   LARARIUM_RETURN_IF_ERROR(bundle::WriteBundle(path, packing.manifest, packing.members));
   progress.Report("verifying", 0.0);

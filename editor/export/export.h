@@ -23,13 +23,26 @@ struct CastContent {
   std::vector<std::byte> human;  // a serialised human (.larhuman)
 };
 
+struct ObjectContent {
+  std::string name;
+  std::vector<std::byte> prop;  // a serialised prop (.larprop)
+  geometry::Rigid3 stage_from_object;
+};
+
+struct SpeechContent {
+  std::string name;
+  std::string visemes;  // JSON: stage::ParseVisemes
+};
+
 // Everything that goes into a bundle, as plain data.
 struct ExportContent {
   std::string title;
-  std::string credits;  // of the project; those of the cast are added
+  std::string credits;  // of the project; those of cast and objects are added
   std::string drama;    // Lua source
   std::vector<PlaceContent> places;
   std::vector<CastContent> cast;
+  std::vector<ObjectContent> objects;
+  std::vector<SpeechContent> speech;
 };
 
 // Checks the parts with the player's own parsers, writes the bundle, and opens it

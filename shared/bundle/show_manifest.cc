@@ -16,6 +16,8 @@ constexpr size_t kMaxName = 200;
 constexpr size_t kMaxTitle = 1000;
 constexpr size_t kMaxPlaces = 64;
 constexpr size_t kMaxCast = 256;
+constexpr size_t kMaxObjects = 1024;
+constexpr size_t kMaxSpeech = 4096;
 constexpr size_t kMaxOccluders = 256;
 constexpr size_t kMaxCredits = 1 << 20;
 
@@ -37,6 +39,18 @@ Result<std::vector<T>> ParseList(const JsonView& json,
     list.push_back(std::move(entry));
   }
   return list;
+}
+
+// The same of a field that may be missing.
+template <typename T>
+Result<std::vector<T>> ParseOptionalList(const JsonView& json,
+                                         std::string_view key,
+                                         size_t max_count,
+                                         Result<T> (*parse)(const JsonView&)) {
+  if (!json.Has(key)) {
+    return std::vector<T>();
+  }
+  return ParseList(json, key, max_count, parse);
 }
 
 Result<std::string> ParseMemberName(const JsonView& json, std::string_view key) {
@@ -119,6 +133,26 @@ Result<CastEntry> ParseCast(const JsonView& json) {
   return cast;
 }
 
+Result<ObjectEntry> ParseObject(const JsonView& json) {
+  ObjectEntry object;
+  LARARIUM_ASSIGN_OR_RETURN(object.name, json.Text("name", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(object.prop, ParseMemberName(json, "prop"));
+  LARARIUM_ASSIGN_OR_RETURN(const geometry::Similarity3 stage_from_object,
+                            ParseSimilarity(json, "stage_from_object"));
+  if (stage_from_object.scale != 1.0) {
+    return json.Problem("an object's transform has a scale");
+  }
+  object.stage_from_object = {stage_from_object.rotation, stage_from_object.translation};
+  return object;
+}
+
+Result<SpeechEntry> ParseSpeech(const JsonView& json) {
+  SpeechEntry speech;
+  LARARIUM_ASSIGN_OR_RETURN(speech.name, json.Text("name", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(speech.visemes, ParseMemberName(json, "visemes"));
+  return speech;
+}
+
 Result<Member> ParseMember(const JsonView& json) {
   Member member;
   LARARIUM_ASSIGN_OR_RETURN(member.name, ParseMemberName(json, "name"));
@@ -142,6 +176,12 @@ Status CheckReferences(const ShowManifest& manifest, const JsonView& json) {
   std::vector<std::string_view> used = {manifest.drama};
   for (const CastEntry& cast : manifest.cast) {
     used.push_back(cast.human);
+  }
+  for (const ObjectEntry& object : manifest.objects) {
+    used.push_back(object.prop);
+  }
+  for (const SpeechEntry& speech : manifest.speech) {
+    used.push_back(speech.visemes);
   }
   for (const PlaceEntry& place : manifest.places) {
     used.push_back(place.scene);
@@ -176,6 +216,10 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
   LARARIUM_ASSIGN_OR_RETURN(manifest.drama, ParseMemberName(json, "drama"));
   LARARIUM_ASSIGN_OR_RETURN(manifest.places, ParseList(json, "places", kMaxPlaces, ParsePlace));
   LARARIUM_ASSIGN_OR_RETURN(manifest.cast, ParseList(json, "cast", kMaxCast, ParseCast));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.objects,
+                            ParseOptionalList(json, "objects", kMaxObjects, ParseObject));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.speech,
+                            ParseOptionalList(json, "speech", kMaxSpeech, ParseSpeech));
   LARARIUM_ASSIGN_OR_RETURN(manifest.members,
                             ParseList(json, "members", kMaxMembers - 1, ParseMember));
   if (manifest.places.empty()) {
@@ -186,10 +230,10 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
 }
 
 std::string FormatShowManifest(const ShowManifest& manifest) {
-  Json json = {{"schema", ShowManifest::kSchema}, {"title", manifest.title},
-               {"credits", manifest.credits},     {"drama", manifest.drama},
-               {"places", Json::array()},         {"cast", Json::array()},
-               {"members", Json::array()}};
+  Json json = {
+      {"schema", ShowManifest::kSchema}, {"title", manifest.title}, {"credits", manifest.credits},
+      {"drama", manifest.drama},         {"places", Json::array()}, {"cast", Json::array()},
+      {"objects", Json::array()},        {"speech", Json::array()}, {"members", Json::array()}};
   for (const PlaceEntry& place : manifest.places) {
     Json occluders = Json::array();
     for (const OccluderEntry& occluder : place.occluders) {
@@ -207,6 +251,16 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
   }
   for (const CastEntry& cast : manifest.cast) {
     json["cast"].push_back({{"name", cast.name}, {"human", cast.human}});
+  }
+  for (const ObjectEntry& object : manifest.objects) {
+    const geometry::Rigid3& pose = object.stage_from_object;
+    json["objects"].push_back(
+        {{"name", object.name},
+         {"prop", object.prop},
+         {"stage_from_object", FormatSimilarity({1.0, pose.rotation, pose.translation})}});
+  }
+  for (const SpeechEntry& speech : manifest.speech) {
+    json["speech"].push_back({{"name", speech.name}, {"visemes", speech.visemes}});
   }
   for (const Member& member : manifest.members) {
     json["members"].push_back(

@@ -42,15 +42,30 @@ struct CastEntry {
   std::string human;  // member, .larhuman
 };
 
+// A thing on stage at the drama's beginning.
+struct ObjectEntry {
+  std::string name;
+  std::string prop;  // member, .larprop
+  geometry::Rigid3 stage_from_object;
+};
+
+// What somebody can say.
+struct SpeechEntry {
+  std::string name;
+  std::string visemes;  // member, JSON: stage::ParseVisemes
+};
+
 struct ShowManifest {
   static constexpr int kSchema = 1;
 
   std::string title;
   std::string credits;
-  std::string drama;               // member, Lua source
-  std::vector<PlaceEntry> places;  // at least one; names are unique
-  std::vector<CastEntry> cast;     // names are unique
-  std::vector<Member> members;     // in their order in the file
+  std::string drama;                 // member, Lua source
+  std::vector<PlaceEntry> places;    // at least one; names are unique
+  std::vector<CastEntry> cast;       // names are unique
+  std::vector<ObjectEntry> objects;  // likewise; a bundle may lack the field
+  std::vector<SpeechEntry> speech;   // likewise
+  std::vector<Member> members;       // in their order in the file
 };
 
 // Checks every field, that names are unique, and that each member which an

@@ -4,6 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "shared/core/statistics.h"
 
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
@@ -38,6 +42,21 @@ void ParallelFor(size_t count, const std::function<void(size_t)>& body) {
     Publish(&done);
   });
   Observe(&done);
+}
+
+double ParallelForTimed(size_t count, const std::function<void(size_t)>& body) {
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<double> helpers_ms = 0.0;
+  ParallelFor(count, [&](size_t i) {
+    if (std::this_thread::get_id() == caller) {
+      body(i);
+      return;
+    }
+    const double before = ThreadCpuMilliseconds();
+    body(i);
+    helpers_ms += ThreadCpuMilliseconds() - before;
+  });
+  return helpers_ms;
 }
 
 ThreadLimit::ThreadLimit(int threads)

@@ -10,6 +10,10 @@ namespace lararium {
 // afterwards, so that the outcome does not depend on the number of cores.
 void ParallelFor(size_t count, const std::function<void(size_t)>& body);
 
+// The same. Returns the processor milliseconds that other threads than the caller's
+// spent in body.
+double ParallelForTimed(size_t count, const std::function<void(size_t)>& body);
+
 // Limits the number of threads of every ParallelFor while it lives.
 class ThreadLimit {
  public:

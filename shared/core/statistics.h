@@ -59,6 +59,8 @@ class ScopedStageTimer {
         std::chrono::steady_clock::now() - start_;
     times_.Add(wall.count(), ThreadCpuMilliseconds() - start_cpu_ms_);
   }
+  // Processor time that other threads spent on the same work.
+  void AddCpu(double milliseconds) { start_cpu_ms_ -= milliseconds; }
   ScopedStageTimer(const ScopedStageTimer&) = delete;
   ScopedStageTimer& operator=(const ScopedStageTimer&) = delete;
 

@@ -29,7 +29,11 @@ struct PartSource {
   std::span<const glm::vec3> positions;
   std::span<const glm::vec3> normals;
   std::vector<Attributes> attributes;
-  std::vector<std::span<const uint32_t>> levels;
+  struct Level {
+    std::span<const uint32_t> indices;
+    float error = 0.0f;
+  };
+  std::vector<Level> levels;
   int16_t material = human::Material::kNone;
 };
 
@@ -73,9 +77,9 @@ GlVertexArray CreateVertexArray(const GpuModel::Part& part, const GlBuffer& vert
 
 void UploadIndices(const PartSource& source, GpuModel::Part& part) {
   std::vector<uint32_t> indices;
-  for (const std::span<const uint32_t> level : source.levels) {
-    part.levels.push_back({indices.size(), static_cast<int>(level.size())});
-    indices.insert(indices.end(), level.begin(), level.end());
+  for (const PartSource::Level& level : source.levels) {
+    part.levels.push_back({indices.size(), static_cast<int>(level.indices.size()), level.error});
+    indices.insert(indices.end(), level.indices.begin(), level.indices.end());
   }
   // Not as an element array: that would belong to whichever vertex array is bound.
   glBindBuffer(GL_COPY_WRITE_BUFFER, part.indices.id());
@@ -104,7 +108,8 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
   }
   // Back faces of a closed surface are never seen, whatever its material says.
   part.culls_back_faces =
-      !two_sided || (!part.covered() && IsClosedSurface(source.positions, source.levels.front()));
+      !two_sided ||
+      (!part.covered() && IsClosedSurface(source.positions, source.levels.front().indices));
   UploadIndices(source, part);
   glBindBuffer(GL_ARRAY_BUFFER, part.attributes.id());
   glBufferData(GL_ARRAY_BUFFER,
@@ -117,20 +122,20 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
 }
 
 PartSource Source(const human::SkinnedMesh& mesh) {
-  PartSource source{mesh.positions, mesh.normals, {}, {mesh.indices}, mesh.material};
+  PartSource source{mesh.positions, mesh.normals, {}, {{mesh.indices, 0.0f}}, mesh.material};
   source.attributes.resize(mesh.positions.size());
   for (size_t v = 0; v < source.attributes.size(); ++v) {
     source.attributes[v] = {mesh.albedo[v], mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
                             mesh.joints[v], mesh.weights[v]};
   }
   for (const human::LevelOfDetail& level : mesh.coarser) {
-    source.levels.emplace_back(level.indices);
+    source.levels.push_back({level.indices, level.error});
   }
   return source;
 }
 
 PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
-  PartSource source{mesh.positions, mesh.normals, {}, {mesh.indices}, mesh.material};
+  PartSource source{mesh.positions, mesh.normals, {}, {{mesh.indices, 0.0f}}, mesh.material};
   source.attributes.resize(mesh.positions.size());
   for (size_t v = 0; v < source.attributes.size(); ++v) {
     source.attributes[v] = {mesh.albedo[v],
@@ -258,11 +263,13 @@ Result<GpuModel> GpuModel::Create(const stage::Prop& prop) {
   GpuModel model;
   std::vector<PartSource> sources;
   std::vector<glm::vec3> emissions;
+  std::vector<uint8_t> prop_parts;
   model.joint_boxes.resize(prop.parts.size());
   for (size_t joint = 0; joint < prop.parts.size(); ++joint) {
     for (const stage::PropMesh& mesh : prop.parts[joint].meshes) {
       sources.push_back(Source(mesh, static_cast<uint8_t>(joint)));
       emissions.push_back(mesh.emission);
+      prop_parts.push_back(static_cast<uint8_t>(joint));
       for (const glm::vec3& position : mesh.positions) {
         model.joint_boxes[joint].Extend(position);
       }
@@ -271,6 +278,7 @@ Result<GpuModel> GpuModel::Create(const stage::Prop& prop) {
   LARARIUM_RETURN_IF_ERROR(AddParts(sources, prop.materials, prop.textures, prop.name, model));
   for (size_t i = 0; i < emissions.size(); ++i) {
     model.parts[i].emission = emissions[i];
+    model.parts[i].prop_part = prop_parts[i];
   }
   return model;
 }
@@ -289,12 +297,15 @@ void GpuModel::Stream(size_t part_index,
   Upload(positions, normals);
 }
 
-void GpuModel::Draw(size_t part_index, uint32_t level, bool streamed) const {
+void GpuModel::Draw(size_t part_index, float allowed_error, bool streamed) const {
   const Part& part = parts[part_index];
-  const Part::Level& drawn = part.levels[std::min<size_t>(level, part.levels.size() - 1)];
+  const Part::Level* drawn = &part.levels.front();
+  for (const Part::Level& level : part.levels) {
+    drawn = level.error <= allowed_error ? &level : drawn;
+  }
   glBindVertexArray(streamed ? part.streamed.id() : part.bind_pose.id());
-  glDrawElements(GL_TRIANGLES, drawn.count, GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(drawn.first * sizeof(uint32_t)));
+  glDrawElements(GL_TRIANGLES, drawn->count, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(drawn->first * sizeof(uint32_t)));
 }
 
 }  // namespace lararium::render

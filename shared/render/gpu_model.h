@@ -34,9 +34,11 @@ struct GpuModel {
     struct Level {
       size_t first = 0;  // index
       int count = 0;
+      float error = 0.0f;  // metres
     };
     std::vector<Level> levels;  // of detail, the finest first
     size_t vertex_count = 0;
+    uint8_t prop_part = 0;  // of a prop: which of its parts this belongs to
     GlVertexArray bind_pose;
     GlVertexArray streamed;      // positions and normals of this very draw
     GlBuffer attributes;         // what stays: albedo, texture coordinates, skin weights
@@ -66,8 +68,9 @@ struct GpuModel {
   void Stream(size_t part,
               std::span<const glm::vec3> positions,
               std::span<const glm::vec3> normals);
-  // Attributes as in shaders/pass/model.vert. Beyond the coarsest level: that one.
-  void Draw(size_t part, uint32_t level, bool streamed) const;
+  // The coarsest level whose error is allowed, metres. Attributes as in
+  // shaders/pass/model.vert.
+  void Draw(size_t part, float allowed_error, bool streamed) const;
 };
 
 }  // namespace lararium::render

@@ -202,7 +202,8 @@ void ModelPass::DrawPhase(Phase phase,
     glBindBufferRange(GL_UNIFORM_BUFFER, kSkinBinding, skin_.id(),
                       static_cast<GLintptr>(i * kSkinStride), kSkinStride);
     for (size_t part = 0; part < draws[i].model->parts.size(); ++part) {
-      if (draws[i].model->parts[part].covered() == (phase != Phase::kOpaque)) {
+      const GpuModel::Part& drawn = draws[i].model->parts[part];
+      if (drawn.covered() == (phase != Phase::kOpaque) && draws[i].Shows(drawn.prop_part)) {
         DrawPart(draws[i], part, phase, clip_from_stage);
       }
     }

@@ -42,12 +42,15 @@ struct SceneHuman {
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
   std::span<const glm::mat4> skin = {};  // one for each joint (human::ComputeSkinMatrices)
   std::span<const SceneVertices> vertices = {};
-  uint32_t detail = 0;  // level; 0 is the finest (shared/render/detail.h)
+  // Metres by which what is drawn may differ from the finest level of detail
+  // (shared/render/detail.h).
+  float detail = 0.0f;
 };
 
 struct SceneProp {
   ModelHandle prop = {};
   std::span<const glm::mat4> stage_from_part = {};  // one for each part
+  std::span<const uint8_t> shown = {};              // likewise: 0 hides it; empty: all are there
 };
 
 struct RenderScene {

@@ -109,6 +109,9 @@ Status Renderer::State::ValidateModels(const RenderScene& scene) const {
   };
   for (const SceneProp& prop : scene.props) {
     LARARIUM_RETURN_IF_ERROR(check(prop.prop, prop.stage_from_part.size(), "a prop"));
+    if (!prop.shown.empty() && prop.shown.size() != prop.stage_from_part.size()) {
+      return Status::Error(kPlace, "a prop does not say of each part whether it is shown");
+    }
   }
   for (const SceneHuman& human : scene.humans) {
     LARARIUM_RETURN_IF_ERROR(check(human.human, human.skin.size(), "a person"));
@@ -148,7 +151,9 @@ void Renderer::State::CollectDraw(const ModelDraw& draw,
   const glm::mat4 clip_from_model = clip_from_stage * draw.stage_from_model;
   ScreenBounds own;
   for (size_t joint = 0; joint < draw.model->joint_count(); ++joint) {
-    own.Extend(draw.model->joint_boxes[joint], clip_from_model * draw.skin[joint]);
+    if (draw.Shows(joint)) {
+      own.Extend(draw.model->joint_boxes[joint], clip_from_model * draw.skin[joint]);
+    }
   }
   for (const SceneVertices& moved : draw.vertices) {
     if (moved.posed) {
@@ -171,12 +176,17 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene,
   draws.clear();
   ScreenBounds bounds;
   for (const SceneProp& prop : scene.props) {
-    CollectDraw({models.Find(prop.prop), glm::mat4(1.0f), prop.stage_from_part, {}, 0},
-                clip_from_stage, target, bounds);
+    CollectDraw(
+        {models.Find(prop.prop), glm::mat4(1.0f), prop.stage_from_part, {}, 0.0f, prop.shown},
+        clip_from_stage, target, bounds);
   }
   for (const SceneHuman& human : scene.humans) {
-    CollectDraw({models.Find(human.human), human.stage_from_actor, human.skin, human.vertices,
-                 human.detail},
+    CollectDraw({models.Find(human.human),
+                 human.stage_from_actor,
+                 human.skin,
+                 human.vertices,
+                 human.detail,
+                 {}},
                 clip_from_stage, target, bounds);
   }
   return bounds.Pixels(target.width(), target.height());

@@ -22,9 +22,10 @@ void TimedStage(const FrameStages& stages,
                 vision::TrackedFrame tracked,
                 double time,
                 StagedFrame& staged) {
-  const ScopedStageTimer timer(stages.statistics.simulate);
+  ScopedStageTimer timer(stages.statistics.simulate);
   stages.statistics.tracking.Add(tracked);
   stages.show.StageFrame(std::move(tracked), time, staged);
+  timer.AddCpu(staged.helpers_cpu_ms);
 }
 
 // Sleeps until due, or until stop is requested.

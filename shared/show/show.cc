@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "shared/core/check.h"
+#include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/render/detail.h"
 
 namespace lararium::show {
 namespace {
@@ -13,6 +15,10 @@ namespace {
 constexpr double kTicksPerSecond = drama::Drama::kTicksPerSecond;
 // Further ahead than this, seeking is cheaper than playing through.
 constexpr double kSeekAheadSeconds = 2.0;
+// Of whoever is on stage, metres: roughly what is seen of a person, and how far hands,
+// clothes and what they hold may be from the middle of the body.
+constexpr float kPersonHeight = 1.7f;
+constexpr float kPersonReach = 1.6f;
 
 }  // namespace
 
@@ -21,11 +27,7 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
                                            Log& log) {
   CHECK(!content.places.empty());
   std::unique_ptr<Show> show(new Show(std::move(content)));
-  for (const CastMember& member : show->content_.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(const stage::ActorId id, show->stage_.Add(member.name, member.human));
-    show->actor_ids_.push_back(id);
-    show->performers_.emplace_back(show->stage_.Find(id)->model);
-  }
+  LARARIUM_RETURN_IF_ERROR(show->FillStage());
   show->PrepareFloor(log);
   LARARIUM_ASSIGN_OR_RETURN(show->drama_,
                             drama::Drama::Create(show->content_.drama, show->content_.drama_file,
@@ -33,6 +35,24 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
   show->stage_.Capture(show->current_);
   show->previous_ = show->current_;
   return show;
+}
+
+Status Show::FillStage() {
+  for (const CastMember& member : content_.cast) {
+    LARARIUM_ASSIGN_OR_RETURN(const stage::ActorId id, stage_.Add(member.name, member.human));
+    actor_ids_.push_back(id);
+    bodies_.emplace_back(stage_.Find(id)->model);
+  }
+  details_.resize(bodies_.size());
+  for (const StageObject& object : content_.objects) {
+    LARARIUM_ASSIGN_OR_RETURN(const stage::ObjectId id, stage_.AddObject(object.name, object.model,
+                                                                         object.stage_from_object));
+    object_ids_.push_back(id);
+  }
+  for (Speech& speech : content_.speech) {
+    LARARIUM_RETURN_IF_ERROR(stage_.AddSpeech(speech.name, speech.visemes));
+  }
+  return Status();
 }
 
 // The show goes on where nobody can walk, but for the walks.
@@ -91,31 +111,119 @@ void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
   staged.tracked = std::move(tracked);
 }
 
+void Show::ChooseDetails(const StagedFrame& staged) {
+  if (!staged.camera_from_stage) {
+    return;  // nothing is drawn: as it was
+  }
+  const geometry::CameraModel display = staged.tracked.camera.DisplayPinhole();
+  for (const Visible& visible : visible_) {
+    const glm::vec3 middle = visible.state->position + glm::vec3(0.0f, 0.5f * kPersonHeight, 0.0f);
+    const float height =
+        kPersonHeight * render::PixelsPerMetre(display, *staged.camera_from_stage, middle);
+    const bool seen = render::MaySee(display, *staged.camera_from_stage, middle, kPersonReach);
+    BodyDetail& detail = details_[visible.cast];
+    detail = ChooseBodyDetail(height, !seen, detail);
+  }
+}
+
+void Show::LayOutActors(StagedFrame& staged) {
+  uint32_t vertices = 0;
+  for (const Visible& visible : visible_) {
+    const Body& body = bodies_[visible.cast];
+    StagedActor& actor = staged.actors.emplace_back();
+    actor.cast = visible.cast;
+    actor.stage_from_actor = stage::StageFromActor(*visible.state);
+    actor.skin_begin = static_cast<uint32_t>(staged.skin.size());
+    actor.skin_count = static_cast<uint32_t>(body.skin().size());
+    staged.skin.insert(staged.skin.end(), body.skin().begin(), body.skin().end());
+    actor.mesh_begin = static_cast<uint32_t>(staged.meshes.size());
+    actor.mesh_count = static_cast<uint32_t>(body.moving_meshes().size());
+    for (const Body::MovingMesh& mesh : body.moving_meshes()) {
+      const auto count = static_cast<uint32_t>(body.human().meshes[mesh.mesh].positions.size());
+      staged.meshes.push_back({mesh, vertices, count});
+      vertices += count;
+    }
+  }
+  staged.positions.resize(vertices);
+  staged.normals.resize(vertices);
+}
+
+void Show::StageActors(double time, StagedFrame& staged) {
+  visible_.clear();
+  for (uint32_t cast = 0; cast < actor_ids_.size(); ++cast) {
+    for (const stage::StageSnapshot::ActorEntry& entry : drawn_.actors) {
+      if (entry.actor == actor_ids_[cast] && entry.state.visible) {
+        visible_.push_back({cast, &entry.state});
+      }
+    }
+  }
+  ChooseDetails(staged);
+  staged.helpers_cpu_ms = ParallelForTimed(visible_.size(), [&](size_t i) {
+    const Visible& visible = visible_[i];
+    bodies_[visible.cast].Step(*visible.state, time, details_[visible.cast]);
+  });
+  LayOutActors(staged);
+  staged.helpers_cpu_ms += ParallelForTimed(staged.actors.size(), [&](size_t i) {
+    const StagedActor& actor = staged.actors[i];
+    for (uint32_t m = actor.mesh_begin; m < actor.mesh_begin + actor.mesh_count; ++m) {
+      const StagedMesh& mesh = staged.meshes[m];
+      bodies_[actor.cast].ComputeVertices(
+          mesh.mesh, std::span(staged.positions).subspan(mesh.vertex_begin, mesh.vertex_count),
+          std::span(staged.normals).subspan(mesh.vertex_begin, mesh.vertex_count));
+    }
+  });
+}
+
+// What is in a hand goes with the hand as it is drawn.
+stage::Pose Show::DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const {
+  const stage::ObjectState& state = entry.state;
+  const auto holder = std::find_if(visible_.begin(), visible_.end(), [&](const Visible& visible) {
+    return actor_ids_[visible.cast] == state.holder;
+  });
+  if (!state.holder || state.hand < 0 || holder == visible_.end()) {
+    return state.stage_from_object;
+  }
+  return stage::DrawnPose(*stage_.Find(entry.object)->model, state,
+                          stage::StageFromActor(*holder->state),
+                          bodies_[holder->cast].actor_from_palm(state.hand));
+}
+
+void Show::StageObjects(StagedFrame& staged) {
+  for (uint32_t object = 0; object < object_ids_.size(); ++object) {
+    const auto entry = std::find_if(
+        drawn_.objects.begin(), drawn_.objects.end(),
+        [&](const auto& candidate) { return candidate.object == object_ids_[object]; });
+    if (entry == drawn_.objects.end() || !entry->state.visible) {
+      continue;
+    }
+    const stage::ObjectModel& model = *content_.objects[object].model;
+    const size_t begin = staged.stage_from_part.size();
+    const size_t count = model.prop().parts.size();
+    staged.stage_from_part.resize(begin + count);
+    staged.part_shown.resize(begin + count);
+    stage::ComputeParts(model, entry->state, DrawnObjectPose(*entry),
+                        std::span(staged.stage_from_part).subspan(begin),
+                        std::span(staged.part_shown).subspan(begin));
+    staged.objects.push_back({object, static_cast<uint32_t>(begin), static_cast<uint32_t>(count)});
+  }
+}
+
 void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged) {
   time = std::clamp(time, 0.0, drama::Drama::kMaxTime);
+  Locate(std::move(tracked), staged);
   AdvanceTo(time);
   const double behind = static_cast<double>(tick_) - time * kTicksPerSecond;  // 0..1 ticks
   stage::Interpolate(previous_, current_, static_cast<float>(std::clamp(1.0 - behind, 0.0, 1.0)),
                      drawn_);
-
   staged.time = time;
-  Locate(std::move(tracked), staged);
   staged.actors.clear();
   staged.skin.clear();
-  for (uint32_t cast = 0; cast < actor_ids_.size(); ++cast) {
-    const auto entry =
-        std::find_if(drawn_.actors.begin(), drawn_.actors.end(),
-                     [&](const auto& candidate) { return candidate.actor == actor_ids_[cast]; });
-    if (entry == drawn_.actors.end() || !entry->state.visible) {
-      continue;
-    }
-    performers_[cast].Pose(entry->state.performance);
-    const std::span<const glm::mat4> skin = performers_[cast].skin();
-    staged.actors.push_back({cast, stage::StageFromActor(entry->state),
-                             static_cast<uint32_t>(staged.skin.size()),
-                             static_cast<uint32_t>(skin.size())});
-    staged.skin.insert(staged.skin.end(), skin.begin(), skin.end());
-  }
+  staged.meshes.clear();
+  staged.objects.clear();
+  staged.stage_from_part.clear();
+  staged.part_shown.clear();
+  StageActors(time, staged);
+  StageObjects(staged);
 }
 
 }  // namespace lararium::show

@@ -15,6 +15,7 @@
 #include "shared/drama/drama.h"
 #include "shared/geometry/transform.h"
 #include "shared/human/performance.h"
+#include "shared/show/body.h"
 #include "shared/show/gain_filter.h"
 #include "shared/show/show_content.h"
 #include "shared/stage/stage.h"
@@ -28,6 +29,23 @@ struct StagedActor {
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
   uint32_t skin_begin = 0;  // its matrices in StagedFrame::skin
   uint32_t skin_count = 0;
+  uint32_t mesh_begin = 0;  // its moving meshes in StagedFrame::meshes
+  uint32_t mesh_count = 0;
+};
+
+// A mesh of an actor whose vertices are not those of the bind pose: a face that
+// speaks, cloth.
+struct StagedMesh {
+  Body::MovingMesh mesh;
+  uint32_t vertex_begin = 0;  // in StagedFrame::positions and normals
+  uint32_t vertex_count = 0;
+};
+
+// A visible object at the moment of a frame.
+struct StagedObject {
+  uint32_t object = 0;      // index into ShowContent::objects
+  uint32_t part_begin = 0;  // in StagedFrame::stage_from_part and part_shown
+  uint32_t part_count = 0;
 };
 
 // A tracked image with the stage as it stands at its moment. Reused from frame
@@ -42,13 +60,22 @@ struct StagedFrame {
   double time = 0.0;                                  // of the drama, seconds
   std::chrono::steady_clock::time_point arrival;      // when the image was there
   std::vector<StagedActor> actors;
-  std::vector<glm::mat4> skin;  // of all actors, one after the other
+  // Of all actors and objects, one after the other.
+  std::vector<glm::mat4> skin;
+  std::vector<StagedMesh> meshes;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<StagedObject> objects;
+  std::vector<glm::mat4> stage_from_part;
+  std::vector<uint8_t> part_shown;
+  // Processor milliseconds that other threads spent on it.
+  double helpers_cpu_ms = 0.0;
 };
 
 class Show {
  public:
-  // Fails only where the script does not compile; later script errors are in
-  // drama().errors() and the show goes on. Borrows log.
+  // Fails only where the script does not compile or two things have one name; later
+  // script errors are in drama().errors() and the show goes on. Borrows log.
   static Result<std::unique_ptr<Show>> Create(ShowContent content,
                                               const drama::DramaOptions& options,
                                               Log& log);
@@ -71,16 +98,26 @@ class Show {
  private:
   explicit Show(ShowContent content) : content_(std::move(content)) {}
 
+  Status FillStage();
   void PrepareFloor(Log& log);
   void AdvanceTo(double time);
   void TickOnce();
   // Fills what of staged depends on where the camera is.
   void Locate(vision::TrackedFrame tracked, StagedFrame& staged);
+  // What of each visible actor is simulated, by how it is seen.
+  void ChooseDetails(const StagedFrame& staged);
+  // Bodies step, then write what moves; people are spread over the cores.
+  void StageActors(double time, StagedFrame& staged);
+  void LayOutActors(StagedFrame& staged);
+  void StageObjects(StagedFrame& staged);
+  stage::Pose DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const;
 
   ShowContent content_;
   stage::Stage stage_;
-  std::vector<stage::ActorId> actor_ids_;     // of each cast member
-  std::vector<human::Performer> performers_;  // of each cast member
+  std::vector<stage::ActorId> actor_ids_;    // of each cast member
+  std::vector<Body> bodies_;                 // likewise
+  std::vector<BodyDetail> details_;          // likewise
+  std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
   GainFilter gain_filter_;
@@ -88,6 +125,12 @@ class Show {
   stage::StageSnapshot previous_;  // one tick before
   stage::StageSnapshot current_;
   stage::StageSnapshot drawn_;  // between the two
+  // Visible actors of drawn_: index into cast, and state.
+  struct Visible {
+    uint32_t cast = 0;
+    const stage::ActorState* state = nullptr;
+  };
+  std::vector<Visible> visible_;
 };
 
 }  // namespace lararium::show

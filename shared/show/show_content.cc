@@ -1,10 +1,13 @@
 #include "shared/show/show_content.h"
 
 #include <algorithm>
+#include <map>
 #include <span>
 #include <utility>
 
+#include "shared/geometry/glm_convert.h"
 #include "shared/stage/mesh_file.h"
+#include "shared/stage/viseme_file.h"
 
 namespace lararium::show {
 namespace {
@@ -89,6 +92,43 @@ Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
   return places;
 }
 
+namespace {
+
+// Objects of one member share its model.
+Status LoadObjects(const bundle::Bundle& bundle, std::vector<StageObject>& objects) {
+  std::map<std::string, std::shared_ptr<const stage::ObjectModel>> models;
+  for (const bundle::ObjectEntry& entry : bundle.manifest().objects) {
+    std::shared_ptr<const stage::ObjectModel>& model = models[entry.prop];
+    if (model == nullptr) {
+      const std::string place = bundle.place() + ": " + entry.prop;
+      LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.prop));
+      LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(bytes, place));
+      LARARIUM_ASSIGN_OR_RETURN(model, stage::ObjectModel::Create(std::move(prop), place));
+    }
+    const geometry::Rigid3& pose = entry.stage_from_object;
+    objects.push_back(
+        {entry.name, model, {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)}});
+  }
+  return Status();
+}
+
+Result<std::string> LoadText(const bundle::Bundle& bundle, const std::string& member) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member));
+  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+Status LoadSpeech(const bundle::Bundle& bundle, std::vector<Speech>& speech) {
+  for (const bundle::SpeechEntry& entry : bundle.manifest().speech) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, entry.visemes));
+    LARARIUM_ASSIGN_OR_RETURN(human::VisemeTrack track,
+                              stage::ParseVisemes(text, bundle.place() + ": " + entry.visemes));
+    speech.push_back({entry.name, std::move(track)});
+  }
+  return Status();
+}
+
+}  // namespace
+
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle, std::string_view place) {
   const bundle::ShowManifest& manifest = bundle.manifest();
   ShowContent content;
@@ -102,8 +142,9 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle, std::string_vi
     content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});
   }
 
-  LARARIUM_ASSIGN_OR_RETURN(const auto drama, bundle.member(manifest.drama));
-  content.drama.assign(reinterpret_cast<const char*>(drama.data()), drama.size());
+  LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, content.objects));
+  LARARIUM_RETURN_IF_ERROR(LoadSpeech(bundle, content.speech));
+  LARARIUM_ASSIGN_OR_RETURN(content.drama, LoadText(bundle, manifest.drama));
   content.drama_file = manifest.drama;
   return content;
 }

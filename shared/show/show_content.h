@@ -10,7 +10,9 @@
 
 #include "shared/bundle/bundle.h"
 #include "shared/core/status.h"
+#include "shared/human/face.h"
 #include "shared/human/human.h"
+#include "shared/stage/object_use.h"
 #include "shared/stage/place.h"
 #include "shared/vision/scene_database.h"
 #include "shared/vision/tracked_frame.h"
@@ -20,6 +22,19 @@ namespace lararium::show {
 struct CastMember {
   std::string name;  // as the drama calls the actor
   std::shared_ptr<const human::Human> human;
+};
+
+// A thing that people use, or scenery.
+struct StageObject {
+  std::string name;  // as the drama calls it
+  std::shared_ptr<const stage::ObjectModel> model;
+  stage::Pose stage_from_object;  // at the beginning
+};
+
+// What somebody can say.
+struct Speech {
+  std::string name;  // as the drama calls it
+  human::VisemeTrack visemes;
 };
 
 // A trained place and how the drama is staged there.
@@ -32,6 +47,8 @@ struct ShowContent {
   std::string title;
   std::vector<ShowPlace> places;  // at least one
   std::vector<CastMember> cast;
+  std::vector<StageObject> objects;
+  std::vector<Speech> speech;
   std::string drama;       // Lua source
   std::string drama_file;  // what messages call it
 };

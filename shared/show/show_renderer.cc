@@ -1,5 +1,7 @@
 #include "shared/show/show_renderer.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <utility>
 
@@ -15,6 +17,11 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
   for (const CastMember& member : content.cast) {
     LARARIUM_ASSIGN_OR_RETURN(show->cast_.emplace_back(), show->renderer_->AddHuman(*member.human));
   }
+  for (const CastMember& member : content.cast) {
+    show->levels_.push_back(render::FindDetailLevels(*member.human));
+  }
+  show->details_.resize(content.cast.size());
+  LARARIUM_RETURN_IF_ERROR(show->AddObjects(content));
   show->places_.resize(content.places.size());
   for (size_t i = 0; i < content.places.size(); ++i) {
     show->SetPlace(i, content.places[i].stage);
@@ -35,12 +42,63 @@ void ShowRenderer::SetPlace(size_t index, const stage::Place& place) {
   scene.light = place.light;
 }
 
-Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget& target) {
+// Objects of one model share what is on the GPU.
+Status ShowRenderer::AddObjects(const ShowContent& content) {
+  for (size_t i = 0; i < content.objects.size(); ++i) {
+    const auto same = std::find_if(
+        content.objects.begin(), content.objects.begin() + static_cast<ptrdiff_t>(i),
+        [&](const StageObject& other) { return other.model == content.objects[i].model; });
+    const auto index = static_cast<size_t>(same - content.objects.begin());
+    if (index < i) {
+      objects_.push_back(objects_[index]);
+    } else {
+      LARARIUM_ASSIGN_OR_RETURN(objects_.emplace_back(),
+                                renderer_->AddProp(content.objects[i].model->prop()));
+    }
+  }
+  return Status();
+}
+
+void ShowRenderer::ChooseDetails(const StagedFrame& staged, const geometry::CameraModel& display) {
+  for (size_t cast = 0; cast < details_.size(); ++cast) {
+    details_[cast].levels = levels_[cast];
+    details_[cast].pixels_per_metre = 0.0f;
+  }
+  for (const StagedActor& actor : staged.actors) {
+    const glm::vec3 middle = actor.stage_from_actor * glm::vec4(0.0f, 1.0f, 0.0f, 1.0f);
+    details_[actor.cast].pixels_per_metre =
+        render::PixelsPerMetre(display, *staged.camera_from_stage, middle);
+  }
+  detail_chooser_.Choose(details_);
+}
+
+void ShowRenderer::CollectHumans(const StagedFrame& staged) {
   humans_.clear();
+  vertices_.clear();
+  for (const StagedMesh& mesh : staged.meshes) {
+    vertices_.push_back(
+        {mesh.mesh.mesh, std::span(staged.positions).subspan(mesh.vertex_begin, mesh.vertex_count),
+         std::span(staged.normals).subspan(mesh.vertex_begin, mesh.vertex_count), mesh.mesh.posed});
+  }
   for (const StagedActor& actor : staged.actors) {
     humans_.push_back({cast_[actor.cast], actor.stage_from_actor,
-                       std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count)});
+                       std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
+                       std::span(vertices_).subspan(actor.mesh_begin, actor.mesh_count),
+                       details_[actor.cast].detail});
   }
+}
+
+void ShowRenderer::CollectProps(const StagedFrame& staged) {
+  props_.clear();
+  for (const StagedObject& object : staged.objects) {
+    props_.push_back(
+        {objects_[object.object],
+         std::span(staged.stage_from_part).subspan(object.part_begin, object.part_count),
+         std::span(staged.part_shown).subspan(object.part_begin, object.part_count)});
+  }
+}
+
+Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget& target) {
   const vision::TrackedFrame& tracked = staged.tracked;
   const PlaceScene& place = places_[staged.place];
   render::RenderScene scene;
@@ -48,8 +106,14 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.camera = tracked.camera;
   scene.display = tracked.camera.DisplayPinhole();
   scene.camera_from_stage = staged.camera_from_stage;
+  if (staged.camera_from_stage) {
+    ChooseDetails(staged, scene.display.Resized(target.width(), target.height()));
+  }
+  CollectHumans(staged);
+  CollectProps(staged);
   scene.occluders = place.occluders;
   scene.humans = humans_;
+  scene.props = props_;
   scene.light = place.light;
   scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
   return renderer_->Draw(scene, target);

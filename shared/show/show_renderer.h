@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/render/detail.h"
 #include "shared/render/renderer.h"
 #include "shared/show/show.h"
 
@@ -14,7 +15,8 @@ namespace lararium::show {
 
 class ShowRenderer {
  public:
-  // Uploads the cast and the occluders of all places.
+  // Uploads cast, objects and the occluders of all places. Fails where a texture
+  // cannot be decoded.
   static Result<std::unique_ptr<ShowRenderer>> Create(const ShowContent& content,
                                                       const render::RendererOptions& options = {});
 
@@ -34,10 +36,22 @@ class ShowRenderer {
   explicit ShowRenderer(std::unique_ptr<render::Renderer> renderer)
       : renderer_(std::move(renderer)) {}
 
+  Status AddObjects(const ShowContent& content);
+  void ChooseDetails(const StagedFrame& staged, const geometry::CameraModel& display);
+  void CollectHumans(const StagedFrame& staged);
+  void CollectProps(const StagedFrame& staged);
+
   std::unique_ptr<render::Renderer> renderer_;
   std::vector<render::ModelHandle> cast_;
+  std::vector<std::vector<render::DetailLevel>> levels_;  // of each cast member
+  std::vector<render::DetailRequest> details_;            // likewise
+  std::vector<render::ModelHandle> objects_;              // of each object
+  render::DetailChooser detail_chooser_;
   std::vector<PlaceScene> places_;
-  std::vector<render::SceneHuman> humans_;  // of the frame being drawn
+  // Of the frame being drawn.
+  std::vector<render::SceneHuman> humans_;
+  std::vector<render::SceneVertices> vertices_;
+  std::vector<render::SceneProp> props_;
 };
 
 }  // namespace lararium::show

@@ -1,0 +1,119 @@
+#include "shared/show/body.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lararium::show {
+namespace {
+
+// Heights in pixels from which something is worth simulating.
+constexpr float kFullCloth = 240.0f;
+constexpr float kReducedCloth = 120.0f;
+constexpr float kCoarseCloth = 50.0f;
+constexpr float kHair = 100.0f;
+constexpr float kFace = 60.0f;
+// What is there stays down to this share of them.
+constexpr float kStay = 0.85f;
+
+bool IsWorth(float height_px, float threshold, bool has_it) {
+  return height_px >= (has_it ? kStay * threshold : threshold);
+}
+
+human::ClothDetail ChooseCloth(float height_px, human::ClothDetail before) {
+  using human::ClothDetail;
+  if (IsWorth(height_px, kFullCloth, before <= ClothDetail::kFull)) {
+    return ClothDetail::kFull;
+  }
+  if (IsWorth(height_px, kReducedCloth, before <= ClothDetail::kReduced)) {
+    return ClothDetail::kReduced;
+  }
+  return IsWorth(height_px, kCoarseCloth, before <= ClothDetail::kCoarse) ? ClothDetail::kCoarse
+                                                                          : ClothDetail::kSkinned;
+}
+
+}  // namespace
+
+BodyDetail ChooseBodyDetail(float height_px, bool not_seen, const BodyDetail& before) {
+  if (not_seen) {
+    return {human::ClothDetail::kSkinned, false, false, false};
+  }
+  return {ChooseCloth(height_px, before.cloth), IsWorth(height_px, kHair, before.hair),
+          IsWorth(height_px, kFace, before.face), true};
+}
+
+Body::Body(std::shared_ptr<const human::PerformanceModel> model)
+    : performer_(std::move(model)),
+      cloth_model_(human()),
+      cloth_(cloth_model_),
+      spring_model_(human()),
+      springs_(spring_model_),
+      morphs_(human::FindMeshMorphs(human())),
+      is_cloth_(human().meshes.size(), false),
+      pose_(human().skeleton.size()),
+      actor_from_joint_(human().skeleton.size()),
+      skin_(human().skeleton.size()) {
+  for (const human::Cloth& cloth : human().cloths) {
+    is_cloth_[cloth.mesh] = true;
+  }
+  moving_.reserve(human().meshes.size());
+}
+
+void Body::Step(const stage::ActorState& state, double time, const BodyDetail& detail) {
+  performer_.Pose(state.performance);
+  std::copy(performer_.pose().begin(), performer_.pose().end(), pose_.begin());
+  std::copy(performer_.actor_from_joint().begin(), performer_.actor_from_joint().end(),
+            actor_from_joint_.begin());
+  const glm::mat4 stage_from_actor = stage::StageFromActor(state);
+  const float elapsed = time_ ? static_cast<float>(time - *time_) : 0.0f;
+  time_ = time;
+  if (spring_model_.chain_count() > 0) {
+    StepSprings(
+        spring_model_,
+        {.stage_from_actor = stage_from_actor, .elapsed = elapsed, .simulated = detail.hair},
+        springs_, pose_, actor_from_joint_);
+  }
+  human::ComputeSkinMatrices(human().skeleton, actor_from_joint_, skin_);
+  if (cloth_model_.cloth_count() > 0) {
+    human::ClothStep step;
+    step.actor_from_joint = actor_from_joint_;
+    step.stage_from_actor = stage_from_actor;
+    step.elapsed = elapsed;
+    step.floor_height = state.position.y;
+    step.detail = detail.cloth;
+    StepCloth(cloth_model_, step, cloth_);
+  }
+  FindMovingMeshes(detail);
+}
+
+void Body::FindMovingMeshes(const BodyDetail& detail) {
+  moving_.clear();
+  if (!detail.drawn) {
+    return;
+  }
+  for (uint32_t cloth = 0; cloth < human().cloths.size(); ++cloth) {
+    moving_.push_back({human().cloths[cloth].mesh, true, cloth});
+  }
+  for (uint32_t i = 0; detail.face && i < morphs_.size(); ++i) {
+    if (!is_cloth_[morphs_[i].mesh] && morphs_[i].Active(performer_.morph_weights())) {
+      moving_.push_back({morphs_[i].mesh, false, i});
+    }
+  }
+}
+
+human::GripFrame Body::actor_from_palm(int side) const {
+  return human::ActorFromPalm(performer_.model().reach, human().skeleton, pose_, side);
+}
+
+void Body::ComputeVertices(const MovingMesh& moving,
+                           std::span<glm::vec3> positions,
+                           std::span<glm::vec3> normals) const {
+  const human::SkinnedMesh& mesh = human().meshes[moving.mesh];
+  if (moving.posed) {
+    human::DrapeMesh(cloth_model_, cloth_, moving.source, mesh, skin_, positions, normals);
+  } else {
+    human::MorphJob{mesh, morphs_[moving.source], performer_.morph_weights(), positions, normals}
+        .Run();
+  }
+}
+
+}  // namespace lararium::show
