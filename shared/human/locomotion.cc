@@ -14,7 +14,9 @@ namespace {
 using Foot = Locomotion::Foot;
 using Footprint = Locomotion::Footprint;
 
-constexpr float kToeOut = 0.12f;  // radians; 7 degrees (Murray et al., 1964)
+constexpr float kToeOut = 0.12f;        // radians; 7 degrees (Murray et al., 1964)
+constexpr float kStagger = 0.020f;      // of leg length; ours
+constexpr float kStandingTurn = 0.11f;  // radians; ours
 // Half the distance between the lines of the ankles, shares of leg length: walking
 // (Murray et al., 1964: 8 cm between the heels' middles, and wider for comfort), and
 // the least that two feet keep.
@@ -135,8 +137,12 @@ class Walker {
   // Where a foot stands below a root.
   Footprint NeutralPrint(int side, const RootPose& root, float amount) const {
     const float back = body_.rest[static_cast<size_t>(Leg(side).ankle)].position.z;
-    const glm::vec3 at = root.Stage(glm::vec3(SideSign(side) * HalfWidth(amount), 0.0f, back));
-    return PrintAt(at, root.heading - SideSign(side) * kToeOut, side);
+    // Who stands puts one foot ahead and turns the other out.
+    const float staggered = std::max(1.0f - 2.0f * amount, 0.0f) * state_.style.stagger;
+    const float ahead = SideSign(side) * staggered * kStagger * body_.leg_length();
+    const float toe_out = kToeOut + std::max(-SideSign(side) * staggered, 0.0f) * kStandingTurn;
+    const glm::vec3 offset(SideSign(side) * HalfWidth(amount), 0.0f, back - ahead);
+    return PrintAt(root.Stage(offset), root.heading - SideSign(side) * toe_out, side);
   }
 
   // At the present acceleration, until it stops; what nobody keeps up for long counts half.

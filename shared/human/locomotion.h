@@ -32,6 +32,7 @@ struct GaitStyle {
   float arm_spread = 0.0f;  // radians by which arms hang further out: stout people
   float sway = 1.0f;        // factor of the pelvis' motion from side to side
   float lift = 1.0f;        // factor of how high feet are lifted; the old shuffle
+  float stagger = 1.0f;     // standing, the right foot is ahead: factor; below 0 the left
 
   friend bool operator==(const GaitStyle&, const GaitStyle&) = default;
 };

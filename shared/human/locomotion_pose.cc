@@ -87,15 +87,15 @@ class WalkingPose {
     const float side_step = SideStep();
     const float shift = life_.weight_shift * state_.settled;
     trunk.hips.x = leg_ * (sway * 0.024f * walking * std::cos(turn_ - 0.6f * kPi) +
-                           0.035f * side_step + 0.022f * shift);
+                           0.035f * side_step + 0.036f * shift);
     const float bounce = std::cos(2.0f * (turn_ - 0.57f * kPi));
     trunk.hips.y = leg_ * (-0.006f - walking * (0.036f - 0.024f * bounce));
     const float lean = Lean();
     const float bank = Bank();
-    trunk.pelvis = TurnY(yaw) * TurnZ(list + 0.030f * shift + bank) * TurnX(-0.02f - 0.5f * lean);
+    trunk.pelvis = TurnY(yaw) * TurnZ(list + 0.060f * shift + bank) * TurnX(-0.02f - 0.5f * lean);
     const float stoop = state_.style.stoop + lean + 0.04f * walking;
     trunk.chest = TurnY(-0.9f * yaw) *
-                  TurnZ(-0.35f * list - 0.028f * shift + bank + 0.03f * side_step) *
+                  TurnZ(-0.35f * list - 0.030f * shift + bank + 0.03f * side_step) *
                   TurnX(-0.02f - stoop);
     // The head stays level, and leads into turns (Grasso et al., 1998).
     const float lead = std::clamp(0.28f * state_.turn_rate, -0.5f, 0.5f);
