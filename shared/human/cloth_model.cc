@@ -18,7 +18,7 @@ constexpr float kTetherSlack = 1.01f;
 constexpr float kDiagonalRatio = 1.15f;
 constexpr float kShearCompliance = 2e-3f;  // m/N
 constexpr float kHighestBulge = 0.03f;     // metres of skin outside its capsule
-constexpr float kBulgeWidth = 0.02f;       // metres
+constexpr float kBulgeWidth = 0.03f;       // metres
 constexpr float kBodyNear = 0.15f;         // metres from cloth within which bulges count
 constexpr float kThickest = 0.015f;        // metres added to the thickness
 // Places of cloth keep this far apart, in edges: half the diagonal of a quad is 0.62 of
@@ -353,13 +353,14 @@ class Builder {
     }
     const std::vector<std::vector<Bulge>> bulges = FindBulges(cones);
     for (size_t c = 0; c < cones.size(); ++c) {
+      const std::vector<float> drops = MeasureDrops(cones[c]);
       for (size_t i = 0; i < model_.rest.size(); ++i) {
         const NearestSphere sphere = FindNearestSphere(cones[c], model_.rest[i]);
         const float around = sphere.radius + model_.thickness[i];
         const float arrow = std::min(spacing[i] * spacing[i] / (8.0f * around + 1e-6f), kThickest);
         const float as_bound = sphere.distance - sphere.radius;
-        const float wanted = model_.thickness[i] + arrow +
-                             (as_bound < kBodyNear ? HeightOfBulge(i, bulges[c]) : 0.0f);
+        const float bulge = as_bound < kBodyNear ? HeightOfBulge(i, bulges[c]) : 0.0f;
+        const float wanted = model_.thickness[i] + std::max(arrow, drops[i]) + bulge;
         model_.standoff.push_back(std::isfinite(as_bound) ? std::min(wanted, as_bound) : wanted);
         model_.largest_standoff = std::max(model_.largest_standoff, wanted);
       }
@@ -374,6 +375,35 @@ class Builder {
     };
     return MakeRoundCone(to_actor(capsule.a), to_actor(capsule.b), capsule.radius_a,
                          capsule.radius_b);
+  }
+
+  // How much nearer to a capsule the drawn cloth lies than the triangles between
+  // particles: the depth of its folds. Of each particle, metres.
+  std::vector<float> MeasureDrops(const RoundCone& cone) const {
+    const auto height = [&cone](const Float4& place) {
+      const NearestSphere sphere = FindNearestSphere(cone, place);
+      return sphere.distance - sphere.radius;
+    };
+    std::vector<float> heights, drops(model_.rest.size(), 0.0f);
+    for (const Float4& place : model_.rest) {
+      heights.push_back(height(place));
+    }
+    for (size_t c = 0; c < model_.cloths.size(); ++c) {
+      const ClothRange& range = model_.cloths[c];
+      const SkinnedMesh& mesh = human_.meshes[human_.cloths[c].mesh];
+      for (const ClothVertex& vertex : range.vertices) {
+        float between = 0.0f;
+        for (int k = 0; k < 3; ++k) {
+          between += vertex.weights[k] * heights[range.first + vertex.corners[k]];
+        }
+        const float drop =
+            std::min(between - height(Float4(mesh.positions[vertex.vertex])), kThickest);
+        for (const uint32_t corner : vertex.corners) {
+          drops[range.first + corner] = std::max(drops[range.first + corner], drop);
+        }
+      }
+    }
+    return drops;
   }
 
   // A place of the skin outside all capsules.
