@@ -25,7 +25,7 @@ constexpr float kSpread = 0.055f;  // seconds in which dominance falls to 1/e
 // A segment is fully dominant but for so much at either end: a share, at most seconds.
 constexpr float kEdgeShare = 0.2f;
 constexpr float kLongestEdge = 0.04f;
-constexpr float kWindow = 0.35f;   // seconds beyond which a segment has no say
+constexpr float kWindow = 0.35f;  // seconds beyond which a segment has no say
 
 template <size_t N>
 std::optional<size_t> IndexOf(const std::array<std::string_view, N>& names, std::string_view name) {

@@ -146,8 +146,8 @@ Stride StrideAt(
   const float by_speed = 0.5f * kWalkRatio * std::sqrt(pace) * (1.0f + 0.7f * (1.0f - forwardness));
   const float on_the_spot = std::max(0.0f, 1.0f - pace / 0.1f);
   const float by_turn = std::min(std::abs(turn_rate) / (kTurnPerStride * clock), 0.42f);
-  const float rate =
-      style.cadence * std::max(by_speed, on_the_spot * std::max(kStepInPlace, by_turn));
+  const float rate = std::clamp(style.cadence, 0.3f, 3.0f) *
+                     std::max(by_speed, on_the_spot * std::max(kStepInPlace, by_turn));
   Stride stride;
   stride.per_second = rate * clock;
   // 62 % at a comfortable speed, less when faster (Murray et al., 1964, 1966).

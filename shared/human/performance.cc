@@ -41,6 +41,9 @@ void UpdatePerformance(const PerformanceModel& model,
 }
 
 Performance Interpolate(const Performance& previous, const Performance& current, float alpha) {
+  if (previous.seed != current.seed || previous.time > current.time) {
+    return current;  // somebody else, or begun anew
+  }
   Performance mixed = current;
   mixed.time = previous.time + static_cast<double>(alpha) * (current.time - previous.time);
   mixed.animation = Interpolate(previous.animation, current.animation, alpha);
@@ -73,7 +76,11 @@ void Performer::Pose(const Performance& performance) {
   PoseBody(performance, life);
   ApplyLife(skeleton, body, life, pose_);
   ApplyReachPosture(model_->reach, skeleton, performance.reaches, pose_);
-  ApplyGaze(model_->gaze, skeleton, performance.gaze, at.position, at.heading, pose_);
+  Gaze gaze = performance.gaze;
+  for (const Reach& reach : performance.reaches) {
+    gaze.torso *= 1.0f - 0.8f * Goal(reach).weight;  // the trunk serves the hands first
+  }
+  ApplyGaze(model_->gaze, skeleton, gaze, at.position, at.heading, pose_);
   for (const int side : {kRight, kLeft}) {
     ApplyReach(model_->reach, skeleton, performance.reaches[static_cast<size_t>(side)], side,
                pose_);

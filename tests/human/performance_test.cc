@@ -223,10 +223,19 @@ TEST(Performer, InterpolatesBetweenTicks) {
   }
 }
 
-TEST(Performer, KeepsTheHandOnItsGripWhileWalking) {
+TEST(Performer, BeginsAnewWithoutMixingOldAndNew) {
+  Performance old, fresh;
+  old.time = 100.0;
+  fresh.time = 0.5;
+  EXPECT_EQ(Interpolate(old, fresh, 0.5f), fresh);
+}
+
+TEST(Performer, KeepsTheHandOnItsGripWhileWalkingAndLookingAway) {
   const auto model = ModelOf(FullBody(0.5f, 7));
   Performance performance;
-  const GripFrame grip{{0.25f, 1.1f, -0.35f}, TurnZ(-1.0f)};
+  performance.gaze.kind = GazeKind::kObject;
+  performance.gaze.target = {-8.0f, 1.6f, -1.0f};  // somebody on the other side
+  const GripFrame grip{{0.25f, 1.1f, -0.55f}, TurnZ(-1.0f)};
   StartReach(performance.reaches[kRight], grip, 0.5f);
   for (int tick = 0; tick < 480; ++tick) {
     UpdatePerformance(*model, glm::vec3(0.0f, 0.0f, -0.01f * static_cast<float>(tick)), 0.0f, kTick,
