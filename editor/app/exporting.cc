@@ -52,6 +52,14 @@ Status ExportProject(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> human, ReadBytes(paths.Human(member.name)));
     content.cast.push_back({member.name, std::move(human)});
   }
+  for (const ObjectDocument& object : document.objects) {
+    LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> prop, ReadBytes(paths.Prop(object.name)));
+    content.objects.push_back({object.name, std::move(prop), StageFromObject(object)});
+  }
+  for (const std::filesystem::path& file : SpeechFiles(paths)) {
+    LARARIUM_ASSIGN_OR_RETURN(std::string visemes, ReadText(file));
+    content.speech.push_back({SpeechName(file), std::move(visemes)});
+  }
   return exporter::ExportBundle(content, out, progress);
 }
 

@@ -1,8 +1,16 @@
 #include "editor/app/object_document.h"
 
+#include <Eigen/Geometry>
+#include <numbers>
+
 #include "editor/app/document_fields.h"
 
 namespace lararium::app {
+
+geometry::Rigid3 StageFromObject(const ObjectDocument& object) {
+  const double angle = object.heading * std::numbers::pi / 180.0;
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY())), object.position};
+}
 
 Result<ObjectDocument> ParseObject(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "model", "file", "position", "heading"}));

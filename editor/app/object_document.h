@@ -7,6 +7,7 @@
 
 #include "shared/core/json.h"
 #include "shared/core/status.h"
+#include "shared/geometry/transform.h"
 
 namespace lararium::app {
 
@@ -19,6 +20,8 @@ struct ObjectDocument {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double heading = 0.0;
 };
+
+geometry::Rigid3 StageFromObject(const ObjectDocument& object);
 
 Result<ObjectDocument> ParseObject(const JsonView& view);
 Json FormatObject(const ObjectDocument& object);

@@ -372,6 +372,30 @@ Json FormatProject(const ProjectDocument& document) {
   return json;
 }
 
+namespace {
+
+constexpr std::string_view kSpeechExtension = ".visemes.json";
+
+}  // namespace
+
+std::vector<std::filesystem::path> SpeechFiles(const ProjectPaths& paths) {
+  std::vector<std::filesystem::path> files;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(paths.folder / "audio", ignored)) {
+    if (entry.path().filename().string().ends_with(kSpeechExtension)) {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string SpeechName(const std::filesystem::path& file) {
+  std::string name = file.filename().string();
+  name.resize(name.size() - kSpeechExtension.size());
+  return name;
+}
+
 Result<ProjectDocument> LoadProject(const ProjectPaths& paths) {
   std::error_code ignored;
   if (!std::filesystem::exists(paths.Project(), ignored)) {

@@ -118,6 +118,11 @@ struct ProjectPaths {
   std::string Shorten(const std::filesystem::path& file) const;
 };
 
+// What people of the drama can say: audio/NAME.visemes.json, in the order of their names.
+std::vector<std::filesystem::path> SpeechFiles(const ProjectPaths& paths);
+// NAME of such a file.
+std::string SpeechName(const std::filesystem::path& file);
+
 // Every field is checked; fields that this version does not know are an error,
 // so that saving never drops them. place: what errors call the text.
 Result<ProjectDocument> ParseProject(const Json& json, const std::string& place);

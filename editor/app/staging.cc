@@ -7,6 +7,9 @@
 
 #include "editor/app/baking.h"
 #include "shared/core/file.h"
+#include "shared/geometry/glm_convert.h"
+#include "shared/stage/object_use.h"
+#include "shared/stage/viseme_file.h"
 
 namespace lararium::app {
 
@@ -153,6 +156,20 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
     content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});
+  }
+  for (const ObjectDocument& object : document.objects) {
+    LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, LoadBakedProp(paths, object));
+    LARARIUM_ASSIGN_OR_RETURN(auto model, stage::ObjectModel::Create(std::move(prop), object.name));
+    const geometry::Rigid3 pose = StageFromObject(object);
+    content.objects.push_back(
+        {object.name,
+         std::move(model),
+         {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)}});
+  }
+  for (const std::filesystem::path& file : SpeechFiles(paths)) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
+    LARARIUM_ASSIGN_OR_RETURN(human::VisemeTrack visemes, stage::ParseVisemes(text, file.string()));
+    content.speech.push_back({SpeechName(file), std::move(visemes)});
   }
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
   content.drama_file = paths.Drama().filename().string();
