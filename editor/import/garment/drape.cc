@@ -102,12 +102,10 @@ void Draper::Gather(const std::vector<bool>& particles) {
   }
 }
 
-void Draper::KeepShape(const std::vector<bool>& particles) {
+void Draper::TakeLengths(float factor) {
   for (std::vector<Edge>* list : {&edges_, &bends_}) {
     for (Edge& edge : *list) {
-      if (particles[edge.a] && particles[edge.b]) {
-        edge.length = glm::length(sheet_.positions[edge.a] - sheet_.positions[edge.b]);
-      }
+      edge.length = factor * glm::distance(sheet_.positions[edge.a], sheet_.positions[edge.b]);
     }
   }
 }

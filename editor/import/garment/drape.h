@@ -40,8 +40,9 @@ class Draper {
   void Tether(uint32_t particle, uint32_t anchor, float length);
   // Gathered cloth: edges whose ends are both of these resist no squeezing.
   void Gather(const std::vector<bool>& particles);
-  // Lengths between these particles as they are now, not as on the panels.
-  void KeepShape(const std::vector<bool>& particles);
+  // Lengths as they are now, times a factor: for cloth that is laid in folds before it
+  // is let go.
+  void TakeLengths(float factor);
 
   std::vector<DrapePin> pins;
   // Called in each iteration: what else the positions must obey.

@@ -35,6 +35,8 @@ struct DrapedGarment {
   std::vector<float> reach;                // of each particle; 0: plain skin
   std::function<glm::vec3(uint8_t panel, const glm::vec2& flat)> dye;  // linear RGB
   std::vector<Trim> trims;
+  bool covers = true;          // hides what lies below it
+  float cover_margin = 0.05f;  // from its edges, within which garments below it stay
   float hide_margin = 0.03f;   // metres from the cloth's edges within which skin stays
   float loose_margin = 0.16f;  // the same from hems of loose parts, seen from below
 };

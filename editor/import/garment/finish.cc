@@ -104,7 +104,9 @@ Rims RimsOf(const DrapedGarment& draped) {
 // margins kept.
 std::vector<bool> CoveredBy(const DrapedGarment& draped,
                             std::span<const glm::vec3> places,
-                            std::span<const glm::vec3> normals) {
+                            std::span<const glm::vec3> normals,
+                            float fixed_margin,
+                            float loose_margin) {
   Screen screen;
   screen.Add(draped.sheet.positions, draped.sheet.ParticleTriangles());
   const Rims rims = RimsOf(draped);
@@ -117,8 +119,8 @@ std::vector<bool> CoveredBy(const DrapedGarment& draped,
     const bool blocked = std::all_of(
         directions.begin(), directions.end(),
         [&](const glm::vec3& direction) { return screen.Blocks(places[i], direction, 0.6f); });
-    covered[i] = blocked && !IsNear(places[i], rims.fixed, draped.hide_margin) &&
-                 !IsNear(places[i], rims.loose, draped.loose_margin);
+    covered[i] = blocked && !IsNear(places[i], rims.fixed, fixed_margin) &&
+                 !IsNear(places[i], rims.loose, loose_margin);
   });
   return {covered.begin(), covered.end()};
 }
@@ -140,7 +142,8 @@ std::vector<bool> HiddenSkin(const DrapedGarment& draped, const FittedBody& body
   for (size_t v = 0; v < normals.size(); ++v) {
     normals[v] = is_body[v] ? normals[v] : glm::vec3(0.0f);
   }
-  const std::vector<bool> covered = CoveredBy(draped, places, normals);
+  const std::vector<bool> covered =
+      CoveredBy(draped, places, normals, draped.hide_margin, draped.loose_margin);
   std::vector<bool> hidden;
   for (const uint32_t base : body.base_of_skin) {
     hidden.push_back(covered[base]);
@@ -340,16 +343,24 @@ Result<Garment> FinishGarment(const DrapedGarment& draped,
       garment.cloth->name = name;
     }
   }
-  garment.hidden = HiddenSkin(draped, body);
+  garment.hidden =
+      draped.covers ? HiddenSkin(draped, body) : std::vector<bool>(body.base_of_skin.size(), false);
   return garment;
 }
 
 void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner) {
+  if (inner.coarse_triangles.empty()) {
+    return;
+  }
   const std::vector<glm::vec3> normals =
       Normals(inner.sheet.positions, inner.sheet.ParticleTriangles());
   std::vector<bool> covered(inner.sheet.positions.size(), false);
   for (const DrapedGarment& garment : outer) {
-    const std::vector<bool> by_this = CoveredBy(garment, inner.sheet.positions, normals);
+    if (!garment.covers) {
+      continue;
+    }
+    const std::vector<bool> by_this = CoveredBy(garment, inner.sheet.positions, normals,
+                                                garment.cover_margin, garment.cover_margin);
     for (size_t p = 0; p < covered.size(); ++p) {
       covered[p] = covered[p] || by_this[p];
     }
@@ -358,7 +369,7 @@ void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner)
   std::vector<Triangle> kept;
   std::vector<Triangle> kept_coarse;
   for (size_t t = 0; t < inner.sheet.triangles.size(); t += 4) {
-    bool seen = inner.coarse_triangles.empty();
+    bool seen = false;
     for (size_t k = t; k < t + 4 && !seen; ++k) {
       const Triangle corners = inner.sheet.Particles(inner.sheet.triangles[k]);
       seen = std::any_of(corners.begin(), corners.end(), [&](uint32_t p) { return !covered[p]; });

@@ -4,21 +4,29 @@
 
 #include "editor/import/garment/draped.h"
 #include "editor/import/garment/finish.h"
+#include "editor/import/garment/sandals.h"
 #include "editor/import/garment/tunic.h"
+#include "editor/import/garment/wrap.h"
 
 namespace lararium::import {
 namespace {
 
 Result<DrapedGarment> Drape(const GarmentPattern& pattern,
                             const FittedBody& body,
-                            std::span<const DrapedGarment>) {
+                            std::span<const DrapedGarment> worn) {
   switch (pattern.kind) {
     case GarmentKind::kTunic:
     case GarmentKind::kStola:
       return DrapeTunic(pattern, body);
-    default:
-      return Status::Error(NameOf(pattern.kind), "cannot be cut yet");
+    case GarmentKind::kApron:
+      return DrapeApron(pattern, body, worn);
+    case GarmentKind::kToga:
+    case GarmentKind::kPalla:
+      return DrapeMantle(pattern, body, worn);
+    case GarmentKind::kSandals:
+      return CutSandals(pattern, body);
   }
+  return Status::Error("garment", "is of no known kind");
 }
 
 }  // namespace

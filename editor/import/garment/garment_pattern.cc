@@ -81,10 +81,11 @@ GarmentPattern PlainPattern(GarmentKind kind) {
       break;
     case GarmentKind::kApron:
       pattern.hem = 0.9f;
+      pattern.colour = ToLinear(0x9a8e7c);
       pattern.belt = Belt::kCord;
       break;
     case GarmentKind::kToga:
-      pattern.hem = 1.75f;
+      pattern.hem = 1.68f;
       pattern.colour = ToLinear(0xe9e4d6);
       pattern.belt = Belt::kNone;
       break;

@@ -136,6 +136,54 @@ BodyField FieldOf(const PosedBody& posed, float cell, float band, bool forearms)
   return field;
 }
 
+BodyField FieldOver(const PosedBody& posed,
+                    std::span<const Sheet* const> worn,
+                    float cell,
+                    float band) {
+  std::vector<glm::vec3> extent;
+  std::vector<Triangle> triangles;
+  for (const Triangle& t : posed.triangles) {
+    if (!posed.forearm[t[0]]) {
+      triangles.push_back(t);
+      extent.push_back(posed.positions[t[0]]);
+    }
+  }
+  for (const Sheet* sheet : worn) {
+    extent.insert(extent.end(), sheet->positions.begin(), sheet->positions.end());
+  }
+  BodyField field(extent, cell, band);
+  field.Add(posed.positions, triangles);
+  for (const Sheet* sheet : worn) {
+    field.Add(sheet->positions, sheet->ParticleTriangles());
+  }
+  field.Finish();
+  return field;
+}
+
+// From the support function: along each direction, no half plane that holds all the
+// points may cut the ray.
+std::vector<float> HullRadius(std::span<const glm::vec2> points, glm::vec2 middle, int count) {
+  std::vector<float> support(static_cast<size_t>(count), 0.0f);
+  std::vector<glm::vec2> directions;
+  for (int k = 0; k < count; ++k) {
+    const float angle = glm::two_pi<float>() * static_cast<float>(k) / static_cast<float>(count);
+    directions.emplace_back(std::sin(angle), std::cos(angle));
+    for (const glm::vec2& p : points) {
+      support[k] = std::max(support[k], glm::dot(p - middle, directions[k]));
+    }
+  }
+  std::vector<float> radius(static_cast<size_t>(count), 1e9f);
+  for (int k = 0; k < count; ++k) {
+    for (int m = 0; m < count; ++m) {
+      const float cosine = glm::dot(directions[k], directions[m]);
+      if (cosine > 0.2f) {
+        radius[k] = std::min(radius[k], support[m] / cosine);
+      }
+    }
+  }
+  return radius;
+}
+
 ArmWalls::ArmWalls(const PosedBody& posed) {
   constexpr float kFree = 1e9f;
   constexpr float kGap = 0.012f;
@@ -216,30 +264,7 @@ void Girth::Include(std::span<const glm::vec3> points) {
   Rebuild();
 }
 
-// The hull from its support function: along each direction, no half plane that holds
-// all the points may cut the ray.
-void Girth::Rebuild() {
-  std::vector<float> support(kAngles, 0.0f);
-  const auto direction = [](int k) {
-    const float angle = glm::two_pi<float>() * static_cast<float>(k) / kAngles;
-    return glm::vec2(std::sin(angle), std::cos(angle));
-  };
-  for (int k = 0; k < kAngles; ++k) {
-    for (const glm::vec2& p : points_) {
-      support[k] =
-          std::max(support[k], glm::dot(p - glm::vec2(middle_.x, middle_.z), direction(k)));
-    }
-  }
-  radius_.assign(kAngles, 1e9f);
-  for (int k = 0; k < kAngles; ++k) {
-    for (int m = 0; m < kAngles; ++m) {
-      const float cosine = glm::dot(direction(k), direction(m));
-      if (cosine > 0.2f) {
-        radius_[k] = std::min(radius_[k], support[m] / cosine);
-      }
-    }
-  }
-}
+void Girth::Rebuild() { radius_ = HullRadius(points_, {middle_.x, middle_.z}, kAngles); }
 
 float Girth::Radius(float angle) const {
   float turn = angle / glm::two_pi<float>();

@@ -39,6 +39,15 @@ std::vector<JointTurn> ArmsLowered(const FittedBody& body, float angle, float sh
 // Without forearms and hands, cloth cannot be caught on the wrong side of them.
 BodyField FieldOf(const PosedBody& posed, float cell, float band, bool forearms = true);
 
+// The same over what is worn already.
+BodyField FieldOver(const PosedBody& posed,
+                    std::span<const Sheet* const> worn,
+                    float cell,
+                    float band);
+
+// Distances of a convex hull from a middle axis, at count angles (as Girth's).
+std::vector<float> HullRadius(std::span<const glm::vec2> points, glm::vec2 middle, int count);
+
 // How far to each side cloth may hang so that forearms and hands stay free of it.
 class ArmWalls {
  public:

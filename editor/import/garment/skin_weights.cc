@@ -19,13 +19,28 @@ struct Source {
   uint32_t vertex = 0;
 };
 
-std::vector<Source> BodySources(const FittedBody& body, const PosedBody& posed, bool arms) {
+// x: in the bind pose, positive to the person's right.
+bool HasPart(WeightSource source, float arm, bool forearm, float x) {
+  switch (source) {
+    case WeightSource::kTrunk:
+      return arm < 0.2f;
+    case WeightSource::kMantle:
+      return arm < 0.2f || (x < 0.0f && !forearm);
+    default:
+      return true;
+  }
+}
+
+std::vector<Source> BodySources(const FittedBody& body,
+                                const PosedBody& posed,
+                                WeightSource source) {
   const std::vector<bool> is_body = IsBody(body);
   const float highest = JointPlace(body, posed, "skullbase").y;
   const std::vector<float> arm = ArmShare(body);
   std::vector<Source> sources;
   for (uint32_t v = 0; v < posed.positions.size(); ++v) {
-    if (is_body[v] && posed.positions[v].y < highest && (arms || arm[v] < 0.2f)) {
+    if (is_body[v] && posed.positions[v].y < highest &&
+        HasPart(source, arm[v], posed.forearm[v], body.base.positions[v].x)) {
       sources.push_back({posed.positions[v], posed.normals[v], v});
     }
   }
@@ -82,7 +97,7 @@ std::vector<float> TakeWeights(const FittedBody& body,
   std::vector<float> distances(sheet.positions.size(), 0.0f);
   sheet.joint_count = body.skeleton.size();
   sheet.weights.assign(sheet.positions.size() * sheet.joint_count, 0.0f);
-  const std::vector<Source> sources = BodySources(body, posed, source != WeightSource::kTrunk);
+  const std::vector<Source> sources = BodySources(body, posed, source);
   const std::vector<Source> skirt = SkirtSources(body, posed);
   const size_t pelvis = JointNumber(body, "sacroiliac");
   const float hips = JointPlace(body, posed, "l_hip").y;
@@ -91,9 +106,8 @@ std::vector<float> TakeWeights(const FittedBody& body,
     const glm::vec3& place = sheet.positions[p];
     const float top = hips + 0.1f * (hips - knees);
     const float bottom = hips - 0.2f * (hips - knees);
-    float below = source == WeightSource::kSkirted
-                      ? std::clamp((top - place.y) / (top - bottom), 0.0f, 1.0f)
-                      : 0.0f;
+    const bool skirted = source == WeightSource::kSkirted || source == WeightSource::kMantle;
+    float below = skirted ? std::clamp((top - place.y) / (top - bottom), 0.0f, 1.0f) : 0.0f;
     below = skirt.empty() ? 0.0f : below;
     if (below < 1.0f) {
       distances[p] = AddFrom(body, sources, place, 1.0f - below, sheet.WeightsOf(p));

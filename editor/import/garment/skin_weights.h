@@ -15,7 +15,8 @@ namespace lararium::import {
 // Gives each particle the weights of the body near it in this pose. kSkirted: what
 // hangs below the hips, between the legs, takes those of the helper skirt, and half as
 // much of a leg's turn. kTrunk: as if the body had no arms.
-enum class WeightSource : uint8_t { kBody, kSkirted, kTrunk };
+// kMantle: as kSkirted, but as if it had the left upper arm alone.
+enum class WeightSource : uint8_t { kBody, kSkirted, kTrunk, kMantle };
 // Returns how far each particle is from what it took them from, metres.
 std::vector<float> TakeWeights(const FittedBody& body,
                                const PosedBody& posed,

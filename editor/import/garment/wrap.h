@@ -1,0 +1,29 @@
+#pragma once
+
+// What is wrapped round the body over a tunic.
+//
+// Toga and palla begin at the left shoulder in front, cross the back, pass under the
+// right arm and come up across the chest over the left shoulder again, where the rest
+// falls behind. The toga's upper part is folded over and hangs in a bow to the right
+// knee (sinus); its edge is rolled into a band from the right hip to the left shoulder
+// (balteus). After Wilson, "The Roman Toga", 1924, and Goette, "Studien zu roemischen
+// Togadarstellungen", 1990, form B.
+
+#include <span>
+
+#include "editor/import/cast_body.h"
+#include "editor/import/garment/draped.h"
+#include "editor/import/garment/garment_pattern.h"
+#include "shared/core/status.h"
+
+namespace lararium::import {
+
+Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
+                                  const FittedBody& body,
+                                  std::span<const DrapedGarment> worn);
+
+Result<DrapedGarment> DrapeApron(const GarmentPattern& pattern,
+                                 const FittedBody& body,
+                                 std::span<const DrapedGarment> worn);
+
+}  // namespace lararium::import
