@@ -104,6 +104,17 @@ class StructureFinder {
     return chain;
   }
 
+  // Bone by bone.
+  bool AreAlike(int first, int second) const {
+    const std::vector<int> a = MainChain(first), b = MainChain(second);
+    const float reach = std::max(LimbReach(first), LimbReach(second));
+    bool alike = a.size() == b.size();
+    for (size_t i = 0; alike && i < a.size(); ++i) {
+      alike = std::abs(Length(a[i]) - Length(b[i])) < 0.07f * reach;
+    }
+    return alike;
+  }
+
   std::optional<Pair> BestPair(int branch) const {
     Pair best;
     best.branch = branch;
@@ -113,8 +124,8 @@ class StructureFinder {
         const float a = LimbReach(below[i]), b = LimbReach(below[k]);
         const int tip_a = tip_[static_cast<size_t>(below[i])];
         const int tip_b = tip_[static_cast<size_t>(below[k])];
-        if (std::min(a, b) > (1.0f - kSame) * std::max(a, b) && a + b > best.reach &&
-            Distance(tip_a, tip_b) > 0.05f * (a + b)) {
+        if (a + b > best.reach && std::min(a, b) > (1.0f - kSame) * std::max(a, b) &&
+            Distance(tip_a, tip_b) > 0.05f * (a + b) && AreAlike(below[i], below[k])) {
           best.a = below[k];
           best.b = below[i];
           best.reach = a + b;
@@ -160,7 +171,7 @@ class StructureFinder {
             (rig_.IsBelow(legs.branch, arms.branch) || BesidesPair(arms) > BesidesPair(legs));
         const float smaller = std::min(legs.reach, arms.reach);
         if (apart && smaller > 0.4f * std::max(legs.reach, arms.reach) &&
-            Distance(legs.branch, arms.branch) > 0.1f * smaller && smaller > best) {
+            Distance(legs.branch, arms.branch) > 0.03f * smaller && smaller > best) {
           best = smaller;
           legs_ = legs;
           arms_ = arms;

@@ -16,6 +16,7 @@ using human::JointTransform;
 
 constexpr float kReach = 0.992f;      // of the leg's length
 constexpr float kDeepestSink = 0.2f;  // metres
+constexpr float kTip = 1.4f;          // of the way from ankle to ball, to the tip of the toes
 constexpr float kLevelSpan = 0.1f;    // seconds on either side over which a foot gets level
 constexpr float kSinkSpan = 0.12f;    // seconds on either side over which hips sink
 
@@ -28,7 +29,7 @@ struct Foot {
   std::vector<Stands> stands;
   std::vector<glm::quat> turn;        // from rest, level where the whole sole stands
   std::vector<float> toes_flat;       // 0..1: the toes lie on the floor
-  PointTrack ankle, heel, ball;       // as the keys have them
+  PointTrack ankle, heel, ball, tip;  // as the keys have them
   std::vector<glm::vec3> correction;  // what they are moved by
 };
 
@@ -93,6 +94,7 @@ class FootLock {
       foot.turn.push_back(glm::slerp(turn, Level(turn), flat[key]));
       foot.heel.push_back(track.ankle[key] + foot.turn[key] * (toe_out * leg.heel + drop));
       foot.ball.push_back(track.ankle[key] + foot.turn[key] * (toe_out * sole + drop));
+      foot.tip.push_back(track.ankle[key] + foot.turn[key] * (toe_out * (kTip * sole) + drop));
     }
     foot.correction.assign(keys_, glm::vec3(0.0f));
   }
@@ -203,7 +205,7 @@ class FootLock {
 
   void KeepAboveFloor(Foot& foot) const {
     for (size_t key = 0; key < keys_; ++key) {
-      const float lowest = std::min(foot.heel[key].y, foot.ball[key].y) + foot.correction[key].y;
+      const float lowest = std::min(foot.heel[key].y, foot.tip[key].y) + foot.correction[key].y;
       if (foot.stands[key] == Stands::kNo && lowest < 0.0f) {
         foot.correction[key].y -= lowest;
       }

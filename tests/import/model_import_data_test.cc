@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
+#include "editor/import/clip_import.h"
+#include "editor/import/model_gltf.h"
 #include "editor/import/model_import.h"
+#include "editor/import/plain_figure.h"
 #include "shared/core/file.h"
 #include "shared/core/random.h"
 #include "shared/human/skinning.h"
+#include "tests/import/glb_figure.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::import {
@@ -136,6 +142,198 @@ TEST(DamagedModels, NeverCrashTheImporter) {
     }
     (void)ImportHuman(temporary / "damaged.glb").ok();
   }
+}
+
+// ---- The figure of the lighting set under other names, axes and units -----------------
+
+// The figure with its nodes renamed; a new root turns and scales the whole.
+Result<std::vector<std::byte>> Variant(const std::filesystem::path& file,
+                                       const std::function<std::string(const std::string&)>& name,
+                                       const Json& root) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+  LARARIUM_ASSIGN_OR_RETURN(const GltfDocument document, ParseGltf(bytes, file.string()));
+  test::GlbFigure figure{document.json, document.binary};
+  for (Json& node : figure.json["nodes"]) {
+    node["name"] = name(node.value("name", ""));
+  }
+  Json node = root;
+  node["name"] = "Armature";
+  node["children"] = figure.json["scenes"][0]["nodes"];
+  figure.json["nodes"].push_back(node);
+  figure.json["scenes"][0]["nodes"] = {figure.json["nodes"].size() - 1};
+  return figure.Glb();
+}
+
+TEST(LightingFigure, IsTheSameUnderAnyNamesAxesAndUnits) {
+  LARARIUM_REQUIRE_DATA(folder, "lighting");
+  const auto original = ImportPerson(folder / "figure.glb");
+  ASSERT_TRUE(original.ok()) << original.message();
+  ASSERT_TRUE(original->is_human) << original->bone_table;
+  const test::TemporaryFolder temporary;
+  int count = 0;
+  const auto nameless = [&](const std::string&) { return "Node " + std::to_string(count++); };
+  const auto same = [](const std::string& name) { return name; };
+  const Json z_up_centimetres = {{"rotation", {0.70710678, 0, 0, 0.70710678}},
+                                 {"scale", {100, 100, 100}}};
+  const Json turned = {{"rotation", {0, 1, 0, 0}}};
+  for (const auto& [name, root] :
+       {std::pair<std::function<std::string(const std::string&)>, Json>{same, z_up_centimetres},
+        {nameless, z_up_centimetres},
+        {nameless, turned}}) {
+    const auto bytes = Variant(folder / "figure.glb", name, root);
+    ASSERT_TRUE(bytes.ok()) << bytes.message();
+    ASSERT_TRUE(WriteFileAtomically(temporary / "variant.glb", *bytes).ok());
+    const auto variant = ImportPerson(temporary / "variant.glb");
+    ASSERT_TRUE(variant.ok()) << variant.message();
+    ASSERT_TRUE(variant->is_human) << variant->bone_table;
+    const human::Skeleton& a = original->human.skeleton;
+    const human::Skeleton& b = variant->human.skeleton;
+    for (const char* joint :
+         {"humanoid_root", "skullbase", "r_shoulder", "r_elbow", "l_wrist", "l_hip", "r_knee",
+          "l_ankle", "r_midtarsal", "l_thumb1", "r_index1", "r_pinky2"}) {
+      ASSERT_TRUE(a.Find(joint) && b.Find(joint)) << joint << "\n" << variant->bone_table;
+      const glm::vec3 pa = glm::vec3(a.joint_from_actor[*a.Find(joint)][3]);
+      const glm::vec3 pb = glm::vec3(b.joint_from_actor[*b.Find(joint)][3]);
+      EXPECT_LT(glm::distance(pa, pb), 0.01f) << joint;
+    }
+  }
+}
+
+// ---- Debian's assimp-testmodels ---------------------------------------------------------
+
+#define REQUIRE_MODELS(variable)                                     \
+  const std::filesystem::path variable = "/usr/share/assimp/models"; \
+  if (!std::filesystem::exists(variable)) {                          \
+    GTEST_SKIP() << "needs the Debian package assimp-testmodels";    \
+  }                                                                  \
+  static_assert(true, "")
+
+struct ModelClaim {
+  const char* file;
+  // Of ImportPerson and of ImportMotion: part of the error, or empty where it loads.
+  const char* person;
+  const char* motion;
+};
+
+constexpr char kNoSkeleton[] = "no part of it is bound to a skeleton";
+constexpr char kNoMesh[] = "there is no mesh in it";
+
+// Every animated model of the package, and every BVH.
+constexpr ModelClaim kAnimatedModels[] = {
+    {"BVH/01_01.bvh", kNoMesh, ""},
+    {"BVH/01_03.bvh", kNoMesh, ""},
+    {"BVH/Boxing_Toes.bvh", kNoMesh, ""},
+    {"FBX/animation_with_skeleton.fbx", "", ""},
+    {"FBX/huesitos.fbx", "", ""},
+    {"FBX/spider.fbx", kNoSkeleton, kNoSkeleton},
+    {"FBX/transparentTest.fbx", "out of range", "out of range"},
+    {"Collada/box_nested_animation.dae", "", ""},
+    {"Collada/human.zae", kNoSkeleton, kNoSkeleton},
+    {"Collada/library_animation_clips.dae", "Cannot parse", "Cannot parse"},
+    {"Collada/anims_with_full_rotations_between_keys.DAE", kNoSkeleton, "no height"},
+    {"glTF2/simple_skin/simple_skin.gltf", "", ""},
+    {"glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf", kNoSkeleton,
+     kNoSkeleton},
+    {"glTF2/RecursiveNodes/RecursiveNodes.gltf", "their own ancestors", "their own ancestors"},
+    {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "nowhere in space", kNoSkeleton},
+    {"glTF2/MissingBin/BoxTextured.gltf", "could not open", "could not open"},
+    {"glTF2/draco/2CylinderEngine.gltf", "KHR_draco_mesh_compression", "KHR_draco"},
+    {"X/anim_test.x", "is not in the scene", "is not in the scene"},
+    {"IRR/animMesh.irr", "XML parse error", "XML parse error"},
+    {"IRR/scenegraphAnim.irr", "XML parse error", "XML parse error"},
+    {"OpenGEX/animation_example.ogex", "Not enough values", "Not enough values"},
+    {"MD5/SimpleCube.md5mesh", "", "no animation"},
+};
+
+void ExpectAnswer(const Result<ImportedHuman>& answer,
+                  const std::string& expected,
+                  const std::string& claim) {
+  if (expected.empty()) {
+    ASSERT_TRUE(answer.ok()) << answer.message();
+    EXPECT_TRUE(answer->human.Validate(claim).ok());
+  } else {
+    ASSERT_FALSE(answer.ok()) << claim;
+    EXPECT_NE(answer.message().find(expected), std::string::npos) << answer.message();
+  }
+}
+
+TEST(AssimpModels, AnimatedOnesLoadOrSayWhyNot) {
+  REQUIRE_MODELS(models);
+  for (const ModelClaim& claim : kAnimatedModels) {
+    ExpectAnswer(ImportPerson(models / claim.file), claim.person, claim.file);
+    ExpectAnswer(ImportMotion(models / claim.file), claim.motion, claim.file);
+  }
+}
+
+// Whatever the package holds, in every format: a figure that keeps its promises or one
+// line that names the file.
+TEST(AssimpModels, AllAreAnswered) {
+  REQUIRE_MODELS(models);
+  size_t loaded = 0, refused = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(models)) {
+    if (!entry.is_regular_file() || entry.file_size() > (uintmax_t{20} << 20)) {
+      continue;
+    }
+    const auto person = ImportPerson(entry.path());
+    if (person.ok()) {
+      ++loaded;
+      EXPECT_TRUE(person->human.Validate("person").ok());
+    } else {
+      ++refused;
+      EXPECT_TRUE(person.message().starts_with(entry.path().string() + ": ")) << person.message();
+      EXPECT_EQ(person.message().find("crashed"), std::string::npos) << person.message();
+    }
+  }
+  EXPECT_GE(loaded, 27u);
+  EXPECT_GE(refused, 400u);
+}
+
+// The lowest point of a figure in a pose, metres.
+float Lowest(const human::Human& human, const human::Clip& clip, double time) {
+  float lowest = std::numeric_limits<float>::max();
+  for (const human::SkinnedMesh& mesh : human.meshes) {
+    for (const glm::vec3& p : Skin(human, mesh, clip, time)) {
+      lowest = std::min(lowest, p.y);
+    }
+  }
+  return lowest;
+}
+
+TEST(CapturedClips, PutThePlainFiguresFeetOnTheFloor) {
+  REQUIRE_MODELS(models);
+  const human::Human figure = BuildPlainFigure();
+  for (const char* file : {"BVH/01_01.bvh", "BVH/Boxing_Toes.bvh"}) {
+    ClipImportOptions options;
+    options.retarget.name = "captured";
+    options.retarget.to = 20.0f;
+    const auto imported = ImportClip(models / file, figure.skeleton, options);
+    ASSERT_TRUE(imported.ok()) << imported.message();
+    EXPECT_NEAR(imported->clip.duration, 20.0f, 0.1f);
+    EXPECT_EQ(imported->clip.stride, 0.0f);  // they jump and box, and turn
+    std::vector<float> lowest;
+    for (double time = 1.0; time < 20.0; time += 0.5) {
+      lowest.push_back(Lowest(figure, imported->clip, time));
+    }
+    std::sort(lowest.begin(), lowest.end());
+    EXPECT_GT(lowest.front(), -0.03f) << file;
+    EXPECT_NEAR(lowest[lowest.size() / 2], 0.0f, 0.01f) << file;
+  }
+}
+
+TEST(CapturedClips, BeginWithSpreadArmsAsTheFileDoes) {
+  REQUIRE_MODELS(models);
+  const human::Human figure = BuildPlainFigure();
+  const auto imported = ImportClip(models / "BVH/01_01.bvh", figure.skeleton);
+  ASSERT_TRUE(imported.ok()) << imported.message();
+  std::vector<glm::mat4> actor_from_joint(figure.skeleton.size());
+  ComputeActorFromJoint(figure.skeleton,
+                        std::span(imported->clip.keys).first(figure.skeleton.size()),
+                        actor_from_joint);
+  const auto at = [&](const char* joint) {
+    return glm::vec3(actor_from_joint[*figure.skeleton.Find(joint)][3]);
+  };
+  EXPECT_NEAR(at("r_wrist").y, at("r_shoulder").y, 0.1f);
+  EXPECT_GT(glm::distance(at("r_wrist"), at("l_wrist")), 1.2f);
 }
 
 }  // namespace
