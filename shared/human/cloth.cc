@@ -592,20 +592,6 @@ bool Advance(const Model& model, const ClothStep& step, State& state) {
   return whole;
 }
 
-void DrawNormals(const Model& model, State& state) {
-  std::fill(state.drawn_normals.begin(), state.drawn_normals.end(), glm::vec3(0.0f));
-  for (const std::array<uint32_t, 3>& t : model.triangles) {
-    const glm::vec3& origin = state.drawn[t[0]];
-    const glm::vec3 normal = glm::cross(state.drawn[t[1]] - origin, state.drawn[t[2]] - origin);
-    for (const uint32_t corner : t) {
-      state.drawn_normals[corner] += normal;
-    }
-  }
-  for (glm::vec3& normal : state.drawn_normals) {
-    normal = Direction(normal, glm::vec3(0.0f, 1.0f, 0.0f));
-  }
-}
-
 void Draw(const Model& model, State& state) {
   const float share = std::clamp(static_cast<float>(state.pending / double(kBeat)), 0.0f, 1.0f);
   const glm::mat3 actor_from_local = glm::mat3_cast(glm::conjugate(state.frame.turn));
@@ -615,8 +601,9 @@ void Draw(const Model& model, State& state) {
     const glm::vec3 offset =
         state.offsets_before[i] + (state.offsets[i] - state.offsets_before[i]) * share;
     state.drawn[i] = skin + smooth * offset;
+    state.places[i] = Float4(state.drawn[i]);
   }
-  DrawNormals(model, state);
+  MeasureNormals(model, state);
 }
 
 void Fade(const ClothStep& step, State& state) {

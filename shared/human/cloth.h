@@ -70,8 +70,6 @@ class ClothState {
 
   // Of Human::cloths[cloth], as to be drawn: metres, actor frame of the latest step.
   std::span<const glm::vec3> particles(size_t cloth) const;
-  // Unit normals there, to the side from which triangles run counter-clockwise.
-  std::span<const glm::vec3> normals(size_t cloth) const;
 
   struct Data;
   Data& data() { return *data_; }

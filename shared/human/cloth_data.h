@@ -47,14 +47,15 @@ struct ClothTether {
   float length = 0.0f;
 };
 
-// A vertex of the drawn mesh. Its normal is given in the frame of the corners' mean
-// normal and the triangle's first edge, so that it turns with the cloth.
+// A vertex of the drawn mesh. Its normal is the sum of the corners' mean normal and two
+// sides of its triangle, each times its share: it turns and shears with the cloth.
 struct ClothVertex {
   uint32_t vertex = 0;
-  std::array<uint32_t, 3> corners = {};
-  glm::vec3 weights = glm::vec3(0.0f);
+  uint32_t triangle = 0;                 // of ClothModel::Data::triangles
+  std::array<uint32_t, 3> corners = {};  // its particles
+  std::array<float, 3> weights = {};
   float offset = 0.0f;
-  glm::vec3 normal = glm::vec3(0.0f);
+  std::array<float, 3> normal = {};  // shares: mean normal, side 0 to 1, side 0 to 2
 };
 
 // The particles and vertices of one cloth.
@@ -185,19 +186,21 @@ struct ClothState::Data {
   std::vector<glm::vec3> offsets_before;  // from the skin, actor axes, one beat ago
   std::vector<glm::vec3> offsets;         // at the last beat
   std::vector<glm::vec3> drawn;           // actor frame
-  std::vector<glm::vec3> drawn_normals;
+  std::vector<Float4> places;             // the same
+  std::vector<Float4> normals;            // unit, at particles
+  std::vector<Float4> triangle_normals;   // unit
 
   std::vector<uint32_t> first_particles;  // of each cloth, and the end
 };
-
-// Right-handed axes: along the edge as seen on the cloth, across it, and the normal.
-glm::mat3 ClothFrame(const glm::vec3& normal, const glm::vec3& edge);
 
 // Sets the accelerations to what moving air does (cloth_air.cc).
 void SetAir(const ClothModel::Data& model, const Wind& wind, ClothState::Data& state);
 
 // Finds pairs of particles that may touch within the next beats (cloth_pairs.cc).
 void FindPairs(const ClothModel::Data& model, ClothState::Data& state);
+
+// Normals of the cloth as drawn (cloth_drape.cc).
+void MeasureNormals(const ClothModel::Data& model, ClothState::Data& state);
 
 // Slots of the grid for so many particles.
 size_t SlotCount(size_t particle_count);

@@ -311,21 +311,36 @@ class Builder {
       }
       ClothVertex vertex;
       vertex.vertex = v;
-      const std::array<uint32_t, 3>& corners =
-          model_.triangles[first_triangle + cloth.vertex_triangle[v]];
-      glm::vec3 mean(0.0f);
+      vertex.triangle = static_cast<uint32_t>(first_triangle) + cloth.vertex_triangle[v];
+      vertex.corners = model_.triangles[vertex.triangle];
       const glm::vec3 w = cloth.vertex_weights[v];
       vertex.weights = {w.x, w.y, 1.0f - w.x - w.y};
       vertex.offset = w.z;
-      for (int k = 0; k < 3; ++k) {
-        vertex.corners[k] = corners[k] - range.first;
-        mean += vertex.weights[k] * normals[vertex.corners[k]];
+      glm::vec3 mean(0.0f);
+      for (size_t k = 0; k < 3; ++k) {
+        mean += vertex.weights[k] * normals[vertex.corners[k] - range.first];
       }
-      const glm::mat3 actor_from_cloth =
-          ClothFrame(mean, (model_.rest[corners[1]] - model_.rest[corners[0]]).xyz());
-      vertex.normal = glm::transpose(actor_from_cloth) * mesh.normals[v];
+      vertex.normal = SharesOf(mesh.normals[v], mean, vertex.corners);
       range.vertices.push_back(vertex);
     }
+  }
+
+  // The vector as a sum of a normal and two sides of a triangle; the plain normal where
+  // they span nothing.
+  std::array<float, 3> SharesOf(const glm::vec3& vector,
+                                const glm::vec3& normal,
+                                const std::array<uint32_t, 3>& corners) const {
+    const glm::vec3 origin = model_.bind_positions[corners[0]];
+    const glm::vec3 first = model_.bind_positions[corners[1]] - origin;
+    const glm::vec3 second = model_.bind_positions[corners[2]] - origin;
+    const float volume = glm::dot(normal, glm::cross(first, second));
+    const float size = glm::length(first) * glm::length(second);
+    if (!(std::abs(volume) > 1e-2f * size)) {
+      return {1.0f, 0.0f, 0.0f};
+    }
+    return {glm::dot(vector, glm::cross(first, second)) / volume,
+            glm::dot(normal, glm::cross(vector, second)) / volume,
+            glm::dot(normal, glm::cross(first, vector)) / volume};
   }
 
   std::vector<glm::vec3> ParticleNormals(const ClothRange& range, size_t first_triangle) const {
@@ -394,12 +409,12 @@ class Builder {
       for (const ClothVertex& vertex : range.vertices) {
         float between = 0.0f;
         for (int k = 0; k < 3; ++k) {
-          between += vertex.weights[k] * heights[range.first + vertex.corners[k]];
+          between += vertex.weights[k] * heights[vertex.corners[k]];
         }
         const float drop =
             std::min(between - height(Float4(mesh.positions[vertex.vertex])), kThickest);
         for (const uint32_t corner : vertex.corners) {
-          drops[range.first + corner] = std::max(drops[range.first + corner], drop);
+          drops[corner] = std::max(drops[corner], drop);
         }
       }
     }
@@ -496,13 +511,6 @@ class Builder {
 };
 
 }  // namespace
-
-glm::mat3 ClothFrame(const glm::vec3& normal, const glm::vec3& edge) {
-  const glm::vec3 n = Direction(normal, glm::vec3(0.0f, 1.0f, 0.0f));
-  const glm::vec3 fallback = std::abs(n.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-  const glm::vec3 across = Direction(glm::cross(n, edge), glm::cross(n, fallback));
-  return {glm::cross(across, n), across, n};
-}
 
 ClothModel::ClothModel(const Human& human, const ClothSettings& settings)
     : data_(std::make_unique<Data>()) {

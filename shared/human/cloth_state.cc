@@ -13,14 +13,6 @@ void Resize(ClothBody& body, size_t particles, size_t capsules) {
   body.ends.resize(2 * capsules);
 }
 
-std::span<const glm::vec3> OfCloth(const std::vector<glm::vec3>& all,
-                                   const std::vector<uint32_t>& first_particles,
-                                   size_t cloth) {
-  CHECK(cloth + 1 < first_particles.size());
-  const uint32_t first = first_particles[cloth];
-  return std::span<const glm::vec3>(all).subspan(first, first_particles[cloth + 1] - first);
-}
-
 }  // namespace
 
 // All that a step ever needs, so that none allocates.
@@ -53,11 +45,14 @@ ClothState::ClothState(const ClothModel& model) : data_(std::make_unique<Data>()
   for (size_t i = 0; i < count; ++i) {
     d.drawn.push_back(m.rest[i].xyz());
   }
-  d.drawn_normals.assign(count, glm::vec3(0.0f, 1.0f, 0.0f));
+  d.places = m.rest;
+  d.normals.resize(count);
+  d.triangle_normals.resize(m.triangles.size());
   for (const ClothRange& cloth : m.cloths) {
     d.first_particles.push_back(cloth.first);
   }
   d.first_particles.push_back(static_cast<uint32_t>(count));
+  MeasureNormals(m, d);
 }
 
 ClothState::ClothState(const ClothState& other) : data_(std::make_unique<Data>(*other.data_)) {
@@ -78,11 +73,10 @@ ClothState& ClothState::operator=(ClothState&&) noexcept = default;
 ClothState::~ClothState() = default;
 
 std::span<const glm::vec3> ClothState::particles(size_t cloth) const {
-  return OfCloth(data_->drawn, data_->first_particles, cloth);
-}
-
-std::span<const glm::vec3> ClothState::normals(size_t cloth) const {
-  return OfCloth(data_->drawn_normals, data_->first_particles, cloth);
+  CHECK(cloth + 1 < data_->first_particles.size());
+  const uint32_t first = data_->first_particles[cloth];
+  return std::span<const glm::vec3>(data_->drawn)
+      .subspan(first, data_->first_particles[cloth + 1] - first);
 }
 
 }  // namespace lararium::human
