@@ -488,27 +488,29 @@ bool Tasks::GrantUse(Task& task) {
   const Object& object = world_.object(task.object);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   const Actor& actor = world_.actor(task.actor);
-  const std::string what =
-      Quoted(actor.name) + " cannot '" + action.name + "' " + Quoted(object.name);
+  const auto what = [&] {
+    return Quoted(actor.name) + " cannot '" + action.name + "' " + Quoted(object.name);
+  };
   if (!action.held && UsersOf(task.object, task) >= object.use().capacity) {
     return false;
   }
   if ((action.from >> object.state.state & 1u) == 0) {
-    Fail(task,
-         what + ": it is " + Quoted(object.use().states[static_cast<size_t>(object.state.state)]));
+    Fail(task, what() + ": it is " +
+                   Quoted(object.use().states[static_cast<size_t>(object.state.state)]));
     return true;
   }
   if (action.held != (object.state.holder == task.actor)) {
-    Fail(task, what + (action.held ? ": it does not hold it" : ": it holds it in its hands"));
+    Fail(task, what() + (action.held ? ": it does not hold it" : ": it holds it in its hands"));
     return true;
   }
   if (!action.held && object.state.holder) {
-    Fail(task, what + ": it is in the hands of " + Quoted(world_.actor(object.state.holder).name));
+    Fail(task,
+         what() + ": it is in the hands of " + Quoted(world_.actor(object.state.holder).name));
     return true;
   }
   const auto hands = ChooseHands(world_, task.actor, task.object, action.hands);
   if (!hands) {
-    Fail(task, what + ": its hands are full");
+    Fail(task, what() + ": its hands are full");
     return true;
   }
   task.hands = *hands;
@@ -548,15 +550,18 @@ bool Tasks::GrantTake(Task& task) {
     Finish(task);
     return true;
   }
-  const std::string what = Quoted(actor.name) + " cannot take " + Quoted(object.name);
+  const auto what = [&] {
+    return Quoted(actor.name) + " cannot take " + Quoted(object.name);
+  };
   if (object.state.holder) {
-    Fail(task, what + ": it is in the hands of " + Quoted(world_.actor(object.state.holder).name) +
+    Fail(task, what() + ": it is in the hands of " +
+                   Quoted(world_.actor(object.state.holder).name) +
                    "; let them give it or put it down");
     return true;
   }
   const auto hands = ChooseHands(world_, task.actor, task.object, object.use().carry->hands);
   if (!hands) {
-    Fail(task, what + ": its hands are full");
+    Fail(task, what() + ": its hands are full");
     return true;
   }
   task.hands = *hands;
@@ -577,9 +582,11 @@ bool Tasks::GrantTake(Task& task) {
 bool Tasks::GrantPut(Task& task) {
   const Object& object = world_.object(task.object);
   const Actor& actor = world_.actor(task.actor);
-  const std::string what = Quoted(actor.name) + " cannot put " + Quoted(object.name) + " there";
+  const auto what = [&] {
+    return Quoted(actor.name) + " cannot put " + Quoted(object.name) + " there";
+  };
   if (object.state.holder != task.actor) {
-    Fail(task, what + ": it does not hold it");
+    Fail(task, what() + ": it does not hold it");
     return true;
   }
   task.hands = object.state.hands;
@@ -587,7 +594,7 @@ bool Tasks::GrantPut(Task& task) {
     return ApproachNear(task, {task.target.place.x, 0.0f, task.target.place.y});
   }
   if (RestsOn(world_, task.target.object, task.object)) {
-    Fail(task, what + ": that stands on what it holds");
+    Fail(task, what() + ": that stands on what it holds");
     return true;
   }
   const Object& on = world_.object(task.target.object);
@@ -636,7 +643,7 @@ bool Tasks::GrantPut(Task& task) {
     if (may_become_free) {
       return false;
     }
-    Fail(task, what + ": there is no free spot on " + Quoted(on.name));
+    Fail(task, what() + ": there is no free spot on " + Quoted(on.name));
     return true;
   }
   task.target.surface = surface;
@@ -654,14 +661,16 @@ bool Tasks::GrantGive(Task& task) {
   const Object& object = world_.object(task.object);
   const Actor& actor = world_.actor(task.actor);
   const Actor& partner = world_.actor(task.partner);
-  const std::string what =
-      Quoted(actor.name) + " cannot give " + Quoted(object.name) + " to " + Quoted(partner.name);
+  const auto what = [&] {
+    return Quoted(actor.name) + " cannot give " + Quoted(object.name) + " to " +
+           Quoted(partner.name);
+  };
   if (object.state.holder != task.actor) {
-    Fail(task, what + ": it does not hold it");
+    Fail(task, what() + ": it does not hold it");
     return true;
   }
   if (!partner.state.visible) {
-    Fail(task, what + ", who is not on the stage");
+    Fail(task, what() + ", who is not on the stage");
     return true;
   }
   task.hands = object.state.hands;
@@ -673,7 +682,7 @@ bool Tasks::GrantGive(Task& task) {
     stand = FindStand(world_, task.actor, partner.place(), kGiveNearest, kGiveFurthest);
   }
   if (!stand) {
-    Fail(task, what + ", who is out of reach");
+    Fail(task, what() + ", who is out of reach");
     return true;
   }
   EndWalk(world_, world_.actor(task.partner));

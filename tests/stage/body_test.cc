@@ -1,0 +1,127 @@
+// People with whole bodies at the stage's objects: what is seen, not only what is meant.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "shared/human/performance.h"
+#include "shared/stage/stage.h"
+#include "tests/human/full_body.h"
+#include "tests/stage/test_props.h"
+
+namespace lararium::stage {
+namespace {
+
+class BodyTest : public ::testing::Test {
+ protected:
+  BodyTest()
+      : human_(std::make_shared<human::Human>(human::FullBody(0.9f, 0))),
+        keeper_(*stage_.Add("keeper", human_)),
+        performer_(stage_.Find(keeper_)->model) {}
+
+  ObjectId AddObject(const char* name, stage::Prop prop, float x, float z) {
+    return *stage_.AddObject(name, test::Model(std::move(prop)), {{x, 0.0f, z}});
+  }
+  void Place(float x, float z) {
+    stage_.Place(keeper_, {x, 0.0f, z}, 0.0f);
+    stage_.Show(keeper_, true);
+  }
+  void Tick() {
+    stage_.Advance();
+    stage_.Perform();
+  }
+  const ActorState& State() { return stage_.Find(keeper_)->state; }
+
+  // Of the body as it is drawn, stage frame.
+  Pose StageFromPalm(int side) {
+    performer_.Pose(State().performance);
+    const human::GripFrame palm = human::ActorFromPalm(
+        performer_.model().reach, performer_.human().skeleton, performer_.pose(), side);
+    return StageFromActorPose(State()) * Pose{palm.position, palm.rotation};
+  }
+
+  std::shared_ptr<const human::Human> human_;
+  Stage stage_;
+  ActorId keeper_;
+  human::Performer performer_;
+};
+
+TEST_F(BodyTest, TheHandStaysOnTheGripOfAMovingPart) {
+  const ObjectId chest = AddObject("chest", test::MakeChest(), 0, 0);
+  Place(1, -3);
+  const auto task = stage_.tasks().Use(keeper_, chest, "open", 0.0f);
+  ASSERT_TRUE(task.ok());
+  float worst = 0.0f;
+  int ticks = 0;
+  while (!stage_.tasks().report(*task).over()) {
+    Tick();
+    const Object& object = *stage_.Find(chest);
+    if (object.state.action == 0 && ++ticks % 6 == 0) {
+      const Pose grip =
+          object.state.stage_from_object * ObjectFromGrip(*object.model, object.state.joints, 0);
+      worst = std::max(worst, glm::distance(StageFromPalm(human::kRight).position, grip.position));
+    }
+  }
+  EXPECT_GT(ticks, 100);
+  EXPECT_LT(worst, 0.005f);
+}
+
+TEST_F(BodyTest, WhatIsCarriedStaysInTheHandAndUpright) {
+  const ObjectId cup = AddObject("cup", test::MakeCup(), 0, 0);
+  Place(1, -3);
+  auto task = stage_.tasks().Take(keeper_, cup);
+  while (!stage_.tasks().report(*task).over()) {
+    Tick();
+  }
+  task = stage_.tasks().Walk(keeper_, {-3, 3}, {}, 0.0f);
+  float furthest = 0.0f;
+  float most_tilted = 1.0f;
+  for (int tick = 0; !stage_.tasks().report(*task).over(); ++tick) {
+    Tick();
+    if (tick % 10 != 0) {
+      continue;
+    }
+    const Object& object = *stage_.Find(cup);
+    const Pose palm = StageFromPalm(human::kRight);
+    const human::GripFrame in_actor = human::ActorFromPalm(
+        performer_.model().reach, performer_.human().skeleton, performer_.pose(), human::kRight);
+    const Pose drawn = DrawnPose(*object.model, object.state, StageFromActor(State()), in_actor);
+    const Pose grip = drawn * ObjectFromGrip(*object.model, object.state.joints,
+                                             object.state.hands[human::kRight]);
+    furthest = std::max(furthest, glm::distance(grip.position, palm.position));
+    most_tilted = std::min(most_tilted, (drawn.rotation * glm::vec3(0, 1, 0)).y);
+  }
+  EXPECT_LT(furthest, 1e-4f);
+  EXPECT_GT(most_tilted, 0.995f) << "within 6 degrees";
+}
+
+TEST_F(BodyTest, FeetDoNotSlideOnTheCrowdsWays) {
+  AddObject("table", test::MakeTable(), 0, 0);
+  Place(-3, -2);
+  Tick();
+  float worst = 0.0f;
+  std::array<human::Locomotion::Foot, 2> before = State().performance.locomotion.feet;
+  std::array<float, 2> slid = {0.0f, 0.0f};
+  for (const glm::vec2 goal : {glm::vec2(3, 2), glm::vec2(-2, 2.5f), glm::vec2(2, -3)}) {
+    const auto task = stage_.tasks().Walk(keeper_, goal, {}, 0.0f);
+    while (!stage_.tasks().report(*task).over()) {
+      Tick();
+      for (size_t side = 0; side < 2; ++side) {
+        const human::Locomotion::Foot& foot = State().performance.locomotion.feet[side];
+        if (foot.planted && before[side].planted) {
+          slid[side] += glm::distance(foot.print.position, before[side].print.position);
+          worst = std::max(worst, slid[side]);
+        } else {
+          slid[side] = 0.0f;
+        }
+        before[side] = foot;
+      }
+    }
+    EXPECT_EQ(stage_.tasks().report(*task).state, TaskReport::State::kDone);
+  }
+  EXPECT_LT(worst, 0.005f);
+}
+
+}  // namespace
+}  // namespace lararium::stage
