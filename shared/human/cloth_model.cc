@@ -300,20 +300,34 @@ class Builder {
     return std::hypot(along[1] - along[0], width);
   }
 
+  // Of each vertex the first one at the same place: seams are bound as one, so that they
+  // stay closed.
+  static std::vector<uint32_t> FindTwins(const std::vector<glm::vec3>& positions) {
+    std::map<std::array<float, 3>, uint32_t> first_at;
+    std::vector<uint32_t> twins;
+    for (uint32_t v = 0; v < positions.size(); ++v) {
+      const glm::vec3& p = positions[v];
+      twins.push_back(first_at.try_emplace({p.x, p.y, p.z}, v).first->second);
+    }
+    return twins;
+  }
+
   void Bind(const Cloth& cloth, ClothRange& range, size_t first_triangle) {
     const std::vector<glm::vec3> normals = ParticleNormals(range, first_triangle);
     model_.bind_normals.insert(model_.bind_normals.end(), normals.begin(), normals.end());
     const SkinnedMesh& mesh = human_.meshes[cloth.mesh];
+    const std::vector<uint32_t> twins = FindTwins(mesh.positions);
     for (uint32_t v = 0; v < cloth.vertex_triangle.size(); ++v) {
-      if (cloth.vertex_triangle[v] == Cloth::kUnbound) {
+      const uint32_t twin = twins[v];
+      if (cloth.vertex_triangle[twin] == Cloth::kUnbound) {
         range.has_plain_skin = true;
         continue;
       }
       ClothVertex vertex;
       vertex.vertex = v;
-      vertex.triangle = static_cast<uint32_t>(first_triangle) + cloth.vertex_triangle[v];
+      vertex.triangle = static_cast<uint32_t>(first_triangle) + cloth.vertex_triangle[twin];
       vertex.corners = model_.triangles[vertex.triangle];
-      const glm::vec3 w = cloth.vertex_weights[v];
+      const glm::vec3 w = cloth.vertex_weights[twin];
       vertex.weights = {w.x, w.y, 1.0f - w.x - w.y};
       vertex.offset = w.z;
       glm::vec3 mean(0.0f);

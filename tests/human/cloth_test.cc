@@ -573,6 +573,37 @@ TEST(Cloth, SheetsThatFallOnOneAnotherStayApart) {
   }
 }
 
+TEST(Cloth, SeamsOfTheDrawnMeshStayClosed) {
+  Human human = SkirtedWalker(16, 8);
+  SkinnedMesh& mesh = human.meshes[0];
+  Cloth& cloth = human.cloths[0];
+  // Two vertices at one place, bound to the triangles on either side of an edge.
+  for (const uint32_t triangle : {20u, 21u}) {
+    mesh.positions.push_back(0.5f * (mesh.positions[40] + mesh.positions[56]) +
+                             glm::vec3(0.01f, 0.0f, 0.0f));
+    mesh.normals.push_back(mesh.normals[40]);
+    mesh.albedo.push_back(mesh.albedo[40]);
+    mesh.joints.push_back(mesh.joints[40]);
+    mesh.weights.push_back(mesh.weights[40]);
+    cloth.vertex_triangle.push_back(triangle);
+    cloth.vertex_weights.emplace_back(0.5f, 0.5f, 0.01f);
+  }
+  const ClothModel model(human);
+  ClothState state(model);
+  WalkerPose walker;
+  ClothStep step;
+  step.elapsed = 1.0f / 60.0f;
+  std::vector<glm::vec3> x(mesh.positions.size()), n(x.size());
+  const std::vector<glm::mat4> skin(human.skeleton.size(), glm::mat4(1.0f));
+  for (int i = 0; i < 60; ++i) {
+    PoseWalker(human, i / 60.0, walker);
+    step.actor_from_joint = walker.actor_from_joint;
+    StepCloth(model, step, state);
+    DrapeMesh(model, state, 0, mesh, skin, x, n);
+    EXPECT_EQ(x[x.size() - 1], x[x.size() - 2]);
+  }
+}
+
 // A capsule is a rough body: where the skin that is drawn stands out of it, cloth does
 // too.
 TEST(Cloth, LiesOnSkinThatStandsOutOfItsCapsule) {
