@@ -172,6 +172,12 @@ void SetExpression(Face& face, Expression expression, float intensity, float sec
 }
 
 void UpdateFace(Face& face, float seconds) {
+  // A speech that begins or breaks off does not make the mouth jump.
+  constexpr float kMouthPerSecond = 18.0f;
+  for (size_t i = 0; i < face.visemes.size(); ++i) {
+    const float step = kMouthPerSecond * seconds;
+    face.mouth[i] += std::clamp(face.visemes[i] - face.mouth[i], -step, step);
+  }
   const float most = seconds * face.change_per_second;
   for (size_t i = 0; i < face.goals.size(); ++i) {
     face.expressions[i] += std::clamp(face.goals[i] - face.expressions[i], -most, most);
@@ -180,8 +186,8 @@ void UpdateFace(Face& face, float seconds) {
 
 Face Interpolate(const Face& previous, const Face& current, float alpha) {
   Face mixed = current;
-  for (size_t i = 0; i < mixed.visemes.size(); ++i) {
-    mixed.visemes[i] = glm::mix(previous.visemes[i], current.visemes[i], alpha);
+  for (size_t i = 0; i < mixed.mouth.size(); ++i) {
+    mixed.mouth[i] = glm::mix(previous.mouth[i], current.mouth[i], alpha);
   }
   for (size_t i = 0; i < mixed.expressions.size(); ++i) {
     mixed.expressions[i] = glm::mix(previous.expressions[i], current.expressions[i], alpha);
@@ -226,9 +232,9 @@ void ComputeFaceWeights(const FaceModel& model,
     }
   };
   float speech = 0.0f;
-  for (size_t i = 0; i < face.visemes.size(); ++i) {
-    show(model.visemes[i], face.visemes[i], 0.0f);
-    speech += static_cast<Viseme>(i) == Viseme::kSil ? 0.0f : face.visemes[i];
+  for (size_t i = 0; i < face.mouth.size(); ++i) {
+    show(model.visemes[i], face.mouth[i], 0.0f);
+    speech += static_cast<Viseme>(i) == Viseme::kSil ? 0.0f : face.mouth[i];
   }
   for (size_t i = 0; i < face.expressions.size(); ++i) {
     show(model.expressions[i], face.expressions[i], std::min(speech, 1.0f));

@@ -64,7 +64,8 @@ std::array<float, kVisemeCount> SampleVisemes(const VisemeTrack& track, double t
 
 // All that a face remembers; plain values.
 struct Face {
-  std::array<float, kVisemeCount> visemes = {};          // set before each update
+  std::array<float, kVisemeCount> visemes = {};  // set before each update
+  std::array<float, kVisemeCount> mouth = {};    // shown: follows within hundredths of a second
   std::array<float, kExpressionCount> expressions = {};  // shown
   std::array<float, kExpressionCount> goals = {};        // what they go to
   float change_per_second = 2.0f;

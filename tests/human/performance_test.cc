@@ -367,7 +367,7 @@ TEST(Face, GivesTheMouthToSpeechAndLeavesTheRestToFeeling) {
   ComputeFaceWeights(model, human, face, 0.0f, shapes, morphs);
   EXPECT_NEAR(morphs[1], 1.0f, 1e-5f);  // smiles
   EXPECT_NEAR(morphs[2], 0.5f, 1e-5f);
-  face.visemes[static_cast<size_t>(Viseme::kPP)] = 1.0f;
+  face.mouth[static_cast<size_t>(Viseme::kPP)] = 1.0f;
   ComputeFaceWeights(model, human, face, 0.7f, shapes, morphs);
   EXPECT_NEAR(morphs[0], 1.0f, 1e-5f);  // lips closed
   EXPECT_NEAR(morphs[1], 0.0f, 1e-5f);  // no longer
@@ -378,7 +378,7 @@ TEST(Face, GivesTheMouthToSpeechAndLeavesTheRestToFeeling) {
 TEST(Face, OpensTheJawWithTheVowel) {
   const auto model = ModelOf(WithFace());
   Performance performance;
-  performance.face.visemes[static_cast<size_t>(Viseme::kAa)] = 1.0f;
+  performance.face.mouth[static_cast<size_t>(Viseme::kAa)] = 1.0f;
   Performer performer(model);
   performer.Pose(performance);
   const auto jaw = static_cast<size_t>(model->locomotion.body.jaw);
@@ -387,6 +387,23 @@ TEST(Face, OpensTheJawWithTheVowel) {
               1.0f, 1e-5f);
   EXPECT_NEAR(performer.morph_weights()[0], 0.5f, 1e-5f);
   EXPECT_NEAR(performer.face_weights()[0], 1.0f, 1e-5f);
+}
+
+TEST(Face, DoesNotJumpWhenSpeechBreaksOff) {
+  Face face;
+  const auto aa = static_cast<size_t>(Viseme::kAa);
+  face.visemes[aa] = 1.0f;
+  for (int tick = 0; tick < 10; ++tick) {
+    UpdateFace(face, kTick);
+  }
+  EXPECT_EQ(face.mouth[aa], 1.0f);
+  face.visemes = {};
+  UpdateFace(face, kTick);
+  EXPECT_GT(face.mouth[aa], 0.8f);
+  for (int tick = 0; tick < 10; ++tick) {
+    UpdateFace(face, kTick);
+  }
+  EXPECT_EQ(face.mouth[aa], 0.0f);
 }
 
 TEST(Face, ChangesExpressionOverTime) {
