@@ -1,0 +1,83 @@
+// Cloth and hair allocate nothing while they move. Its own program: it replaces the
+// global allocator.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "shared/human/cloth.h"
+#include "shared/human/spring.h"
+#include "tests/human/walker.h"
+
+namespace {
+
+thread_local bool counting = false;
+thread_local int allocations = 0;
+
+void* Allocate(size_t size) {
+  allocations += counting ? 1 : 0;
+  void* memory = nullptr;
+  if (posix_memalign(&memory, 64, size == 0 ? 1 : size) != 0) {
+    std::abort();
+  }
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(size_t size) { return Allocate(size); }
+void* operator new[](size_t size) { return Allocate(size); }
+void* operator new(size_t size, std::align_val_t) { return Allocate(size); }
+void* operator new[](size_t size, std::align_val_t) { return Allocate(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace lararium::human {
+namespace {
+
+TEST(ClothAllocation, NoStepNorDrapingAllocates) {
+  Human human = SkirtedWalker(20, 10);
+  SpringChain chain;
+  chain.joints = {6, 7};
+  human.springs.push_back(chain);
+  const ClothModel model(human);
+  ClothState state(model);
+  const ClothState snapshot = state;
+  const SpringModel springs(human);
+  SpringState spring_state(springs);
+  const SkinnedMesh& mesh = human.meshes[0];
+  std::vector<glm::vec3> x(mesh.positions.size()), n(x.size());
+  const std::vector<glm::mat4> skin(human.skeleton.size(), glm::mat4(1.0f));
+  WalkerPose walker;
+  PoseWalker(human, 0.0, walker);
+  for (int i = 0; i < 200; ++i) {
+    PoseWalker(human, i % 90 == 0 ? 20.0 : i / 25.0, walker);  // now and then a cut
+    ClothStep step;
+    step.actor_from_joint = walker.actor_from_joint;
+    step.stage_from_actor = walker.stage_from_actor;
+    step.elapsed = 0.04f;
+    step.detail = static_cast<ClothDetail>(i / 50);
+    step.wind.velocity = {2.0f, 0.0f, 0.0f};
+    ClothState& moving = state;
+    if (i == 120) {
+      state = snapshot;  // a copy has room for as much
+    }
+    counting = true;
+    StepSprings(springs, {.stage_from_actor = walker.stage_from_actor, .elapsed = 0.04f},
+                spring_state, walker.pose, walker.actor_from_joint);
+    StepCloth(model, step, moving);
+    DrapeMesh(model, moving, 0, mesh, skin, x, n);
+    counting = false;
+  }
+  EXPECT_EQ(allocations, 0);
+}
+
+}  // namespace
+}  // namespace lararium::human
