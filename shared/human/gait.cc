@@ -161,6 +161,19 @@ Stride StrideAt(
   return stride;
 }
 
+std::optional<GaitStyle> GaitStyleNamed(std::string_view name) {
+  if (name == "grown") return GaitStyle{};
+  if (name == "child") return GaitStyle{.cadence = 1.06f, .arm_swing = 1.2f, .sway = 1.1f};
+  if (name == "stout") {
+    return GaitStyle{.cadence = 0.96f, .step_width = 1.35f, .arm_spread = 0.04f, .sway = 1.35f};
+  }
+  if (name == "old") {
+    return GaitStyle{
+        .cadence = 1.12f, .step_width = 1.15f, .stoop = 0.20f, .arm_swing = 0.6f, .lift = 0.7f};
+  }
+  return std::nullopt;
+}
+
 float StancePitch(float stance) {
   static const Table<float> table = Tabulate<float>(ComputeStancePitch);
   const auto at = Lookup(table, stance);

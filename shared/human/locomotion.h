@@ -14,7 +14,9 @@
 #include <array>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
+#include <string_view>
 
 #include "shared/human/body.h"
 #include "shared/human/life.h"
@@ -36,6 +38,10 @@ struct GaitStyle {
 
   friend bool operator==(const GaitStyle&, const GaitStyle&) = default;
 };
+
+// grown, child, stout, old: set by eye, after what is known of such walks (children step
+// faster, the stout more broadly; the old more shortly, with a stoop and little swing).
+std::optional<GaitStyle> GaitStyleNamed(std::string_view name);
 
 // Height of the floor in the stage frame, metres, at x and z.
 using FloorHeight = std::function<float(float x, float z)>;

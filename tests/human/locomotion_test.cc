@@ -401,6 +401,24 @@ TEST(Locomotion, LeavesAFigureWithoutLegsAtRest) {
             1e-5f);
 }
 
+TEST(GaitStyleNamed, MakesPeopleWalkDifferentlyWithoutSliding) {
+  for (const char* name : {"grown", "child", "stout", "old"}) {
+    Walk walk(FullBody(0.6f, 0));
+    const auto style = GaitStyleNamed(name);
+    ASSERT_TRUE(style.has_value()) << name;
+    walk.performance().locomotion.style = *style;
+    SlideMeter meter;
+    for (int tick = 0; tick < 6 * 120; ++tick) {
+      walk.Step(std::min(0.9f, kTick * static_cast<float>(tick)), 0.2f);
+      walk.Draw(0.5f);
+      meter.Look(walk);
+    }
+    EXPECT_GT(meter.steps(), 6u) << name;
+    EXPECT_LT(meter.worst(), 0.005f) << name;
+  }
+  EXPECT_EQ(GaitStyleNamed("drunk"), std::nullopt);
+}
+
 TEST(StrideAt, ChildrenStepFasterThanGrownPeople) {
   const Stride grown = StrideAt(1.0f, 1.0f, 0.0f, 0.9f, {});
   const Stride child = StrideAt(1.0f, 1.0f, 0.0f, 0.6f, {});
