@@ -273,6 +273,7 @@ std::optional<glm::vec2> FindStand(
   struct Candidate {
     glm::vec2 place;
     float distance;
+    size_t order;
   };
   std::array<Candidate, static_cast<size_t>(kDirections * kRings)> candidates;
   size_t count = 0;
@@ -285,12 +286,16 @@ std::optional<glm::vec2> FindStand(
       const glm::vec2 place = point + radius * Direction(angle);
       if (world.navigation->Nearest(place, 0.05f) && IsFree(world, actor, place, kRoomAtGoal)) {
         // Nearer to the point is better than a shorter way.
-        candidates[count++] = {place, glm::distance(from, place) + 2.0f * radius};
+        candidates[count] = {place, glm::distance(from, place) + 2.0f * radius, count};
+        ++count;
       }
     }
   }
-  std::stable_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
-                   [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  // The order of what is equal decides, so that every platform finds the same.
+  std::sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const Candidate& a, const Candidate& b) {
+              return a.distance < b.distance || (a.distance == b.distance && a.order < b.order);
+            });
   std::optional<glm::vec2> best;
   float shortest = 1e9f;
   for (size_t i = 0; i < std::min<size_t>(count, kMaxWays); ++i) {
