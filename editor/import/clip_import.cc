@@ -1,6 +1,7 @@
 #include "editor/import/clip_import.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "editor/import/model_import.h"
 
@@ -25,6 +26,30 @@ Result<const human::Clip*> Choose(const std::vector<human::Clip>& clips,
   return Status::Error(place, "there is no clip '" + name + "' in it", "there are: " + names);
 }
 
+// Between two keys, the mean over the joints, radians.
+float MeanTurn(const human::Clip& clip, size_t joints, size_t key) {
+  float sum = 0.0f;
+  for (size_t j = 0; j < joints; ++j) {
+    const glm::quat& a = clip.keys[key * joints + j].rotation;
+    const glm::quat& b = clip.keys[(key + 1) * joints + j].rotation;
+    sum += 2.0f * std::acos(std::min(1.0f, std::abs(glm::dot(a, b))));
+  }
+  return sum / static_cast<float>(joints);
+}
+
+// Seconds of the clip before the last leap among its first keys; 0 where there is none.
+float CalibrationSeconds(const human::Clip& clip, size_t joints) {
+  constexpr size_t kFirstKeys = 3;
+  constexpr float kLeap = 0.12f;  // radians; ten times what a body does in a thirtieth second
+  float seconds = 0.0f;
+  for (size_t key = 0; key < kFirstKeys && key + kFirstKeys < clip.KeyCount(joints); ++key) {
+    if (MeanTurn(clip, joints, key) > kLeap) {
+      seconds = static_cast<float>(key + 1) / clip.keys_per_second;
+    }
+  }
+  return seconds;
+}
+
 }  // namespace
 
 Result<ImportedClip> ImportClip(const std::filesystem::path& file,
@@ -36,7 +61,15 @@ Result<ImportedClip> ImportClip(const std::filesystem::path& file,
   LARARIUM_ASSIGN_OR_RETURN(const human::Clip* clip,
                             Choose(source.human.clips, options.source_clip, file.string()));
   ImportedClip imported;
-  auto retargeted = Retarget(source.human.skeleton, *clip, target, options.retarget);
+  RetargetOptions retarget = options.retarget;
+  const float calibration =
+      options.drop_calibration ? CalibrationSeconds(*clip, source.human.skeleton.size()) : 0.0f;
+  if (calibration > retarget.from) {
+    retarget.from = calibration;
+    source.notes.push_back("its first " + std::to_string(calibration) +
+                           " s are another pose, for calibration, and are left out");
+  }
+  auto retargeted = Retarget(source.human.skeleton, *clip, target, retarget);
   if (!retargeted.ok()) {
     return retargeted.status().At(file.string());
   }

@@ -16,6 +16,8 @@ namespace lararium::import {
 struct ClipImportOptions {
   std::string source_clip;  // which of the file's; empty: the longest
   BoneNames bones;          // a saved map of the file's skeleton
+  // Captured files often begin with one key of another pose (arms spread), for calibration.
+  bool drop_calibration = true;
   RetargetOptions retarget;
 };
 

@@ -320,11 +320,16 @@ TEST(CapturedClips, PutThePlainFiguresFeetOnTheFloor) {
   }
 }
 
-TEST(CapturedClips, BeginWithSpreadArmsAsTheFileDoes) {
+TEST(CapturedClips, BeginWithSpreadArmsAsTheFileDoesWhereThatIsKept) {
   REQUIRE_MODELS(models);
   const human::Human figure = BuildPlainFigure();
-  const auto imported = ImportClip(models / "BVH/01_01.bvh", figure.skeleton);
-  ASSERT_TRUE(imported.ok()) << imported.message();
+  const auto without = ImportClip(models / "BVH/01_01.bvh", figure.skeleton);
+  ClipImportOptions options;
+  options.drop_calibration = false;
+  const auto imported = ImportClip(models / "BVH/01_01.bvh", figure.skeleton, options);
+  ASSERT_TRUE(imported.ok() && without.ok()) << imported.message();
+  EXPECT_LT(without->clip.duration, imported->clip.duration);
+  EXPECT_FALSE(without->notes.empty());
   std::vector<glm::mat4> actor_from_joint(figure.skeleton.size());
   ComputeActorFromJoint(figure.skeleton,
                         std::span(imported->clip.keys).first(figure.skeleton.size()),
