@@ -23,16 +23,20 @@ Cell MakeCell(int64_t x, int64_t y, int64_t z) {
          (static_cast<uint64_t>(y) & kAxisMask) << 21 | (static_cast<uint64_t>(z) & kAxisMask);
 }
 
+// A particle that is lost may be anywhere, or nowhere.
+int64_t IndexOf(float scaled) {
+  constexpr float kLimit = 1e6f;
+  return scaled > -kLimit && scaled < kLimit ? static_cast<int64_t>(std::floor(scaled)) : 0;
+}
+
 Cell CellAt(const Float4& position, float inverse_size) {
   const Float4 scaled = position * inverse_size;
-  return MakeCell(static_cast<int64_t>(std::floor(scaled.lanes[0])),
-                  static_cast<int64_t>(std::floor(scaled.lanes[1])),
-                  static_cast<int64_t>(std::floor(scaled.lanes[2])));
+  return MakeCell(IndexOf(scaled.lanes[0]), IndexOf(scaled.lanes[1]), IndexOf(scaled.lanes[2]));
 }
 
 Cell Neighbour(Cell cell, int x, int y, int z) {
-  return MakeCell(static_cast<int64_t>(cell >> 42) + x, static_cast<int64_t>(cell >> 21) + y,
-                  static_cast<int64_t>(cell) + z);
+  const auto axis = [cell](int shift) { return static_cast<int64_t>(cell >> shift & kAxisMask); };
+  return MakeCell(axis(42) + x, axis(21) + y, axis(0) + z);
 }
 
 // The slot of a cell, or the free one where it would be (Fibonacci hashing).
