@@ -42,7 +42,7 @@ Look LookOf(CastPart part) {
       return {human::Surface::kSkin, 0.4f, 0.0f, false, 128};
     case CastPart::kEyebrows:
     case CastPart::kEyelashes:
-      return {human::Surface::kHair, 0.7f, 0.4f, true, 512};
+      return {human::Surface::kHair, 0.7f, 0.25f, true, 512};
     case CastPart::kHair:
       return {human::Surface::kHair, 0.6f, 0.4f, true, 512};
   }
@@ -209,34 +209,23 @@ class CastBuilder {
     return hair.colour.value_or(glm::vec3(0.12f, 0.09f, 0.07f));
   }
 
-  // Of each vertex of the skin's head: 1 where one of these parts lies over it, and goes
-  // on below it: the skin beyond the ends of the hair stays bare.
+  // Of each vertex of the skin's head: 1 where one of these parts lies over it.
   Result<std::vector<float>> CoverBy(const std::vector<CastDyed>& parts,
                                      const CastPiece& skin) const {
-    constexpr float kNear = 0.005f;   // metres: surely covered
-    constexpr float kFar = 0.008f;    // metres: surely bare
-    constexpr float kAround = 0.02f;  // metres: where there must be more of it
-    constexpr float kBelow = 0.006f;  // metres
     const float lowest = body_.height - kHeadShare * body_.height;
-    std::vector<float> nearest(skin.mesh.positions.size(), kFar);
-    std::vector<bool> goes_on(nearest.size(), false);
+    std::vector<float> cover(skin.mesh.positions.size(), 0.0f);
     for (const CastDyed& part : parts) {
       LARARIUM_ASSIGN_OR_RETURN(const CastProxy proxy,
                                 library_.LoadPart(CastPart::kHair, part.name));
-      const std::vector<glm::vec3> positions = Fit(CastPart::kHair, part, proxy).mesh.positions;
-      for (size_t v = 0; v < nearest.size(); ++v) {
-        const glm::vec3& place = skin.mesh.positions[v];
-        for (size_t i = 0; place.y > lowest && i < positions.size(); ++i) {
-          const float distance = glm::distance(positions[i], place);
-          nearest[v] = std::min(nearest[v], distance);
-          goes_on[v] = goes_on[v] || (distance < kAround && positions[i].y < place.y - kBelow);
+      const CastPiece piece = Fit(CastPart::kHair, part, proxy);
+      for (size_t v = 0; v < cover.size(); ++v) {
+        if (skin.mesh.positions[v].y > lowest && cover[v] == 0.0f &&
+            IsCovered(skin.mesh.positions[v], skin.mesh.normals[v], piece.mesh)) {
+          cover[v] = 1.0f;
         }
       }
     }
-    for (size_t v = 0; v < nearest.size(); ++v) {
-      nearest[v] = goes_on[v] ? 1.0f - glm::smoothstep(kNear, kFar, nearest[v]) : 0.0f;
-    }
-    return nearest;
+    return cover;
   }
 
   Status AddPart(CastPart part, const CastDyed& chosen) {

@@ -1,9 +1,11 @@
 #include "editor/import/cast_hair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "editor/import/plain_skeleton.h"
 
@@ -61,7 +63,52 @@ glm::vec3 Outward(const glm::vec3& p, const glm::vec3& middle) {
   return length > 1e-4f ? offset / length : glm::vec3(0.0f, 1.0f, 0.0f);
 }
 
+// How far along the ray the triangle is, or a negative number (Moeller & Trumbore, Journal
+// of Graphics Tools 2(1), 1997). Both of its sides count.
+float HitDistance(const glm::vec3& from,
+                  const glm::vec3& direction,
+                  const glm::vec3& a,
+                  const glm::vec3& b,
+                  const glm::vec3& c) {
+  const glm::vec3 ab = b - a;
+  const glm::vec3 ac = c - a;
+  const glm::vec3 p = glm::cross(direction, ac);
+  const float determinant = glm::dot(ab, p);
+  if (std::abs(determinant) < 1e-12f) {
+    return -1.0f;
+  }
+  const glm::vec3 offset = from - a;
+  const float u = glm::dot(offset, p) / determinant;
+  const glm::vec3 q = glm::cross(offset, ab);
+  const float v = glm::dot(direction, q) / determinant;
+  if (u < 0.0f || v < 0.0f || u + v > 1.0f) {
+    return -1.0f;
+  }
+  return glm::dot(ac, q) / determinant;
+}
+
 }  // namespace
+
+bool IsCovered(const glm::vec3& place, const glm::vec3& normal, const human::SkinnedMesh& hair) {
+  constexpr float kClose = 0.02f;  // metres
+  constexpr float kSunk = 0.005f;  // metres below the skin that hair may lie
+  const glm::vec3 from = place - kSunk * normal;
+  for (size_t i = 0; i + 2 < hair.indices.size(); i += 3) {
+    const glm::vec3& a = hair.positions[hair.indices[i]];
+    const glm::vec3& b = hair.positions[hair.indices[i + 1]];
+    const glm::vec3& c = hair.positions[hair.indices[i + 2]];
+    const glm::vec3 low = glm::min(a, glm::min(b, c)) - kClose;
+    const glm::vec3 high = glm::max(a, glm::max(b, c)) + kClose;
+    if (glm::any(glm::lessThan(place, low)) || glm::any(glm::greaterThan(place, high))) {
+      continue;
+    }
+    const float distance = HitDistance(from, normal, a, b, c);
+    if (distance >= 0.0f && distance < kClose + kSunk) {
+      return true;
+    }
+  }
+  return false;
+}
 
 void LayHair(CastPiece& hair, const FittedBody& body, const HairFit& fit) {
   const std::vector<uint32_t> head = HeadVertices(body);

@@ -18,4 +18,7 @@ struct HairFit {
 // rounded whole that it is, not as the cards that it is made of.
 void LayHair(CastPiece& hair, const FittedBody& body, const HairFit& fit);
 
+// Whether the hair lies over a place of the skin: straight out from it, and close.
+bool IsCovered(const glm::vec3& place, const glm::vec3& normal, const human::SkinnedMesh& hair);
+
 }  // namespace lararium::import

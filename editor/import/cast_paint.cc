@@ -262,8 +262,8 @@ void Weather(cv::Mat& skin, float amount, cv::RNG& random) {
   }
   cv::Mat smooth;
   cv::GaussianBlur(skin, smooth, {}, 14.0);
-  skin += amount * 0.7 * (skin - smooth);
-  Modulate(skin, BandNoise(random, 5.0, 18.0), amount * cv::Scalar(-0.07, -0.06, 0.0));
+  skin += amount * 0.5 * (skin - smooth);
+  Modulate(skin, BandNoise(random, 5.0, 18.0), amount * cv::Scalar(-0.04, -0.035, 0.0));
   Modulate(skin, BandNoise(random, 1.0, 3.0), amount * cv::Scalar(0.05, 0.05, 0.04));
 }
 
@@ -289,7 +289,7 @@ Result<human::Texture> SkinTexture(const std::string& name,
     Tint(skin, paint);
   }
   Modulate(skin, BandNoise(random, 0.7, 1.8), cv::Scalar(0.035, 0.03, 0.025));
-  Modulate(skin, BandNoise(random, 8.0, 30.0), cv::Scalar(-0.03, -0.025, 0.015));
+  Modulate(skin, BandNoise(random, 8.0, 30.0), cv::Scalar(-0.02, -0.015, 0.01));
   Weather(skin, paint.weathering, random);
   PaintHairs(skin, Spread(paint, paint.scalp), paint.scalp_colour, 0.8f, random);
   PaintHairs(skin, Spread(paint, paint.beard), paint.beard_colour, 0.75f * paint.stubble, random);

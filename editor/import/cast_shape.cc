@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <map>
 #include <utility>
 
@@ -11,6 +13,12 @@ namespace lararium::import {
 namespace {
 
 constexpr float kMetresPerUnit = 0.1f;
+// Farther than 1.5 m no shape moves anything; one target of the library (r-eye-bag-max)
+// throws helper vertices two metres aside, and would take the eyelashes with them.
+constexpr float kMostDelta = 15000.0f;  // in CastLibrary::kDeltaUnit
+
+// The base mesh's lips leave a slit open; so much less of the open mouth closes it.
+constexpr float kLipsClosed = 0.04f;
 constexpr std::string_view kEthnicityNames[] = {"caucasian", "african", "asian"};
 
 using Factors = std::map<std::string, float, std::less<>>;
@@ -229,6 +237,9 @@ Result<std::vector<TargetShare>> TargetShares(const CastLibrary& library,
   }
   LARARIUM_RETURN_IF_ERROR(AddModifiers(library, recipe, shares));
   AddAsymmetry(library, recipe, shares);
+  for (const TargetShare& open : UnitShares(library, recipe, "mouth-open")) {
+    shares.push_back({open.target, -kLipsClosed * open.share});
+  }
   return shares;
 }
 
@@ -252,7 +263,10 @@ std::vector<glm::vec3> TargetDeltas(const CastLibrary& library,
     const std::span<const int16_t> deltas = library.Deltas(share.target);
     const float scale = share.share * CastLibrary::kDeltaUnit;
     for (size_t v = 0; v < sum.size(); ++v) {
-      sum[v] += scale * ToActor(glm::vec3(deltas[3 * v], deltas[3 * v + 1], deltas[3 * v + 2]));
+      const glm::vec3 delta(deltas[3 * v], deltas[3 * v + 1], deltas[3 * v + 2]);
+      if (glm::all(glm::lessThan(glm::abs(delta), glm::vec3(kMostDelta)))) {
+        sum[v] += scale * ToActor(delta);
+      }
     }
   }
   return sum;

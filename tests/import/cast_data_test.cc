@@ -83,6 +83,16 @@ TEST_P(CastPresets, FaceTheStage) {
             RestPosition(human.skeleton, "l_ankle").z);
 }
 
+TEST_P(CastPresets, KeepTheirPartsOnTheirHeads) {
+  const human::Human& human = Preset(GetParam());
+  const glm::vec3 skull = RestPosition(human.skeleton, "skullbase");
+  for (size_t i = 1; i < human.meshes.size(); ++i) {
+    for (const glm::vec3& p : human.meshes[i].positions) {
+      ASSERT_LT(glm::distance(p, skull), 0.45f) << human.meshes[i].name;
+    }
+  }
+}
+
 TEST_P(CastPresets, AreSmallEnoughForABundle) {
   EXPECT_LT(human::SerializeHuman(Preset(GetParam())).size(), size_t{8} << 20);
 }
