@@ -1,0 +1,255 @@
+// The workshop that garments are cut in: sheets, the field about a body, draping, the
+// weave, and what a recipe may say.
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "editor/import/garment/body_field.h"
+#include "editor/import/garment/drape.h"
+#include "editor/import/garment/garment_pattern.h"
+#include "editor/import/garment/posed_body.h"
+#include "editor/import/garment/sheet.h"
+#include "editor/import/garment/weave.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr float kRadius = 0.2f;
+
+// A ball about the origin: rings of latitude, outward anticlockwise.
+struct Ball {
+  std::vector<glm::vec3> positions;
+  std::vector<Triangle> triangles;
+};
+
+Ball MakeBall() {
+  constexpr int kRings = 20;
+  constexpr int kSides = 32;
+  Sheet sheet;
+  GridPanel grid;
+  grid.columns = kSides + 1;
+  grid.rows = kRings + 1;
+  grid.flat = [](size_t column, size_t row) { return glm::vec2(column, row); };
+  grid.place = [](size_t column, size_t row) {
+    const float a = 6.2831853f * float(column % kSides) / kSides;
+    const float b = 3.14159265f * float(row) / kRings;
+    return kRadius * glm::vec3(std::sin(b) * std::sin(a), std::cos(b), std::sin(b) * std::cos(a));
+  };
+  AddPanel(sheet, grid, 0);
+  std::vector<std::array<uint32_t, 2>> seam;
+  for (uint32_t r = 0; r <= kRings; ++r) {
+    seam.push_back({r * (kSides + 1), r * (kSides + 1) + kSides});
+  }
+  for (uint32_t c = 1; c < kSides; ++c) {
+    seam.push_back({0, c});
+    seam.push_back({kRings * (kSides + 1), kRings * (kSides + 1) + c});
+  }
+  Sew(sheet, seam);
+  Ball ball{sheet.positions, {}};
+  for (const Triangle& t : sheet.ParticleTriangles()) {
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
+      ball.triangles.push_back(t);
+    }
+  }
+  return ball;
+}
+
+BodyField FieldOfBall() {
+  const Ball ball = MakeBall();
+  BodyField field(ball.positions, 0.01f, 0.03f);
+  field.Add(ball.positions, ball.triangles);
+  field.Finish();
+  return field;
+}
+
+// A square of cloth, level, its middle above the origin.
+Sheet Napkin(size_t side, float spacing, float height) {
+  Sheet sheet;
+  GridPanel grid;
+  grid.columns = side;
+  grid.rows = side;
+  grid.flat = [=](size_t c, size_t r) { return spacing * glm::vec2(c, r); };
+  grid.place = [=](size_t c, size_t r) {
+    const float middle = 0.5f * float(side - 1);
+    return glm::vec3(spacing * (float(c) - middle), height, spacing * (float(r) - middle));
+  };
+  AddPanel(sheet, grid, 0);
+  return sheet;
+}
+
+TEST(Sheet, SewingMakesOneParticleOfTwoVertices) {
+  Sheet sheet = Napkin(3, 0.1f, 0.0f);
+  const std::array<uint32_t, 2> pair = {0, 2};
+  Sew(sheet, {&pair, 1});
+  EXPECT_EQ(sheet.positions.size(), 8u);
+  EXPECT_EQ(sheet.flat.size(), 9u);
+  EXPECT_EQ(sheet.particle[0], sheet.particle[2]);
+  EXPECT_NEAR(sheet.positions[sheet.particle[0]].x, 0.0f, 1e-6f);
+}
+
+TEST(Sheet, SubdividedKeepsItsParticlesAndItsFlatArea) {
+  const Sheet sheet = Napkin(5, 0.1f, 0.0f);
+  std::vector<std::array<uint32_t, 2>> parents;
+  const Sheet fine = Subdivided(sheet, &parents);
+  EXPECT_EQ(fine.triangles.size(), 4 * sheet.triangles.size());
+  EXPECT_EQ(fine.positions.size(), 81u);
+  ASSERT_EQ(parents.size(), fine.positions.size());
+  for (size_t p = 0; p < sheet.positions.size(); ++p) {
+    EXPECT_EQ(fine.positions[p], sheet.positions[p]);
+  }
+  for (size_t p = 0; p < parents.size(); ++p) {
+    const glm::vec3 middle =
+        0.5f * (sheet.positions[parents[p][0]] + sheet.positions[parents[p][1]]);
+    EXPECT_LT(glm::distance(fine.positions[p], middle), 1e-6f);
+  }
+  float area = 0.0f;
+  for (const auto& [a, b, c] : fine.triangles) {
+    const glm::vec2 u = fine.flat[b] - fine.flat[a];
+    const glm::vec2 v = fine.flat[c] - fine.flat[a];
+    area += 0.5f * std::abs(u.x * v.y - u.y * v.x);
+  }
+  EXPECT_NEAR(area, 0.16f, 1e-5f);
+}
+
+TEST(Sheet, OpenEdgesAreItsRim) {
+  EXPECT_EQ(OpenEdges(Napkin(5, 0.1f, 0.0f).ParticleTriangles()).size(), 16u);
+}
+
+TEST(BodyField, IsTheDistanceFromABall) {
+  const BodyField field = FieldOfBall();
+  for (const float r : {0.18f, 0.19f, 0.2f, 0.21f, 0.22f}) {
+    for (const glm::vec3& d :
+         {glm::vec3(1, 0, 0), glm::vec3(0.6f, 0.8f, 0), glm::vec3(0, -0.6f, 0.8f)}) {
+      const FieldSample sample = field.Sample(r * d);
+      EXPECT_NEAR(sample.distance, r - kRadius, 0.003f) << r;
+      EXPECT_GT(glm::dot(sample.outward, d), 0.97f) << r;
+    }
+  }
+}
+
+TEST(BodyField, KnowsInsideFromOutsideFarFromTheSurface) {
+  const BodyField field = FieldOfBall();
+  EXPECT_LT(field.Sample(glm::vec3(0.0f)).distance, 0.0f);
+  EXPECT_GT(field.Sample(glm::vec3(0.23f, 0.2f, 0.2f)).distance, 0.0f);
+  EXPECT_GT(field.Sample(glm::vec3(5.0f)).distance, 0.0f);
+}
+
+TEST(Draper, ClothComesToRestOverABallWithoutEnteringIt) {
+  Sheet sheet = Napkin(15, 0.04f, 0.24f);
+  DrapeMaterial material;
+  Draper draper(sheet, material);
+  const BodyField field = FieldOfBall();
+  draper.Run(200, field);
+  float lowest = 1.0f;
+  for (const glm::vec3& p : sheet.positions) {
+    EXPECT_GT(glm::length(p), kRadius + material.gap - 0.004f);
+    lowest = std::min(lowest, p.y);
+  }
+  EXPECT_LT(lowest, 0.0f) << "the corners hang down";
+  double stretch = 0.0;
+  for (const auto& [a, b, c] : sheet.triangles) {
+    stretch += glm::distance(sheet.positions[a], sheet.positions[b]) /
+               glm::distance(sheet.flat[a], sheet.flat[b]) / double(sheet.triangles.size());
+  }
+  EXPECT_NEAR(stretch, 1.0, 0.05);
+}
+
+TEST(Draper, ATetherHoldsWhatFalls) {
+  Sheet sheet = Napkin(2, 0.1f, 0.0f);
+  Draper draper(sheet, {});
+  draper.pins.push_back({0, sheet.positions[0], 1.0f});
+  for (uint32_t p = 1; p < 4; ++p) {
+    draper.Tether(p, 0, 0.15f);
+  }
+  const std::vector<glm::vec3> nothing = {glm::vec3(9.0f), glm::vec3(9.1f)};
+  draper.Run(120, BodyField(nothing, 0.05f, 0.1f));
+  for (uint32_t p = 1; p < 4; ++p) {
+    EXPECT_LT(glm::distance(sheet.positions[p], sheet.positions[0]), 0.16f);
+  }
+}
+
+TEST(HullRadius, OfASquareReachesItsSidesAndCorners) {
+  const std::vector<glm::vec2> square = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}, {0.2f, 0.1f}};
+  const std::vector<float> radius = HullRadius(square, glm::vec2(0.0f), 72);
+  EXPECT_NEAR(radius[0], 1.0f, 0.01f);
+  EXPECT_NEAR(radius[9], std::sqrt(2.0f), 0.01f);
+}
+
+Result<GarmentPattern> Parse(const std::string& text) {
+  const Json json = *ParseJson(text, "test");
+  return ParseGarmentPattern(JsonView(json, "garments[0]"));
+}
+
+TEST(GarmentPattern, ReadsWhatARecipeSays) {
+  const auto pattern = Parse(
+      R"({"name": "tunic", "length": "calf", "sleeve": "elbow", "belt": "cord", "ease": 1.8,
+          "colour": "#ff0000", "stripes": "broad", "stripe_colour": "purple", "blouse": 0.1,
+          "border": true, "wear": 0.7, "one_shoulder": true, "seed": 5})");
+  ASSERT_TRUE(pattern.ok()) << pattern.message();
+  EXPECT_EQ(pattern->kind, GarmentKind::kTunic);
+  EXPECT_FLOAT_EQ(pattern->hem, 1.45f);
+  EXPECT_EQ(pattern->sleeve, Sleeve::kElbow);
+  EXPECT_EQ(pattern->belt, Belt::kCord);
+  EXPECT_EQ(pattern->stripes, Stripes::kBroad);
+  EXPECT_EQ(pattern->colour, glm::vec3(1, 0, 0));
+  EXPECT_TRUE(pattern->border && pattern->one_shoulder);
+  EXPECT_EQ(pattern->seed, 5u);
+}
+
+TEST(GarmentPattern, EveryNameHasAPlainPattern) {
+  for (const std::string& name : GarmentNames()) {
+    const auto pattern = Parse("{\"name\": \"" + name + "\"}");
+    ASSERT_TRUE(pattern.ok()) << pattern.message();
+    EXPECT_EQ(NameOf(pattern->kind), name);
+    EXPECT_TRUE(IsGarmentName(name));
+  }
+}
+
+TEST(GarmentPattern, SaysWhatIsWrongWhereAndWhatIsRight) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"[]", "must be an object"},
+      {"{}", "name"},
+      {R"({"name": "trousers"})", "choose one of: tunic"},
+      {R"({"name": "tunic", "colour": "mauve"})", "write #rrggbb or one of"},
+      {R"({"name": "tunic", "colour": "#12345g"})", "no dye"},
+      {R"({"name": "tunic", "length": "mini"})", "choose one of: thigh"},
+      {R"({"name": "tunic", "length": -3})", "length"},
+      {R"({"name": "tunic", "ease": 1e30})", "ease"},
+      {R"({"name": "tunic", "seed": 1.5})", "seed"},
+      {R"({"name": "tunic", "border": 1})", "border"},
+      {R"({"name": "tunic", "lenght": "knee"})", "lenght"},
+  };
+  for (const auto& [text, expected] : cases) {
+    const auto pattern = Parse(text);
+    ASSERT_FALSE(pattern.ok()) << text;
+    EXPECT_NE(pattern.message().find("garments[0]"), std::string::npos) << pattern.message();
+    EXPECT_NE(pattern.message().find(expected), std::string::npos) << pattern.message();
+  }
+}
+
+TEST(Weave, RepeatsWithoutASeamAndIsNearWhite) {
+  const auto texture = WeaveColour(Weave::kWool, 3);
+  ASSERT_TRUE(texture.ok()) << texture.message();
+  EXPECT_TRUE(texture->Validate("weave").ok());
+  const auto* bytes = reinterpret_cast<const uchar*>(texture->encoded.data());
+  const cv::Mat image =
+      cv::imdecode({bytes, static_cast<int>(texture->encoded.size())}, cv::IMREAD_GRAYSCALE);
+  ASSERT_EQ(image.size(), cv::Size(512, 512));
+  double sum = 0.0;
+  double seam = 0.0;
+  double inside = 0.0;
+  for (int y = 0; y < 512; ++y) {
+    for (int x = 0; x < 512; ++x) {
+      sum += image.at<uchar>(y, x);
+    }
+    seam += std::abs(image.at<uchar>(y, 0) - image.at<uchar>(y, 511));
+    inside += std::abs(image.at<uchar>(y, 200) - image.at<uchar>(y, 199));
+  }
+  EXPECT_GT(sum / (512.0 * 512.0), 200.0);
+  EXPECT_LT(seam, 1.8 * inside + 512.0);
+}
+
+}  // namespace
+}  // namespace lararium::import
