@@ -54,6 +54,7 @@ struct ClothSettings {
   float gravity = 9.81f;     // m/s^2
   float air_density = 1.2f;  // kg/m^3
   float damping = 1.0f;      // 1/s, of the motion relative to the body
+  bool drops_loose = false;  // pieces that no pin holds fall; false: they stay with the skin
 };
 
 class ClothModel;

@@ -122,9 +122,9 @@ class Builder {
     const std::vector<std::array<uint32_t, 3>> triangles(
         model_.triangles.begin() + static_cast<ptrdiff_t>(first_triangle), model_.triangles.end());
     const std::vector<MeshEdge> edges = FindEdges(triangles);
+    AddTethers(edges, range);
     AddEdges(cloth, edges);
     AddHinges(cloth, edges);
-    AddTethers(edges, range);
     Bind(cloth, range, first_triangle);
     model_.cloths.push_back(std::move(range));
   }
@@ -275,8 +275,16 @@ class Builder {
       }
     }
     for (uint32_t i = 0; i < range.count; ++i) {
-      if (pin[i] != kNone && model_.inverse_mass[range.first + i] > 0.0f) {
-        model_.tethers.push_back({range.first + i, pin[i], kTetherSlack * length[i]});
+      const uint32_t particle = range.first + i;
+      if (model_.inverse_mass[particle] == 0.0f) {
+        continue;
+      }
+      if (pin[i] != kNone) {
+        model_.tethers.push_back({particle, pin[i], kTetherSlack * length[i]});
+      } else if (!model_.settings.drops_loose) {
+        model_.inverse_mass[particle] = 0.0f;
+        model_.pinned.push_back(particle);
+        std::erase(model_.free, particle);
       }
     }
   }

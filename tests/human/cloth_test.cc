@@ -19,7 +19,10 @@ namespace {
 
 constexpr float kGravity = 9.81f;
 constexpr float kPi = std::numbers::pi_v<float>;
-const ClothSettings kVacuum{.gravity = kGravity, .air_density = 0.0f, .damping = 0.0f};
+const ClothSettings kVacuum{
+    .gravity = kGravity, .air_density = 0.0f, .damping = 0.0f, .drops_loose = true};
+const ClothSettings kDroppable{
+    .gravity = kGravity, .air_density = 1.2f, .damping = 1.0f, .drops_loose = true};
 
 // A person of one joint that wears one cloth.
 struct Hanging {
@@ -157,7 +160,8 @@ TEST(Cloth, StripBetweenTwoPinsHangsAsACatenary) {
   for (glm::vec3& p : cloth.positions) {
     p = {p.x, 0.0f, p.y};
   }
-  Hanging strip(cloth, {.gravity = kGravity, .air_density = 0.0f, .damping = 2.0f});
+  Hanging strip(cloth,
+                {.gravity = kGravity, .air_density = 0.0f, .damping = 2.0f, .drops_loose = false});
   // Brought together by moving one half of the pins: two joints would do; here the skin
   // of the right-hand pins is that of a second pose, reached in small frames.
   Human human = strip.human;
@@ -168,7 +172,8 @@ TEST(Cloth, StripBetweenTwoPinsHangsAsACatenary) {
   for (const int column : {kCells, 2 * kCells + 1}) {
     human.cloths[0].joints[column] = {1, 0, 0, 0};
   }
-  const ClothModel model(human, {.gravity = kGravity, .air_density = 0.0f, .damping = 2.0f});
+  const ClothModel model(
+      human, {.gravity = kGravity, .air_density = 0.0f, .damping = 2.0f, .drops_loose = false});
   ClothState state(model);
   std::vector<glm::mat4> joints(2, glm::mat4(1.0f));
   ClothStep step;
@@ -210,7 +215,8 @@ TEST(Cloth, HingeBendsUnderAWeightByItsCompliance) {
   cloth.vertex_weights.assign(4, glm::vec3(0.0f));
   cloth.density = 0.25f;
   cloth.bend_compliance = 1500.0f;
-  Hanging hinge(cloth, {.gravity = kGravity, .air_density = 0.0f, .damping = 5.0f});
+  Hanging hinge(cloth,
+                {.gravity = kGravity, .air_density = 0.0f, .damping = 5.0f, .drops_loose = false});
   hinge.Run(5.0f, 60.0f);
   const float mass = 0.25f * 0.5f * 0.1f * h / 3.0f;
   const float expected = std::atan(1500.0f * mass * kGravity * h);
@@ -226,7 +232,9 @@ TEST(Cloth, FlatSheetSinksAtItsTerminalSpeed) {
   }
   cloth.density = 0.02f;
   cloth.bend_compliance = 0.0f;
-  Hanging sheet(cloth, {.gravity = kGravity, .air_density = 1.2f, .damping = 0.0f});
+  ClothSettings undamped = kDroppable;
+  undamped.damping = 0.0f;
+  Hanging sheet(cloth, undamped);
   sheet.Run(2.0f, 60.0f);
   const float expected = std::sqrt(2.0f * 0.02f * kGravity / (1.2f * 1.3f));
   EXPECT_NEAR(-sheet.state.data().velocities[24].y(), expected, 0.03f * expected);
@@ -555,7 +563,7 @@ TEST(Cloth, SheetsThatFallOnOneAnotherStayApart) {
   human.meshes.push_back(human.meshes[0]);
   high.mesh = 1;
   human.cloths.push_back(high);
-  const ClothModel model(human);
+  const ClothModel model(human, kDroppable);
   ClothState state(model);
   const std::vector<glm::mat4> identity{glm::mat4(1.0f)};
   ClothStep step;
@@ -570,6 +578,14 @@ TEST(Cloth, SheetsThatFallOnOneAnotherStayApart) {
     if (p.x < 0.24f && p.z > -0.24f) {
       EXPECT_GT(p.y, 0.0f) << k;
     }
+  }
+}
+
+TEST(Cloth, WhatNoPinHoldsStaysWithTheSkin) {
+  Hanging sheet(Sheet(6, 6, 0.05f, 1.0f), {});
+  sheet.Run(2.0f, 60.0f);
+  for (size_t i = 0; i < sheet.particles().size(); ++i) {
+    EXPECT_LT(glm::distance(sheet.particles()[i], sheet.human.cloths[0].positions[i]), 1e-5f);
   }
 }
 
@@ -626,7 +642,7 @@ TEST(Cloth, LiesOnSkinThatStandsOutOfItsCapsule) {
       skin.material = 0;
       human.meshes.push_back(skin);
     }
-    const ClothModel model(human);
+    const ClothModel model(human, kDroppable);
     ClothState state(model);
     const std::vector<glm::mat4> identity{glm::mat4(1.0f)};
     ClothStep step;
