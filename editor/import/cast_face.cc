@@ -1,5 +1,6 @@
 #include "editor/import/cast_face.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
@@ -66,20 +67,20 @@ struct Shape {
 const std::vector<Shape>& Shapes() {
   static const std::vector<Shape> shapes = {
       {"sil", {{"lips_press", 0.12f}}},
-      {"PP", {{"lips_press", 0.65f}, {"lips_purse", 0.15f}}},
+      {"PP", {{"lips_press", 0.4f}, {"lips_purse", 0.3f}}},
       {"FF", {{"lips_raise", 0.45f}, {"lips_press", 0.35f}, {"jaw_open", 0.04f}}},
-      {"TH", {{"jaw_open", 0.18f}, {"lips_part", 0.3f}}, 8.0f, 6.0f},
-      {"DD", {{"jaw_open", 0.14f}, {"lips_part", 0.35f}}, 10.0f, 25.0f},
-      {"kk", {{"jaw_open", 0.22f}, {"lips_part", 0.2f}}, 14.0f, -10.0f},
+      {"TH", {{"jaw_open", 0.2f}, {"lips_part", 0.12f}, {"tongue_out", 1.0f}}, 4.0f},
+      {"DD", {{"jaw_open", 0.16f}, {"lips_part", 0.18f}}, 10.0f, 25.0f},
+      {"kk", {{"jaw_open", 0.26f}, {"lips_part", 0.1f}}, 14.0f, -10.0f},
       {"CH", {{"lips_protrude", 0.7f}, {"lips_part", 0.25f}, {"jaw_open", 0.06f}}},
       {"SS", {{"lips_stretch", 0.5f}, {"lips_part", 0.45f}}},
       {"nn", {{"jaw_open", 0.1f}, {"lips_part", 0.25f}, {"lips_stretch", 0.2f}}, 10.0f, 25.0f},
       {"RR", {{"lips_protrude", 0.45f}, {"lips_purse", 0.3f}, {"jaw_open", 0.15f}}, 8.0f, 15.0f},
       {"aa", {{"jaw_open", 0.75f}}, -4.0f},
-      {"E", {{"jaw_open", 0.35f}, {"lips_stretch", 0.5f}, {"lips_part", 0.15f}}},
-      {"ih", {{"jaw_open", 0.18f}, {"lips_stretch", 0.55f}, {"lips_part", 0.2f}}, 6.0f},
+      {"E", {{"jaw_open", 0.36f}, {"lips_stretch", 0.55f}}},
+      {"ih", {{"jaw_open", 0.18f}, {"lips_stretch", 0.6f}, {"lips_part", 0.08f}}, 6.0f},
       {"oh", {{"jaw_open", 0.45f}, {"lips_purse", 0.55f}, {"lips_protrude", 0.25f}}},
-      {"ou", {{"lips_purse", 0.9f}, {"lips_protrude", 0.35f}, {"jaw_open", 0.12f}}},
+      {"ou", {{"lips_purse", 1.0f}, {"lips_protrude", 0.2f}, {"jaw_open", 0.1f}}},
       {"joy",
        {{"corners_pull", 0.75f},
         {"lips_stretch_up", 0.35f},
@@ -173,6 +174,34 @@ human::MorphTarget::Part PartOf(uint32_t mesh,
   return part;
 }
 
+// What the library has no unit for: the tongue's tip between the teeth.
+human::MorphTarget TongueOut(std::span<const CastPiece> pieces,
+                             const std::string& tongue,
+                             float scale) {
+  const glm::vec3 kOut(0.0f, 0.002f, -0.014f);  // metres, of the tip of a grown tongue
+  human::MorphTarget morph;
+  morph.name = "tongue_out";
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    const human::SkinnedMesh& mesh = pieces[i].mesh;
+    if (mesh.name != tongue || mesh.positions.empty()) {
+      continue;
+    }
+    const auto behind = [](const glm::vec3& a, const glm::vec3& b) { return a.z < b.z; };
+    const auto [tip, root] =
+        std::minmax_element(mesh.positions.begin(), mesh.positions.end(), behind);
+    human::MorphTarget::Part part;
+    part.mesh = static_cast<uint32_t>(i);
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+      const float share = (root->z - mesh.positions[v].z) / std::max(root->z - tip->z, 1e-4f);
+      part.vertices.push_back(static_cast<uint32_t>(v));
+      part.position_deltas.push_back(scale * share * share * kOut);
+      part.normal_deltas.emplace_back(0.0f);
+    }
+    morph.parts.push_back(std::move(part));
+  }
+  return morph;
+}
+
 void AddTurn(const human::Skeleton& skeleton,
              const char* joint,
              float degrees,
@@ -227,6 +256,7 @@ void AddFace(const CastLibrary& library,
     }
     human.morphs.push_back(std::move(morph));
   }
+  human.morphs.push_back(TongueOut(pieces, recipe.tongue, scale));
   for (const Shape& shape : Shapes()) {
     human.face.push_back(Compose(shape, human));
   }

@@ -291,7 +291,7 @@ Result<human::Texture> SkinTexture(const std::string& name,
   Modulate(skin, BandNoise(random, 0.7, 1.8), cv::Scalar(0.035, 0.03, 0.025));
   Modulate(skin, BandNoise(random, 8.0, 30.0), cv::Scalar(-0.02, -0.015, 0.01));
   Weather(skin, paint.weathering, random);
-  PaintHairs(skin, Spread(paint, paint.scalp), paint.scalp_colour, 0.8f, random);
+  PaintHairs(skin, Spread(paint, paint.scalp), paint.scalp_colour, 0.4f, random);
   PaintHairs(skin, Spread(paint, paint.beard), paint.beard_colour, 0.75f * paint.stubble, random);
   return EncodeJpeg(name, ToBytes(skin));
 }
