@@ -206,7 +206,10 @@ function Actor:put(thing, where, surface)
   local id = object_id(thing, "put")
   if type(where) == "table" and not where.is_object then
     local x, z = number(where, "x", nil, "put"), number(where, "z", nil, "put")
-    local heading = math.rad(number(where, "heading", 0, "put"))
+    local heading = nil
+    if where.heading ~= nil then
+      heading = math.rad(number(where, "heading", 0, "put"))
+    end
     await("put", host.put(self.id, id, nil, x, z, heading))
   else
     await("put", host.put(self.id, id, object_id(where, "put"), surface))

@@ -120,7 +120,7 @@ int Run::Take(lua_State* lua) {
   return PushTask(lua, stage_.tasks().Take(CheckActorId(lua, 1), CheckObjectId(lua, 2)));
 }
 
-// put(actor, object, other object, surface or nil) or put(actor, object, nil, x, z, heading)
+// put(actor, object, other object, surface or nil) or put(actor, object, nil, x, z, heading or nil)
 int Run::Put(lua_State* lua) {
   CheckFreeActor(lua);
   stage::PutTarget target;
@@ -129,7 +129,9 @@ int Run::Put(lua_State* lua) {
     target.surface = CheckSurface(lua, CheckObject(lua, 3), 4);
   } else {
     target.place = {CheckFinite(lua, 4, "x"), CheckFinite(lua, 5, "z")};
-    target.heading = static_cast<float>(CheckFinite(lua, 6, "heading"));
+    if (!lua_isnil(lua, 6)) {
+      target.heading = static_cast<float>(CheckFinite(lua, 6, "heading"));
+    }
   }
   return PushTask(lua, stage_.tasks().Put(CheckActorId(lua, 1), CheckObjectId(lua, 2), target));
 }
@@ -190,7 +192,7 @@ int Run::PlaceObjectOn(lua_State* lua) {
       }
       last = stage_.PlaceOn(
           CheckObjectId(lua, 1),
-          {CheckObjectId(lua, 2), static_cast<int8_t>(surface), static_cast<int8_t>(spot)});
+          {CheckObjectId(lua, 2), static_cast<int8_t>(surface), static_cast<int8_t>(spot), 0.0f});
       if (last.ok()) {
         return 0;
       }

@@ -69,9 +69,9 @@ Pose SupportedPose(const World& world, const Object& object, int depth) {
   if (base == nullptr || depth == 0) {
     return object.state.stage_from_object;
   }
-  return SupportedPose(world, *base, depth - 1) * ObjectFromSpot(*base->model, base->state.joints,
-                                                                 object.state.support.surface,
-                                                                 object.state.support.spot);
+  return SupportedPose(world, *base, depth - 1) *
+         ObjectFromSpot(*base->model, base->state.joints, object.state.support.surface,
+                        object.state.support.spot, object.state.support.turn);
 }
 
 }  // namespace
@@ -210,6 +210,17 @@ Pose CarryPose(const Actor& actor, const Object& object, const HandGrips& hands)
   return ScaledTo(actor, HangingHand(side)) *
          ObjectFromGrip(*object.model, object.state.joints, hands[static_cast<size_t>(side)])
              .Inverse();
+}
+
+float HeadingOf(const glm::quat& rotation) {
+  const glm::vec3 forward = rotation * glm::vec3(0.0f, 0.0f, -1.0f);
+  return HeadingOf(glm::vec2(forward.x, forward.z));
+}
+
+float CarriedTurn(const ObjectUse& use) {
+  return use.carry && use.carry->holder_from_object
+             ? HeadingOf(use.carry->holder_from_object->rotation)
+             : 0.0f;
 }
 
 void TakeHold(World& world, ActorId actor, ObjectId id, const HandGrips& hands) {

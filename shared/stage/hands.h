@@ -29,6 +29,11 @@ std::optional<HandGrips> ChooseReceivingHands(const World& world,
 
 // Where an actor carries an object with these hands: actor_from_object.
 Pose CarryPose(const Actor& actor, const Object& object, const HandGrips& hands);
+// How an object lies to whoever carries it, about +Y, radians: who takes it or puts it
+// down with this turn against the own heading need not twist the hands.
+float CarriedTurn(const ObjectUse& use);
+// Where something looks that has a pose, about +Y.
+float HeadingOf(const glm::quat& rotation);
 // Of somebody 1.7 m tall to this actor.
 Pose ScaledTo(const Actor& actor, Pose pose);
 

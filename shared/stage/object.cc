@@ -72,13 +72,12 @@ Pose ObjectFromGrip(const ObjectModel& model, std::span<const float> joints, int
   return ObjectFromPart(model, joints, of.part) * of.part_from_hand;
 }
 
-Pose ObjectFromSpot(const ObjectModel& model,
-                    std::span<const float> joints,
-                    int surface,
-                    int spot) {
+Pose ObjectFromSpot(
+    const ObjectModel& model, std::span<const float> joints, int surface, int spot, float turn) {
   const Spot& of =
       model.use().surfaces[static_cast<size_t>(surface)].spots[static_cast<size_t>(spot)];
-  return ObjectFromPart(model, joints, of.part) * of.part_from_spot;
+  const Pose turned = {glm::vec3(0.0f), glm::angleAxis(turn, glm::vec3(0.0f, 1.0f, 0.0f))};
+  return ObjectFromPart(model, joints, of.part) * of.part_from_spot * turned;
 }
 
 Pose DrawnPose(const ObjectModel& model,

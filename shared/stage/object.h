@@ -27,6 +27,7 @@ struct Support {
   ObjectId object;  // zero: it stands by itself
   int8_t surface = -1;
   int8_t spot = -1;
+  float turn = 0.0f;  // radians about the spot's +Y: as it was put there
 
   friend bool operator==(const Support&, const Support&) = default;
 };
@@ -81,8 +82,12 @@ ObjectState InitialState(const Object& object);
 Pose ObjectFromPart(const ObjectModel& model, std::span<const float> joints, int part);
 // object_from_hand of a grip.
 Pose ObjectFromGrip(const ObjectModel& model, std::span<const float> joints, int grip);
-// object_from_spot: the frame of what stands there.
-Pose ObjectFromSpot(const ObjectModel& model, std::span<const float> joints, int surface, int spot);
+// object_from_spot: the frame of what stands there, turned about its +Y.
+Pose ObjectFromSpot(const ObjectModel& model,
+                    std::span<const float> joints,
+                    int surface,
+                    int spot,
+                    float turn = 0.0f);
 
 // Where an object is to be drawn that somebody holds: stage_from_object. palm: of
 // state.hand in the holder's final pose (human::ActorFromPalm).

@@ -368,8 +368,9 @@ class UseReader {
   }
 
   Status ReadAction(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"from", "to", "held", "places", "hands", "duration",
-                                                "moves", "path", "clip", "sound", "seat"}));
+    LARARIUM_RETURN_IF_ERROR(
+        CheckFields(view, {"from", "to", "held", "places", "hands", "duration", "release", "moves",
+                           "path", "clip", "sound", "seat"}));
     ObjectAction action;
     action.name = name;
     LARARIUM_ASSIGN_OR_RETURN(action.from, ReadStateSet(view, "from"));
@@ -394,6 +395,9 @@ class UseReader {
     LARARIUM_ASSIGN_OR_RETURN(const double duration,
                               ReadNumber(view, "duration", 1.0, 0.0, kMaxSeconds));
     action.duration = static_cast<float>(duration);
+    LARARIUM_ASSIGN_OR_RETURN(const double release,
+                              ReadNumber(view, "release", kMaxSeconds, 0.0, kMaxSeconds));
+    action.release = static_cast<float>(release);
     LARARIUM_ASSIGN_OR_RETURN(action.clip, ReadName(view, "clip"));
     LARARIUM_ASSIGN_OR_RETURN(action.sound, ReadName(view, "sound"));
     LARARIUM_RETURN_IF_ERROR(ReadMoves(view, action));

@@ -103,6 +103,7 @@ struct ObjectAction {
   uint32_t places = ~0u;  // bit i: at approach place i
   HandGrips hands = kNoHands;
   float duration = 1.0f;  // seconds
+  float release = 1e9f;   // seconds of the action after which the hands let go
   std::vector<Move> moves;
   std::vector<Key> path;     // times increase
   std::string clip;          // that the actor plays meanwhile; empty: none

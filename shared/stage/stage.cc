@@ -311,9 +311,21 @@ Status Stage::PlaceOn(ObjectId id, const Support& support) {
   if (IsOccupied(*world_, support.object, support.surface, support.spot)) {
     return Status::Error(what, "the spot is taken", "choose another one");
   }
-  Place(id, base->state.stage_from_object *
-                ObjectFromSpot(*base->model, base->state.joints, support.surface, support.spot));
-  object->state.support = support;
+  Support turned = support;
+  const Pose spot = ObjectFromSpot(*base->model, base->state.joints, support.surface, support.spot);
+  const int place = base->use()
+                        .surfaces[static_cast<size_t>(support.surface)]
+                        .spots[static_cast<size_t>(support.spot)]
+                        .place;
+  if (place >= 0 && object->use().carry) {
+    // As somebody would have put it there.
+    const float heading = base->use().places[static_cast<size_t>(place)].heading;
+    turned.turn = TurnBetween(HeadingOf(spot.rotation), heading + CarriedTurn(object->use()));
+  }
+  Place(id,
+        base->state.stage_from_object * ObjectFromSpot(*base->model, base->state.joints,
+                                                       support.surface, support.spot, turned.turn));
+  object->state.support = turned;
   return Status();
 }
 

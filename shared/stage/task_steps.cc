@@ -310,6 +310,10 @@ void Tasks::StepAct(Task& task) {
       object.state.action_time = task.time;
       MoveJoints(task, object);
       FollowPath(task, object);
+      if (!action.held && task.time >= action.release && task.hands != kNoHands) {
+        LetGo(actor, task.hands);
+        task.hands = kNoHands;
+      }
       if (task.time >= action.duration && action.to >= 0) {
         object.state.state = action.to;
       }
@@ -353,15 +357,18 @@ void Tasks::StepReach(Task& task) {
 
 // ---- put ----
 
-// stage_from_object of what is put down.
+// stage_from_object of what is put down: on a spot it stands as the hands bring it.
 Pose Tasks::PutGoal(const Task& task) const {
+  const Actor& actor = world_.actor(task.actor);
+  const float carried = actor.state.heading + CarriedTurn(world_.object(task.object).use());
   if (const Object* on = world_.objects.Find(task.target.object)) {
-    return on->state.stage_from_object *
-           ObjectFromSpot(*on->model, on->state.joints, task.target.surface, task.spot);
+    const Pose spot = on->state.stage_from_object *
+                      ObjectFromSpot(*on->model, on->state.joints, task.target.surface, task.spot);
+    const float turn = TurnBetween(HeadingOf(spot.rotation), carried);
+    return spot * Pose{glm::vec3(0.0f), glm::angleAxis(turn, glm::vec3(0.0f, 1.0f, 0.0f))};
   }
-  const float ground = world_.actor(task.actor).state.position.y;
-  return {{task.target.place.x, ground, task.target.place.y},
-          glm::angleAxis(task.target.heading, glm::vec3(0.0f, 1.0f, 0.0f))};
+  return {{task.target.place.x, actor.state.position.y, task.target.place.y},
+          glm::angleAxis(task.target.heading.value_or(carried), glm::vec3(0.0f, 1.0f, 0.0f))};
 }
 
 void Tasks::StepPut(Task& task) {
@@ -384,7 +391,12 @@ void Tasks::StepPut(Task& task) {
       object.state.stage_from_object = goal;
       if (task.target.object) {
         object.state.support = {task.target.object, static_cast<int8_t>(task.target.surface),
-                                static_cast<int8_t>(task.spot)};
+                                static_cast<int8_t>(task.spot), 0.0f};
+        const Object& on = world_.object(task.target.object);
+        const Pose spot =
+            on.state.stage_from_object *
+            ObjectFromSpot(*on.model, on.state.joints, task.target.surface, task.spot);
+        object.state.support.turn = TurnBetween(HeadingOf(spot.rotation), HeadingOf(goal.rotation));
       }
       LetGo(actor, task.hands);
       Enter(task, Phase::kLetGo);

@@ -19,6 +19,7 @@ constexpr float kLineStep = 0.35f;       // metres: who stands this near stands 
 constexpr float kBehindPlaces = 0.9f;    // metres, of the default queue
 constexpr float kReachNearest = 0.42f;   // metres from what hands reach for
 constexpr float kReachFurthest = 0.75f;
+constexpr float kTwistAllowed = 0.5f;  // radians that hands may twist
 constexpr float kGiveNearest = 0.75f;  // metres between two people
 constexpr float kGiveFurthest = 1.05f;
 constexpr float kMakeWayWithin = 0.5f;  // metres
@@ -441,15 +442,18 @@ bool Tasks::Approach(Task& task, glm::vec2 goal, std::optional<float> heading) {
   return true;
 }
 
-bool Tasks::ApproachNear(Task& task, const glm::vec3& point) {
+bool Tasks::ApproachNear(Task& task, const glm::vec3& point, std::optional<float> facing) {
   const Actor& actor = world_.actor(task.actor);
   const glm::vec2 on_floor = OnFloor(point);
   const float distance = glm::distance(actor.place(), on_floor);
   std::optional<glm::vec2> stand;
-  if (distance >= 0.8f * kReachNearest && distance <= kReachFurthest) {
+  const bool is_well_turned =
+      !facing ||
+      std::abs(TurnBetween(*facing, HeadingOf(on_floor - actor.place()))) < kTwistAllowed;
+  if (distance >= 0.8f * kReachNearest && distance <= kReachFurthest && is_well_turned) {
     stand = actor.place();  // in reach from here
   } else {
-    stand = FindStand(world_, task.actor, on_floor, kReachNearest, kReachFurthest);
+    stand = FindStand(world_, task.actor, on_floor, kReachNearest, kReachFurthest, facing);
   }
   if (!stand) {
     Fail(task, Quoted(actor.name) + " cannot get near enough to " +
@@ -550,9 +554,7 @@ bool Tasks::GrantTake(Task& task) {
     Finish(task);
     return true;
   }
-  const auto what = [&] {
-    return Quoted(actor.name) + " cannot take " + Quoted(object.name);
-  };
+  const auto what = [&] { return Quoted(actor.name) + " cannot take " + Quoted(object.name); };
   if (object.state.holder) {
     Fail(task, what() + ": it is in the hands of " +
                    Quoted(world_.actor(object.state.holder).name) +
@@ -576,7 +578,9 @@ bool Tasks::GrantTake(Task& task) {
       return ApproachPlaceOf(task, support.object, place);
     }
   }
-  return ApproachNear(task, object.state.stage_from_object.position);
+  return ApproachNear(
+      task, object.state.stage_from_object.position,
+      HeadingOf(object.state.stage_from_object.rotation) - CarriedTurn(object.use()));
 }
 
 bool Tasks::GrantPut(Task& task) {
@@ -591,7 +595,11 @@ bool Tasks::GrantPut(Task& task) {
   }
   task.hands = object.state.hands;
   if (!task.target.object) {
-    return ApproachNear(task, {task.target.place.x, 0.0f, task.target.place.y});
+    std::optional<float> facing;
+    if (task.target.heading) {
+      facing = *task.target.heading - CarriedTurn(object.use());
+    }
+    return ApproachNear(task, {task.target.place.x, 0.0f, task.target.place.y}, facing);
   }
   if (RestsOn(world_, task.target.object, task.object)) {
     Fail(task, what() + ": that stands on what it holds");
@@ -653,8 +661,10 @@ bool Tasks::GrantPut(Task& task) {
   if (chosen.place >= 0) {
     return ApproachPlaceOf(task, task.target.object, chosen.place);
   }
-  return ApproachNear(task, on.state.stage_from_object *
-                                ObjectFromSpot(*on.model, on.state.joints, surface, spot).position);
+  return ApproachNear(task,
+                      on.state.stage_from_object *
+                          ObjectFromSpot(*on.model, on.state.joints, surface, spot).position,
+                      std::nullopt);
 }
 
 bool Tasks::GrantGive(Task& task) {

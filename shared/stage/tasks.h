@@ -43,7 +43,7 @@ struct PutTarget {
   ObjectId object;                    // zero: on the floor, at place
   int surface = -1;                   // of the object; -1: any
   glm::vec2 place = glm::vec2(0.0f);  // (x, z), stage
-  float heading = 0.0f;               // of what is put down there
+  std::optional<float> heading;       // of what is put down there; none: as it is carried
 };
 
 class Tasks {
@@ -152,7 +152,7 @@ class Tasks {
   bool GrantPut(Task& task);
   bool GrantGive(Task& task);
   bool Approach(Task& task, glm::vec2 goal, std::optional<float> heading);
-  bool ApproachNear(Task& task, const glm::vec3& point);
+  bool ApproachNear(Task& task, const glm::vec3& point, std::optional<float> facing);
   bool ApproachPlaceOf(Task& task, ObjectId object, int place);
   void WaitInLine(Task& task, float seconds);
   void MakeWay(const Task& task);

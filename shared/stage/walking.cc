@@ -20,6 +20,7 @@ constexpr float kRoomAtGoal = 0.42f;    // metres from anybody else
 constexpr float kSqueezeAfter = 3.0f;   // seconds without getting nearer
 constexpr float kPushAfter = 8.0f;      // likewise
 constexpr float kGiveUpAfter = 15.0f;   // likewise
+constexpr float kTwistCost = 3.0f;      // metres of way for each radian that hands twist less
 constexpr float kNearer = 0.05f;        // metres that count as getting nearer
 constexpr float kTurnPerRadian = 5.0f;  // 1/s
 constexpr float kTurnFastest = kPi;     // radians per second
@@ -265,8 +266,12 @@ bool IsFree(const World& world, ActorId except, glm::vec2 place, float within) {
   });
 }
 
-std::optional<glm::vec2> FindStand(
-    const World& world, ActorId actor, glm::vec2 point, float nearest, float furthest) {
+std::optional<glm::vec2> FindStand(const World& world,
+                                   ActorId actor,
+                                   glm::vec2 point,
+                                   float nearest,
+                                   float furthest,
+                                   std::optional<float> facing) {
   constexpr int kDirections = 16;
   constexpr int kRings = 4;
   constexpr int kMaxWays = 12;  // that are looked for
@@ -286,7 +291,9 @@ std::optional<glm::vec2> FindStand(
       const glm::vec2 place = point + radius * Direction(angle);
       if (world.navigation->Nearest(place, 0.05f) && IsFree(world, actor, place, kRoomAtGoal)) {
         // Nearer to the point is better than a shorter way.
-        candidates[count] = {place, glm::distance(from, place) + 2.0f * radius, count};
+        const float twist = facing ? std::abs(TurnBetween(*facing, angle + kPi)) : 0.0f;
+        candidates[count] = {place, glm::distance(from, place) + 2.0f * radius + kTwistCost * twist,
+                             count};
         ++count;
       }
     }
@@ -300,8 +307,10 @@ std::optional<glm::vec2> FindStand(
   float shortest = 1e9f;
   for (size_t i = 0; i < std::min<size_t>(count, kMaxWays); ++i) {
     const auto way = world.navigation->FindWay(from, candidates[i].place);
-    if (way && way->complete && way->length < shortest) {
-      shortest = way->length;
+    const float cost = candidates[i].distance - glm::distance(from, candidates[i].place) +
+                       (way ? way->length : 0.0f);
+    if (way && way->complete && cost < shortest) {
+      shortest = cost;
       best = candidates[i].place;
     }
   }

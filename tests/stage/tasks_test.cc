@@ -116,7 +116,7 @@ TEST_F(TasksTest, TakenObjectsAreCarriedAndPutDownOnASpot) {
   const ActorId keeper = AddActor("keeper", 2, -3);
   const ObjectId table = AddObject("table", test::MakeTable(), 0, 0);
   const ObjectId cup = AddObject("cup", test::MakeCup(), 0, 0);
-  ASSERT_TRUE(stage_.PlaceOn(cup, {table, 0, 1}).ok());
+  ASSERT_TRUE(stage_.PlaceOn(cup, {table, 0, 1, 0.0f}).ok());
   EXPECT_NEAR(At(cup).state.stage_from_object.position.x, 0.25f, 1e-6f);
 
   EXPECT_EQ(Finish(stage_.tasks().Take(keeper, cup)).state, State::kDone);
@@ -149,9 +149,10 @@ TEST_F(TasksTest, WhatStandsOnAFullTableCannotBePut) {
   }
   for (int i = 0; i < 3; ++i) {
     ASSERT_TRUE(
-        stage_.PlaceOn(cups[static_cast<size_t>(i)], {table, 0, static_cast<int8_t>(i)}).ok());
+        stage_.PlaceOn(cups[static_cast<size_t>(i)], {table, 0, static_cast<int8_t>(i), 0.0f})
+            .ok());
   }
-  EXPECT_FALSE(stage_.PlaceOn(cups[3], {table, 0, 0}).ok());
+  EXPECT_FALSE(stage_.PlaceOn(cups[3], {table, 0, 0, 0.0f}).ok());
   EXPECT_EQ(Finish(stage_.tasks().Take(keeper, cups[3])).state, State::kDone);
   PutTarget target;
   target.object = table;
