@@ -113,6 +113,21 @@ TEST(Sheet, SubdividedKeepsItsParticlesAndItsFlatArea) {
   EXPECT_NEAR(area, 0.16f, 1e-5f);
 }
 
+TEST(Sheet, BandsEndSharplyAndStaySewn) {
+  Sheet sheet = Napkin(5, 0.1f, 0.0f);
+  const size_t particles = sheet.positions.size();
+  MarkBands(sheet, [](uint8_t, const glm::vec2& middle) { return middle.x < 0.2f; });
+  EXPECT_EQ(sheet.flat.size(), 25u + 15u);
+  EXPECT_EQ(sheet.positions.size(), particles);
+  for (const Triangle& t : sheet.triangles) {
+    EXPECT_EQ(sheet.panel[t[0]] & kBand, sheet.panel[t[1]] & kBand);
+    EXPECT_EQ(sheet.panel[t[0]] & kBand, sheet.panel[t[2]] & kBand);
+  }
+  DropUnusedVertices(sheet);
+  EXPECT_EQ(sheet.flat.size(), 15u + 15u);
+  EXPECT_EQ(OpenEdges(sheet.ParticleTriangles()).size(), 16u);
+}
+
 TEST(Sheet, OpenEdgesAreItsRim) {
   EXPECT_EQ(OpenEdges(Napkin(5, 0.1f, 0.0f).ParticleTriangles()).size(), 16u);
 }

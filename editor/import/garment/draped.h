@@ -35,6 +35,9 @@ struct DrapedGarment {
   std::vector<float> reach;                // of each particle; 0: plain skin
   std::function<glm::vec3(uint8_t panel, const glm::vec2& flat)> dye;  // linear RGB
   std::vector<Trim> trims;
+  // What lies further left and higher is covered for certain: the arm in a mantle.
+  float covers_left_of = -1e9f;
+  float covers_above = 1e9f;
   bool covers = true;          // hides what lies below it
   float cover_margin = 0.05f;  // from its edges, within which garments below it stay
   float hide_margin = 0.03f;   // metres from the cloth's edges within which skin stays

@@ -348,23 +348,41 @@ Result<Garment> FinishGarment(const DrapedGarment& draped,
   return garment;
 }
 
-void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner) {
-  if (inner.coarse_triangles.empty()) {
-    return;
-  }
-  const std::vector<glm::vec3> normals =
-      Normals(inner.sheet.positions, inner.sheet.ParticleTriangles());
-  std::vector<bool> covered(inner.sheet.positions.size(), false);
+namespace {
+
+std::vector<bool> CoveredByAny(std::span<const DrapedGarment> outer, const Sheet& sheet) {
+  const std::vector<glm::vec3> normals = Normals(sheet.positions, sheet.ParticleTriangles());
+  std::vector<bool> covered(sheet.positions.size(), false);
   for (const DrapedGarment& garment : outer) {
     if (!garment.covers) {
       continue;
     }
-    const std::vector<bool> by_this = CoveredBy(garment, inner.sheet.positions, normals,
-                                                garment.cover_margin, garment.cover_margin);
+    const std::vector<bool> by_this =
+        CoveredBy(garment, sheet.positions, normals, garment.cover_margin, garment.cover_margin);
     for (size_t p = 0; p < covered.size(); ++p) {
-      covered[p] = covered[p] || by_this[p];
+      const glm::vec3& x = sheet.positions[p];
+      const bool in_arm = x.x < garment.covers_left_of && x.y > garment.covers_above;
+      covered[p] = covered[p] || by_this[p] || in_arm;
     }
   }
+  return covered;
+}
+
+}  // namespace
+
+void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner) {
+  if (inner.coarse_triangles.empty()) {
+    return;
+  }
+  for (Trim& trim : inner.trims) {
+    const std::vector<bool> covered = CoveredByAny(outer, trim.sheet);
+    std::erase_if(trim.sheet.triangles, [&](const Triangle& t) {
+      const Triangle corners = trim.sheet.Particles(t);
+      return std::any_of(corners.begin(), corners.end(), [&](uint32_t p) { return covered[p]; });
+    });
+    DropUnusedVertices(trim.sheet);
+  }
+  const std::vector<bool> covered = CoveredByAny(outer, inner.sheet);
   // Whole triangles of the coarse sheet, so that what follows one still has it.
   std::vector<Triangle> kept;
   std::vector<Triangle> kept_coarse;
@@ -381,6 +399,7 @@ void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner)
     }
   }
   inner.sheet.triangles = std::move(kept);
+  DropUnusedVertices(inner.sheet);
   inner.coarse_triangles = std::move(kept_coarse);
 }
 

@@ -153,6 +153,46 @@ Sheet Subdivided(const Sheet& sheet, std::vector<std::array<uint32_t, 2>>* paren
   return fine;
 }
 
+void MarkBands(Sheet& sheet,
+               const std::function<bool(uint8_t panel, const glm::vec2& middle)>& inside) {
+  std::map<uint32_t, uint32_t> doubled;
+  for (Triangle& t : sheet.triangles) {
+    const glm::vec2 middle = (sheet.flat[t[0]] + sheet.flat[t[1]] + sheet.flat[t[2]]) / 3.0f;
+    if (!inside(sheet.panel[t[0]], middle)) {
+      continue;
+    }
+    for (uint32_t& v : t) {
+      const auto [entry, is_new] = doubled.try_emplace(v, static_cast<uint32_t>(sheet.flat.size()));
+      if (is_new) {
+        sheet.flat.push_back(glm::vec2(sheet.flat[v]));
+        sheet.panel.push_back(static_cast<uint8_t>(sheet.panel[v] | kBand));
+        sheet.particle.push_back(uint32_t(sheet.particle[v]));
+      }
+      v = entry->second;
+    }
+  }
+}
+
+void DropUnusedVertices(Sheet& sheet) {
+  constexpr uint32_t kUnused = 0xffffffffu;
+  std::vector<uint32_t> renamed(sheet.flat.size(), kUnused);
+  Sheet kept;
+  for (Triangle& t : sheet.triangles) {
+    for (uint32_t& v : t) {
+      if (renamed[v] == kUnused) {
+        renamed[v] = static_cast<uint32_t>(kept.flat.size());
+        kept.flat.push_back(sheet.flat[v]);
+        kept.panel.push_back(sheet.panel[v]);
+        kept.particle.push_back(sheet.particle[v]);
+      }
+      v = renamed[v];
+    }
+  }
+  sheet.flat = std::move(kept.flat);
+  sheet.panel = std::move(kept.panel);
+  sheet.particle = std::move(kept.particle);
+}
+
 std::vector<glm::vec3> Normals(std::span<const glm::vec3> positions,
                                std::span<const Triangle> triangles) {
   std::vector<glm::vec3> normals(positions.size(), glm::vec3(0.0f));

@@ -56,6 +56,17 @@ void Sew(Sheet& sheet, std::span<const std::array<uint32_t, 2>> pairs);
 // given sheet that it lies between (the same one twice: it was there before).
 Sheet Subdivided(const Sheet& sheet, std::vector<std::array<uint32_t, 2>>* parents = nullptr);
 
+// Panels of vertices within a woven band have this bit set.
+inline constexpr uint8_t kBand = 0x80;
+
+// Doubles the vertices along the rims of bands, so that their colour ends sharply.
+// inside: of a triangle, by its panel and the middle of its corners on it.
+void MarkBands(Sheet& sheet,
+               const std::function<bool(uint8_t panel, const glm::vec2& middle)>& inside);
+
+// Vertices that no triangle has go; particles stay.
+void DropUnusedVertices(Sheet& sheet);
+
 // Unit, outward; of each particle.
 std::vector<glm::vec3> Normals(std::span<const glm::vec3> positions,
                                std::span<const Triangle> triangles);

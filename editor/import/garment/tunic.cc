@@ -449,6 +449,7 @@ class TunicDraper {
     // Nobody looks under what reaches the floor.
     result.loose_margin = std::clamp(0.4f * cut_.hem_height, 0.05f, 0.18f);
     SetReach(result);
+    WeaveBands();
     result.dye = Dye();
     if (pattern_.belt != Belt::kNone) {
       result.trims.push_back(TieGirdle(pattern_, body_, standing_, sheet_, belt_height_));
@@ -467,21 +468,49 @@ class TunicDraper {
     }
   }
 
+  // Stripes and border are whole columns and rows of the sheet.
+  void WeaveBands() {
+    const size_t columns = 2 * (cut_.columns - 1);  // of the divided sheet
+    const float spacing = 2.0f * cut_.half_top / static_cast<float>(columns);
+    const float width = pattern_.stripes == Stripes::kNarrow  ? 0.026f
+                        : pattern_.stripes == Stripes::kBroad ? 0.07f
+                                                              : 0.0f;
+    const float first = std::round((0.68f * cut_.neck - 0.5f * width) / spacing);
+    const float last = first + std::max(1.0f, std::round(width / spacing));
+    MarkBands(sheet_, [&](uint8_t panel, const glm::vec2& middle) {
+      const float from_middle =
+          0.5f * std::abs(middle.x) / HalfWidth(middle.y) * static_cast<float>(columns);
+      const bool striped = width > 0.0f && from_middle > first && from_middle < last;
+      const float rows = FromHem(panel, middle) / HemRow(panel, middle);
+      return striped || (pattern_.border && rows > 1.0f && rows < 4.0f);
+    });
+  }
+
+  size_t NearestColumn(const glm::vec2& flat) const {
+    const float share = std::clamp(0.5f * (flat.x / HalfWidth(flat.y) + 1.0f), 0.0f, 1.0f);
+    return static_cast<size_t>(share * static_cast<float>(cut_.columns - 1) + 0.5f);
+  }
+  float FromHem(uint8_t panel, const glm::vec2& flat) const {
+    return hem_[panel][NearestColumn(flat)] - flat.y;
+  }
+  // How far apart the divided sheet's rows are there.
+  float HemRow(uint8_t panel, const glm::vec2& flat) const {
+    const size_t column = NearestColumn(flat);
+    const float above = sheet_.flat[Vertex(panel, column, cut_.rows - 2)].y;
+    return 0.5f * (hem_[panel][column] - above);
+  }
+
   std::function<glm::vec3(uint8_t, const glm::vec2&)> Dye() const {
-    const float stripe = pattern_.stripes == Stripes::kNarrow  ? 0.5f * 0.028f
-                         : pattern_.stripes == Stripes::kBroad ? 0.5f * 0.075f
-                                                               : 0.0f;
-    const float stripe_at = pattern_.stripes == Stripes::kBroad ? 0.045f : 0.6f * cut_.neck + 0.02f;
     const std::array<std::vector<float>, 2> hem = {hem_[kFront], hem_[kBack]};
-    return [=, pattern = pattern_, half_width = cut_.half_width](uint8_t panel,
-                                                                 const glm::vec2& flat) {
-      const float column = 0.5f * (flat.x / half_width + 1.0f) * float(hem[panel].size() - 1);
-      const float from_hem = hem[panel][static_cast<size_t>(column + 0.5f)] - flat.y;
-      const bool striped = stripe > 0.0f && std::abs(std::abs(flat.x) - stripe_at) <= stripe;
-      const bool banded = pattern.border && from_hem < 0.045f && from_hem > 0.012f;
-      const glm::vec3 colour = striped || banded ? pattern.stripe_colour : pattern.colour;
+    return [hem, pattern = pattern_, half_width = cut_.half_width](uint8_t panel,
+                                                                   const glm::vec2& flat) {
+      const std::vector<float>& line = hem[panel & ~kBand];
+      const float share = std::clamp(0.5f * (flat.x / half_width + 1.0f), 0.0f, 1.0f);
+      const float from_hem =
+          line[static_cast<size_t>(share * static_cast<float>(line.size() - 1) + 0.5f)] - flat.y;
+      const bool banded = (panel & kBand) != 0;
       const float soil = pattern.wear * std::clamp(1.0f - from_hem / 0.2f, 0.0f, 1.0f);
-      return colour * (1.0f - 0.35f * soil);
+      return (banded ? pattern.stripe_colour : pattern.colour) * (1.0f - 0.35f * soil);
     };
   }
 

@@ -313,13 +313,19 @@ class MantleDraper {
     const GarmentPattern pattern = pattern_;
     const float rows = 0.06f * scale_ * 18.0f;
     const float bow = 0.055f * scale_ * 10.0f;
+    const float row = 0.03f * scale_;  // of the divided sheet
+    MarkBands(sheet_, [&](uint8_t panel, const glm::vec2& middle) {
+      return pattern.border && (panel == 0 ? rows : bow) - middle.y < 1.99f * row;
+    });
     result.dye = [=](uint8_t panel, const glm::vec2& flat) {
-      const float from_hem = (panel == 0 ? rows : bow) - flat.y;
-      const bool banded = pattern.border && from_hem < 0.05f;
+      const bool is_wrap = (panel & ~kBand) == 0;
+      const float from_hem = (is_wrap ? rows : bow) - flat.y;
       const float soil =
-          panel == 0 ? pattern.wear * std::clamp(1.0f - from_hem / 0.2f, 0.0f, 1.0f) : 0.0f;
-      return (banded ? pattern.stripe_colour : pattern.colour) * (1.0f - 0.3f * soil);
+          is_wrap ? pattern.wear * std::clamp(1.0f - from_hem / 0.2f, 0.0f, 1.0f) : 0.0f;
+      return ((panel & kBand) != 0 ? pattern.stripe_colour : pattern.colour) * (1.0f - 0.3f * soil);
     };
+    result.covers_left_of = JointPlace(body_, standing_, "l_shoulder").x - 0.005f;
+    result.covers_above = JointPlace(body_, standing_, "l_elbow").y - 0.05f;
     result.loose_margin = std::clamp(0.4f * hem_, 0.05f, 0.18f);
     if (toga_) {
       result.trims.push_back(RollBalteus());
@@ -352,7 +358,7 @@ class MantleDraper {
       const glm::vec3 out = glm::normalize(glm::vec3(at.x, 0.0f, at.z) -
                                            ahead * glm::dot(ahead, glm::vec3(at.x, 0.0f, at.z)));
       const glm::vec3 up = glm::cross(ahead, out);
-      const float ends = std::min(1.0f, 6.0f * std::min(along, 1.0f - along) + 0.25f);
+      const float ends = std::min(1.0f, 4.0f * std::min(along, 1.0f - along) + 0.12f);
       const float twist = 1.0f + 0.16f * std::sin(3.0f * turn + 26.0f * along) +
                           0.08f * std::sin(5.0f * turn - 17.0f * along + 1.0f);
       const float size = 0.030f * scale_ * ends * twist;
