@@ -56,11 +56,17 @@ void main() {
   vec4 texel = texture(colour_texture, surface_uv);
   float coverage = 1.0;
 #ifdef COVERED
+  coverage = texel.a;
+#ifndef SURFACE_EYE  // the cornea is all but clear, and glints
   // The rim of what is there is as soft as a pixel.
   float rim = (texel.a - alpha_cutoff) / max(fwidth(texel.a), 1e-4) + 0.5;
-  coverage = texel.a * clamp(rim, 0.0, 1.0);
+  coverage *= clamp(rim, 0.0, 1.0);
+  if (coverage < 1.0 / 255.0) {
+    discard;
+  }
+#endif
   bool core = coverage >= kCore;
-  if (core == (fringe == 1) || coverage < 1.0 / 255.0) {
+  if (core == (fringe == 1)) {
     discard;
   }
   coverage = core ? 1.0 : coverage;

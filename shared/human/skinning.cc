@@ -71,9 +71,41 @@ PackedDualQuaternion Pack(const glm::mat4& matrix) {
   return {parts, q.scale};
 }
 
-float DotOfReal(Columns a, Columns b) {
-  const Columns product = a * b;
-  return product[0] + product[1] + product[2] + product[3];
+Column Real(Columns parts) { return __builtin_shufflevector(parts, parts, 0, 1, 2, 3); }
+Column Dual(Columns parts) { return __builtin_shufflevector(parts, parts, 4, 5, 6, 7); }
+
+float Dot4(Column a, Column b) {
+  const Column product = a * b;
+  const Column halves = product + __builtin_shufflevector(product, product, 2, 3, 0, 1);
+  return halves[0] + halves[1];
+}
+
+// Of the first three; the fourth comes out as nothing where all are finite.
+Column Cross(Column a, Column b) {
+  const Column a_yzx = __builtin_shufflevector(a, a, 1, 2, 0, 3);
+  const Column b_yzx = __builtin_shufflevector(b, b, 1, 2, 0, 3);
+  const Column zxy = a * b_yzx - a_yzx * b;
+  return __builtin_shufflevector(zxy, zxy, 1, 2, 0, 3);
+}
+
+// The weighted sum, of unit length; its scale apart.
+PackedDualQuaternion Blend(std::span<const PackedDualQuaternion> all,
+                           const std::array<uint8_t, 4>& joints,
+                           const glm::vec4& weights) {
+  const PackedDualQuaternion& pivot = all[joints[0]];
+  PackedDualQuaternion blend = {weights[0] * pivot.parts, weights[0] * pivot.scale};
+  for (int k = 1; k < 4; ++k) {
+    if (weights[k] == 0.0f) {
+      continue;
+    }
+    const PackedDualQuaternion& other = all[joints[k]];
+    const float side = Dot4(Real(pivot.parts), Real(other.parts));
+    blend.parts += std::copysign(weights[k], side) * other.parts;
+    blend.scale += weights[k] * other.scale;
+  }
+  const float square = Dot4(Real(blend.parts), Real(blend.parts));
+  blend.parts = square > 1e-12f ? blend.parts * (1.0f / std::sqrt(square)) : pivot.parts;
+  return blend;
 }
 
 void SkinByDualQuaternions(const SkinningJob& job) {
@@ -81,27 +113,15 @@ void SkinByDualQuaternions(const SkinningJob& job) {
   CHECK(job.skin.size() <= packed.size());
   std::transform(job.skin.begin(), job.skin.end(), packed.begin(), Pack);
   for (size_t v = 0; v < job.bind_positions.size(); ++v) {
-    const PackedDualQuaternion& pivot = packed[job.joints[v][0]];
-    Columns blend = job.weights[v][0] * pivot.parts;
-    float scale = job.weights[v][0] * pivot.scale;
-    for (int k = 1; k < 4; ++k) {
-      const PackedDualQuaternion& other = packed[job.joints[v][k]];
-      const float weight = job.weights[v][k];
-      blend += std::copysign(weight, DotOfReal(pivot.parts, other.parts)) * other.parts;
-      scale += weight * other.scale;
-    }
-    const float square = DotOfReal(blend, blend);
-    blend = square > 1e-12f ? blend * (1.0f / std::sqrt(square)) : pivot.parts;
-    const glm::vec3 r(blend[0], blend[1], blend[2]);
-    const glm::vec3 d(blend[4], blend[5], blend[6]);
-    const float rw = blend[3];
-    const float dw = blend[7];
-    const auto rotate = [&](const glm::vec3& x) {
-      return x + 2.0f * glm::cross(r, glm::cross(r, x) + rw * x);
-    };
-    job.positions[v] =
-        rotate(scale * job.bind_positions[v]) + 2.0f * (rw * d - dw * r + glm::cross(r, d));
-    job.normals[v] = rotate(job.bind_normals[v]);
+    const PackedDualQuaternion blend = Blend(packed, job.joints[v], job.weights[v]);
+    const Column r = Real(blend.parts);
+    const Column d = Dual(blend.parts);
+    const auto rotate = [&](Column x) { return x + 2.0f * Cross(r, Cross(r, x) + r[3] * x); };
+    const glm::vec3& p = job.bind_positions[v];
+    const glm::vec3& n = job.bind_normals[v];
+    const Column translation = 2.0f * (r[3] * d - d[3] * r + Cross(r, d));
+    job.positions[v] = Xyz(rotate(blend.scale * Column{p.x, p.y, p.z, 0.0f}) + translation);
+    job.normals[v] = Xyz(rotate(Column{n.x, n.y, n.z, 0.0f}));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <optional>
 
 #include "shared/core/check.h"
@@ -241,6 +242,19 @@ void ExtendJointBoxes(const human::SkinnedMesh& mesh,
   }
 }
 
+// Between two joints dual quaternions move a vertex on an arc, outside of what both
+// boxes span.
+void WidenForArcs(std::vector<Box>& boxes) {
+  constexpr float kShare = 0.25f;  // of a box's diagonal
+  for (Box& box : boxes) {
+    if (!box.empty()) {
+      const glm::vec3 margin(kShare * glm::distance(box.low, box.high));
+      box.low -= margin;
+      box.high += margin;
+    }
+  }
+}
+
 }  // namespace
 
 Result<GpuModel> GpuModel::Create(const human::Human& human) {
@@ -255,6 +269,9 @@ Result<GpuModel> GpuModel::Create(const human::Human& human) {
   const auto reach = MorphReach(human);
   for (size_t i = 0; i < human.meshes.size(); ++i) {
     ExtendJointBoxes(human.meshes[i], reach[i], model.joint_boxes);
+  }
+  if (model.skinning == human::Skinning::kDualQuaternion) {
+    WidenForArcs(model.joint_boxes);
   }
   return model;
 }

@@ -53,8 +53,8 @@ struct GpuModel {
   std::vector<Part> parts;  // of a human: parallel to its meshes
   human::Skinning skinning = human::Skinning::kLinear;
   // Of each joint: the box, in the bind pose, of all vertices that follow it, morphed
-  // or not. A posed vertex lies in the convex hull of its joints' posed boxes; with dual
-  // quaternions nearly so.
+  // or not. A posed vertex lies in the convex hull of its joints' posed boxes, which
+  // are wider for dual quaternions.
   std::vector<Box> joint_boxes;
 
   size_t joint_count() const { return joint_boxes.size(); }

@@ -5,6 +5,7 @@
 #include "shared/bundle/bundle_writer.h"
 #include "shared/core/file.h"
 #include "shared/stage/mesh_file.h"
+#include "tests/stage/test_props.h"
 #include "tests/support/synthetic_world.h"
 #include "tests/support/test_files.h"
 
@@ -40,7 +41,9 @@ class ShowContentTest : public ::testing::Test {
                                                {{"drama.lua", std::as_bytes(std::span(drama))},
                                                 {"bar.larscene", bar_},
                                                 {"yard.larscene", yard_},
-                                                {"wall.larmesh", wall_}});
+                                                {"wall.larmesh", wall_},
+                                                {"cup.larprop", cup_},
+                                                {"hello.json", std::as_bytes(std::span(hello_))}});
     LARARIUM_RETURN_IF_ERROR(written);
     LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(path));
     return LoadShowContent(bundle, place);
@@ -51,7 +54,33 @@ class ShowContentTest : public ::testing::Test {
   std::vector<std::byte> bar_ = test::OnePointScene(50.0);
   std::vector<std::byte> yard_ = test::OnePointScene(60.0);
   std::vector<std::byte> wall_;
+  std::vector<std::byte> cup_ = stage::SerializeProp(test::MakeCup());
+  std::string hello_ = R"({"schema": 1, "duration": 0.5, "visemes": [{"t": 0, "viseme": "aa"}]})";
 };
+
+TEST_F(ShowContentTest, ObjectsOfOneMemberShareTheirModel) {
+  geometry::Rigid3 there;
+  there.translation = {0.0, 0.8, -1.0};
+  manifest_.objects = {{"cup", "cup.larprop", {}}, {"other_cup", "cup.larprop", there}};
+  manifest_.speech = {{"hello", "hello.json"}};
+  const auto content = Load();
+  ASSERT_TRUE(content.ok()) << content.message();
+  ASSERT_EQ(content->objects.size(), 2u);
+  EXPECT_EQ(content->objects[0].model, content->objects[1].model);
+  EXPECT_EQ(content->objects[0].model->prop().parts.size(), 2u);
+  EXPECT_EQ(content->objects[1].stage_from_object.position, glm::vec3(0.0f, 0.8f, -1.0f));
+  ASSERT_EQ(content->speech.size(), 1u);
+  EXPECT_EQ(content->speech[0].visemes.keys.size(), 1u);
+
+  cup_.resize(cup_.size() / 2);
+  EXPECT_THAT(Load().message(), HasSubstr("cup.larprop"));
+}
+
+TEST_F(ShowContentTest, BrokenSpeechIsNamed) {
+  manifest_.speech = {{"hello", "hello.json"}};
+  hello_ = "{}";
+  EXPECT_THAT(Load().message(), HasSubstr("hello.json"));
+}
 
 TEST_F(ShowContentTest, LoadsAllPlacesInTheBundlesOrder) {
   const auto content = Load();

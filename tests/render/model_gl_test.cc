@@ -1,0 +1,415 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "shared/geometry/glm_convert.h"
+#include "shared/human/skinning.h"
+#include "shared/render/clip_space.h"
+#include "shared/render/renderer.h"
+#include "tests/golden/compare_images.h"
+#include "tests/render/gl_fixture.h"
+#include "tests/render/test_people.h"
+
+namespace lararium::render {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+const glm::mat4 kNoMotion(1.0f);
+
+human::Texture Encode(const cv::Mat& image) {
+  std::vector<uint8_t> bytes;
+  EXPECT_TRUE(cv::imencode(".png", image, bytes));
+  const auto encoded = std::as_bytes(std::span(bytes));
+  return {"texture", {encoded.begin(), encoded.end()}};
+}
+
+// A square of two metres that faces +Z, u to the right and v downward.
+human::SkinnedMesh Square() {
+  human::SkinnedMesh mesh;
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  mesh.normals.assign(4, glm::vec3(0, 0, 1));
+  mesh.albedo.assign(4, glm::vec3(1.0f));
+  mesh.joints.assign(4, {0, 0, 0, 0});
+  mesh.weights.assign(4, glm::vec4(1, 0, 0, 0));
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+human::Human Textured(const cv::Mat& image, const human::Material& material) {
+  human::Human human = MakeHuman(Square(), 1);
+  human.textures = {Encode(image)};
+  human.materials = {material};
+  human.meshes[0].material = 0;
+  return human;
+}
+
+// Irradiance pi from everywhere: albedo is what is seen.
+light::ShRgb EvenLight() {
+  light::ShRgb light = {};
+  light[0] = glm::vec3(2.0f * std::sqrt(kPi));
+  return light;
+}
+
+class ModelTest : public GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    auto renderer = Renderer::Create();
+    ASSERT_TRUE(renderer.ok()) << renderer.message();
+    renderer_ = std::move(renderer).value();
+  }
+
+  // The square fills a picture of 80 pixels.
+  RenderScene Scene() const {
+    RenderScene scene;
+    scene.display = {80, 80, 120.0, 120.0, 39.5, 39.5};
+    scene.camera_from_stage =
+        LookAt(Eigen::Vector3d(0, 0, 3), Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitY());
+    scene.light = EvenLight();
+    scene.knee = 1.0f;
+    return scene;
+  }
+
+  cv::Mat Draw(const RenderScene& scene) {
+    const RenderTarget target = MakeTarget(scene.display.width, scene.display.height);
+    const Status drawn = renderer_->Draw(scene, target);
+    EXPECT_TRUE(drawn.ok()) << drawn.message();
+    return Read(target);
+  }
+
+  cv::Mat DrawHuman(const human::Human& human, RenderScene scene) {
+    auto handle = renderer_->AddHuman(human);
+    EXPECT_TRUE(handle.ok()) << handle.message();
+    const std::vector<glm::mat4> skin(human.skeleton.size(), kNoMotion);
+    const SceneHuman shown = {.human = *handle, .skin = skin};
+    scene.humans = {&shown, 1};
+    return Draw(scene);
+  }
+
+  std::unique_ptr<Renderer> renderer_;
+};
+
+TEST_F(ModelTest, ATextureLiesTheRightWayUpAndKeepsItsColours) {
+  cv::Mat image(2, 2, CV_8UC3);
+  image.at<cv::Vec3b>(0, 0) = {10, 20, 200};
+  image.at<cv::Vec3b>(0, 1) = {10, 200, 20};
+  image.at<cv::Vec3b>(1, 0) = {200, 20, 10};
+  image.at<cv::Vec3b>(1, 1) = {128, 128, 128};
+  cv::Mat large;
+  cv::repeat(cv::Mat(1, 1, CV_8UC3), 64, 64, large);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      large.at<cv::Vec3b>(y, x) = image.at<cv::Vec3b>(y / 32, x / 32);
+    }
+  }
+  const cv::Mat picture = DrawHuman(Textured(large, {.name = "", .colour_texture = 0}), Scene());
+  for (const auto& [x, y] : {std::pair{20, 20}, {60, 20}, {20, 60}, {60, 60}}) {
+    const cv::Vec3b expected = image.at<cv::Vec3b>(y / 40, x / 40);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(picture.at<cv::Vec3b>(y, x)[c], expected[c], 1.0) << x << ", " << y;
+    }
+  }
+}
+
+TEST_F(ModelTest, CoverageMixesInLinearLightWithWhatIsBehind) {
+  for (const int alpha : {255, 128, 64}) {
+    const cv::Mat white(16, 16, CV_8UC4, cv::Scalar(255, 255, 255, alpha));
+    RenderScene scene = Scene();
+    scene.background = cv::Mat(80, 80, CV_8UC3, cv::Scalar::all(0));
+    scene.camera = scene.display;
+    const human::Human human =
+        Textured(white, {.name = "", .colour_texture = 0, .alpha_cutoff = 0.1f, .two_sided = true});
+    const double linear = alpha / 255.0;
+    const double expected = 255.0 * (1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+    EXPECT_NEAR(DrawHuman(human, scene).at<cv::Vec3b>(40, 40)[0], expected, 2.0) << alpha;
+  }
+}
+
+TEST_F(ModelTest, WhatIsLessCoveredThanTheCutoffIsNotThere) {
+  const cv::Mat faint(16, 16, CV_8UC4, cv::Scalar(255, 255, 255, 90));
+  RenderScene scene = Scene();
+  scene.background = cv::Mat(80, 80, CV_8UC3, cv::Scalar(10, 20, 30));
+  scene.camera = scene.display;
+  const human::Human human =
+      Textured(faint, {.name = "", .colour_texture = 0, .alpha_cutoff = 0.5f, .two_sided = true});
+  EXPECT_EQ(DrawHuman(human, scene).at<cv::Vec3b>(40, 40), cv::Vec3b(10, 20, 30));
+}
+
+TEST_F(ModelTest, TheRimOfHairIsSoft) {
+  // Coverage falls from one to nothing across a band of the texture.
+  cv::Mat image(64, 64, CV_8UC4);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const int alpha = std::clamp(8 * (40 - x), 0, 255);
+      image.at<cv::Vec4b>(y, x) = {255, 255, 255, static_cast<uint8_t>(alpha)};
+    }
+  }
+  RenderScene scene = Scene();
+  const cv::Mat picture = DrawHuman(Textured(image, {.name = "",
+                                                     .surface = human::Surface::kHair,
+                                                     .colour_texture = 0,
+                                                     .alpha_cutoff = 0.05f,
+                                                     .two_sided = true}),
+                                    scene);
+  std::set<int> greys;
+  // At its ends the texture begins anew.
+  for (int x = 4; x < 76; ++x) {
+    EXPECT_LE(picture.at<cv::Vec3b>(40, x)[1], picture.at<cv::Vec3b>(40, x - 1)[1] + 1) << x;
+    greys.insert(picture.at<cv::Vec3b>(40, x)[1]);
+  }
+  EXPECT_GT(greys.size(), 15u);
+}
+
+TEST_F(ModelTest, HairHidesWhatIsBehindItWhereItIsDense) {
+  const cv::Mat dense(16, 16, CV_8UC4, cv::Scalar(0, 0, 255, 255));
+  human::Human human = Textured(
+      dense,
+      {.name = "", .surface = human::Surface::kPlain, .colour_texture = 0, .alpha_cutoff = 0.3f});
+  human.meshes.push_back(Square());  // behind it, drawn first
+  human.meshes[1].name = "behind";
+  for (glm::vec3& position : human.meshes[1].positions) {
+    position.z = -0.5f;
+  }
+  const cv::Vec3b pixel = DrawHuman(human, Scene()).at<cv::Vec3b>(40, 40);
+  EXPECT_EQ(pixel, cv::Vec3b(0, 0, 255));
+}
+
+TEST_F(ModelTest, ANormalMapTurnsTheSurface) {
+  // Light from +X, +Y and behind the viewer; the map tilts by 45 degrees.
+  const auto brightness = [&](double x, double y) {
+    const double z = std::sqrt(1.0 - x * x - y * y);
+    const cv::Mat map(8, 8, CV_8UC3,
+                      cv::Scalar(127.5 + 127.5 * z, 127.5 + 127.5 * y, 127.5 + 127.5 * x));
+    human::Human human = Textured(map, {.name = "", .normal_texture = 0});
+    RenderScene scene = Scene();
+    scene.light[3] = glm::vec3(0.4f);  // brighter towards +X
+    scene.light[1] = glm::vec3(0.2f);  // and +Y
+    scene.exposure = 0.4f;
+    return static_cast<int>(DrawHuman(human, scene).at<cv::Vec3b>(40, 40)[1]);
+  };
+  const auto expected = [&](const glm::vec3& normal) {
+    light::ShRgb light = EvenLight();
+    light[3] = glm::vec3(0.4f);
+    light[1] = glm::vec3(0.2f);
+    const float linear = 0.4f * light::EvaluateIrradiance(light, normal).x / kPi;
+    return 255.0 * (1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+  };
+  const float s = std::sqrt(0.5f);
+  EXPECT_NEAR(brightness(0, 0), expected({0, 0, 1}), 2.0);
+  EXPECT_NEAR(brightness(s, 0), expected({s, 0, s}), 2.0);
+  EXPECT_NEAR(brightness(-s, 0), expected({-s, 0, s}), 2.0);
+  EXPECT_NEAR(brightness(0, s), expected({0, s, s}), 2.0);
+}
+
+TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
+  const cv::Mat grey(8, 8, CV_8UC3, cv::Scalar::all(120));
+  for (const human::Surface surface :
+       {human::Surface::kPlain, human::Surface::kSkin, human::Surface::kHair,
+        human::Surface::kCloth, human::Surface::kEye}) {
+    RenderScene scene = Scene();
+    const cv::Mat picture =
+        DrawHuman(Textured(grey, {.name = "", .surface = surface, .colour_texture = 0}), scene);
+    EXPECT_GT(picture.at<cv::Vec3b>(40, 40)[1], 95) << static_cast<int>(surface);
+    EXPECT_LT(picture.at<cv::Vec3b>(40, 40)[1], 150) << static_cast<int>(surface);
+  }
+}
+
+TEST_F(ModelTest, EyesGlintTowardsTheLampAndMatteThingsDoNot) {
+  const auto brightest = [&](human::Surface surface) {
+    human::Human human = MakeHuman(Sphere(glm::vec3(0.2f)), 1);
+    human.materials = {{.name = "", .surface = surface}};
+    human.meshes[0].material = 0;
+    RenderScene scene = Scene();
+    scene.display = {160, 160, 240.0, 240.0, 79.5, 79.5};
+    scene.light = {};
+    const auto basis = light::EvaluateShBasis(glm::normalize(glm::vec3(0.5f, 0.5f, 1.0f)));
+    for (int i = 0; i < light::kShCount; ++i) {
+      scene.light[i] = glm::vec3(2.0f * basis[i]);
+    }
+    double most = 0.0;
+    cv::minMaxLoc(DrawHuman(human, scene).reshape(1), nullptr, &most);
+    return most;
+  };
+  EXPECT_GT(brightest(human::Surface::kEye), brightest(human::Surface::kPlain) + 30.0);
+}
+
+TEST_F(ModelTest, ABrokenTextureIsOneClearError) {
+  human::Human human =
+      Textured(cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(9)), {.name = "", .colour_texture = 0});
+  human.textures[0].encoded.resize(40);
+  EXPECT_THAT(renderer_->AddHuman(human).message(), HasSubstr("test: texture 'texture'"));
+}
+
+TEST_F(ModelTest, StreamedVerticesReplaceThoseOfTheBindPose) {
+  human::Human human = MakeHuman(Square(), 1);
+  human.morphs = {{"left",
+                   {{0,
+                     {0, 1, 2, 3},
+                     std::vector<glm::vec3>(4, glm::vec3(-1, 0, 0)),
+                     std::vector<glm::vec3>(4, glm::vec3(0.0f))}}}};
+  const ModelHandle handle = renderer_->AddHuman(human).value();
+  glm::mat4 right(1.0f);
+  right[3].x = 1.0f;
+  std::vector<glm::vec3> moved = human.meshes[0].positions;
+  for (glm::vec3& position : moved) {
+    position.x -= 1.0f;
+  }
+  SceneVertices vertices = {.mesh = 0, .positions = moved, .normals = human.meshes[0].normals};
+  SceneHuman shown = {.human = handle, .skin = {&right, 1}, .vertices = {&vertices, 1}};
+  RenderScene scene = Scene();
+  scene.humans = {&shown, 1};
+  // A metre to the left by the morph and one to the right by the skin.
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 40), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 5), cv::Vec3b(255, 255, 255));
+  // Posed: to the left only.
+  vertices.posed = true;
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 5), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 60), cv::Vec3b(0, 0, 0));
+  // Without them: to the right only.
+  shown.vertices = {};
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 5), cv::Vec3b(0, 0, 0));
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 60), cv::Vec3b(255, 255, 255));
+
+  vertices.positions = vertices.positions.first(2);
+  shown.vertices = {&vertices, 1};
+  EXPECT_THAT(renderer_->Draw(scene, MakeTarget(8, 8)).message(), HasSubstr("moving vertices"));
+}
+
+TEST_F(ModelTest, TwoOfOnePersonEachHaveTheirOwnVertices) {
+  const human::Human human = MakeHuman(Square(), 1);
+  const ModelHandle handle = renderer_->AddHuman(human).value();
+  std::array<std::vector<glm::vec3>, 2> moved = {human.meshes[0].positions,
+                                                 human.meshes[0].positions};
+  std::array<SceneVertices, 2> vertices;
+  std::array<SceneHuman, 2> shown;
+  for (size_t i = 0; i < 2; ++i) {
+    for (glm::vec3& position : moved[i]) {
+      position.x = 0.3f * position.x + (i == 0 ? -0.6f : 0.6f);
+    }
+    vertices[i] = {.mesh = 0, .positions = moved[i], .normals = human.meshes[0].normals};
+    shown[i] = {.human = handle, .skin = {&kNoMotion, 1}, .vertices = {&vertices[i], 1}};
+  }
+  RenderScene scene = Scene();
+  scene.humans = shown;
+  const cv::Mat picture = Draw(scene);
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 16), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 40), cv::Vec3b(0, 0, 0));
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 64), cv::Vec3b(255, 255, 255));
+}
+
+TEST_F(ModelTest, DualQuaternionsSkinAsTheCpuDoes) {
+  human::Human bent = MakeHuman(BendingBox(glm::vec3(0.7f, 0.5f, 0.3f)), 3);
+  bent.skinning = human::Skinning::kDualQuaternion;
+  glm::mat4 twisted = glm::rotate(glm::mat4(1.0f), 2.4f, glm::vec3(0.1f, 1.0f, 0.2f));
+  twisted[3] = glm::vec4(0.2f, 0.1f, -0.1f, 1.0f);
+  glm::mat4 scaled = glm::rotate(glm::mat4(1.0f), -1.0f, glm::vec3(0.0f, 1.0f, 0.0f));
+  scaled = glm::scale(scaled, glm::vec3(1.2f));
+  const std::array skin = {glm::mat4(1.0f), twisted, scaled};
+  human::Human still = bent;
+  human::SkinMesh(bent.meshes[0], skin, still.meshes[0].positions, still.meshes[0].normals,
+                  human::Skinning::kDualQuaternion);
+  const std::array rest = {kNoMotion, kNoMotion, kNoMotion};
+
+  RenderScene scene = Scene();
+  scene.display = {200, 200, 180.0, 180.0, 99.5, 99.5};
+  scene.camera_from_stage = LookAt(Eigen::Vector3d(1.0, 1.4, 3.5), Eigen::Vector3d(0.0, 1.0, 0.0),
+                                   Eigen::Vector3d::UnitY());
+  scene.exposure = 0.5f;
+  scene.light[3] = glm::vec3(0.3f, 0.6f, 0.9f);
+  SceneHuman human = {.human = renderer_->AddHuman(bent).value(), .skin = skin};
+  scene.humans = {&human, 1};
+  const cv::Mat on_gpu = Draw(scene);
+  human = {.human = renderer_->AddHuman(still).value(), .skin = rest};
+  const cv::Mat on_cpu = Draw(scene);
+  EXPECT_GT(cv::countNonZero(on_cpu.reshape(1)), 3000);
+  cv::Mat difference;
+  cv::absdiff(on_gpu, on_cpu, difference);
+  // A pixel of an edge may fall either way; surfaces may not.
+  EXPECT_LT(cv::countNonZero(difference.reshape(1) > 3), 12);
+}
+
+stage::Prop TwoPartProp() {
+  stage::Prop prop;
+  prop.name = "chest";
+  prop.parts.resize(2);
+  for (size_t i = 0; i < 2; ++i) {
+    const human::SkinnedMesh square = Square();
+    stage::PropMesh mesh;
+    mesh.positions = square.positions;
+    for (glm::vec3& position : mesh.positions) {
+      position *= 0.3f;
+    }
+    mesh.normals = square.normals;
+    mesh.albedo.assign(4, i == 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 0));
+    mesh.indices = square.indices;
+    mesh.emission = i == 0 ? glm::vec3(0.0f) : glm::vec3(0, 1, 0);
+    prop.parts[i].name = i == 0 ? "box" : "flame";
+    prop.parts[i].meshes = {mesh};
+  }
+  return prop;
+}
+
+TEST_F(ModelTest, PartsOfAPropMoveShineAndHideByThemselves) {
+  const stage::Prop prop = TwoPartProp();
+  ASSERT_TRUE(prop.Validate("test").ok());
+  std::array parts = {kNoMotion, kNoMotion};
+  parts[0][3].x = -0.6f;
+  parts[1][3].x = 0.6f;
+  SceneProp shown = {.prop = renderer_->AddProp(prop).value(), .stage_from_part = parts};
+  RenderScene scene = Scene();
+  scene.props = {&shown, 1};
+  cv::Mat picture = Draw(scene);
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 16), cv::Vec3b(0, 0, 255));
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 40), cv::Vec3b(0, 0, 0));
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 64), cv::Vec3b(0, 255, 0));  // unlit, it shines
+  const std::array<uint8_t, 2> only_box = {1, 0};
+  shown.shown = only_box;
+  picture = Draw(scene);
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 16), cv::Vec3b(0, 0, 255));
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 64), cv::Vec3b(0, 0, 0));
+}
+
+TEST_F(ModelTest, OccludersHidePropsToo) {
+  const stage::Prop prop = TwoPartProp();
+  const std::array parts = {kNoMotion, kNoMotion};
+  const std::array<uint8_t, 2> only_box = {1, 0};
+  const SceneProp shown = {
+      .prop = renderer_->AddProp(prop).value(), .stage_from_part = parts, .shown = only_box};
+  const MeshHandle wall =
+      renderer_->AddMesh({.positions = {{0, -2, 1}, {2, -2, 1}, {2, 2, 1}, {0, 2, 1}},
+                          .normals = {},
+                          .indices = {0, 1, 2, 0, 2, 3}});
+  const SceneOccluder occluder = {.mesh = wall};
+  RenderScene scene = Scene();
+  scene.props = {&shown, 1};
+  scene.occluders = {&occluder, 1};
+  const cv::Mat picture = Draw(scene);
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 34), cv::Vec3b(0, 0, 255));
+  EXPECT_EQ(picture.at<cv::Vec3b>(40, 46), cv::Vec3b(0, 0, 0));
+}
+
+TEST_F(ModelTest, DrawsTheCoarsestAllowedLevel) {
+  human::Human human = MakeHuman(Square(), 1);
+  human.meshes[0].coarser = {{0.01f, {0, 1, 2}}};  // the lower right half
+  SceneHuman shown = {.human = renderer_->AddHuman(human).value(), .skin = {&kNoMotion, 1}};
+  RenderScene scene = Scene();
+  scene.humans = {&shown, 1};
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(10, 10), cv::Vec3b(255, 255, 255));
+  shown.detail = 0.009f;
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(10, 10), cv::Vec3b(255, 255, 255));
+  shown.detail = 0.011f;
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(10, 10), cv::Vec3b(0, 0, 0));
+  EXPECT_EQ(Draw(scene).at<cv::Vec3b>(70, 70), cv::Vec3b(255, 255, 255));
+}
+
+}  // namespace
+}  // namespace lararium::render
