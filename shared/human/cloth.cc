@@ -599,7 +599,7 @@ void Draw(const Model& model, State& state) {
   for (size_t i = 0; i < state.drawn.size(); ++i) {
     const glm::vec3 skin = actor_from_local * (state.frame.skin[i].xyz() - state.frame.place);
     const glm::vec3 offset =
-        state.offsets_before[i] + (state.offsets[i] - state.offsets_before[i]) * share;
+        state.offsets[i] + (state.offsets[i] - state.offsets_before[i]) * share;
     state.drawn[i] = skin + smooth * offset;
     state.places[i] = Float4(state.drawn[i]);
   }

@@ -18,9 +18,9 @@
 // in the actor or the stage frame, as it says.
 //
 // Time: a clock of its own, 120 beats a second, each of one to four steps; poses
-// between two frames are interpolated, and what is drawn lies between two beats. The
-// motion thus hardly depends on the frame rate, and is bit for bit the same for the
-// same input.
+// between two frames are interpolated, and what is drawn is the last beat, moved on to
+// the frame. The motion thus hardly depends on the frame rate, and is bit for bit the
+// same for the same input.
 
 #include <array>
 #include <cstdint>

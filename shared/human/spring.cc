@@ -461,11 +461,11 @@ void FollowAnimation(State& state) {
   state.adopts_motion = true;
 }
 
-// Between the last two steps; actor frame.
+// The last step, moved on by less than one; actor frame.
 glm::vec3 DrawnTail(size_t i, const State& state) {
   const float share = std::clamp(static_cast<float>(state.pending / double(kStep)), 0.0f, 1.0f);
   const glm::vec3 animated = glm::conjugate(state.turn) * (state.last[i].tail.xyz() - state.place);
-  return animated + glm::mix(state.offsets_before[i], state.offsets[i], share);
+  return animated + state.offsets[i] + share * (state.offsets[i] - state.offsets_before[i]);
 }
 
 // Turns the joints so that their sticks point at the tails.

@@ -110,8 +110,7 @@ double Energy(const ClothModel& model, const ClothState& state) {
 TEST(Cloth, FallsFreelyAsGalileoSays) {
   Hanging sheet(Sheet(4, 4, 0.05f, 1.0f));
   sheet.Run(0.5f, 120.0f);
-  // Drawn one beat behind.
-  const float seconds = 0.5f - kBeat;
+  const float seconds = 0.5f;
   for (size_t i = 0; i < sheet.particles().size(); ++i) {
     const float fallen = sheet.human.cloths[0].positions[i].y - sheet.particles()[i].y;
     EXPECT_NEAR(fallen, 0.5f * kGravity * seconds * seconds, 0.006f);
