@@ -6,6 +6,7 @@
 #include "shared/stage/mesh_file.h"
 #include "shared/vision/scene_database.h"
 #include "tests/stage/test_human.h"
+#include "tests/stage/test_props.h"
 #include "tests/support/synthetic_world.h"
 #include "tests/support/test_files.h"
 
@@ -86,6 +87,37 @@ TEST(Export, PacksEveryPlaceWithItsOwnMapAndOccluders) {
   content.places[1].place.name = "maquette";
   EXPECT_THAT(ExportBundle(content, folder / "b.larshow", progress).message(),
               HasSubstr("used twice"));
+}
+
+TEST(Export, ObjectsOfOneModelShareItsMember) {
+  const test::TemporaryFolder folder;
+  ExportContent content = SmallShow();
+  stage::Prop cup = test::MakeCup();
+  cup.credits = "The cup: a potter";
+  const std::vector<std::byte> bytes = stage::SerializeProp(cup);
+  geometry::Rigid3 there;
+  there.translation = {0.0, 0.8, 0.0};
+  content.objects = {{"cup", bytes, {}},
+                     {"other_cup", bytes, there},
+                     {"table", stage::SerializeProp(test::MakeTable()), {}}};
+  content.speech = {{"greeting", R"({"schema": 1, "duration": 0.5, "visemes": []})"}};
+  NoProgress progress;
+  const Status status = ExportBundle(content, folder / "a.larshow", progress);
+  ASSERT_TRUE(status.ok()) << status.message();
+  const auto opened = bundle::Bundle::Open(folder / "a.larshow");
+  ASSERT_TRUE(opened.ok()) << opened.message();
+  const std::vector<bundle::ObjectEntry>& objects = opened->manifest().objects;
+  ASSERT_EQ(objects.size(), 3u);
+  EXPECT_EQ(objects[0].prop, objects[1].prop);
+  EXPECT_NE(objects[0].prop, objects[2].prop);
+  EXPECT_EQ(objects[1].stage_from_object.translation.y(), 0.8);
+  EXPECT_TRUE(stage::ParseProp(*opened->member(objects[2].prop), "prop").ok());
+  EXPECT_EQ(opened->manifest().speech.size(), 1u);
+  EXPECT_THAT(opened->manifest().credits, HasSubstr("a potter"));
+
+  content.objects[2].prop.resize(40);
+  EXPECT_THAT(ExportBundle(content, folder / "b.larshow", progress).message(),
+              HasSubstr("object 'table'"));
 }
 
 TEST(Export, RefusesBrokenPartsAndKeepsTheOldFile) {
