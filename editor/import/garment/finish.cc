@@ -16,6 +16,10 @@
 namespace lararium::import {
 namespace {
 
+// How far from its normal a place may be looked at, radians: cloth lies close on cloth.
+constexpr float kSkinView = 0.85f;
+constexpr float kClothView = 0.35f;
+
 constexpr float kFoldShade = 0.5f;  // how much darker the bottom of a deep fold is
 
 // Which small cubes of space cloth passes through.
@@ -62,12 +66,12 @@ class Screen {
 };
 
 // Directions within a cone about a normal.
-std::vector<glm::vec3> ConeAbout(const glm::vec3& normal) {
+std::vector<glm::vec3> ConeAbout(const glm::vec3& normal, float widest) {
   const glm::vec3 other = std::abs(normal.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   const glm::vec3 u = glm::normalize(glm::cross(normal, other));
   const glm::vec3 v = glm::cross(normal, u);
   std::vector<glm::vec3> directions = {normal};
-  for (const float tilt : {0.45f, 0.85f}) {
+  for (const float tilt : {0.5f * widest, widest}) {
     for (int k = 0; k < 6; ++k) {
       const float turn = glm::pi<float>() * (static_cast<float>(k) + 2.0f * tilt) / 3.0f;
       directions.push_back(std::cos(tilt) * normal +
@@ -105,6 +109,7 @@ Rims RimsOf(const DrapedGarment& draped) {
 std::vector<bool> CoveredBy(const DrapedGarment& draped,
                             std::span<const glm::vec3> places,
                             std::span<const glm::vec3> normals,
+                            float widest,
                             float fixed_margin,
                             float loose_margin) {
   Screen screen;
@@ -115,7 +120,7 @@ std::vector<bool> CoveredBy(const DrapedGarment& draped,
     if (glm::dot(normals[i], normals[i]) < 0.5f) {
       return;
     }
-    const std::vector<glm::vec3> directions = ConeAbout(normals[i]);
+    const std::vector<glm::vec3> directions = ConeAbout(normals[i], widest);
     const bool blocked = std::all_of(
         directions.begin(), directions.end(),
         [&](const glm::vec3& direction) { return screen.Blocks(places[i], direction, 0.6f); });
@@ -143,7 +148,7 @@ std::vector<bool> HiddenSkin(const DrapedGarment& draped, const FittedBody& body
     normals[v] = is_body[v] ? normals[v] : glm::vec3(0.0f);
   }
   const std::vector<bool> covered =
-      CoveredBy(draped, places, normals, draped.hide_margin, draped.loose_margin);
+      CoveredBy(draped, places, normals, kSkinView, draped.hide_margin, draped.loose_margin);
   std::vector<bool> hidden;
   for (const uint32_t base : body.base_of_skin) {
     hidden.push_back(covered[base]);
@@ -357,8 +362,8 @@ std::vector<bool> CoveredByAny(std::span<const DrapedGarment> outer, const Sheet
     if (!garment.covers) {
       continue;
     }
-    const std::vector<bool> by_this =
-        CoveredBy(garment, sheet.positions, normals, garment.cover_margin, garment.cover_margin);
+    const std::vector<bool> by_this = CoveredBy(garment, sheet.positions, normals, kClothView,
+                                                garment.cover_margin, garment.cover_margin);
     for (size_t p = 0; p < covered.size(); ++p) {
       const glm::vec3& x = sheet.positions[p];
       const bool in_arm = x.x < garment.covers_left_of && x.y > garment.covers_above;
