@@ -212,10 +212,12 @@ Result<FigureSource> FigureOf(const ProjectPaths& paths, const CastDocument& mem
 
 Status AddClips(const ProjectPaths& paths, const CastDocument& member, human::Human& human) {
   for (const ClipDocument& document : member.clips) {
-    LARARIUM_ASSIGN_OR_RETURN(import::ImportedClip imported,
-                              import::ImportClip(paths.Resolve(document.file), human.skeleton, {}));
-    imported.clip.name = document.name;
-    imported.clip.loops = document.loops;
+    import::ClipImportOptions options;
+    options.retarget.name = document.name;
+    options.retarget.loop = document.loops;
+    LARARIUM_ASSIGN_OR_RETURN(
+        import::ImportedClip imported,
+        import::ImportClip(paths.Resolve(document.file), human.skeleton, options));
     LARARIUM_RETURN_IF_ERROR(import::AddClip(std::move(imported.clip), human));
   }
   return Status();

@@ -92,6 +92,13 @@ void AddCast(CLI::App& app, CastOptions& options) {
       ->check(CLI::ExistingFile)
       ->excludes(preset)
       ->excludes(recipe);
+  cast->add_option("--bone-map", options.bone_map, "Which bone of the import is which joint")
+      ->check(CLI::ExistingFile);
+  CLI::Option* clip =
+      cast->add_option("--add-clip", options.add_clip, "A motion for the person: BVH, FBX, glTF")
+          ->check(CLI::ExistingFile);
+  cast->add_option("--clip-name", options.clip_name, "As the drama calls it")->needs(clip);
+  cast->add_flag("--loop", options.loops, "The motion repeats")->needs(clip);
   cast->add_option("--height", options.height, "Of the plain figure, metres")
       ->check(CLI::Range(kMinHeight, kMaxHeight));
   cast->add_option("--tunic", options.tunic, "Of the plain figure: r,g,b, albedo from 0 to 1")

@@ -62,9 +62,14 @@ struct PruneOptions {
 struct CastOptions {
   std::filesystem::path project;
   std::string name;
-  std::string preset;            // one of the people that come with the editor; else
-  std::filesystem::path recipe;  // of the cast library; else
-  std::filesystem::path model;   // a figure to import; else the plain built-in one
+  std::string preset;              // one of the people that come with the editor; else
+  std::filesystem::path recipe;    // of the cast library; else
+  std::filesystem::path model;     // a figure to import; else the plain built-in one
+  std::filesystem::path bone_map;  // of the model
+  // A recorded motion for somebody who is in the cast already; nothing else is changed.
+  std::filesystem::path add_clip;
+  std::string clip_name;  // empty: the file's
+  bool loops = false;
   std::optional<double> height;  // of the plain figure, metres
   std::vector<double> tunic;     // of the plain figure, linear albedo; or empty
 };

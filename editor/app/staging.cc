@@ -144,6 +144,30 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
   return staged;
 }
 
+Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
+                                                   const ProjectDocument& document) {
+  std::vector<show::StageObject> objects;
+  for (const ObjectDocument& object : document.objects) {
+    LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, LoadBakedProp(paths, object));
+    LARARIUM_ASSIGN_OR_RETURN(auto model, stage::ObjectModel::Create(std::move(prop), object.name));
+    const geometry::Rigid3 pose = StageFromObject(object);
+    objects.push_back({object.name,
+                       std::move(model),
+                       {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)}});
+  }
+  return objects;
+}
+
+Result<std::vector<show::Speech>> LoadSpeech(const ProjectPaths& paths) {
+  std::vector<show::Speech> speech;
+  for (const std::filesystem::path& file : SpeechFiles(paths)) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
+    LARARIUM_ASSIGN_OR_RETURN(human::VisemeTrack visemes, stage::ParseVisemes(text, file.string()));
+    speech.push_back({SpeechName(file), std::move(visemes)});
+  }
+  return speech;
+}
+
 Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const ProjectDocument& document,
                                        const PlaceDocument& place,
@@ -157,20 +181,8 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
     content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});
   }
-  for (const ObjectDocument& object : document.objects) {
-    LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, LoadBakedProp(paths, object));
-    LARARIUM_ASSIGN_OR_RETURN(auto model, stage::ObjectModel::Create(std::move(prop), object.name));
-    const geometry::Rigid3 pose = StageFromObject(object);
-    content.objects.push_back(
-        {object.name,
-         std::move(model),
-         {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)}});
-  }
-  for (const std::filesystem::path& file : SpeechFiles(paths)) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
-    LARARIUM_ASSIGN_OR_RETURN(human::VisemeTrack visemes, stage::ParseVisemes(text, file.string()));
-    content.speech.push_back({SpeechName(file), std::move(visemes)});
-  }
+  LARARIUM_ASSIGN_OR_RETURN(content.objects, LoadObjects(paths, document));
+  LARARIUM_ASSIGN_OR_RETURN(content.speech, LoadSpeech(paths));
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
   content.drama_file = paths.Drama().filename().string();
   return content;

@@ -76,6 +76,11 @@ struct StagedMap {
 // that give nothing are in picks.problem.
 Result<StagedMap> LoadStagedMap(const ProjectPaths& paths, const PlaceDocument& place);
 
+// The project's objects as they were baked, and what its people can say.
+Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
+                                                   const ProjectDocument& document);
+Result<std::vector<show::Speech>> LoadSpeech(const ProjectPaths& paths);
+
 // Everything that a show needs at one place, whose map is at hand and whose picks
 // are resolved. Fails where something was not baked.
 Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,

@@ -15,10 +15,36 @@
 #include "editor/app/staging.h"
 #include "shared/core/file.h"
 #include "shared/drama/drama.h"
+#include "shared/stage/stage.h"
 
 namespace lararium::app {
 
 namespace {
+
+// The stage with everybody and everything on it.
+Status FillStage(const ProjectPaths& paths, const ProjectDocument& document, stage::Stage& stage) {
+  for (const CastDocument& member : document.cast) {
+    LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
+    LARARIUM_RETURN_IF_ERROR(
+        stage.Add(member.name, std::make_shared<const human::Human>(std::move(human))).status());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto objects, LoadObjects(paths, document));
+  for (const show::StageObject& object : objects) {
+    LARARIUM_RETURN_IF_ERROR(
+        stage.AddObject(object.name, object.model, object.stage_from_object).status());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto speeches, LoadSpeech(paths));
+  for (const show::Speech& speech : speeches) {
+    LARARIUM_RETURN_IF_ERROR(stage.AddSpeech(speech.name, speech.visemes));
+  }
+  std::vector<stage::Place> places;
+  for (const PlaceDocument& place : document.places) {
+    // What is in the way lies in stage metres, wherever the map is.
+    LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StagePlace(paths, place, {}));
+    places.push_back(std::move(staged));
+  }
+  return stage.SetFloor({}, places);
+}
 
 // Runs the drama without drawing and tells what went wrong in it.
 std::vector<std::string> DryRun(const ProjectPaths& paths,
@@ -27,17 +53,8 @@ std::vector<std::string> DryRun(const ProjectPaths& paths,
                                 Progress& progress) {
   std::vector<std::string> problems;
   stage::Stage stage;
-  for (const CastDocument& member : document.cast) {
-    Result<human::Human> human = LoadBakedHuman(paths, member);
-    if (!human) {
-      problems.push_back(human.message());
-      continue;
-    }
-    const auto added =
-        stage.Add(member.name, std::make_shared<const human::Human>(std::move(*human)));
-    if (!added.ok()) {
-      problems.push_back(added.message());
-    }
+  if (const Status filled = FillStage(paths, document, stage); !filled.ok()) {
+    problems.push_back(filled.message());
   }
   const Result<std::string> script = ReadText(paths.Drama());
   if (!script) {
@@ -106,13 +123,9 @@ Result<CommandResult> RunNew(const NewOptions& options) {
                        {{"project", options.project.string()}}};
 }
 
-Result<CommandResult> RunCast(const CastOptions& options) {
-  const ProjectPaths paths{options.project};
-  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  if (!IsPlainName(options.name)) {
-    return Status::Error("--name " + options.name, "cannot name a person",
-                         "use 1 to 64 letters, digits, '_' and '-'");
-  }
+namespace {
+
+Result<CastDocument> ChosenFigure(const CastOptions& options, const ProjectPaths& paths) {
   CastDocument member;
   member.name = options.name;
   member.preset = options.preset;
@@ -120,12 +133,48 @@ Result<CommandResult> RunCast(const CastOptions& options) {
     LARARIUM_ASSIGN_OR_RETURN(member.recipe, import::LoadCastRecipe(options.recipe));
   }
   member.model = options.model.empty() ? "" : paths.Shorten(options.model);
+  member.bone_map = options.bone_map.empty() ? "" : paths.Shorten(options.bone_map);
   member.height = options.height.value_or(member.height);
   if (!options.tunic.empty()) {
     member.tunic = {options.tunic[0], options.tunic[1], options.tunic[2]};
   }
+  return member;
+}
+
+Result<CastDocument> WithClip(CastDocument member,
+                              const CastOptions& options,
+                              const ProjectPaths& paths) {
+  ClipDocument clip;
+  clip.name = options.clip_name.empty() ? options.add_clip.stem().string() : options.clip_name;
+  clip.file = paths.Shorten(options.add_clip);
+  clip.loops = options.loops;
+  if (!IsPlainName(clip.name)) {
+    return Status::Error("clip " + clip.name, "cannot be called so",
+                         "name it with --clip-name: letters, digits, '_' and '-'");
+  }
+  std::erase_if(member.clips, [&](const ClipDocument& other) { return other.name == clip.name; });
+  member.clips.push_back(clip);
+  return member;
+}
+
+}  // namespace
+
+Result<CommandResult> RunCast(const CastOptions& options) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  if (!IsPlainName(options.name)) {
+    return Status::Error("--name " + options.name, "cannot name a person",
+                         "use 1 to 64 letters, digits, '_' and '-'");
+  }
   const auto known = std::find_if(document.cast.begin(), document.cast.end(),
-                                  [&](const auto& m) { return m.name == member.name; });
+                                  [&](const auto& m) { return m.name == options.name; });
+  if (!options.add_clip.empty() && known == document.cast.end()) {
+    return Status::Error(paths.Project().string(), "has nobody called \"" + options.name + "\"",
+                         "add the person first");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const CastDocument member, options.add_clip.empty()
+                                                           ? ChosenFigure(options, paths)
+                                                           : WithClip(*known, options, paths));
   if (known == document.cast.end()) {
     document.cast.push_back(member);
   } else {
