@@ -61,7 +61,7 @@ vec3 HairHighlight(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float rou
   float white = StrandLobe(strand, normal, half_way, -0.1, sharpness);
   float coloured = StrandLobe(strand, normal, half_way, 0.15, 0.25 * sharpness);
   float facing = clamp(0.3 + 0.7 * dot(normal, key_direction), 0.0, 1.0);
-  return key_irradiance * facing * (0.035 * white + 0.12 * sqrt(albedo) * coloured);
+  return key_irradiance * facing * (0.02 * white + 0.08 * sqrt(albedo) * coloured);
 }
 
 // Light caught by fibres that stand off the cloth: strongest at grazing sight, and

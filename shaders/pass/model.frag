@@ -57,7 +57,10 @@ void main() {
   float coverage = 1.0;
 #ifdef COVERED
   coverage = texel.a;
-#ifndef SURFACE_EYE  // the cornea is all but clear, and glints
+#ifdef SURFACE_EYE
+  // The cornea is clear, and glints.
+  coverage = texel.a < alpha_cutoff ? 0.0 : texel.a;
+#else
   // The rim of what is there is as soft as a pixel.
   float rim = (texel.a - alpha_cutoff) / max(fwidth(texel.a), 1e-4) + 0.5;
   coverage *= clamp(rim, 0.0, 1.0);
