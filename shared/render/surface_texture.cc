@@ -10,8 +10,6 @@
 namespace lararium::render {
 namespace {
 
-constexpr GLfloat kAnisotropy = 4.0f;
-
 int LargestSide() {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -26,11 +24,8 @@ void SetFiltering() {
   // Blue comes first in the image: OpenGL ES has no such order to upload from.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
-  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-    GLfloat most = 1.0f;
-    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, kAnisotropy));
-  }
+  // Not anisotropic: Mesa's software rasterizer walks over all texels below a pixel
+  // then, for seconds where a surface is seen edge on.
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ enum class TextureUse {
   kNormal   // linear, tangent space
 };
 
-// With all mipmaps, repeating, anisotropic where the driver can. bgra: CV_8UC4.
+// With all mipmaps, repeating. bgra: CV_8UC4.
 // What is larger than the driver takes is halved until it fits.
 GlTexture CreateSurfaceTexture(cv::Mat bgra, TextureUse use);
 
