@@ -123,7 +123,7 @@ TEST_P(ObjectModels, AreHeldWhereTheyAre) {
   const auto use = stage::ParseObjectUse(prop->use, *prop, "here");
   ASSERT_TRUE(use.ok()) << use.message();
   for (const stage::Grip& grip : use->grips) {
-    if (grip.hand_pose == "flat" && GetParam() == "brazier") {
+    if (grip.hand_pose == human::HandPose::kFlat && GetParam() == "brazier") {
       continue;  // hands that are warmed stay away
     }
     const stage::PropPart& part = prop->parts[std::max(grip.part, 0)];
