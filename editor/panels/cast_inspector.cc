@@ -80,7 +80,7 @@ bool ShowRecipe(app::Workspace& workspace, import::CastRecipe& recipe) {
   PropertyText("Hair", recipe.hair ? recipe.hair->name : "none");
   std::string garments;
   for (const Json& garment : recipe.garments) {
-    garments += (garments.empty() ? "" : ", ") + garment.value("garment", std::string("?"));
+    garments += (garments.empty() ? "" : ", ") + garment.value("name", std::string("?"));
   }
   PropertyText("Wears", garments.empty() ? "nothing" : garments);
   return changed;

@@ -11,6 +11,7 @@
 
 #include "editor/app/document_fields.h"
 #include "editor/app/training.h"
+#include "editor/import/cast_presets.h"
 #include "editor/import/objects/object_models.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -273,17 +274,62 @@ void LoadFigure(app::Workspace& workspace, const std::string& file, app::CastDoc
   }
 }
 
+// "none" and the presets' names; true when another was chosen.
+bool PresetField(DialogFields& fields) {
+  const std::vector<std::string> names = import::CastPresetNames();
+  const char* shown = fields.preset.empty() ? "none" : fields.preset.c_str();
+  PropertyLabel("Preset");
+  bool changed = false;
+  if (ImGui::BeginCombo("##preset", shown)) {
+    if (ImGui::Selectable("none", fields.preset.empty())) {
+      fields.preset.clear();
+      changed = true;
+    }
+    for (const std::string& name : names) {
+      if (ImGui::Selectable(name.c_str(), fields.preset == name)) {
+        fields.preset = name;
+        changed = true;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  return changed;
+}
+
+std::string CastProblem(const app::Workspace& workspace, const DialogFields& fields) {
+  const std::string problem = NameProblem(fields.name);
+  if (!problem.empty()) {
+    return problem;
+  }
+  if (Taken(workspace.document().cast, fields.name)) {
+    return "That name is taken.";
+  }
+  if (!fields.preset.empty() && !fields.file.empty()) {
+    return "Choose a preset or a file.";
+  }
+  return fields.file.empty() || Exists(workspace, fields.file) ? "" : "Choose a file that exists.";
+}
+
 void CastDialog(app::Workspace& workspace, EditorState& state) {
   Hint(
-      "A recipe (.json) for the cast library, or a rigged figure to import. Without a file: the "
-      "plain figure that is built in.");
-  const auto taken = [&](const std::string& name) {
-    return Taken(workspace.document().cast, name);
-  };
-  if (NameAndFile(workspace, state, kFigures, false, taken)) {
+      "One of the people that come with the editor, a recipe of your own (.json), or a rigged "
+      "figure to import. Without any: the plain figure that is built in.");
+  DialogFields& fields = state.fields;
+  if (BeginProperties("cast")) {
+    PropertyLabel("Name");
+    ImGui::InputText("##name", &fields.name);
+    if (PresetField(fields) && fields.name.empty()) {
+      fields.name = fields.preset;
+    }
+    PropertyLabel("File");
+    PathField("file", fields.file, workspace.paths().folder, kFigures);
+    EndProperties();
+  }
+  if (DialogButtons(state, "Add", CastProblem(workspace, fields))) {
     app::CastDocument member;
-    member.name = state.fields.name;
-    LoadFigure(workspace, state.fields.file, member);
+    member.name = fields.name;
+    member.preset = fields.preset;
+    LoadFigure(workspace, fields.file, member);
     workspace.Edit("add " + member.name,
                    [&](app::ProjectDocument& document) { document.cast.push_back(member); });
     state.selection = {Selection::Kind::kActor, member.name};

@@ -30,6 +30,7 @@ struct DialogFields {
   std::string name;
   std::string file;
   std::string intrinsics;
+  std::string preset;   // of a person; empty: none
   int model = 0;        // of the built-in objects
   bool images = false;  // the recording is a folder of images
 };
