@@ -1,98 +1,38 @@
 // Reading and writing .larhuman files.
 
-#include <algorithm>
-#include <bit>
-#include <cstring>
-#include <type_traits>
-
 #include "shared/core/file.h"
+#include "shared/core/flatbuffer_blocks.h"
 #include "shared/human/human.h"
 #include "shared/human/human_generated.h"
+#include "shared/human/material_blocks.h"
 
 namespace lararium::human {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "blocks are copied as they are");
-
 constexpr uint32_t kVersion = 2;
 constexpr char kRemedy[] = "bake or export it again";
 
-// Copies the vectors of one file. An honest file uses each of its bytes once, so
-// one whose vectors add up to more than its size shares them to exhaust memory.
-class BlockReader {
- public:
-  explicit BlockReader(size_t file_size) : bytes_left_(file_size) {}
+glm::quat ReadQuaternion(const fb::Quaternion& q) { return glm::quat(q.w(), q.x(), q.y(), q.z()); }
 
-  bool ok() const { return ok_; }
-
-  template <typename To, typename From>
-  void Read(const flatbuffers::Vector<From>* from, std::vector<To>& to) {
-    using Element = std::remove_cv_t<std::remove_pointer_t<From>>;
-    static_assert(sizeof(Element) == sizeof(To) && std::is_trivially_copyable_v<To>);
-    if (Take(from == nullptr ? 0 : from->size() * sizeof(To)) && from != nullptr) {
-      to.resize(from->size());
-      if (!to.empty()) {
-        std::memcpy(static_cast<void*>(to.data()), from->Data(), to.size() * sizeof(To));
-      }
+void ReadTransforms(const flatbuffers::Vector<const fb::JointTransform*>* from,
+                    BlockReader& reader,
+                    std::vector<JointTransform>& to) {
+  if (from != nullptr && reader.Take(from->size() * sizeof(fb::JointTransform))) {
+    to.reserve(from->size());
+    for (const fb::JointTransform* item : *from) {
+      to.push_back({ReadQuaternion(item->rotation()), ReadVec3(&item->translation()),
+                    ReadVec3(&item->scale())});
     }
   }
+}
 
-  void Read(const flatbuffers::Vector<const fb::JointTransform*>* from,
-            std::vector<JointTransform>& to) {
-    if (Take(from == nullptr ? 0 : from->size() * sizeof(fb::JointTransform)) && from != nullptr) {
-      to.reserve(from->size());
-      for (const fb::JointTransform* item : *from) {
-        const fb::Quaternion& q = item->rotation();
-        const fb::Vec3& t = item->translation();
-        const fb::Vec3& s = item->scale();
-        to.push_back({glm::quat(q.w(), q.x(), q.y(), q.z()), glm::vec3(t.x(), t.y(), t.z()),
-                      glm::vec3(s.x(), s.y(), s.z())});
-      }
+void ReadTurns(const flatbuffers::Vector<const fb::JointTurn*>* from,
+               BlockReader& reader,
+               std::vector<FaceShape::Turn>& to) {
+  if (from != nullptr && reader.Take(from->size() * sizeof(fb::JointTurn))) {
+    for (const fb::JointTurn* item : *from) {
+      to.push_back({item->joint(), ReadQuaternion(item->rotation())});
     }
-  }
-
-  void Read(const flatbuffers::Vector<const fb::JointTurn*>* from,
-            std::vector<FaceShape::Turn>& to) {
-    if (Take(from == nullptr ? 0 : from->size() * sizeof(fb::JointTurn)) && from != nullptr) {
-      for (const fb::JointTurn* item : *from) {
-        const fb::Quaternion& q = item->rotation();
-        to.push_back({item->joint(), glm::quat(q.w(), q.x(), q.y(), q.z())});
-      }
-    }
-  }
-
-  void Read(const flatbuffers::String* from, std::string& to) {
-    if (Take(from == nullptr ? 0 : from->size()) && from != nullptr) {
-      to = from->str();
-    }
-  }
-
-  void Read(const flatbuffers::Vector<flatbuffers::Offset<flatbuffers::String>>* from,
-            std::vector<std::string>& to) {
-    for (flatbuffers::uoffset_t i = 0; ok_ && from != nullptr && i < from->size(); ++i) {
-      Take(sizeof(flatbuffers::uoffset_t));
-      Read(from->Get(i), to.emplace_back());
-    }
-  }
-
- private:
-  bool Take(size_t bytes) {
-    ok_ = ok_ && bytes <= bytes_left_;
-    bytes_left_ -= ok_ ? bytes : 0;
-    return ok_;
-  }
-
-  size_t bytes_left_;
-  bool ok_ = true;
-};
-
-template <typename From, typename To>
-void ReadTables(const flatbuffers::Vector<flatbuffers::Offset<From>>* from,
-                BlockReader& reader,
-                std::vector<To>& to,
-                void (*read)(const From&, BlockReader&, To&)) {
-  for (flatbuffers::uoffset_t i = 0; reader.ok() && from != nullptr && i < from->size(); ++i) {
-    read(*from->Get(i), reader, to.emplace_back());
   }
 }
 
@@ -100,29 +40,9 @@ void ReadSkeleton(const fb::Skeleton* from, BlockReader& reader, Skeleton& to) {
   if (from != nullptr) {
     reader.Read(from->names(), to.names);
     reader.Read(from->parents(), to.parents);
-    reader.Read(from->rest(), to.rest);
+    ReadTransforms(from->rest(), reader, to.rest);
     reader.Read(from->joint_from_actor(), to.joint_from_actor);
   }
-}
-
-glm::vec3 Read(const fb::Vec3* from) {
-  return from == nullptr ? glm::vec3(0.0f) : glm::vec3(from->x(), from->y(), from->z());
-}
-
-void ReadTexture(const fb::Texture& from, BlockReader& reader, Texture& to) {
-  reader.Read(from.name(), to.name);
-  reader.Read(from.encoded(), to.encoded);
-}
-
-void ReadMaterial(const fb::Material& from, BlockReader& reader, Material& to) {
-  reader.Read(from.name(), to.name);
-  to.surface = static_cast<Surface>(from.surface());
-  to.colour_texture = from.colour_texture();
-  to.normal_texture = from.normal_texture();
-  to.colour = Read(from.colour());
-  to.roughness = from.roughness();
-  to.alpha_cutoff = from.alpha_cutoff();
-  to.two_sided = from.two_sided();
 }
 
 void ReadLevel(const fb::LevelOfDetail& from, BlockReader& reader, LevelOfDetail& to) {
@@ -139,7 +59,7 @@ void ReadMesh(const fb::SkinnedMesh& from, BlockReader& reader, SkinnedMesh& to)
   reader.Read(from.joints(), to.joints);
   reader.Read(from.weights(), to.weights);
   reader.Read(from.indices(), to.indices);
-  ReadTables(from.coarser(), reader, to.coarser, ReadLevel);
+  reader.ReadTables(from.coarser(), to.coarser, ReadLevel);
   to.material = from.material();
 }
 
@@ -152,13 +72,13 @@ void ReadMorphPart(const fb::MorphPart& from, BlockReader& reader, MorphTarget::
 
 void ReadMorph(const fb::MorphTarget& from, BlockReader& reader, MorphTarget& to) {
   reader.Read(from.name(), to.name);
-  ReadTables(from.parts(), reader, to.parts, ReadMorphPart);
+  reader.ReadTables(from.parts(), to.parts, ReadMorphPart);
 }
 
 void ReadFaceShape(const fb::FaceShape& from, BlockReader& reader, FaceShape& to) {
   reader.Read(from.name(), to.name);
   reader.Read(from.morphs(), to.morphs);
-  reader.Read(from.turns(), to.turns);
+  ReadTurns(from.turns(), reader, to.turns);
 }
 
 void ReadCloth(const fb::Cloth& from, BlockReader& reader, Cloth& to) {
@@ -193,7 +113,7 @@ void ReadClip(const fb::Clip& from, BlockReader& reader, Clip& to) {
   to.keys_per_second = from.keys_per_second();
   to.loops = from.loops();
   to.stride = from.stride();
-  reader.Read(from.keys(), to.keys);
+  ReadTransforms(from.keys(), reader, to.keys);
 }
 
 // Of a buffer whose structure has been verified.
@@ -204,31 +124,20 @@ Result<Human> ReadHuman(const fb::Human& from, size_t file_size, const std::stri
   reader.Read(from.credits(), human.credits);
   ReadSkeleton(from.skeleton(), reader, human.skeleton);
   human.skinning = static_cast<Skinning>(from.skinning());
-  ReadTables(from.textures(), reader, human.textures, ReadTexture);
-  ReadTables(from.materials(), reader, human.materials, ReadMaterial);
-  ReadTables(from.meshes(), reader, human.meshes, ReadMesh);
-  ReadTables(from.morphs(), reader, human.morphs, ReadMorph);
-  ReadTables(from.face(), reader, human.face, ReadFaceShape);
-  ReadTables(from.cloths(), reader, human.cloths, ReadCloth);
-  ReadTables(from.springs(), reader, human.springs, ReadSpring);
+  reader.ReadTables(from.textures(), human.textures, ReadTexture<fb::Texture>);
+  reader.ReadTables(from.materials(), human.materials, ReadMaterial<fb::Material>);
+  reader.ReadTables(from.meshes(), human.meshes, ReadMesh);
+  reader.ReadTables(from.morphs(), human.morphs, ReadMorph);
+  reader.ReadTables(from.face(), human.face, ReadFaceShape);
+  reader.ReadTables(from.cloths(), human.cloths, ReadCloth);
+  reader.ReadTables(from.springs(), human.springs, ReadSpring);
   reader.Read(from.capsules(), human.capsules);
-  ReadTables(from.clips(), reader, human.clips, ReadClip);
+  reader.ReadTables(from.clips(), human.clips, ReadClip);
   if (!reader.ok()) {
     return Status::Error(place, "the file is damaged: its parts overlap", kRemedy);
   }
   LARARIUM_RETURN_IF_ERROR(human.Validate(place));
   return human;
-}
-
-template <typename To, typename From>
-auto WriteBlock(flatbuffers::FlatBufferBuilder& builder, const std::vector<From>& from) {
-  static_assert(sizeof(To) == sizeof(From) && std::is_trivially_copyable_v<From>);
-  To* block = nullptr;
-  const auto offset = builder.CreateUninitializedVectorOfStructs<To>(from.size(), &block);
-  if (!from.empty()) {
-    std::memcpy(static_cast<void*>(block), from.data(), from.size() * sizeof(From));
-  }
-  return offset;
 }
 
 auto WriteTransforms(flatbuffers::FlatBufferBuilder& builder,
@@ -249,36 +158,6 @@ auto WriteSkeleton(flatbuffers::FlatBufferBuilder& builder, const Skeleton& skel
   const auto rest = WriteTransforms(builder, skeleton.rest);
   const auto joint_from_actor = WriteBlock<fb::Matrix4>(builder, skeleton.joint_from_actor);
   return fb::CreateSkeleton(builder, names, parents, rest, joint_from_actor);
-}
-
-// One table for each of a list.
-template <typename From, typename Write>
-auto WriteTables(flatbuffers::FlatBufferBuilder& builder,
-                 const std::vector<From>& from,
-                 Write write) {
-  std::vector<decltype(write(builder, std::declval<const From&>()))> tables;
-  tables.reserve(from.size());
-  for (const From& item : from) {
-    tables.push_back(write(builder, item));
-  }
-  return builder.CreateVector(tables);
-}
-
-fb::Vec3 Write(const glm::vec3& v) { return fb::Vec3(v.x, v.y, v.z); }
-
-auto WriteTexture(flatbuffers::FlatBufferBuilder& builder, const Texture& texture) {
-  const auto name = builder.CreateString(texture.name);
-  const auto encoded = builder.CreateVector(
-      reinterpret_cast<const uint8_t*>(texture.encoded.data()), texture.encoded.size());
-  return fb::CreateTexture(builder, name, encoded);
-}
-
-auto WriteMaterial(flatbuffers::FlatBufferBuilder& builder, const Material& material) {
-  const auto name = builder.CreateString(material.name);
-  const fb::Vec3 colour = Write(material.colour);
-  return fb::CreateMaterial(builder, name, static_cast<uint8_t>(material.surface),
-                            material.colour_texture, material.normal_texture, &colour,
-                            material.roughness, material.alpha_cutoff, material.two_sided);
 }
 
 auto WriteLevel(flatbuffers::FlatBufferBuilder& builder, const LevelOfDetail& level) {
@@ -390,8 +269,8 @@ std::vector<std::byte> SerializeHuman(const Human& human) {
   const auto name = builder.CreateString(human.name);
   const auto credits = builder.CreateString(human.credits);
   const auto skeleton = WriteSkeleton(builder, human.skeleton);
-  const auto textures = WriteTables(builder, human.textures, WriteTexture);
-  const auto materials = WriteTables(builder, human.materials, WriteMaterial);
+  const auto textures = WriteTextures(builder, human.textures, fb::CreateTexture);
+  const auto materials = WriteMaterials<fb::Vec3>(builder, human.materials, fb::CreateMaterial);
   const auto meshes = WriteTables(builder, human.meshes, WriteMesh);
   const auto morphs = WriteTables(builder, human.morphs, WriteMorph);
   const auto face = WriteTables(builder, human.face, WriteFaceShape);

@@ -1,0 +1,106 @@
+#pragma once
+
+// Our FlatBuffers files: large arrays are vectors of structs, read and written as
+// whole blocks.
+
+#include <flatbuffers/flatbuffers.h>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace lararium {
+
+static_assert(std::endian::native == std::endian::little, "blocks are copied as they are");
+
+// Copies the vectors of one file. An honest file uses each of its bytes once, so
+// one whose vectors add up to more than its size shares them to exhaust memory:
+// from there on nothing more is read and ok() is false.
+class BlockReader {
+ public:
+  explicit BlockReader(size_t file_size) : bytes_left_(file_size) {}
+
+  bool ok() const { return ok_; }
+
+  // Counts bytes of the file as used; false where there are no more.
+  bool Take(size_t bytes) {
+    ok_ = ok_ && bytes <= bytes_left_;
+    bytes_left_ -= ok_ ? bytes : 0;
+    return ok_;
+  }
+
+  template <typename To, typename From>
+  void Read(const flatbuffers::Vector<From>* from, std::vector<To>& to) {
+    using Element = std::remove_cv_t<std::remove_pointer_t<From>>;
+    static_assert(sizeof(Element) == sizeof(To) && std::is_trivially_copyable_v<To>);
+    if (from != nullptr && from->size() > 0 && Take(from->size() * sizeof(To))) {
+      to.resize(from->size());
+      std::memcpy(static_cast<void*>(to.data()), from->Data(), to.size() * sizeof(To));
+    }
+  }
+
+  void Read(const flatbuffers::String* from, std::string& to) {
+    if (from != nullptr && Take(from->size())) {
+      to = from->str();
+    }
+  }
+
+  void Read(const flatbuffers::Vector<flatbuffers::Offset<flatbuffers::String>>* from,
+            std::vector<std::string>& to) {
+    for (flatbuffers::uoffset_t i = 0; from != nullptr && i < from->size(); ++i) {
+      if (!Take(sizeof(flatbuffers::uoffset_t))) {
+        return;
+      }
+      Read(from->Get(i), to.emplace_back());
+    }
+  }
+
+  // One value of To for each table, by read(table, *this, value).
+  template <typename From, typename To>
+  void ReadTables(const flatbuffers::Vector<flatbuffers::Offset<From>>* from,
+                  std::vector<To>& to,
+                  void (*read)(const From&, BlockReader&, To&)) {
+    for (flatbuffers::uoffset_t i = 0; from != nullptr && i < from->size(); ++i) {
+      if (!Take(sizeof(flatbuffers::uoffset_t))) {
+        return;
+      }
+      read(*from->Get(i), *this, to.emplace_back());
+    }
+  }
+
+ private:
+  size_t bytes_left_;
+  bool ok_ = true;
+};
+
+template <typename To, typename From>
+auto WriteBlock(flatbuffers::FlatBufferBuilder& builder, const std::vector<From>& from) {
+  static_assert(sizeof(To) == sizeof(From) && std::is_trivially_copyable_v<From>);
+  To* block = nullptr;
+  const auto offset = builder.CreateUninitializedVectorOfStructs<To>(from.size(), &block);
+  if (!from.empty()) {
+    std::memcpy(static_cast<void*>(block), from.data(), from.size() * sizeof(From));
+  }
+  return offset;
+}
+
+// One table for each of a list, by write(builder, item).
+template <typename From, typename Write>
+auto WriteTables(flatbuffers::FlatBufferBuilder& builder,
+                 const std::vector<From>& from,
+                 Write write) {
+  std::vector<decltype(write(builder, std::declval<const From&>()))> tables;
+  tables.reserve(from.size());
+  for (const From& item : from) {
+    tables.push_back(write(builder, item));
+  }
+  return builder.CreateVector(tables);
+}
+
+}  // namespace lararium
