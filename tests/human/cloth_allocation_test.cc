@@ -3,41 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "shared/human/cloth.h"
 #include "shared/human/spring.h"
 #include "tests/human/walker.h"
-
-namespace {
-
-thread_local bool counting = false;
-thread_local int allocations = 0;
-
-void* Allocate(size_t size) {
-  allocations += counting ? 1 : 0;
-  void* memory = nullptr;
-  if (posix_memalign(&memory, 64, size == 0 ? 1 : size) != 0) {
-    std::abort();
-  }
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(size_t size) { return Allocate(size); }
-void* operator new[](size_t size) { return Allocate(size); }
-void* operator new(size_t size, std::align_val_t) { return Allocate(size); }
-void* operator new[](size_t size, std::align_val_t) { return Allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+#include "tests/support/allocation_counter.h"
 
 namespace lararium::human {
 namespace {
@@ -57,6 +26,7 @@ TEST(ClothAllocation, NoStepNorDrapingAllocates) {
   const std::vector<glm::mat4> skin(human.skeleton.size(), glm::mat4(1.0f));
   WalkerPose walker;
   PoseWalker(human, 0.0, walker);
+  int allocations = 0;
   for (int i = 0; i < 200; ++i) {
     PoseWalker(human, i % 90 == 0 ? 20.0 : i / 25.0, walker);  // now and then a cut
     ClothStep step;
@@ -69,12 +39,12 @@ TEST(ClothAllocation, NoStepNorDrapingAllocates) {
     if (i == 120) {
       state = snapshot;  // a copy has room for as much
     }
-    counting = true;
+    test::AllocationCounter counter;
     StepSprings(springs, {.stage_from_actor = walker.stage_from_actor, .elapsed = 0.04f},
                 spring_state, walker.pose, walker.actor_from_joint);
     StepCloth(model, step, moving);
     DrapeMesh(model, moving, 0, mesh, skin, x, n);
-    counting = false;
+    allocations += counter.Stop();
   }
   EXPECT_EQ(allocations, 0);
 }

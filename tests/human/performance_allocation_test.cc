@@ -2,36 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
-#include <new>
 
 #include "shared/human/performance.h"
 #include "shared/human/turns.h"
 #include "tests/human/full_body.h"
-
-namespace {
-
-bool counting = false;
-int allocations = 0;
-
-void* Allocate(size_t size) {
-  allocations += counting ? 1 : 0;
-  void* memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) {
-    std::abort();
-  }
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(size_t size) { return Allocate(size); }
-void* operator new[](size_t size) { return Allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
+#include "tests/support/allocation_counter.h"
 
 namespace lararium::human {
 namespace {
@@ -49,7 +25,7 @@ TEST(Performance, AllocatesNothingOnceItIsBuilt) {
   const FloorHeight floor = [](float x, float) { return 0.02f * x; };
   glm::vec3 position(0.0f);
   constexpr float kTick = 1.0f / 120.0f;
-  counting = true;
+  test::AllocationCounter counter;
   for (int tick = 0; tick < 600; ++tick) {
     position.z -= 1.2f * kTick;
     if (tick == 100) {
@@ -65,8 +41,7 @@ TEST(Performance, AllocatesNothingOnceItIsBuilt) {
     UpdatePerformance(*model, position, 0.0f, kTick, floor, performance);
     performer.Pose(Interpolate(previous, performance, 0.3f));
   }
-  counting = false;
-  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(counter.Stop(), 0);
 }
 
 }  // namespace

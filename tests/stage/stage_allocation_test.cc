@@ -3,35 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "shared/stage/stage.h"
 #include "tests/stage/test_human.h"
 #include "tests/stage/test_props.h"
-
-namespace {
-
-bool counting = false;
-int allocations = 0;
-
-void* Allocate(size_t size) {
-  allocations += counting ? 1 : 0;
-  void* memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) {
-    std::abort();
-  }
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(size_t size) { return Allocate(size); }
-void* operator new[](size_t size) { return Allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
+#include "tests/support/allocation_counter.h"
 
 namespace lararium::stage {
 namespace {
@@ -68,12 +43,11 @@ TEST(Stage, ATickAllocatesNothing) {
   for (int i = 0; i < 10; ++i) {
     tick();
   }
-  counting = true;
+  test::AllocationCounter counter;
   for (int i = 0; i < 60 * 120; ++i) {
     tick();
   }
-  counting = false;
-  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(counter.Stop(), 0);
   EXPECT_FALSE(stage.tasks().any()) << "everything was done meanwhile";
   EXPECT_FALSE(stage.Find(cup)->state.holder);
   EXPECT_EQ(stage.Find(chest)->state.state, 0);
