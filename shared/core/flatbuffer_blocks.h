@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "shared/core/status.h"
+
 namespace lararium {
 
 static_assert(std::endian::native == std::endian::little, "blocks are copied as they are");
@@ -78,6 +80,39 @@ class BlockReader {
   size_t bytes_left_;
   bool ok_ = true;
 };
+
+// A kind of file of ours, as errors call it.
+struct FlatbufferKind {
+  const char* extension;  // ".larprop"
+  uint32_t version;
+  const char* remedy;
+};
+
+// The root of a file's bytes, whose structure is verified. bytes: aligned as malloc
+// aligns; borrowed. place: what errors call them.
+template <typename Root>
+Result<const Root*> OpenFlatbuffer(std::span<const std::byte> bytes,
+                                   const char* identifier,
+                                   const FlatbufferKind& kind,
+                                   const std::string& place) {
+  if (bytes.size() < 8 || bytes.size() >= FLATBUFFERS_MAX_BUFFER_SIZE ||
+      !flatbuffers::BufferHasIdentifier(bytes.data(), identifier)) {
+    return Status::Error(place, std::string("not a ") + kind.extension + " file", kind.remedy);
+  }
+  flatbuffers::Verifier verifier(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
+  if (!verifier.VerifyBuffer<Root>(identifier)) {
+    return Status::Error(place, "the file is damaged or cut short", kind.remedy);
+  }
+  const Root* root = flatbuffers::GetRoot<Root>(bytes.data());
+  if (root->version() != kind.version) {
+    return Status::Error(place,
+                         "version " + std::to_string(root->version()) +
+                             " of the file is not known here (this program reads version " +
+                             std::to_string(kind.version) + ")",
+                         kind.remedy);
+  }
+  return root;
+}
 
 template <typename To, typename From>
 auto WriteBlock(flatbuffers::FlatBufferBuilder& builder, const std::vector<From>& from) {

@@ -1,28 +1,18 @@
 #include "shared/stage/mesh_file.h"
 
-#include <bit>
 #include <cstring>
 #include <type_traits>
 
+#include "shared/core/flatbuffer_blocks.h"
 #include "shared/stage/mesh_generated.h"
 
 namespace lararium::stage {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "blocks are copied as they are");
 static_assert(sizeof(fb::Vec3) == sizeof(glm::vec3));
 
 constexpr uint32_t kVersion = 1;
-constexpr char kRemedy[] = "import the mesh again";
-
-auto WriteVectors(flatbuffers::FlatBufferBuilder& builder, const std::vector<glm::vec3>& from) {
-  fb::Vec3* block = nullptr;
-  const auto offset = builder.CreateUninitializedVectorOfStructs<fb::Vec3>(from.size(), &block);
-  if (!from.empty()) {
-    std::memcpy(static_cast<void*>(block), from.data(), from.size() * sizeof(glm::vec3));
-  }
-  return offset;
-}
+constexpr FlatbufferKind kKind = {".larmesh", kVersion, "import the mesh again"};
 
 template <typename To, typename From>
 void ReadBlock(const flatbuffers::Vector<From>* from, std::vector<To>& to) {
@@ -37,8 +27,8 @@ void ReadBlock(const flatbuffers::Vector<From>* from, std::vector<To>& to) {
 
 std::vector<std::byte> SerializeMesh(const geometry::TriangleMesh& mesh) {
   flatbuffers::FlatBufferBuilder builder(size_t{1} << 16);
-  const auto positions = WriteVectors(builder, mesh.positions);
-  const auto normals = WriteVectors(builder, mesh.normals);
+  const auto positions = WriteBlock<fb::Vec3>(builder, mesh.positions);
+  const auto normals = WriteBlock<fb::Vec3>(builder, mesh.normals);
   const auto indices = builder.CreateVector(mesh.indices);
   fb::FinishMeshBuffer(builder, fb::CreateMesh(builder, kVersion, positions, normals, indices));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
@@ -47,30 +37,16 @@ std::vector<std::byte> SerializeMesh(const geometry::TriangleMesh& mesh) {
 
 Result<geometry::TriangleMesh> ParseMesh(std::span<const std::byte> bytes,
                                          const std::string& place) {
-  if (bytes.size() < 8 || bytes.size() >= FLATBUFFERS_MAX_BUFFER_SIZE ||
-      !fb::MeshBufferHasIdentifier(bytes.data())) {
-    return Status::Error(place, "not a .larmesh file", kRemedy);
-  }
   if (reinterpret_cast<uintptr_t>(bytes.data()) % alignof(std::max_align_t) != 0) {
     const std::vector<std::byte> aligned(bytes.begin(), bytes.end());
     return ParseMesh(aligned, place);
   }
-  flatbuffers::Verifier verifier(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
-  if (!fb::VerifyMeshBuffer(verifier)) {
-    return Status::Error(place, "the file is damaged or cut short", kRemedy);
-  }
-  const fb::Mesh& from = *fb::GetMesh(bytes.data());
-  if (from.version() != kVersion) {
-    return Status::Error(place,
-                         "version " + std::to_string(from.version()) +
-                             " of the file is not known here (this program reads version " +
-                             std::to_string(kVersion) + ")",
-                         kRemedy);
-  }
+  LARARIUM_ASSIGN_OR_RETURN(const fb::Mesh* from,
+                            OpenFlatbuffer<fb::Mesh>(bytes, fb::MeshIdentifier(), kKind, place));
   geometry::TriangleMesh mesh;
-  ReadBlock(from.positions(), mesh.positions);
-  ReadBlock(from.normals(), mesh.normals);
-  ReadBlock(from.indices(), mesh.indices);
+  ReadBlock(from->positions(), mesh.positions);
+  ReadBlock(from->normals(), mesh.normals);
+  ReadBlock(from->indices(), mesh.indices);
   LARARIUM_RETURN_IF_ERROR(mesh.Validate(place));
   return mesh;
 }

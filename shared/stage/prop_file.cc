@@ -10,6 +10,7 @@ namespace {
 
 constexpr uint32_t kVersion = 1;
 constexpr char kRemedy[] = "import the object again";
+constexpr FlatbufferKind kKind = {".larprop", kVersion, kRemedy};
 
 void ReadMesh(const prop_fb::Mesh& from, BlockReader& reader, PropMesh& to) {
   reader.Read(from.positions(), to.positions);
@@ -73,27 +74,14 @@ auto WritePart(flatbuffers::FlatBufferBuilder& builder, const PropPart& part) {
 }  // namespace
 
 Result<Prop> ParseProp(std::span<const std::byte> bytes, const std::string& place) {
-  if (bytes.size() < 8 || bytes.size() >= FLATBUFFERS_MAX_BUFFER_SIZE ||
-      !prop_fb::PropBufferHasIdentifier(bytes.data())) {
-    return Status::Error(place, "not a .larprop file", kRemedy);
-  }
   if (reinterpret_cast<uintptr_t>(bytes.data()) % alignof(std::max_align_t) != 0) {
     const std::vector<std::byte> aligned(bytes.begin(), bytes.end());
     return ParseProp(aligned, place);
   }
-  flatbuffers::Verifier verifier(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
-  if (!prop_fb::VerifyPropBuffer(verifier)) {
-    return Status::Error(place, "the file is damaged or cut short", kRemedy);
-  }
-  const prop_fb::Prop& from = *prop_fb::GetProp(bytes.data());
-  if (from.version() != kVersion) {
-    return Status::Error(place,
-                         "version " + std::to_string(from.version()) +
-                             " of the file is not known here (this program reads version " +
-                             std::to_string(kVersion) + ")",
-                         kRemedy);
-  }
-  return ReadProp(from, bytes.size(), place);
+  LARARIUM_ASSIGN_OR_RETURN(
+      const prop_fb::Prop* from,
+      OpenFlatbuffer<prop_fb::Prop>(bytes, prop_fb::PropIdentifier(), kKind, place));
+  return ReadProp(*from, bytes.size(), place);
 }
 
 std::vector<std::byte> SerializeProp(const Prop& prop) {
