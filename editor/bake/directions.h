@@ -1,0 +1,45 @@
+#pragma once
+
+// Directions about a surface, drawn with a density of cosine / pi.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+
+namespace lararium::bake {
+
+// About +Z, from two numbers in [0, 1) (Malley's method).
+inline glm::vec3 CosineDirection(const glm::vec2& random) {
+  const float radius = std::sqrt(random.x);
+  const float angle = 2.0f * std::numbers::pi_v<float> * random.y;
+  return {radius * std::cos(angle), radius * std::sin(angle),
+          std::sqrt(std::max(0.0f, 1.0f - random.x))};
+}
+
+// The same direction about a unit normal (Duff et al., "Building an Orthonormal Basis,
+// Revisited", JCGT 6(1), 2017).
+inline glm::vec3 AroundNormal(const glm::vec3& n, const glm::vec3& about_z) {
+  const float sign = std::copysign(1.0f, n.z);
+  const float a = -1.0f / (sign + n.z);
+  const float b = n.x * n.y * a;
+  const glm::vec3 x(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
+  const glm::vec3 y(b, sign + n.y * n.y * a, -n.y);
+  return about_z.x * x + about_z.y * y + about_z.z * n;
+}
+
+// The second coordinate of point i of Hammersley's set: i's bits behind the point,
+// turned round.
+inline float RadicalInverse(uint32_t i) {
+  i = (i << 16) | (i >> 16);
+  i = ((i & 0x55555555u) << 1) | ((i & 0xaaaaaaaau) >> 1);
+  i = ((i & 0x33333333u) << 2) | ((i & 0xccccccccu) >> 2);
+  i = ((i & 0x0f0f0f0fu) << 4) | ((i & 0xf0f0f0f0u) >> 4);
+  i = ((i & 0x00ff00ffu) << 8) | ((i & 0xff00ff00u) >> 8);
+  return static_cast<float>(i >> 8) * 0x1p-24f;
+}
+
+}  // namespace lararium::bake

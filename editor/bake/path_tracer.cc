@@ -1,0 +1,188 @@
+#include "editor/bake/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <numbers>
+
+#include "editor/bake/directions.h"
+#include "shared/core/parallel.h"
+#include "shared/core/random.h"
+#include "shared/geometry/glm_convert.h"
+
+namespace lararium::bake {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+struct SurfacePoint {
+  glm::vec3 position = glm::vec3(0.0f);
+  glm::vec3 normal = glm::vec3(0.0f, 1.0f, 0.0f);  // interpolated, on the side of the ray
+  glm::vec3 face = glm::vec3(0.0f, 1.0f, 0.0f);    // the triangle's, likewise
+  glm::vec3 albedo = glm::vec3(0.0f);
+};
+
+glm::vec2 DrawPair(Random& random) {
+  const auto x = static_cast<float>(random.Uniform());
+  return {std::min(x, 0.99999994f), std::min(static_cast<float>(random.Uniform()), 0.99999994f)};
+}
+
+float PowerHeuristic(float density, float other) {
+  const float a = density * density;
+  return a > 0.0f ? a / (a + other * other) : 0.0f;
+}
+
+class Tracer {
+ public:
+  Tracer(std::span<const SurfaceMesh> meshes, const RayScene& rays, const Environment& environment)
+      : meshes_(meshes), rays_(rays), environment_(environment) {}
+
+  // Radiance towards the origin, and whether anything is there.
+  glm::vec4 Trace(const glm::vec3& origin,
+                  const glm::vec3& direction,
+                  int bounces,
+                  Random& random) const;
+
+ private:
+  SurfacePoint PointOf(const glm::vec3& origin,
+                       const glm::vec3& direction,
+                       const RayHit& hit) const;
+  glm::vec3 SampleProbe(const SurfacePoint& point, Random& random) const;
+
+  std::span<const SurfaceMesh> meshes_;
+  const RayScene& rays_;
+  const Environment& environment_;
+};
+
+SurfacePoint Tracer::PointOf(const glm::vec3& origin,
+                             const glm::vec3& direction,
+                             const RayHit& hit) const {
+  const SurfaceMesh& mesh = meshes_[hit.mesh];
+  SurfacePoint point;
+  point.position = origin + hit.distance * direction;
+  const bool behind = glm::dot(hit.face, direction) > 0.0f;
+  point.face = behind ? -hit.face : hit.face;
+  point.normal = mesh.NormalAt(hit.triangle, hit.barycentric);
+  point.normal = behind ? -point.normal : point.normal;
+  point.albedo = mesh.AlbedoAt(hit.triangle, hit.barycentric);
+  return point;
+}
+
+// Light that a direction drawn from the probe brings, over the albedo.
+glm::vec3 Tracer::SampleProbe(const SurfacePoint& point, Random& random) const {
+  const Environment::Sample sample = environment_.Draw(DrawPair(random));
+  const float cosine = glm::dot(point.normal, sample.direction);
+  if (sample.density <= 0.0f || cosine <= 0.0f || glm::dot(point.face, sample.direction) <= 0.0f ||
+      rays_.Blocked(point.position, sample.direction)) {
+    return glm::vec3(0.0f);
+  }
+  const float weight = PowerHeuristic(sample.density, cosine / kPi);
+  return environment_.Radiance(sample.direction) * (cosine / kPi * weight / sample.density);
+}
+
+glm::vec4 Tracer::Trace(const glm::vec3& origin,
+                        const glm::vec3& direction,
+                        int bounces,
+                        Random& random) const {
+  std::optional<RayHit> hit = rays_.Trace(origin, direction);
+  if (!hit) {
+    return glm::vec4(0.0f);
+  }
+  SurfacePoint point = PointOf(origin, direction, *hit);
+  glm::vec3 throughput(1.0f);
+  glm::vec3 radiance(0.0f);
+  for (int bounce = 0;; ++bounce) {
+    throughput *= point.albedo;
+    radiance += throughput * SampleProbe(point, random);
+    const glm::vec3 next = AroundNormal(point.normal, CosineDirection(DrawPair(random)));
+    if (glm::dot(point.face, next) <= 0.0f) {
+      break;
+    }
+    hit = rays_.Trace(point.position, next);
+    if (!hit) {
+      const float density = std::max(glm::dot(point.normal, next), 0.0f) / kPi;
+      const float weight = PowerHeuristic(density, environment_.Density(next));
+      radiance += throughput * environment_.Radiance(next) * weight;
+      break;
+    }
+    if (bounce >= bounces) {
+      break;
+    }
+    point = PointOf(point.position, next, *hit);
+  }
+  return glm::vec4(radiance, 1.0f);
+}
+
+// Rays of an ideal pinhole, stage axes.
+struct Lens {
+  Lens(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_stage)
+      : pinhole(camera) {
+    const geometry::Rigid3 stage_from_camera = camera_from_stage.Inverse();
+    eye = geometry::ToGlm(stage_from_camera.translation);
+    turn = glm::mat3_cast(geometry::ToGlm(stage_from_camera.rotation));
+  }
+
+  glm::vec3 Direction(const glm::vec2& pixel) const {
+    const glm::vec3 in_camera(
+        (pixel.x - static_cast<float>(pinhole.cx)) / static_cast<float>(pinhole.fx),
+        (pixel.y - static_cast<float>(pinhole.cy)) / static_cast<float>(pinhole.fy), 1.0f);
+    return glm::normalize(turn * in_camera);
+  }
+
+  geometry::CameraModel pinhole;
+  glm::vec3 eye = glm::vec3(0.0f);
+  glm::mat3 turn = glm::mat3(1.0f);
+};
+
+void TraceRow(const Tracer& tracer,
+              const Lens& lens,
+              const PathTracing& tracing,
+              int row,
+              RadianceImage& image) {
+  for (int column = 0; column < image.width; ++column) {
+    const size_t index =
+        static_cast<size_t>(row) * static_cast<size_t>(image.width) + static_cast<size_t>(column);
+    Random random(tracing.seed, index);
+    glm::vec4 sum(0.0f);
+    for (int sample = 0; sample < tracing.samples; ++sample) {
+      const glm::vec2 pixel = glm::vec2(column, row) + DrawPair(random) - 0.5f;
+      sum += tracer.Trace(lens.eye, lens.Direction(pixel), tracing.bounces, random);
+    }
+    image.pixels[index] = sum / static_cast<float>(tracing.samples);
+  }
+}
+
+}  // namespace
+
+Result<RadianceImage> TracePaths(std::span<const SurfaceMesh> meshes,
+                                 const Environment& environment,
+                                 const geometry::CameraModel& pinhole,
+                                 const geometry::Rigid3& camera_from_stage,
+                                 const PathTracing& tracing,
+                                 Progress& progress) {
+  std::vector<RayMesh> ray_meshes;
+  for (const SurfaceMesh& mesh : meshes) {
+    ray_meshes.push_back(mesh.ray_mesh());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RayScene::Create(ray_meshes));
+  const Tracer tracer(meshes, rays, environment);
+  const Lens lens(pinhole, camera_from_stage);
+  RadianceImage image{pinhole.width, pinhole.height, {}};
+  image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
+  // In bands, between which progress is reported from this thread.
+  constexpr size_t kBand = 16;
+  const auto height = static_cast<size_t>(image.height);
+  for (size_t band = 0; band < height && !progress.Cancelled(); band += kBand) {
+    progress.Report("tracing", static_cast<double>(band) / image.height);
+    ParallelFor(std::min(kBand, height - band), [&](size_t i) {
+      TraceRow(tracer, lens, tracing, static_cast<int>(band + i), image);
+    });
+  }
+  if (progress.Cancelled()) {
+    return Status::Error("reference image", "cancelled");
+  }
+  return image;
+}
+
+}  // namespace lararium::bake

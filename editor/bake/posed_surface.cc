@@ -1,0 +1,194 @@
+#include "editor/bake/posed_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <opencv2/imgproc.hpp>
+#include <unordered_map>
+#include <utility>
+
+#include "shared/human/skinning.h"
+#include "shared/render/texture_image.h"
+
+namespace lararium::bake {
+namespace {
+
+// Coverage and colour are looked up with this many texels a side at most: light does
+// not see more.
+constexpr int kTextureSide = 512;
+// Cosine of the angle between normals up to which a seam is smooth.
+constexpr float kSmooth = 0.5f;
+
+float LinearFromSrgb(float c) {
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+cv::Mat Shrink(const cv::Mat& image) {
+  const int side = std::max(image.cols, image.rows);
+  cv::Mat small = image;
+  if (side > kTextureSide) {
+    const double scale = static_cast<double>(kTextureSide) / side;
+    cv::resize(image, small, cv::Size(), scale, scale, cv::INTER_AREA);
+  }
+  return small;
+}
+
+cv::Mat LinearColour(const cv::Mat& bgra) {
+  std::array<float, 256> linear;
+  for (size_t i = 0; i < linear.size(); ++i) {
+    linear[i] = LinearFromSrgb(static_cast<float>(i) / 255.0f);
+  }
+  cv::Mat colour(bgra.size(), CV_32FC3);
+  for (int y = 0; y < bgra.rows; ++y) {
+    for (int x = 0; x < bgra.cols; ++x) {
+      const cv::Vec4b& texel = bgra.at<cv::Vec4b>(y, x);
+      colour.at<cv::Vec3f>(y, x) = {linear[texel[2]], linear[texel[1]], linear[texel[0]]};
+    }
+  }
+  return colour;
+}
+
+glm::vec3 Lookup(const cv::Mat& texture, const glm::vec2& uv) {
+  const auto texel = [](float coordinate, int size) {
+    const float wrapped = coordinate - std::floor(coordinate);
+    return std::clamp(static_cast<int>(wrapped * static_cast<float>(size)), 0, size - 1);
+  };
+  const cv::Vec3f& c = texture.at<cv::Vec3f>(texel(uv.y, texture.rows), texel(uv.x, texture.cols));
+  return {c[0], c[1], c[2]};
+}
+
+struct PositionHash {
+  size_t operator()(const glm::vec3& p) const {
+    std::array<uint32_t, 3> bits;
+    std::memcpy(bits.data(), &p, sizeof(bits));
+    return (bits[0] * 73856093u) ^ (bits[1] * 19349663u) ^ (bits[2] * 83492791u);
+  }
+};
+
+// For each vertex the first one at its place whose normal is nearly its own.
+std::vector<uint32_t> FindSeams(const human::SkinnedMesh& mesh) {
+  std::unordered_multimap<glm::vec3, uint32_t, PositionHash> firsts;
+  std::vector<uint32_t> first(mesh.positions.size());
+  for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    first[v] = v;
+    const auto [begin, end] = firsts.equal_range(mesh.positions[v]);
+    const auto same = std::find_if(begin, end, [&](const auto& other) {
+      return glm::dot(mesh.normals[v], mesh.normals[other.second]) > kSmooth;
+    });
+    if (same != end) {
+      first[v] = same->second;
+    } else {
+      firsts.emplace(mesh.positions[v], v);
+    }
+  }
+  return first;
+}
+
+float AngleBetween(const glm::vec3& a, const glm::vec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+// Replaces normals where the triangles define one.
+void RecomputeNormals(const std::vector<uint32_t>& seams, SurfaceMesh& mesh) {
+  std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0.0f));
+  for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    const glm::vec3 corners[3] = {mesh.positions[mesh.indices[t]],
+                                  mesh.positions[mesh.indices[t + 1]],
+                                  mesh.positions[mesh.indices[t + 2]]};
+    const glm::vec3 face = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const float size = glm::length(face);
+    for (int c = 0; c < 3 && size > 0.0f; ++c) {
+      const float angle =
+          AngleBetween(corners[(c + 1) % 3] - corners[c], corners[(c + 2) % 3] - corners[c]);
+      sums[seams[mesh.indices[t + c]]] += face / size * angle;
+    }
+  }
+  for (size_t v = 0; v < sums.size(); ++v) {
+    const glm::vec3& sum = sums[seams[v]];
+    const float length = glm::length(sum);
+    if (length > 1e-6f) {
+      mesh.normals[v] = sum / length;
+    }
+  }
+}
+
+}  // namespace
+
+glm::vec3 SurfaceMesh::AlbedoAt(uint32_t triangle, const glm::vec3& barycentric) const {
+  glm::vec3 result(0.0f);
+  glm::vec2 uv(0.0f);
+  for (int c = 0; c < 3; ++c) {
+    const uint32_t vertex = indices[3 * triangle + c];
+    result += barycentric[c] * albedo[vertex];
+    if (!uvs.empty()) {
+      uv += barycentric[c] * uvs[vertex];
+    }
+  }
+  return texture.empty() ? result : result * Lookup(texture, uv);
+}
+
+glm::vec3 SurfaceMesh::AlbedoAt(uint32_t vertex) const {
+  return texture.empty() ? albedo[vertex] : albedo[vertex] * Lookup(texture, uvs[vertex]);
+}
+
+glm::vec3 SurfaceMesh::NormalAt(uint32_t triangle, const glm::vec3& barycentric) const {
+  glm::vec3 sum(0.0f);
+  for (int c = 0; c < 3; ++c) {
+    sum += barycentric[c] * normals[indices[3 * triangle + c]];
+  }
+  const float length = glm::length(sum);
+  return length > 1e-6f ? sum / length : normals[indices[3 * triangle]];
+}
+
+Result<PosableSurface> PosableSurface::Create(const human::Human& human) {
+  PosableSurface surface(human);
+  std::vector<cv::Mat> colours(human.textures.size());
+  std::vector<cv::Mat> alphas(human.textures.size());
+  for (size_t i = 0; i < human.textures.size(); ++i) {
+    LARARIUM_ASSIGN_OR_RETURN(const cv::Mat decoded,
+                              render::DecodeTexture(human.textures[i].encoded,
+                                                    human.name + ": " + human.textures[i].name));
+    const cv::Mat small = Shrink(decoded);
+    colours[i] = LinearColour(small);
+    cv::extractChannel(small, alphas[i], 3);
+  }
+  for (const human::SkinnedMesh& mesh : human.meshes) {
+    const bool plain = mesh.material == human::Material::kNone;
+    const human::Material material =
+        plain ? human::Material{} : human.materials[static_cast<size_t>(mesh.material)];
+    const bool textured = material.colour_texture >= 0 && !mesh.uvs.empty();
+    const auto texture = static_cast<size_t>(std::max<int>(material.colour_texture, 0));
+    surface.textures_.push_back(textured ? colours[texture] : cv::Mat());
+    const bool covered = textured && material.alpha_cutoff > 0.0f;
+    surface.coverages_.push_back(covered ? alphas[texture] : cv::Mat());
+    surface.seams_.push_back(FindSeams(mesh));
+  }
+  return surface;
+}
+
+std::vector<SurfaceMesh> PosableSurface::Pose(std::span<const glm::mat4> skin) const {
+  std::vector<SurfaceMesh> meshes(human_->meshes.size());
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    const human::SkinnedMesh& source = human_->meshes[i];
+    SurfaceMesh& mesh = meshes[i];
+    mesh.positions.resize(source.positions.size());
+    mesh.normals.resize(source.positions.size());
+    human::SkinMesh(source, skin, mesh.positions, mesh.normals, human_->skinning);
+    mesh.albedo = source.albedo;
+    if (source.material != human::Material::kNone) {
+      for (glm::vec3& albedo : mesh.albedo) {
+        albedo *= human_->materials[static_cast<size_t>(source.material)].colour;
+      }
+    }
+    mesh.uvs = source.uvs;
+    mesh.indices = source.indices;
+    mesh.texture = textures_[i];
+    mesh.coverage = coverages_[i];
+    RecomputeNormals(seams_[i], mesh);
+  }
+  return meshes;
+}
+
+}  // namespace lararium::bake
