@@ -16,6 +16,9 @@ namespace {
 constexpr size_t kMaxNamesBytes = size_t{1} << 20;
 constexpr float kTrunkConfidence = 0.9f;  // what lies between limbs can be little else
 
+constexpr const char* kNeeded[] = {"humanoid_root", "skullbase", "r_shoulder", "r_elbow", "r_wrist",
+                                   "l_shoulder",    "l_elbow",   "l_wrist",    "r_hip",   "r_knee",
+                                   "r_ankle",       "l_hip",     "l_knee",     "l_ankle"};
 constexpr const char* kFingers[] = {"thumb", "index", "middle", "ring", "pinky"};
 
 // By how many joints a spine or neck has, from below.
@@ -313,20 +316,6 @@ class Mapper {
   BoneMap map_;
 };
 
-const char* NameOf(FoundBy found_by) {
-  switch (found_by) {
-    case FoundBy::kSavedMap:
-      return "saved map";
-    case FoundBy::kFile:
-      return "file";
-    case FoundBy::kName:
-      return "name";
-    case FoundBy::kStructure:
-      return "structure";
-  }
-  return "";
-}
-
 std::string Padded(std::string text, size_t width) {
   text.resize(std::max(width, text.size() + 2), ' ');
   return text;
@@ -385,10 +374,33 @@ const MappedBone* BoneMap::Find(std::string_view joint) const {
   return found == bones.end() ? nullptr : &*found;
 }
 
+std::span<const char* const> NeededJointNames() { return kNeeded; }
+
+std::vector<std::string> KnownJointNames() { return {KnownJoints().begin(), KnownJoints().end()}; }
+
+const char* NameOf(FoundBy found_by) {
+  switch (found_by) {
+    case FoundBy::kSavedMap:
+      return "saved map";
+    case FoundBy::kFile:
+      return "file";
+    case FoundBy::kName:
+      return "name";
+    case FoundBy::kStructure:
+      return "structure";
+  }
+  return "";
+}
+
+std::vector<NamedBone> NamedBones(const Rig& rig, const BoneMap& map) {
+  std::vector<NamedBone> named;
+  for (const MappedBone& mapped : map.bones) {
+    named.push_back({mapped.joint, rig.names[mapped.bone], mapped.found_by, mapped.confidence});
+  }
+  return named;
+}
+
 bool BoneMap::IsHuman() const {
-  constexpr const char* kNeeded[] = {
-      "humanoid_root", "skullbase", "r_shoulder", "r_elbow", "r_wrist", "l_shoulder", "l_elbow",
-      "l_wrist",       "r_hip",     "r_knee",     "r_ankle", "l_hip",   "l_knee",     "l_ankle"};
   return std::all_of(std::begin(kNeeded), std::end(kNeeded),
                      [&](const char* joint) { return Find(joint) != nullptr; });
 }

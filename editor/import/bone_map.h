@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,6 +63,22 @@ struct GivenBones {
 // Bones that the rig does not have are left out.
 GivenBones FindGiven(const Rig& rig, const BoneNames& names);
 BoneMap MapBones(const Rig& rig, const std::vector<GivenBones>& given = {});
+
+// A joint and the bone that is it, by names: what is left of a map without its rig.
+struct NamedBone {
+  std::string joint;
+  std::string bone;
+  FoundBy found_by = FoundBy::kName;
+  float confidence = 1.0f;  // 0..1
+};
+std::vector<NamedBone> NamedBones(const Rig& rig, const BoneMap& map);
+
+// "saved map", "file", "name", "structure".
+const char* NameOf(FoundBy found_by);
+
+// Every joint that a map may name, sorted; and those without which a figure is no person.
+std::vector<std::string> KnownJointNames();
+std::span<const char* const> NeededJointNames();
 
 // The map as people read it: a line for each joint, then the bones that no joint is.
 std::string Preview(const Rig& rig, const BoneMap& map);

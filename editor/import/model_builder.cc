@@ -394,6 +394,8 @@ class ModelBuilder {
     built_.is_human = map_.IsHuman();
     built_.bones = NamesOf(rig_, map_);
     built_.bone_table = Preview(rig_, map_);
+    built_.joints = NamedBones(rig_, map_);
+    built_.bone_names = rig_.names;
     if (Bones().empty() && !built_.is_human) {
       return Status::Error(place_, "no part of it is bound to a skeleton",
                            "import it as a prop, or export it with its armature");
@@ -1214,7 +1216,12 @@ Result<BuiltModel> BuildModel(const ModelScene& model,
 Result<std::vector<std::byte>> PackModel(const BuiltModel& model) {
   Json head = {{"bones", model.bones},           {"is_human", model.is_human},
                {"bone_table", model.bone_table}, {"notes", model.notes},
-               {"images", Json::array()},        {"uses", Json::array()}};
+               {"images", Json::array()},        {"uses", Json::array()},
+               {"joints", Json::array()},        {"bone_names", model.bone_names}};
+  for (const NamedBone& named : model.joints) {
+    head["joints"].push_back(
+        {named.joint, named.bone, static_cast<int>(named.found_by), named.confidence});
+  }
   for (const BuiltModel::Image& image : model.images) {
     head["images"].push_back(image.name);
   }
@@ -1242,6 +1249,13 @@ Result<BuiltModel> UnpackModel(std::span<const std::byte> bytes, const std::stri
     model.bones = head.at("bones").get<BoneNames>();
     model.is_human = head.at("is_human").get<bool>();
     model.bone_table = head.at("bone_table").get<std::string>();
+    model.bone_names = head.at("bone_names").get<std::vector<std::string>>();
+    for (const Json& named : head.at("joints")) {
+      const int found_by =
+          std::clamp(named.at(2).get<int>(), 0, static_cast<int>(FoundBy::kStructure));
+      model.joints.push_back({named.at(0).get<std::string>(), named.at(1).get<std::string>(),
+                              static_cast<FoundBy>(found_by), named.at(3).get<float>()});
+    }
     model.notes = head.at("notes").get<std::vector<std::string>>();
     for (const Json& name : head.at("images")) {
       const auto block = TakeBlock(bytes);

@@ -30,6 +30,8 @@ struct BuiltModel {
   BoneNames bones;
   bool is_human = false;
   std::string bone_table;
+  std::vector<NamedBone> joints;
+  std::vector<std::string> bone_names;
   std::vector<std::string> notes;
 };
 

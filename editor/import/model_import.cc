@@ -74,6 +74,8 @@ Result<ImportedHuman> Import(const std::filesystem::path& file,
   imported.bones = std::move(model.bones);
   imported.is_human = model.is_human;
   imported.bone_table = std::move(model.bone_table);
+  imported.joints = std::move(model.joints);
+  imported.bone_names = std::move(model.bone_names);
   imported.notes = std::move(model.notes);
   AddTextures(file.string(), model, imported);
   LARARIUM_RETURN_IF_ERROR(imported.human.Validate(file.string()));

@@ -29,10 +29,12 @@ struct ImportOptions {
 
 struct ImportedHuman {
   human::Human human;
-  BoneNames bones;                 // the map that was used; SaveBoneNames keeps it
-  bool is_human = false;           // legs, arms and head were found
-  std::string bone_table;          // for people: joint, bone, how found, how sure
-  std::vector<std::string> notes;  // what was guessed or left out
+  BoneNames bones;                      // the map that was used; SaveBoneNames keeps it
+  bool is_human = false;                // legs, arms and head were found
+  std::string bone_table;               // for people: joint, bone, how found, how sure
+  std::vector<NamedBone> joints;        // the same, for programs
+  std::vector<std::string> bone_names;  // all that a map can name
+  std::vector<std::string> notes;       // what was guessed or left out
 };
 
 // A skinned figure in the actor frame: metres, Y up, facing -Z, soles at 0, whatever the

@@ -44,6 +44,15 @@ Result<Value> OneOf(const JsonView& field, const std::pair<const char*, Value> (
   return field.Problem("there is no '" + word.substr(0, 40) + "'", "choose one of: " + known);
 }
 
+template <typename Value, size_t kCount>
+std::vector<std::string> WordsOf(const std::pair<const char*, Value> (&words)[kCount]) {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : words) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
 glm::vec3 ToLinear(uint32_t rgb) {
   glm::vec3 colour;
   for (int k = 0; k < 3; ++k) {
@@ -167,12 +176,14 @@ Status ReadFlag(const JsonView& garment, const char* key, bool& value) {
 
 }  // namespace
 
-std::vector<std::string> GarmentNames() {
-  std::vector<std::string> names;
-  for (const auto& [name, unused] : kKinds) {
-    names.emplace_back(name);
-  }
-  return names;
+std::vector<std::string> GarmentNames() { return WordsOf(kKinds); }
+
+std::vector<std::string> GarmentWords(std::string_view field) {
+  if (field == "length") return WordsOf(kLengths);
+  if (field == "sleeve") return WordsOf(kSleeves);
+  if (field == "belt") return WordsOf(kBelts);
+  if (field == "stripes") return WordsOf(kStripes);
+  return WordsOf(kDyes);
 }
 
 bool IsGarmentName(std::string_view name) {

@@ -48,6 +48,10 @@ std::vector<std::string> GarmentNames();
 bool IsGarmentName(std::string_view name);
 std::string NameOf(GarmentKind kind);
 
+// The words that a field may be: of length, sleeve, belt, stripes, or a dye's for any
+// other.
+std::vector<std::string> GarmentWords(std::string_view field);
+
 // Errors name the field, and what it may be.
 Result<GarmentPattern> ParseGarmentPattern(const JsonView& garment);
 
