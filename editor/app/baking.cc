@@ -114,7 +114,7 @@ BakeStep LightStep(const ProjectPaths& paths, const PlaceDocument& place) {
   return {"light of " + place.name,
           LightFile(paths, place),
           {file},
-          Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale}).dump(),
+          Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale, light::kShCount}).dump(),
           [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); }};
 }
 
@@ -371,11 +371,11 @@ Result<light::ShRgb> LoadBakedLight(const ProjectPaths& paths, const PlaceDocume
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, JsonView(json, file.string()).Field("radiance"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(light::kShCount));
-  if (list.size() != light::kShCount) {
-    return field.Problem("must have 9 coefficients", "bake the project again");
+  if (list.size() != light::kShCount && list.size() != light::kPlainShCount) {
+    return field.Problem("must have 36 coefficients, or 9 if it is old", "bake the project again");
   }
   light::ShRgb light = {};
-  for (size_t i = 0; i < light.size(); ++i) {
+  for (size_t i = 0; i < list.size(); ++i) {
     LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> rgb, list[i].Numbers(3));
     light[i] = glm::vec3(rgb[0], rgb[1], rgb[2]);
   }

@@ -82,10 +82,15 @@ Json FormatSimilarity(const geometry::Similarity3& a_from_b) {
 }
 
 Result<light::ShRgb> ParseLight(const JsonView& json) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> numbers,
-                            json.Numbers("light", 3 * light::kShCount));
-  light::ShRgb light;
-  for (size_t i = 0; i < light.size(); ++i) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("light"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(3 * light::kShCount));
+  // Older bundles hold degree 2 only.
+  const bool plain = list.size() == 3 * light::kPlainShCount;
+  LARARIUM_ASSIGN_OR_RETURN(
+      const std::vector<double> numbers,
+      field.Numbers(3 * static_cast<size_t>(plain ? light::kPlainShCount : light::kShCount)));
+  light::ShRgb light = {};
+  for (size_t i = 0; i < numbers.size() / 3; ++i) {
     for (int channel = 0; channel < 3; ++channel) {
       const auto value = static_cast<float>(numbers[3 * i + static_cast<size_t>(channel)]);
       if (!std::isfinite(value)) {

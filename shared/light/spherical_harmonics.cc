@@ -1,10 +1,10 @@
 #include "shared/light/spherical_harmonics.h"
 
-#include <cmath>
+#include <algorithm>
+#include <cstdlib>
 #include <glm/common.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <numbers>
+#include <vector>
 
 #include "shared/core/check.h"
 
@@ -13,91 +13,272 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Constant factors of the basis: sqrt(1 / 4 pi), sqrt(3 / 4 pi), sqrt(15 / 4 pi),
-// sqrt(5 / 16 pi), sqrt(15 / 16 pi).
-constexpr float kDegree0 = 0.28209479f;
-constexpr float kDegree1 = 0.48860251f;
-constexpr float kMixed = 1.09254843f;
-constexpr float kZonal = 0.31539157f;
-constexpr float kDifference = 0.54627422f;
-
-// Degree 2 is a quadratic form without trace: f(d) = d' Q d.
-glm::mat3 QuadraticForm(const std::array<float, kShCount>& c) {
-  const float xy = 0.5f * kMixed * c[4];
-  const float yz = 0.5f * kMixed * c[5];
-  const float xz = 0.5f * kMixed * c[7];
-  const float zonal = kZonal * c[6];
-  const float difference = kDifference * c[8];
-  return glm::mat3(difference - zonal, xy, xz,   //
-                   xy, -difference - zonal, yz,  //
-                   xz, yz, 2.0f * zonal);
+std::array<double, kShCount> MakeNormalisation() {
+  std::array<double, kShCount> factors{};
+  for (int l = 0; l <= kShDegree; ++l) {
+    for (int m = -l; m <= l; ++m) {
+      double square = (2.0 * l + 1.0) / (4.0 * kPi) * (m == 0 ? 1.0 : 2.0);
+      for (int k = l - std::abs(m) + 1; k <= l + std::abs(m); ++k) {
+        square /= k;  // (l-|m|)! / (l+|m|)!
+      }
+      factors[static_cast<size_t>(l * (l + 1) + m)] = std::sqrt(square);
+    }
+  }
+  return factors;
 }
 
-// Rotates one channel. Degree 1 is a vector, degree 2 a quadratic form.
-std::array<float, kShCount> RotateChannel(const std::array<float, kShCount>& c,
-                                          const glm::mat3& rotation) {
-  const glm::vec3 linear = rotation * glm::vec3(c[3], c[1], c[2]);
-  const glm::mat3 q = rotation * QuadraticForm(c) * glm::transpose(rotation);
-  return {c[0],
-          linear.y,
-          linear.z,
-          linear.x,
-          q[0][1] * 2.0f / kMixed,
-          q[1][2] * 2.0f / kMixed,
-          q[2][2] / (2.0f * kZonal),
-          q[0][2] * 2.0f / kMixed,
-          (q[0][0] - q[1][1]) / (2.0f * kDifference)};
+const std::array<float, kShCount>& FloatNormalisation() {
+  static const std::array<float, kShCount> factors = [] {
+    std::array<float, kShCount> rounded;
+    std::copy(ShNormalisation().begin(), ShNormalisation().end(), rounded.begin());
+    return rounded;
+  }();
+  return factors;
+}
+
+// A band's matrix while it is made: (2l+1)^2 numbers addressed by m and n.
+class BandMatrix {
+ public:
+  explicit BandMatrix(int degree) : degree_(degree), values_{} {}
+  int degree() const { return degree_; }
+  double& operator()(int m, int n) { return values_[Index(m, n)]; }
+  double operator()(int m, int n) const { return values_[Index(m, n)]; }
+
+ private:
+  size_t Index(int m, int n) const {
+    return static_cast<size_t>((m + degree_) * (2 * degree_ + 1) + n + degree_);
+  }
+
+  int degree_;
+  std::array<double, 121> values_;
+};
+
+// Degree 1 is a vector: m = -1, 0, 1 is y, z, x.
+BandMatrix FirstBand(const glm::mat3& rotation) {
+  constexpr int kAxis[3] = {1, 2, 0};
+  BandMatrix first(1);
+  for (int m = -1; m <= 1; ++m) {
+    for (int n = -1; n <= 1; ++n) {
+      first(m, n) = rotation[kAxis[n + 1]][kAxis[m + 1]];
+    }
+  }
+  return first;
+}
+
+// P of Ivanic & Ruedenberg, table 2: products of degree 1 and the band below.
+double P(const BandMatrix& first, const BandMatrix& below, int i, int m, int n) {
+  const int l = below.degree() + 1;
+  if (n == l) {
+    return first(i, 1) * below(m, l - 1) - first(i, -1) * below(m, 1 - l);
+  }
+  if (n == -l) {
+    return first(i, 1) * below(m, 1 - l) + first(i, -1) * below(m, l - 1);
+  }
+  return first(i, 0) * below(m, n);
+}
+
+double V(const BandMatrix& first, const BandMatrix& below, int m, int n) {
+  if (m == 0) {
+    return P(first, below, 1, 1, n) + P(first, below, -1, -1, n);
+  }
+  if (std::abs(m) == 1) {
+    return std::sqrt(2.0) * P(first, below, m, 0, n);
+  }
+  return m > 0 ? P(first, below, 1, m - 1, n) - P(first, below, -1, 1 - m, n)
+               : P(first, below, 1, m + 1, n) + P(first, below, -1, -m - 1, n);
+}
+
+double W(const BandMatrix& first, const BandMatrix& below, int m, int n) {
+  return m > 0 ? P(first, below, 1, m + 1, n) + P(first, below, -1, -m - 1, n)
+               : P(first, below, 1, m - 1, n) - P(first, below, -1, 1 - m, n);
+}
+
+// Ivanic & Ruedenberg, table 1: u, v, w weigh U, V, W. Where a weight is zero its term
+// would reach outside the band below.
+BandMatrix NextBand(const BandMatrix& first, const BandMatrix& below) {
+  const int l = below.degree() + 1;
+  BandMatrix band(l);
+  for (int m = -l; m <= l; ++m) {
+    const int a = std::abs(m);
+    for (int n = -l; n <= l; ++n) {
+      const double scale = std::abs(n) < l ? (l + n) * (l - n) : 2 * l * (2 * l - 1);
+      double sum = 0.0;
+      if (a < l) {
+        sum += std::sqrt((l + m) * (l - m) / scale) * P(first, below, 0, m, n);
+      }
+      const double v = 0.5 * std::sqrt((l + a - 1) * (l + a) / scale);
+      sum += (m == 0 ? -std::sqrt(2.0) * v : v) * V(first, below, m, n);
+      if (m != 0 && a < l - 1) {
+        sum -= 0.5 * std::sqrt((l - a - 1) * (l - a) / scale) * W(first, below, m, n);
+      }
+      band(m, n) = sum;
+    }
+  }
+  return band;
+}
+
+// Where the band of a degree begins among all of them: 0, 1, 10, 35, 84, 165.
+size_t BandBegin(int degree) {
+  return static_cast<size_t>(degree * (2 * degree - 1) * (2 * degree + 1) / 3);
+}
+
+// Directions spread evenly (a Fibonacci spiral).
+std::vector<std::array<float, kShCount>> BasisAtManyDirections() {
+  constexpr int kDirections = 4096;
+  std::vector<std::array<float, kShCount>> bases;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / kDirections;
+    const double angle = kPi * (3.0 - std::sqrt(5.0)) * i;
+    const double radius = std::sqrt(1.0 - z * z);
+    bases.push_back(
+        EvaluateShBasis(glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z)));
+  }
+  return bases;
+}
+
+bool Rings(const ShRgb& radiance,
+           int count,
+           float tolerance,
+           const std::vector<std::array<float, kShCount>>& bases) {
+  const float mean = 1.0f / std::sqrt(4.0f * static_cast<float>(kPi));  // of coefficient 0
+  const glm::vec3 least = -tolerance * mean * glm::abs(radiance[0]);
+  return std::any_of(bases.begin(), bases.end(), [&](const std::array<float, kShCount>& basis) {
+    glm::vec3 sum(0.0f);
+    for (int k = 0; k < count; ++k) {
+      sum += basis[static_cast<size_t>(k)] * radiance[static_cast<size_t>(k)];
+    }
+    return sum.r < least.r || sum.g < least.g || sum.b < least.b;
+  });
 }
 
 }  // namespace
 
+const std::array<double, kShCount>& ShNormalisation() {
+  static const std::array<double, kShCount> factors = MakeNormalisation();
+  return factors;
+}
+
 std::array<float, kShCount> EvaluateShBasis(const glm::vec3& d) {
-  return {kDegree0,
-          kDegree1 * d.y,
-          kDegree1 * d.z,
-          kDegree1 * d.x,
-          kMixed * d.x * d.y,
-          kMixed * d.y * d.z,
-          kZonal * (3.0f * d.z * d.z - 1.0f),
-          kMixed * d.x * d.z,
-          kDifference * (d.x * d.x - d.y * d.y)};
+  std::array<float, kShCount> basis;
+  EvaluateShBasis<kShCount>(d.x, d.y, d.z, FloatNormalisation().data(), basis.data());
+  return basis;
+}
+
+void EvaluateShBasis(const glm::vec3& direction, std::span<float> basis) {
+  CHECK(basis.size() <= kShCount && IsShCount(static_cast<int>(basis.size())));
+  const std::array<float, kShCount> all = EvaluateShBasis(direction);
+  std::copy_n(all.begin(), basis.size(), basis.begin());
 }
 
 glm::vec3 EvaluateRadiance(const ShRgb& radiance, const glm::vec3& direction) {
   const std::array<float, kShCount> basis = EvaluateShBasis(direction);
   glm::vec3 sum(0.0f);
-  for (int k = 0; k < kShCount; ++k) {
+  for (size_t k = 0; k < kShCount; ++k) {
     sum += basis[k] * radiance[k];
   }
   return sum;
 }
 
-glm::vec3 EvaluateIrradiance(const ShRgb& radiance, const glm::vec3& normal) {
-  constexpr float kCosineLobe[3] = {static_cast<float>(kPi), static_cast<float>(2.0 * kPi / 3.0),
-                                    static_cast<float>(kPi / 4.0)};
-  const std::array<float, kShCount> basis = EvaluateShBasis(normal);
-  glm::vec3 sum(0.0f);
+float ClampedCosineFactor(int degree) {
+  constexpr std::array<double, kShDegree + 1> kFactors = {kPi, 2.0 * kPi / 3.0, kPi / 4.0,
+                                                          0.0, -kPi / 24.0,     0.0};
+  return static_cast<float>(kFactors[static_cast<size_t>(degree)]);
+}
+
+ShRgb ConvolveWithCosine(const ShRgb& radiance) {
+  ShRgb irradiance;
   for (int k = 0; k < kShCount; ++k) {
-    const int degree = k == 0 ? 0 : k < 4 ? 1 : 2;
-    sum += kCosineLobe[degree] * basis[k] * radiance[k];
+    const auto i = static_cast<size_t>(k);
+    irradiance[i] = ClampedCosineFactor(ShBandOf(k)) * radiance[i];
   }
-  return glm::max(sum, glm::vec3(0.0f));
+  return irradiance;
+}
+
+glm::vec3 EvaluateIrradiance(const ShRgb& radiance, const glm::vec3& normal) {
+  return glm::max(EvaluateRadiance(ConvolveWithCosine(radiance), normal), glm::vec3(0.0f));
+}
+
+ShRotation::ShRotation(const glm::quat& rotation) : ShRotation(glm::mat3_cast(rotation)) {}
+
+ShRotation::ShRotation(const glm::mat3& rotation) {
+  const BandMatrix first = FirstBand(rotation);
+  BandMatrix band = first;
+  bands_[0] = 1.0f;
+  for (int l = 1; l <= kShDegree; ++l) {
+    if (l > 1) {
+      band = NextBand(first, band);
+    }
+    float* to = bands_.data() + BandBegin(l);
+    for (int m = -l; m <= l; ++m) {
+      for (int n = -l; n <= l; ++n) {
+        *to++ = static_cast<float>(band(m, n));
+      }
+    }
+  }
+}
+
+std::span<const float> ShRotation::band(int degree) const {
+  DCHECK(degree >= 0 && degree <= kShDegree);
+  const auto side = static_cast<size_t>(2 * degree + 1);
+  return std::span(bands_).subspan(BandBegin(degree), side * side);
+}
+
+void ShRotation::Apply(std::span<const float> coefficients, std::span<float> turned) const {
+  DCHECK(coefficients.size() == turned.size() && IsShCount(static_cast<int>(turned.size())));
+  size_t begin = 0;
+  for (int l = 0; begin < coefficients.size(); ++l) {
+    const auto side = static_cast<size_t>(2 * l + 1);
+    const float* row = band(l).data();
+    for (size_t m = 0; m < side; ++m, row += side) {
+      float sum = 0.0f;
+      for (size_t n = 0; n < side; ++n) {
+        sum += row[n] * coefficients[begin + n];
+      }
+      turned[begin + m] = sum;
+    }
+    begin += side;
+  }
 }
 
 ShRgb RotateSh(const ShRgb& radiance, const glm::quat& rotation) {
-  const glm::mat3 matrix = glm::mat3_cast(rotation);
+  const ShRotation turn(rotation);
   ShRgb rotated;
   for (int channel = 0; channel < 3; ++channel) {
-    std::array<float, kShCount> coefficients;
-    for (int k = 0; k < kShCount; ++k) {
+    std::array<float, kShCount> coefficients, turned;
+    for (size_t k = 0; k < kShCount; ++k) {
       coefficients[k] = radiance[k][channel];
     }
-    coefficients = RotateChannel(coefficients, matrix);
-    for (int k = 0; k < kShCount; ++k) {
-      rotated[k][channel] = coefficients[k];
+    turn.Apply(coefficients, turned);
+    for (size_t k = 0; k < kShCount; ++k) {
+      rotated[k][channel] = turned[k];
     }
   }
   return rotated;
+}
+
+ShRgb Windowed(const ShRgb& radiance, float strength) {
+  ShRgb damped;
+  for (int k = 0; k < kShCount; ++k) {
+    const auto laplacian = static_cast<float>(ShBandOf(k) * (ShBandOf(k) + 1));
+    damped[static_cast<size_t>(k)] =
+        radiance[static_cast<size_t>(k)] / (1.0f + strength * laplacian * laplacian);
+  }
+  return damped;
+}
+
+float WindowAgainstRinging(const ShRgb& radiance, int count, float tolerance) {
+  CHECK(IsShCount(count) && tolerance >= 0.0f);
+  const std::vector<std::array<float, kShCount>> bases = BasisAtManyDirections();
+  if (!Rings(radiance, count, tolerance, bases)) {
+    return 0.0f;
+  }
+  // A factor of 1 in a thousand leaves the mean alone, which does not ring.
+  float low = 1e-5f, high = 1e3f;
+  while (high > 1.01f * low) {
+    const float middle = std::sqrt(low * high);
+    (Rings(Windowed(radiance, middle), count, tolerance, bases) ? low : high) = middle;
+  }
+  return high;
 }
 
 ShRgb ProjectEquirectangular(std::span<const glm::vec3> pixels, int width, int height) {
@@ -116,13 +297,13 @@ ShRgb ProjectEquirectangular(std::span<const glm::vec3> pixels, int width, int h
       const std::array<float, kShCount> basis = EvaluateShBasis(direction);
       const glm::dvec3 weighted =
           solid_angle * glm::dvec3(pixels[static_cast<size_t>(row) * width + column]);
-      for (int k = 0; k < kShCount; ++k) {
+      for (size_t k = 0; k < kShCount; ++k) {
         sums[k] += static_cast<double>(basis[k]) * weighted;
       }
     }
   }
   ShRgb radiance;
-  for (int k = 0; k < kShCount; ++k) {
+  for (size_t k = 0; k < kShCount; ++k) {
     radiance[k] = glm::vec3(sums[k]);
   }
   return radiance;

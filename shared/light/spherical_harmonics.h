@@ -1,32 +1,128 @@
 #pragma once
 
-// Real spherical harmonics, degrees 0..2 (9 coefficients), index l(l+1)+m, in
-// stage axes (Y up): Ramamoorthi & Hanrahan, "An Efficient Representation for
-// Irradiance Environment Maps", SIGGRAPH 2001. No Condon-Shortley phase.
+// Real spherical harmonics up to degree 5 (36 coefficients), index l(l+1)+m, polar
+// axis Z, in stage axes (Y up), without the Condon-Shortley phase: degree 1 is y, z, x.
+// Ramamoorthi & Hanrahan, "An Efficient Representation for Irradiance Environment
+// Maps", SIGGRAPH 2001; Sloan, "Stupid Spherical Harmonics (SH) Tricks", GDC 2008.
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 
 namespace lararium::light {
 
-inline constexpr int kShCount = 9;
+inline constexpr int kShDegree = 5;
+inline constexpr int kShCount = (kShDegree + 1) * (kShDegree + 1);
+// What plain, unshadowed light is drawn from: degree 2.
+inline constexpr int kPlainShCount = 9;
 // One RGB coefficient for each basis function: radiance, linear.
 using ShRgb = std::array<glm::vec3, kShCount>;
 
-// The basis functions at a unit direction.
+// Counts with which whole bands are full: 1, 4, 9, 16, 25, 36.
+constexpr bool IsShCount(int count) {
+  return count == 1 || count == 4 || count == 9 || count == 16 || count == 25 || count == 36;
+}
+// The highest degree of a count.
+constexpr int ShDegreeOf(int count) {
+  int degree = 0;
+  while ((degree + 1) * (degree + 1) < count) {
+    ++degree;
+  }
+  return degree;
+}
+// The degree of the basis function of an index.
+constexpr int ShBandOf(int index) { return ShDegreeOf(index + 1); }
+
+// The factors that make the basis orthonormal, index as above:
+// sqrt((2l+1)/(4 pi) (l-|m|)!/(l+|m|)!), times sqrt(2) unless m = 0.
+const std::array<double, kShCount>& ShNormalisation();
+
+// The first Count basis functions at a unit direction, for numbers of any kind: float,
+// double or a register of floats. The recurrence of the associated Legendre functions
+// without their factor sin^m, which x and y bring along.
+template <int Count, typename Number, typename Scalar>
+inline void EvaluateShBasis(
+    const Number& x, const Number& y, const Number& z, const Scalar* normalisation, Number* basis) {
+  static_assert(IsShCount(Count));
+  constexpr int kDegree = ShDegreeOf(Count);
+  Number cosine = x * Scalar(0) + Scalar(1);  // sin^m(polar) cos(m azimuth)
+  Number sine = x * Scalar(0);
+  Scalar diagonal(1);  // P(m, m) = (2m - 1)!!
+#pragma GCC unroll 6
+  for (int m = 0; m <= kDegree; ++m) {
+    Number before = x * Scalar(0);
+    Number legendre = x * Scalar(0) + diagonal;
+#pragma GCC unroll 6
+    for (int l = m; l <= kDegree; ++l) {
+      const int zero = l * (l + 1);
+      basis[zero + m] = legendre * cosine * normalisation[zero + m];
+      if (m > 0) {
+        basis[zero - m] = legendre * sine * normalisation[zero - m];
+      }
+      const Number next = (z * legendre * Scalar(2 * l + 1) - before * Scalar(l + m)) *
+                          (Scalar(1) / Scalar(l + 1 - m));
+      before = legendre;
+      legendre = next;
+    }
+    diagonal *= Scalar(2 * m + 1);
+    const Number turned = x * cosine - y * sine;
+    sine = x * sine + y * cosine;
+    cosine = turned;
+  }
+}
+
+// All basis functions at a unit direction; the other writes as many as the span holds,
+// which must be a count of full bands.
 std::array<float, kShCount> EvaluateShBasis(const glm::vec3& direction);
+void EvaluateShBasis(const glm::vec3& direction, std::span<float> basis);
 
 // Radiance from a direction.
 glm::vec3 EvaluateRadiance(const ShRgb& radiance, const glm::vec3& direction);
 
-// Irradiance on a surface with a unit normal: convolution with the clamped
-// cosine (pi, 2 pi / 3, pi / 4), never negative.
+// What the clamped cosine multiplies a band with: pi, 2 pi / 3, pi / 4, 0, -pi / 24, 0
+// (Ramamoorthi & Hanrahan 2001, equations 7 and 8).
+float ClampedCosineFactor(int degree);
+
+// The same light as irradiance: its value at a direction is that of a surface whose
+// normal it is.
+ShRgb ConvolveWithCosine(const ShRgb& radiance);
+
+// Irradiance on a surface with a unit normal, never negative.
 glm::vec3 EvaluateIrradiance(const ShRgb& radiance, const glm::vec3& normal);
+
+// Matrices that turn coefficients as a rotation turns the function, one for each band,
+// by the recurrence of Ivanic & Ruedenberg, J. Phys. Chem. 100 (1996), with the
+// corrections in 102 (1998).
+class ShRotation {
+ public:
+  explicit ShRotation(const glm::quat& rotation);
+  explicit ShRotation(const glm::mat3& rotation);
+
+  // Of a degree: (2l+1) x (2l+1), row-major, rows and columns by m + l.
+  std::span<const float> band(int degree) const;
+  // turned = f(rotation^-1 d). Both hold the same count of full bands and do not overlap.
+  void Apply(std::span<const float> coefficients, std::span<float> turned) const;
+
+ private:
+  static constexpr size_t kFloats = 1 + 9 + 25 + 49 + 81 + 121;
+  std::array<float, kFloats> bands_;
+};
 
 // The light seen from a frame turned by rotation: coefficients of f(rotation^-1 d).
 ShRgb RotateSh(const ShRgb& radiance, const glm::quat& rotation);
+
+// Damps the bands by 1 / (1 + strength l^2 (l+1)^2), which is what least squares with a
+// penalty on the squared Laplacian gives (Sloan 2008, "Windowing"). strength >= 0.
+ShRgb Windowed(const ShRgb& radiance, float strength);
+
+// The smallest strength, within a hundredth, with which the first count coefficients are
+// nowhere below -tolerance times the channel's mean: small bright sources ring below
+// zero. Sampled at some thousand directions. 0 where nothing rings.
+float WindowAgainstRinging(const ShRgb& radiance, int count, float tolerance);
 
 // Projects an equirectangular image of radiance, solid-angle weighted. Pixel
 // (column, row) is the direction of azimuth 2 pi ((column + 0.5) / width - 0.5)

@@ -19,7 +19,7 @@ KeyLight EstimateKeyLight(const light::ShRgb& radiance) {
   const auto basis = light::EvaluateShBasis(key.direction);
   glm::vec3 product(0.0f);
   float square = 0.0f;
-  for (int i = 1; i < light::kShCount; ++i) {
+  for (int i = 1; i < light::kPlainShCount; ++i) {
     product += radiance[i] * basis[i];
     square += basis[i] * basis[i];
   }

@@ -27,19 +27,20 @@ enum class VertexMotion { kPosed, kLinear, kDualQuaternion };
 constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
                                                                          "CLOTH", "EYE"};
 
+using PlainIrradiance = std::array<glm::vec3, light::kPlainShCount>;
+
 // Radiance to irradiance, with the constants of the basis: what
 // shaders/include/spherical_harmonics.glsl takes.
-std::array<glm::vec3, light::kShCount> IrradianceCoefficients(const light::ShRgb& radiance) {
+PlainIrradiance IrradianceCoefficients(const light::ShRgb& radiance) {
   constexpr double kPi = std::numbers::pi;
-  constexpr double kConvolution[] = {kPi, 2.0 * kPi / 3.0, kPi / 4.0};
-  constexpr int kDegree[] = {0, 1, 1, 1, 2, 2, 2, 2, 2};
   const double first = std::sqrt(3.0 / (4.0 * kPi));
   const double second = std::sqrt(15.0 / (4.0 * kPi));
   const double basis[] = {std::sqrt(1.0 / (4.0 * kPi)),  first,  first,       first, second, second,
                           std::sqrt(5.0 / (16.0 * kPi)), second, 0.5 * second};
-  std::array<glm::vec3, light::kShCount> coefficients;
-  for (int i = 0; i < light::kShCount; ++i) {
-    coefficients[i] = radiance[i] * static_cast<float>(kConvolution[kDegree[i]] * basis[i]);
+  PlainIrradiance coefficients;
+  for (int i = 0; i < light::kPlainShCount; ++i) {
+    const float convolution = light::ClampedCosineFactor(light::ShBandOf(i));
+    coefficients[i] = radiance[i] * (convolution * static_cast<float>(basis[i]));
   }
   return coefficients;
 }
@@ -48,10 +49,10 @@ std::array<glm::vec3, light::kShCount> IrradianceCoefficients(const light::ShRgb
 // band l by exp(-l (l + 1) variance / (2 radius^2)). The variances are those of the
 // sum of Gaussians of d'Eon & Luebke, "Advanced Techniques for Realistic Real-Time
 // Skin Rendering", GPU Gems 3, 2007; the radius is that of a nose or a finger.
-void ScatterInSkin(std::array<glm::vec3, light::kShCount>& irradiance) {
+void ScatterInSkin(PlainIrradiance& irradiance) {
   const glm::vec3 variance(1.38f, 0.068f, 0.025f);  // mm^2
   constexpr float kRadius = 5.0f;                   // mm
-  for (int i = 1; i < light::kShCount; ++i) {
+  for (int i = 1; i < light::kPlainShCount; ++i) {
     const float degrees = i < 4 ? 2.0f : 6.0f;
     irradiance[i] *= glm::exp(-degrees * variance / (2.0f * kRadius * kRadius));
   }

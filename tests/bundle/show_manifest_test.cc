@@ -41,6 +41,21 @@ TEST(ShowManifest, RoundTrips) {
   EXPECT_EQ(parsed->members[3].size, 4u);
 }
 
+TEST(ShowManifest, OldLightOfNineCoefficientsKeepsThemAndHasNoMore) {
+  Json json = Json::parse(FormatShowManifest(Listed()));
+  Json& numbers = json["places"][0]["light"];
+  numbers.clear();
+  for (int i = 0; i < 27; ++i) {
+    numbers.push_back(i);
+  }
+  const auto parsed = Parse(json);
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(parsed->places[0].light[8], glm::vec3(24.0f, 25.0f, 26.0f));
+  for (size_t k = 9; k < light::kShCount; ++k) {
+    EXPECT_EQ(parsed->places[0].light[k], glm::vec3(0.0f));
+  }
+}
+
 TEST(ShowManifest, ANewerSchemaAsksForANewerPlayer) {
   Json json = Json::parse(FormatShowManifest(Listed()));
   json["schema"] = ShowManifest::kSchema + 1;
@@ -116,7 +131,7 @@ TEST(ShowManifest, RefusesWhatCannotBe) {
       {"/places/0/map_from_stage/scale", 0, "between"},
       {"/places/0/map_from_stage/rotation", {1, 1, 0, 0}, "unit quaternion"},
       {"/places/0/light/4", 1e300, "too large"},
-      {"/places/0/light", Json::array({1}), "27 numbers"},
+      {"/places/0/light", Json::array({1}), "108 numbers"},
       {"/places/0/scene", "../x", "member name"},
       {"/places/0/scene", "other", "not listed"},
       {"/places", Json::array(), "no place"},

@@ -78,7 +78,7 @@ void ExpectNear(const ShRgb& a, const ShRgb& b, double tolerance) {
 
 TEST(SphericalHarmonics, BasisIsOrthonormal) {
   double products[kShCount][kShCount] = {};
-  ForEachDirection(180, [&](const glm::vec3& direction, double solid_angle) {
+  ForEachDirection(400, [&](const glm::vec3& direction, double solid_angle) {
     const auto basis = EvaluateShBasis(direction);
     for (int i = 0; i < kShCount; ++i) {
       for (int j = 0; j < kShCount; ++j) {
@@ -88,7 +88,29 @@ TEST(SphericalHarmonics, BasisIsOrthonormal) {
   });
   for (int i = 0; i < kShCount; ++i) {
     for (int j = 0; j < kShCount; ++j) {
-      EXPECT_NEAR(products[i][j], i == j ? 1.0 : 0.0, 2e-4) << i << ", " << j;
+      EXPECT_NEAR(products[i][j], i == j ? 1.0 : 0.0, 3e-4) << i << ", " << j;
+    }
+  }
+}
+
+TEST(SphericalHarmonics, SpansGetTheFirstBands) {
+  const glm::vec3 direction = glm::normalize(glm::vec3(0.3f, -0.7f, 0.5f));
+  const auto all = EvaluateShBasis(direction);
+  for (const size_t count : {4, 9, 16, 25, 36}) {
+    std::vector<float> basis(count);
+    EvaluateShBasis(direction, basis);
+    EXPECT_TRUE(std::equal(basis.begin(), basis.end(), all.begin())) << count;
+  }
+}
+
+TEST(SphericalHarmonics, ZonalOnesAreLegendrePolynomials) {
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    const glm::vec3 direction = RandomDirection(random);
+    const auto basis = EvaluateShBasis(direction);
+    for (unsigned l = 0; l <= kShDegree; ++l) {
+      EXPECT_NEAR(basis[l * (l + 1)],
+                  std::sqrt((2.0 * l + 1.0) / (4.0 * kPi)) * std::legendre(l, direction.z), 1e-5);
     }
   }
 }
@@ -128,14 +150,14 @@ TEST(Projection, RecoversEveryBandLimitedFunction) {
   Random random(7);
   const ShRgb expected = RandomCoefficients(random);
   const auto pixels =
-      Paint(256, 128, [&](const glm::vec3& d) { return EvaluateRadiance(expected, d); });
-  ExpectNear(ProjectEquirectangular(pixels, 256, 128), expected, 2e-3);
+      Paint(512, 256, [&](const glm::vec3& d) { return EvaluateRadiance(expected, d); });
+  ExpectNear(ProjectEquirectangular(pixels, 512, 256), expected, 2e-3);
 }
 
 TEST(Irradiance, OfBandLimitedLightEqualsTheIntegral) {
   Random random(8);
   ShRgb radiance = RandomCoefficients(random);
-  radiance[0] += 20.0f;  // keeps the irradiance positive
+  radiance[0] += 40.0f;  // keeps the irradiance positive
   for (int trial = 0; trial < 5; ++trial) {
     const glm::vec3 normal = RandomDirection(random);
     glm::dvec3 integral(0.0);
@@ -150,9 +172,9 @@ TEST(Irradiance, OfBandLimitedLightEqualsTheIntegral) {
   }
 }
 
-TEST(Irradiance, OfOneDirectionIsWithinTheNineCoefficientError) {
-  // A distant light gives max(0, n.l); degrees 0..2 of that differ from it by at
-  // most 1/16 + small (Ramamoorthi & Hanrahan 2001 give 9 % of the peak).
+TEST(Irradiance, OfOneDirectionIsWithinTheErrorOfDegreeFive) {
+  // A distant light gives max(0, n.l). Without the bands from 6 up the error is
+  // largest at right angles: 1/4 - 5/32 - 9/256 = 0.0586.
   const glm::vec3 light = glm::normalize(glm::vec3(0.3f, 0.8f, -0.5f));
   const auto basis = EvaluateShBasis(light);
   ShRgb radiance;
@@ -163,7 +185,7 @@ TEST(Irradiance, OfOneDirectionIsWithinTheNineCoefficientError) {
   for (int trial = 0; trial < 200; ++trial) {
     const glm::vec3 normal = RandomDirection(random);
     const double expected = std::max(0.0f, glm::dot(normal, light));
-    EXPECT_NEAR(EvaluateIrradiance(radiance, normal).r, expected, 0.095);
+    EXPECT_NEAR(EvaluateIrradiance(radiance, normal).r, expected, 0.0587);
   }
 }
 
@@ -189,7 +211,7 @@ TEST(RotateSh, EqualsRotatingTheFunction) {
       const glm::vec3 direction = RandomDirection(random);
       const glm::vec3 a = EvaluateRadiance(rotated, direction);
       const glm::vec3 b = EvaluateRadiance(radiance, glm::inverse(rotation) * direction);
-      EXPECT_NEAR(glm::distance(a, b), 0.0, 2e-5);
+      EXPECT_NEAR(glm::distance(a, b), 0.0, 5e-5);
     }
   }
 }
@@ -201,6 +223,75 @@ TEST(RotateSh, ComposesAndInverts) {
   const glm::quat b = RandomRotation(random);
   ExpectNear(RotateSh(RotateSh(radiance, a), b), RotateSh(radiance, b * a), 1e-5);
   ExpectNear(RotateSh(RotateSh(radiance, a), glm::inverse(a)), radiance, 1e-5);
+}
+
+TEST(RotateSh, MatricesAreOrthogonal) {
+  Random random(12);
+  for (int trial = 0; trial < 10; ++trial) {
+    const ShRotation rotation(RandomRotation(random));
+    for (int l = 0; l <= kShDegree; ++l) {
+      const size_t side = static_cast<size_t>(2 * l + 1);
+      const std::span<const float> matrix = rotation.band(l);
+      ASSERT_EQ(matrix.size(), side * side);
+      for (size_t i = 0; i < side; ++i) {
+        for (size_t j = 0; j < side; ++j) {
+          double product = 0.0;
+          for (size_t k = 0; k < side; ++k) {
+            product += static_cast<double>(matrix[i * side + k]) * matrix[j * side + k];
+          }
+          EXPECT_NEAR(product, i == j ? 1.0 : 0.0, 2e-6) << "degree " << l;
+        }
+      }
+    }
+  }
+}
+
+TEST(RotateSh, EqualsProjectingTheRotatedFunction) {
+  Random random(13);
+  const ShRgb radiance = RandomCoefficients(random);
+  const glm::quat rotation = RandomRotation(random);
+  const auto pixels = Paint(512, 256, [&](const glm::vec3& d) {
+    return EvaluateRadiance(radiance, glm::inverse(rotation) * d);
+  });
+  ExpectNear(ProjectEquirectangular(pixels, 512, 256), RotateSh(radiance, rotation), 2e-3);
+}
+
+// Unit light from one direction.
+ShRgb Lamp(const glm::vec3& direction) {
+  ShRgb radiance;
+  const auto basis = EvaluateShBasis(direction);
+  for (size_t k = 0; k < kShCount; ++k) {
+    radiance[k] = glm::vec3(basis[k]);
+  }
+  return radiance;
+}
+
+double Least(const ShRgb& radiance, uint64_t seed) {
+  Random random(seed);
+  double least = 1e9;
+  for (int i = 0; i < 5000; ++i) {
+    least = std::min<double>(least, EvaluateRadiance(radiance, RandomDirection(random)).g);
+  }
+  return least;
+}
+
+TEST(Window, ALampRingsUntilItIsWindowedAndNoMoreThanNeeded) {
+  const ShRgb lamp = Lamp(glm::normalize(glm::vec3(0.3f, 0.8f, -0.5f)));
+  const double mean = lamp[0].g / std::sqrt(4.0 * kPi);
+  EXPECT_LT(Least(lamp, 1), -3.0 * mean);
+  const float strength = WindowAgainstRinging(lamp, kShCount, 0.0f);
+  EXPECT_GT(Least(Windowed(lamp, strength), 1), -0.01 * mean);
+  EXPECT_LT(Least(Windowed(lamp, 0.8f * strength), 1), -0.01 * mean);
+}
+
+TEST(Window, LeavesTheMeanAndWhatDoesNotRing) {
+  ShRgb soft = {};
+  soft[0] = glm::vec3(2.0f);
+  soft[2] = glm::vec3(0.5f);
+  EXPECT_EQ(WindowAgainstRinging(soft, kShCount, 0.0f), 0.0f);
+  EXPECT_EQ(Windowed(soft, 0.0f), soft);
+  EXPECT_EQ(Windowed(soft, 0.3f)[0], soft[0]);
+  EXPECT_NEAR(Windowed(soft, 0.25f)[2].g, 0.25f, 1e-6);
 }
 
 TEST(RotateSh, QuarterTurnLeftMovesLightFromForwardToLeft) {

@@ -285,7 +285,7 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
   scene.camera_from_stage = LookAlongMinusZ();
   Random random(9);
   scene.light = UniformLight(1.5f);
-  for (int i = 1; i < light::kShCount; ++i) {
+  for (int i = 1; i < light::kPlainShCount; ++i) {
     scene.light[i] =
         glm::vec3(random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3));
   }
