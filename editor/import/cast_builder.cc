@@ -8,10 +8,12 @@
 #include "editor/import/cast_capsules.h"
 #include "editor/import/cast_face.h"
 #include "editor/import/cast_hair.h"
+#include "editor/import/cast_hang.h"
 #include "editor/import/cast_paint.h"
 #include "editor/import/cast_parts.h"
 #include "editor/import/cast_rig.h"
 #include "editor/import/cast_shape.h"
+#include "editor/import/cast_subdivide.h"
 #include "editor/import/garment/garment.h"
 #include "editor/import/levels_of_detail.h"
 #include "shared/core/file.h"
@@ -249,13 +251,20 @@ class CastBuilder {
       material.colour_texture = AddTexture(*std::move(texture));
     }
     human_.credits += proxy.credits + "\n";
-    AddPiece(Fit(part, chosen, proxy), std::move(material));
+    CastPiece piece = Fit(part, chosen, proxy);
+    if (part == CastPart::kHair) {
+      for (human::SpringChain& chain : HangHair(piece, body_, human_.skeleton)) {
+        human_.springs.push_back(std::move(chain));
+      }
+    }
+    AddPiece(std::move(piece), std::move(material));
     return Status();
   }
 
   CastPiece Fit(CastPart part, const CastDyed& chosen, const CastProxy& proxy) const {
     CastPiece piece = FitPart(library_, proxy, body_.base);
     if (part == CastPart::kHair) {
+      SmoothSurfaces(piece, {});
       LayHair(piece, body_, {.volume = chosen.volume, .tilt = chosen.tilt});
     } else if (part == CastPart::kEyes || part == CastPart::kTeeth) {
       MakeRigid(piece.mesh);

@@ -1,0 +1,261 @@
+#include "editor/import/cast_hang.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <utility>
+
+#include "editor/import/cast_rig.h"
+#include "editor/import/cast_subdivide.h"
+#include "editor/import/plain_skeleton.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr float kFree = 0.015f;      // metres from the skin: lies on it no more
+constexpr float kLeastDrop = 0.08f;  // metres, of what hangs
+constexpr float kBundle = 0.05f;     // metres between the middles of what hangs as one
+constexpr float kStick = 0.055f;     // metres between joints, about
+constexpr int kMostSticks = 6;       // in a chain
+constexpr size_t kMostJoints = 240;  // in a skeleton: vertices name them in a byte
+constexpr int kSlices = 24;          // that a bundle's middle is measured in
+constexpr float kBlend = 0.35f;      // of a stick, to both sides of a joint
+constexpr float kStiffness = 70.0f;  // 1/s^2
+constexpr float kDrag = 2.2f;        // 1/s
+constexpr float kLeastRadius = 0.008f, kMostRadius = 0.03f;  // metres
+
+struct Bundle {
+  std::vector<uint32_t> vertices;
+  glm::vec2 middle{0.0f};  // x, z
+};
+
+class HairHanger {
+ public:
+  HairHanger(CastPiece& hair, const FittedBody& body, human::Skeleton& skeleton)
+      : hair_(hair), body_(body), skeleton_(skeleton), skull_(JointIndex(skeleton, "skullbase")) {}
+
+  std::vector<human::SpringChain> Run() {
+    MeasureClearance();
+    std::vector<human::SpringChain> chains;
+    for (const Bundle& bundle : FindBundles()) {
+      const std::vector<glm::vec3> path = MiddleOf(bundle);
+      if (path.size() < 3 || skeleton_.size() + kMostSticks > kMostJoints) {
+        continue;
+      }
+      chains.push_back(MakeChain(bundle, path, chains.size()));
+    }
+    return chains;
+  }
+
+ private:
+  // Of each vertex, how far the skin is.
+  void MeasureClearance() {
+    for (const glm::vec3& p : hair_.mesh.positions) {
+      float least = 1.0f;
+      for (const glm::vec3& s : body_.skin.positions) {
+        const glm::vec3 d = s - p;
+        least = std::min(least, glm::dot(d, d));
+      }
+      clearance_.push_back(std::sqrt(least));
+    }
+  }
+
+  std::vector<Bundle> FindBundles() const {
+    std::vector<Bundle> bundles;
+    for (Bundle& lock : Hanging()) {
+      const auto same = std::find_if(bundles.begin(), bundles.end(), [&](const Bundle& bundle) {
+        return glm::distance(bundle.middle, lock.middle) < kBundle;
+      });
+      if (same == bundles.end()) {
+        bundles.push_back(std::move(lock));
+      } else {
+        same->vertices.insert(same->vertices.end(), lock.vertices.begin(), lock.vertices.end());
+      }
+    }
+    return bundles;
+  }
+
+  // The connected surfaces that hang, largest first.
+  std::vector<Bundle> Hanging() const {
+    const std::vector<uint32_t> surface_of = ConnectedSurfaces(hair_);
+    std::vector<Bundle> surfaces;
+    std::vector<bool> seen(hair_.mesh.positions.size(), false);
+    for (size_t i = 0; i < hair_.mesh.indices.size(); ++i) {
+      const uint32_t surface = surface_of[i / 3];
+      surfaces.resize(std::max<size_t>(surfaces.size(), surface + 1));
+      const uint32_t v = hair_.mesh.indices[i];
+      if (!seen[v]) {
+        seen[v] = true;
+        surfaces[surface].vertices.push_back(v);
+      }
+    }
+    std::erase_if(surfaces, [this](const Bundle& surface) { return !Hangs(surface); });
+    for (Bundle& surface : surfaces) {
+      for (const uint32_t v : surface.vertices) {
+        const glm::vec3& p = hair_.mesh.positions[v];
+        surface.middle += glm::vec2(p.x, p.z) / static_cast<float>(surface.vertices.size());
+      }
+    }
+    std::stable_sort(surfaces.begin(), surfaces.end(), [](const Bundle& a, const Bundle& b) {
+      return a.vertices.size() > b.vertices.size();
+    });
+    return surfaces;
+  }
+
+  bool Hangs(const Bundle& surface) const {
+    float low = 1e9f;
+    float high = -1e9f;
+    size_t free = 0;
+    for (const uint32_t v : surface.vertices) {
+      low = std::min(low, hair_.mesh.positions[v].y);
+      high = std::max(high, hair_.mesh.positions[v].y);
+      free += clearance_[v] > kFree ? 1 : 0;
+    }
+    return high - low > kLeastDrop && low < RestPosition(skeleton_, "skullbase").y &&
+           2 * free > surface.vertices.size();
+  }
+
+  // From where it leaves the head down to its end: the middles of level slices.
+  std::vector<glm::vec3> MiddleOf(const Bundle& bundle) const {
+    float low = 1e9f;
+    float high = -1e9f;
+    for (const uint32_t v : bundle.vertices) {
+      low = std::min(low, hair_.mesh.positions[v].y);
+      high = std::max(high, hair_.mesh.positions[v].y);
+    }
+    struct Slice {
+      glm::vec3 sum{0.0f};
+      int count = 0;
+      int free = 0;
+    };
+    std::vector<Slice> slices(kSlices);
+    for (const uint32_t v : bundle.vertices) {
+      const float share = (high - hair_.mesh.positions[v].y) / (high - low);
+      Slice& slice = slices[static_cast<size_t>(std::clamp(share, 0.0f, 0.999f) * kSlices)];
+      slice.sum += hair_.mesh.positions[v];
+      ++slice.count;
+      slice.free += clearance_[v] > kFree ? 1 : 0;
+    }
+    std::vector<glm::vec3> path;
+    for (const Slice& slice : slices) {
+      if (slice.count > 0 && (!path.empty() || 2 * slice.free > slice.count)) {
+        path.push_back(slice.sum / static_cast<float>(slice.count));
+      }
+    }
+    if (!path.empty()) {
+      path.back().y = low;
+    }
+    return path;
+  }
+
+  static float LengthOf(const std::vector<glm::vec3>& path) {
+    float length = 0.0f;
+    for (size_t i = 1; i < path.size(); ++i) {
+      length += glm::distance(path[i - 1], path[i]);
+    }
+    return length;
+  }
+
+  // So many places evenly along a path, its end left out.
+  static std::vector<glm::vec3> Divide(const std::vector<glm::vec3>& path, int count) {
+    const float step = LengthOf(path) / static_cast<float>(count);
+    std::vector<glm::vec3> places = {path[0]};
+    float walked = 0.0f;
+    for (size_t i = 1; i < path.size(); ++i) {
+      const float length = glm::distance(path[i - 1], path[i]);
+      while (static_cast<int>(places.size()) < count &&
+             walked + length > step * static_cast<float>(places.size())) {
+        const float share = (step * static_cast<float>(places.size()) - walked) / length;
+        places.push_back(glm::mix(path[i - 1], path[i], share));
+      }
+      walked += length;
+    }
+    return places;
+  }
+
+  uint32_t AddJoint(const std::string& name, size_t parent, const glm::vec3& place) {
+    human::JointTransform rest;
+    rest.translation = place - RestPosition(skeleton_, skeleton_.names[parent]);
+    skeleton_.names.push_back(name);
+    skeleton_.parents.push_back(static_cast<int16_t>(parent));
+    skeleton_.rest.push_back(rest);
+    skeleton_.joint_from_actor.push_back(glm::translate(glm::mat4(1.0f), -place));
+    return static_cast<uint32_t>(skeleton_.size() - 1);
+  }
+
+  human::SpringChain MakeChain(const Bundle& bundle,
+                               const std::vector<glm::vec3>& path,
+                               size_t number) {
+    const float length = LengthOf(path);
+    const int sticks = std::clamp(static_cast<int>(std::lround(length / kStick)), 2, kMostSticks);
+    human::SpringChain chain;
+    chain.name = hair_.mesh.name + std::to_string(number + 1);
+    std::vector<glm::vec3> places = Divide(path, sticks);
+    size_t parent = skull_;
+    for (size_t i = 0; i < places.size(); ++i) {
+      parent = AddJoint(chain.name + "_" + std::to_string(i + 1), parent, places[i]);
+      chain.joints.push_back(static_cast<uint32_t>(parent));
+    }
+    places.push_back(path.back());
+    chain.stiffness = kStiffness;
+    chain.drag = kDrag;
+    float squares = 0.0f;
+    for (const uint32_t v : bundle.vertices) {
+      squares += HandOver(v, places, chain.joints);
+    }
+    const float spread = std::sqrt(squares / static_cast<float>(bundle.vertices.size()));
+    chain.radius = std::clamp(0.7f * spread, kLeastRadius, kMostRadius);
+    return chain;
+  }
+
+  // Gives a vertex to the joints beside it. Returns its distance from the path, squared.
+  float HandOver(uint32_t v,
+                 const std::vector<glm::vec3>& places,
+                 const std::vector<uint32_t>& joints) {
+    const glm::vec3& p = hair_.mesh.positions[v];
+    float least = 1e9f;
+    float along = 0.0f;  // in sticks from the root
+    for (size_t i = 0; i + 1 < places.size(); ++i) {
+      const glm::vec3 stick = places[i + 1] - places[i];
+      const float share = std::clamp(
+          glm::dot(p - places[i], stick) / std::max(glm::dot(stick, stick), 1e-9f), 0.0f, 1.0f);
+      const glm::vec3 off = p - (places[i] + share * stick);
+      if (glm::dot(off, off) < least) {
+        least = glm::dot(off, off);
+        along = static_cast<float>(i) + share;
+      }
+    }
+    // At each joint the one before hands over to the next; the head to the first.
+    const float last = static_cast<float>(joints.size());
+    const float at = std::clamp(std::round(along), 0.0f, last - 1.0f);
+    const float from = at > 0.0f ? at - kBlend : 0.0f;
+    float share = std::clamp((along - from) / (2.0f * kBlend), 0.0f, 1.0f);
+    share = share * share * (3.0f - 2.0f * share);
+    const auto k = static_cast<size_t>(at);
+    const std::pair<uint8_t, float> influences[] = {
+        {static_cast<uint8_t>(k > 0 ? joints[k - 1] : skull_), 1.0f - share},
+        {static_cast<uint8_t>(joints[k]), share}};
+    const Influences strongest = Strongest(influences);
+    hair_.mesh.joints[v] = strongest.joints;
+    hair_.mesh.weights[v] = strongest.weights;
+    return least;
+  }
+
+  CastPiece& hair_;
+  const FittedBody& body_;
+  human::Skeleton& skeleton_;
+  size_t skull_;
+  std::vector<float> clearance_;  // metres, of each vertex
+};
+
+}  // namespace
+
+std::vector<human::SpringChain> HangHair(CastPiece& hair,
+                                         const FittedBody& body,
+                                         human::Skeleton& skeleton) {
+  return HairHanger(hair, body, skeleton).Run();
+}
+
+}  // namespace lararium::import
