@@ -89,8 +89,10 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
   matte += Fuzz(albedo, normal, to_eye, even);
 #endif
 #ifdef SURFACE_EYE
-  // Lids and brows keep light off; the film of tears is smooth whatever lies beneath.
+  // Lids, lashes and brows keep most of what is around off, so that the pupil is dark; the
+  // film of tears is smooth whatever lies beneath.
   matte *= 0.8;
-  highlight = Highlight(normal, to_eye, 0.025, 0.3);
+  vec3 glint = KeyHighlight(normal, to_eye, 0.025, 0.2);
+  highlight = glint + 0.25 * max(Highlight(normal, to_eye, 0.025, 0.2) - glint, 0.0);
 #endif
 }
