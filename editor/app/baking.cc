@@ -181,18 +181,19 @@ FigureSource StandIn(const CastDocument& member) {
 
 FigureSource ImportedFigure(const ProjectPaths& paths, const CastDocument& member) {
   FigureSource figure{"model", {paths.Resolve(member.model)}, {}};
-  const bool mapped = !member.bone_map.empty();
-  if (mapped) {
-    figure.sources.push_back(paths.Resolve(member.bone_map));
+  std::filesystem::path bone_map;
+  if (!member.bone_map.empty()) {
+    bone_map = paths.Resolve(member.bone_map);
+    figure.sources.push_back(bone_map);
+  }
+  if (!member.bones.empty()) {
+    figure.settings += " " + Json(member.bones).dump();
   }
   figure.make =
-      [=, sources = figure.sources](std::vector<std::string>& warnings) -> Result<human::Human> {
+      [=, model = figure.sources[0]](std::vector<std::string>& warnings) -> Result<human::Human> {
     import::ImportOptions options;
-    if (mapped) {
-      LARARIUM_ASSIGN_OR_RETURN(options.bones, import::LoadBoneNames(sources[1]));
-    }
-    LARARIUM_ASSIGN_OR_RETURN(import::ImportedHuman imported,
-                              import::ImportPerson(sources[0], options));
+    LARARIUM_ASSIGN_OR_RETURN(options.bones, GivenBoneNames(bone_map, member.bones));
+    LARARIUM_ASSIGN_OR_RETURN(import::ImportedHuman imported, import::ImportPerson(model, options));
     for (const std::string& note : imported.notes) {
       warnings.push_back(member.name + ": " + note);
     }

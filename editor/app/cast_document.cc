@@ -61,9 +61,24 @@ Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member) {
   return std::optional(std::move(recipe));
 }
 
+Result<import::BoneNames> GivenBoneNames(const std::filesystem::path& bone_map,
+                                         const import::BoneNames& bones) {
+  import::BoneNames given;
+  if (!bone_map.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(given, import::LoadBoneNames(bone_map));
+  }
+  for (const auto& [joint, bone] : bones) {
+    std::erase_if(given, [&bone = bone](const auto& other) {
+      return !bone.empty() && other.second == bone;  // it cannot be two joints
+    });
+    given[joint] = bone;
+  }
+  return given;
+}
+
 Result<CastDocument> ParseCastMember(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(
-      view, {"name", "preset", "recipe", "model", "bone_map", "clips", "height", "tunic"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "preset", "recipe", "model", "bone_map",
+                                              "bones", "clips", "height", "tunic"}));
   CastDocument member;
   LARARIUM_ASSIGN_OR_RETURN(member.name, ParsePlainName(view, "name"));
   if (view.Has("preset") + view.Has("recipe") + view.Has("model") > 1) {
@@ -81,6 +96,10 @@ Result<CastDocument> ParseCastMember(const JsonView& view) {
   }
   if (view.Has("bone_map")) {
     LARARIUM_ASSIGN_OR_RETURN(member.bone_map, view.Text("bone_map"));
+  }
+  if (view.Has("bones")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView bones, view.Field("bones"));
+    LARARIUM_ASSIGN_OR_RETURN(member.bones, import::ParseBoneNames(bones));
   }
   if (view.Has("clips")) {
     LARARIUM_RETURN_IF_ERROR(ParseClips(view, member.clips));
@@ -103,6 +122,9 @@ Json FormatCastMember(const CastDocument& member) {
   }
   if (!member.bone_map.empty()) {
     json["bone_map"] = member.bone_map;
+  }
+  if (!member.bones.empty()) {
+    json["bones"] = member.bones;
   }
   for (const ClipDocument& clip : member.clips) {
     Json entry = {{"name", clip.name}, {"file", clip.file}};

@@ -3,10 +3,12 @@
 // A member of the cast as the project writes it down.
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "editor/import/bone_map.h"
 #include "editor/import/cast_recipe.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
@@ -31,6 +33,8 @@ struct CastDocument {
   std::optional<import::CastRecipe> recipe;  // as the preset, but this project's own
   std::string model;                         // a figure that the editor imports
   std::string bone_map;  // of the model, where its bones were named by hand; may be empty
+  // Joints of the model named in the window, on top of the bone map: import::BoneNames.
+  import::BoneNames bones;
   std::vector<ClipDocument> clips;
   // Of the plain figure, which also stands in where the cast library is missing.
   double height = 1.72;                        // metres
@@ -40,6 +44,11 @@ struct CastDocument {
 // The recipe that the member is built by; nothing where it is no person of the cast
 // library. Fails where there is no such preset.
 Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member);
+
+// What was said by hand about the model's bones: its bone map's file, if it names one, and
+// its own names over that.
+Result<import::BoneNames> GivenBoneNames(const std::filesystem::path& bone_map,
+                                         const import::BoneNames& bones);
 
 Result<CastDocument> ParseCastMember(const JsonView& view);
 Json FormatCastMember(const CastDocument& member);

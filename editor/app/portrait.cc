@@ -22,7 +22,6 @@ constexpr std::array kSheetShapes = {"joy",     "sadness", "anger", "fear", "dis
                                      "DD",      "kk",      "CH",    "SS",   "nn",      "RR",
                                      "aa",      "E",       "ih",    "oh",   "ou"};
 constexpr std::array kSheetViews = {"front", "side", "three-quarter"};
-constexpr std::array kCalmClips = {"idle", "stand"};
 const cv::Size kFigureCell(300, 560);
 const cv::Size kHeadCell(300, 300);
 const cv::Size kShapeCell(180, 200);
@@ -77,11 +76,7 @@ Result<StudioPose> ParsePose(const PortraitOptions& options, const human::Human&
     }
     pose.clip = static_cast<int>(*clip);
   } else if (options.sheet) {
-    for (const char* calm : kCalmClips) {
-      if (const auto clip = FindByName(human.clips, calm); clip && pose.clip < 0) {
-        pose.clip = static_cast<int>(*clip);
-      }
-    }
+    pose.clip = CalmPose(human).clip;
   }
   for (const std::string& text : options.shapes) {
     LARARIUM_ASSIGN_OR_RETURN(const StudioPose::Shape shape, ParseShape(text, human));
@@ -143,7 +138,7 @@ Status AddPeople(const std::vector<human::Human>& people,
   }
   for (const float azimuth : {0.0f, 0.9f}) {
     for (size_t i = 0; i < people.size(); ++i) {
-      const StudioView view = {.azimuth = azimuth, .face = true};
+      const StudioView view = {.azimuth = azimuth, .frame = StudioFrame::kFace};
       LARARIUM_ASSIGN_OR_RETURN(const cv::Mat picture,
                                 studio.Shoot(people[i], poses[i], view, kHeadCell));
       sheet.Add(picture);
@@ -155,7 +150,7 @@ Status AddPeople(const std::vector<human::Human>& people,
 
 // One face at rest, and with each shape in turn.
 Status AddShapes(const human::Human& human, const StudioPose& pose, Studio& studio, Sheet& sheet) {
-  const StudioView view = {.face = true};
+  const StudioView view = {.frame = StudioFrame::kFace};
   int count = 0;
   const auto add = [&](const StudioPose& shown, const std::string& caption) -> Status {
     LARARIUM_ASSIGN_OR_RETURN(cv::Mat picture, studio.Shoot(human, shown, view, kShapeCell));

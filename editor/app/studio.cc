@@ -1,11 +1,14 @@
 #include "editor/app/studio.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "shared/core/check.h"
 #include "shared/human/morph.h"
 #include "shared/human/skinning.h"
 #include "shared/light/spherical_harmonics.h"
@@ -21,6 +24,7 @@ constexpr float kMargin = 1.06f;                                  // around what
 
 struct PosedPerson {
   human::Human morphed;
+  std::optional<size_t> skull;  // joint
   std::vector<glm::mat4> actor_from_joint;
   std::vector<glm::mat4> skin;
   std::vector<std::vector<glm::vec3>> positions;  // of each mesh, posed
@@ -61,6 +65,7 @@ std::vector<human::JointTransform> PoseJoints(const human::Human& human, const S
 PosedPerson PosePerson(const human::Human& human, const StudioPose& pose) {
   PosedPerson person;
   person.morphed = human;
+  person.skull = human.skeleton.Find("skullbase");
   ApplyMorphs(human, MorphWeights(human, pose), person.morphed);
   const std::vector<human::JointTransform> joints = PoseJoints(human, pose);
   person.actor_from_joint.resize(human.skeleton.size());
@@ -111,22 +116,21 @@ std::vector<bool> HeadJoints(const human::Skeleton& skeleton, size_t skull) {
 }
 
 // From a little below the chin to above the crown, around the head's joint.
-Subject Head(const human::Human& human, const PosedPerson& person, float azimuth) {
-  const std::optional<size_t> skull = human.skeleton.Find("skullbase");
+Subject Head(const PosedPerson& person, float azimuth) {
   const Subject whole = WholeFigure(person, azimuth);
-  if (!skull) {
+  if (!person.skull) {
     const float top = whole.centre.y + whole.half_height;
     const float half = 0.16f * whole.half_height;
     return {{whole.centre.x, top - half, whole.centre.z}, half, half};
   }
-  const glm::vec3 base = person.actor_from_joint[*skull][3];
-  const std::vector<bool> head = HeadJoints(human.skeleton, *skull);
+  const glm::vec3 base = person.actor_from_joint[*person.skull][3];
+  const std::vector<bool> head = HeadJoints(person.morphed.skeleton, *person.skull);
   glm::vec3 sum(0.0f);
   float count = 0.0f;
   float top = base.y;
   for (size_t mesh = 0; mesh < person.positions.size(); ++mesh) {
     for (size_t v = 0; v < person.positions[mesh].size(); ++v) {
-      if (head[human.meshes[mesh].joints[v][0]]) {
+      if (head[person.morphed.meshes[mesh].joints[v][0]]) {
         sum += person.positions[mesh][v];
         count += 1.0f;
         top = std::max(top, person.positions[mesh][v].y);
@@ -140,6 +144,30 @@ Subject Head(const human::Human& human, const PosedPerson& person, float azimuth
       std::clamp(top - base.y, 0.05f * whole.half_height, 0.2f * whole.half_height);
   const glm::vec3 middle = sum / count;
   return {{middle.x, base.y + 0.38f * height, middle.z}, 0.8f * height, 0.62f * height};
+}
+
+// The head with neck and shoulders below it; of what has no head, all there is.
+Subject Bust(const PosedPerson& person, float azimuth) {
+  if (!person.skull) {
+    return WholeFigure(person, azimuth);
+  }
+  Subject bust = Head(person, azimuth);
+  bust.centre.y -= 0.42f * bust.half_height;
+  bust.half_width *= 1.7f;
+  bust.half_height *= 1.55f;
+  return bust;
+}
+
+Subject Choose(StudioFrame frame, const PosedPerson& person, float azimuth) {
+  switch (frame) {
+    case StudioFrame::kBust:
+      return Bust(person, azimuth);
+    case StudioFrame::kFace:
+      return Head(person, azimuth);
+    case StudioFrame::kFigure:
+      break;
+  }
+  return WholeFigure(person, azimuth);
 }
 
 // Light from one direction as spherical harmonics. irradiance: of a surface that
@@ -212,15 +240,34 @@ geometry::Rigid3 PlaceCamera(const Subject& subject, const StudioView& view, cv:
 
 }  // namespace
 
+struct Studio::Sitter {
+  PosedPerson person;
+  render::ModelHandle model;
+};
+
 Result<StudioView> ParseStudioView(std::string_view name) {
   constexpr float kQuarter = 0.5f * kPi;
   if (name == "front") return StudioView{};
   if (name == "side") return StudioView{.azimuth = kQuarter};
   if (name == "back") return StudioView{.azimuth = 2.0f * kQuarter};
-  if (name == "face") return StudioView{.face = true};
+  if (name == "bust") return StudioView{.frame = StudioFrame::kBust};
+  if (name == "face") return StudioView{.frame = StudioFrame::kFace};
   if (name == "three-quarter") return StudioView{.azimuth = 0.4f * kQuarter, .elevation = 0.1f};
   return Status::Error("--view " + std::string(name), "is no view",
-                       "use front, side, back, face or three-quarter");
+                       "use front, side, back, bust, face or three-quarter");
+}
+
+StudioPose CalmPose(const human::Human& human) {
+  constexpr std::array kCalmClips = {"idle", "stand"};
+  StudioPose pose;
+  for (const char* calm : kCalmClips) {
+    for (size_t clip = 0; clip < human.clips.size() && pose.clip < 0; ++clip) {
+      if (human.clips[clip].name == calm) {
+        pose.clip = static_cast<int>(clip);
+      }
+    }
+  }
+  return pose;
 }
 
 Result<std::unique_ptr<Studio>> Studio::Create() {
@@ -229,30 +276,58 @@ Result<std::unique_ptr<Studio>> Studio::Create() {
   return std::unique_ptr<Studio>(new Studio(std::move(context), std::move(renderer)));
 }
 
-Result<cv::Mat> Studio::Shoot(const human::Human& human,
-                              const StudioPose& pose,
-                              const StudioView& view,
-                              cv::Size size) {
-  const PosedPerson person = PosePerson(human, pose);
+Studio::Studio(render::OffscreenContext context, std::unique_ptr<render::Renderer> renderer)
+    : context_(std::move(context)), renderer_(std::move(renderer)) {}
+
+Studio::~Studio() = default;
+
+Status Studio::Seat(const human::Human& human, const StudioPose& pose) {
+  if (sitter_ != nullptr) {
+    renderer_->RemoveModel(sitter_->model);
+    sitter_ = nullptr;
+  }
+  auto sitter = std::make_unique<Sitter>();
+  sitter->person = PosePerson(human, pose);
+  LARARIUM_ASSIGN_OR_RETURN(sitter->model, renderer_->AddHuman(sitter->person.morphed));
+  sitter_ = std::move(sitter);
+  return Status();
+}
+
+Result<StudioShot> Studio::Shoot(const StudioView& view, cv::Size size) {
+  CHECK(sitter_ != nullptr);
+  const PosedPerson& person = sitter_->person;
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
                             render::RenderTarget::Create(size.width, size.height));
   render::SceneHuman shown;
-  LARARIUM_ASSIGN_OR_RETURN(shown.human, renderer_->AddHuman(person.morphed));
+  shown.human = sitter_->model;
   shown.skin = person.skin;
   render::RenderScene scene;
   scene.background = Backdrop(size);
   scene.camera = scene.display = Lens(size);
-  scene.camera_from_stage =
-      PlaceCamera(view.face ? Head(human, person, view.azimuth) : WholeFigure(person, view.azimuth),
-                  view, size);
+  const geometry::Rigid3 camera_from_actor =
+      PlaceCamera(Choose(view.frame, person, view.azimuth), view, size);
+  scene.camera_from_stage = camera_from_actor;
   scene.humans = {&shown, 1};
   scene.light = StudioLight(view.azimuth);
-  const Status drawn = renderer_->Draw(scene, target);
-  renderer_->RemoveModel(shown.human);
-  LARARIUM_RETURN_IF_ERROR(drawn);
-  cv::Mat picture;
-  target.ReadPixels(picture);
-  return picture;
+  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
+  StudioShot shot;
+  target.ReadPixels(shot.picture);
+  for (const glm::mat4& joint : person.actor_from_joint) {
+    const Eigen::Vector3d at =
+        camera_from_actor * Eigen::Vector3d(joint[3].x, joint[3].y, joint[3].z);
+    const std::optional<Eigen::Vector2d> pixel = scene.display.Project(at);
+    shot.joints.push_back(pixel ? glm::vec2(pixel->x(), pixel->y()) : glm::vec2(-1e6f));
+  }
+  return shot;
+}
+
+Result<cv::Mat> Studio::Shoot(const human::Human& human,
+                              const StudioPose& pose,
+                              const StudioView& view,
+                              cv::Size size) {
+  LARARIUM_RETURN_IF_ERROR(Seat(human, pose));
+  LARARIUM_ASSIGN_OR_RETURN(StudioShot shot, Shoot(view, size));
+  return std::move(shot.picture);
 }
 
 }  // namespace lararium::app

@@ -2,6 +2,7 @@
 
 // A grey room with soft light in which people are looked at, off screen.
 
+#include <glm/vec2.hpp>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
@@ -15,14 +16,23 @@
 
 namespace lararium::app {
 
+// How much of a person is seen.
+enum class StudioFrame {
+  kFigure,  // from head to foot
+  kBust,    // head and shoulders
+  kFace,
+};
+
 // From where a person is seen, and how much of them.
 struct StudioView {
   float azimuth = 0.0f;    // radians; 0 sees the front, a quarter turn the person's left side
   float elevation = 0.0f;  // radians, upward
-  bool face = false;       // the head only
+  StudioFrame frame = StudioFrame::kFigure;
+
+  friend bool operator==(const StudioView&, const StudioView&) = default;
 };
 
-// front, side, back, face, three-quarter.
+// front, side, back, bust, face, three-quarter.
 Result<StudioView> ParseStudioView(std::string_view name);
 
 // A person as they are to be shown. Shapes are given by index into Human::face.
@@ -36,22 +46,41 @@ struct StudioPose {
   std::vector<Shape> shapes;
 };
 
+// As people stand about: at the beginning of their clip "idle" or "stand", at rest without.
+StudioPose CalmPose(const human::Human& human);
+
+struct StudioShot {
+  cv::Mat picture;                // bgr, 8 bits
+  std::vector<glm::vec2> joints;  // pixel of each joint of the skeleton, which may lie outside
+};
+
+// Everything happens on the thread that created it: its OpenGL context is current there.
 class Studio {
  public:
   static Result<std::unique_ptr<Studio>> Create();
+  ~Studio();
 
-  // bgr, 8 bits. The person must be valid (Human::Validate).
+  // A person takes their place and strikes a pose; whoever sat there leaves. The person
+  // must be valid (Human::Validate).
+  Status Seat(const human::Human& human, const StudioPose& pose);
+
+  // Whoever sits there. Somebody must.
+  Result<StudioShot> Shoot(const StudioView& view, cv::Size size);
+
+  // One picture of one person. bgr, 8 bits.
   Result<cv::Mat> Shoot(const human::Human& human,
                         const StudioPose& pose,
                         const StudioView& view,
                         cv::Size size);
 
  private:
-  Studio(render::OffscreenContext context, std::unique_ptr<render::Renderer> renderer)
-      : context_(std::move(context)), renderer_(std::move(renderer)) {}
+  struct Sitter;
+
+  Studio(render::OffscreenContext context, std::unique_ptr<render::Renderer> renderer);
 
   render::OffscreenContext context_;  // goes last
   std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<Sitter> sitter_;
 };
 
 }  // namespace lararium::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "editor/app/baking.h"
@@ -19,6 +20,17 @@ std::string FileStamp(const std::filesystem::path& file) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(file, error);
   return error ? "none" : std::to_string(time.time_since_epoch().count());
+}
+
+// Where people made from the presets are kept (XDG base directories).
+std::filesystem::path PresetFolder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  const std::filesystem::path base =
+      cache != nullptr && *cache != '\0'
+          ? std::filesystem::path(cache)
+          : std::filesystem::path(home != nullptr ? home : ".") / ".cache";
+  return base / "lararium" / "presets";
 }
 
 std::string TagsKey(const PlaceDocument& place) {
@@ -45,11 +57,16 @@ Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log)
   if (!workspace->document().places.empty()) {
     workspace->ShowPlace(workspace->document().places.front().name);
   }
+  workspace->cast_pictures_.SetCast(workspace->document().cast);
   return workspace;
 }
 
 Workspace::Workspace(ProjectPaths paths, ProjectDocument document, Log& log)
-    : paths_(std::move(paths)), log_(log), commands_(std::move(document)), autosave_(paths_) {}
+    : paths_(std::move(paths)),
+      log_(log),
+      commands_(std::move(document)),
+      autosave_(paths_),
+      cast_pictures_(paths_, PresetFolder(), baking_) {}
 
 void Workspace::Tell(Message::Level level, std::string text) {
   if (!messages_.empty() && messages_.back().text == text) {
@@ -131,6 +148,7 @@ void Workspace::OnDocumentChanged() {
   } else {
     autosave_.Discard();
   }
+  cast_pictures_.SetCast(document().cast);
   if (place() == nullptr && !document().places.empty()) {
     ShowPlace(document().places.front().name);  // undo took the place away
     return;
@@ -269,9 +287,12 @@ void Workspace::ReloadPreview() {
   }
   const auto content = std::make_shared<show::ShowContent>();
   const auto work = [content, paths = paths_, document = commands_.snapshot(), name = place_name_,
-                     database = loaded_.database,
+                     database = loaded_.database, baking = baking_,
                      map_from_picked = loaded_.picks.map_from_picked](Progress& progress) {
-    LARARIUM_RETURN_IF_ERROR(app::Bake(paths, *document, progress).status());
+    {
+      const std::lock_guard turn(*baking);
+      LARARIUM_RETURN_IF_ERROR(app::Bake(paths, *document, progress).status());
+    }
     LARARIUM_ASSIGN_OR_RETURN(*content, AssembleShow(paths, *document, *document->FindPlace(name),
                                                      database, map_from_picked));
     return Status();
@@ -359,11 +380,14 @@ void Workspace::Update(double seconds) {
   if (since_files_checked_ > kFilesInterval) {
     since_files_checked_ = 0.0;
     preview_stale_ = true;
+    cast_pictures_.SetCast(document().cast);
   }
   if (measures_stale_) {
     MeasureAgain();
   }
-  if (preview_stale_) {
+  TellOfPictures();
+  // Who is being changed is baked for their picture first; the stage follows.
+  if (preview_stale_ && !cast_pictures_.Working()) {
     ReloadPreview();
   }
   AdvancePlayback(seconds);
@@ -381,6 +405,88 @@ void Workspace::Update(double seconds) {
     Tell(Message::Level::kError, problem.message());
     awaiting_picture_ = false;
   }
+}
+
+void Workspace::TellOfPictures() {
+  for (const std::string& warning : cast_pictures_.TakeWarnings()) {
+    Tell(Message::Level::kWarning, warning);
+  }
+  for (const Status& problem : cast_pictures_.TakeProblems()) {
+    Tell(Message::Level::kError, problem.message());
+  }
+}
+
+const CastCatalogue* Workspace::catalogue() {
+  if (catalogue_ != nullptr || !catalogue_problem_.empty()) {
+    return catalogue_.get();
+  }
+  const std::optional<std::filesystem::path> folder = FindCastLibrary();
+  if (!folder) {
+    catalogue_problem_ =
+        "The cast library is not installed; fetch it with scripts/fetch_cast_library.sh.";
+    return nullptr;
+  }
+  const auto listed = std::make_shared<CastCatalogue>();
+  tasks_.Start(
+      kCatalogue,
+      [listed, folder = *folder](Progress&) {
+        LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary library,
+                                  import::CastLibrary::Open(folder));
+        LARARIUM_ASSIGN_OR_RETURN(*listed, ListCast(library));
+        return Status();
+      },
+      [this, listed](const Status& status, bool) {
+        if (status.ok()) {
+          catalogue_ = listed;
+        } else {
+          catalogue_problem_ = status.message();
+        }
+      });
+  return nullptr;
+}
+
+const BoneReview* Workspace::bone_review(const CastDocument& member) {
+  std::string key = FormatCastMember(member).dump() + FileStamp(paths_.Resolve(member.model)) +
+                    FileStamp(paths_.Resolve(member.bone_map));
+  if (key != review_key_) {
+    const auto review = std::make_shared<BoneReview>();
+    const auto work = [review, paths = paths_, member](Progress&) {
+      LARARIUM_ASSIGN_OR_RETURN(*review, ReviewBones(paths, member));
+      return Status();
+    };
+    const auto done = [this, review, name = member.name](const Status& status, bool cancelled) {
+      if (!status.ok()) {
+        Report(status, cancelled, "");
+        return;
+      }
+      review_ = review;
+      reviewed_name_ = name;
+    };
+    if (tasks_.Start(kReview, work, done)) {
+      review_key_ = std::move(key);
+    }
+  }
+  return reviewed_name_ == member.name ? review_.get() : nullptr;
+}
+
+void Workspace::SaveBones(const CastDocument& member) {
+  if (review_ == nullptr || reviewed_name_ != member.name || tasks_.Running(kReview)) {
+    return;  // what is known is not what is in use
+  }
+  if (const Status status = SaveBoneMap(paths_, member, *review_); !status.ok()) {
+    Tell(Message::Level::kError, status.message());
+    return;
+  }
+  const std::filesystem::path file = BoneMapFile(paths_, member);
+  Edit("save the bones of " + member.name, [&](ProjectDocument& document) {
+    for (CastDocument& known : document.cast) {
+      if (known.name == member.name) {
+        known.bone_map = paths_.Shorten(file);
+        known.bones.clear();
+      }
+    }
+  });
+  Tell(Message::Level::kInfo, "Wrote " + file.string());
 }
 
 const train::TrainReport* Workspace::last_training() const {
@@ -444,7 +550,9 @@ void Workspace::Bake() {
   const auto report = std::make_shared<BakeReport>();
   tasks_.Start(
       kBaking,
-      [report, paths = paths_, document = commands_.snapshot()](Progress& progress) {
+      [report, paths = paths_, document = commands_.snapshot(),
+       baking = baking_](Progress& progress) {
+        const std::lock_guard turn(*baking);
         LARARIUM_ASSIGN_OR_RETURN(*report, app::Bake(paths, *document, progress));
         return Status();
       },
@@ -463,7 +571,8 @@ void Workspace::Bake() {
 void Workspace::Export(const std::filesystem::path& out) {
   tasks_.Start(
       kExporting,
-      [paths = paths_, document = commands_.snapshot(), out](Progress& progress) {
+      [paths = paths_, document = commands_.snapshot(), out, baking = baking_](Progress& progress) {
+        const std::lock_guard turn(*baking);
         return ExportProject(paths, *document, out, MapBudget(), progress);
       },
       [this, out](const Status& status, bool cancelled) {

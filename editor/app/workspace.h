@@ -7,12 +7,16 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "editor/app/autosave.h"
 #include "editor/app/background_task.h"
+#include "editor/app/bone_review.h"
+#include "editor/app/cast_catalogue.h"
+#include "editor/app/cast_pictures.h"
 #include "editor/app/command_stack.h"
 #include "editor/app/preview.h"
 #include "editor/app/project.h"
@@ -48,6 +52,8 @@ class Workspace {
   static constexpr const char* kExporting = "Exporting";
   static constexpr const char* kOpening = "Opening";
   static constexpr const char* kMeasuring = "Measuring";
+  static constexpr const char* kCatalogue = "Opening the cast library";
+  static constexpr const char* kReview = "Reading the bones";
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
@@ -87,6 +93,18 @@ class Workspace {
   TaskList& tasks() { return tasks_; }
   bool tasks_empty() const { return tasks_.entries().empty(); }
 
+  // The people of the project in pictures.
+  CastPictures& cast_pictures() { return cast_pictures_; }
+  // What recipes can choose from, read when first asked for. nullptr: not yet, or the
+  // library is not there, which catalogue_problem() says.
+  const CastCatalogue* catalogue();
+  const std::string& catalogue_problem() const { return catalogue_problem_; }
+  // How the bones of an imported figure were taken, read when first asked for and again
+  // when its map changes; the last one stays until then. nullptr: not yet, or it failed.
+  const BoneReview* bone_review(const CastDocument& member);
+  // Writes what is in use into a file, which the member names from then on.
+  void SaveBones(const CastDocument& member);
+
   // The recording in the camera view.
   bool playing() const { return playing_; }
   void SetPlaying(bool playing) { playing_ = playing; }
@@ -110,6 +128,7 @@ class Workspace {
  private:
   Workspace(ProjectPaths paths, ProjectDocument document, Log& log);
 
+  void TellOfPictures();
   void OnDocumentChanged();
   void ResolvePicksAgain();
   // Looks for the floor and the tags, in the background.
@@ -148,7 +167,14 @@ class Workspace {
   double position_ = 0.0;             // frames
   double since_files_checked_ = 0.0;  // seconds
   std::deque<Message> messages_;
-  TaskList tasks_;  // last: its threads end before the rest goes
+  std::shared_ptr<std::mutex> baking_ = std::make_shared<std::mutex>();  // one at a time
+  CastPictures cast_pictures_;
+  std::shared_ptr<const CastCatalogue> catalogue_;
+  std::string catalogue_problem_;
+  std::shared_ptr<const BoneReview> review_;
+  std::string reviewed_name_;  // whose bones review_ shows
+  std::string review_key_;     // of what was read last, also where that failed
+  TaskList tasks_;             // last: its threads end before the rest goes
 };
 
 }  // namespace lararium::app

@@ -8,7 +8,6 @@
 #include "editor/import/bone_structure.h"
 #include "editor/import/joint_names.h"
 #include "shared/core/file.h"
-#include "shared/core/json.h"
 
 namespace lararium::import {
 namespace {
@@ -456,6 +455,10 @@ Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view place) 
   const JsonView root(parsed, std::string(place));
   LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   LARARIUM_ASSIGN_OR_RETURN(const JsonView bones, root.Field("bones"));
+  return ParseBoneNames(bones);
+}
+
+Result<BoneNames> ParseBoneNames(const JsonView& bones) {
   if (!bones.json().is_object()) {
     return bones.Problem("must be an object of joints and their bones");
   }

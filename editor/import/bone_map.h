@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "shared/core/json.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {
@@ -86,6 +87,8 @@ std::string Preview(const Rig& rig, const BoneMap& map);
 // The file of a saved map: {"schema": 1, "bones": {"l_shoulder": "LeftArm", ...}}.
 // Errors name the field. A joint's name of H-Anim that we do not know is one.
 Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view place);
+// Of the object "bones" alone.
+Result<BoneNames> ParseBoneNames(const JsonView& bones);
 Result<BoneNames> LoadBoneNames(const std::filesystem::path& file);
 Status SaveBoneNames(const std::filesystem::path& file, const BoneNames& names);
 BoneNames NamesOf(const Rig& rig, const BoneMap& map);

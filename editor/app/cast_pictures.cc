@@ -1,0 +1,261 @@
+#include "editor/app/cast_pictures.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/app/baking.h"
+#include "editor/app/thumbnail.h"
+#include "editor/import/cast_presets.h"
+#include "shared/human/human.h"
+
+namespace lararium::app {
+namespace {
+
+std::string StampOf(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  return error ? " none" : " " + std::to_string(time.time_since_epoch().count());
+}
+
+}  // namespace
+
+// What only the thread touches.
+class CastPictures::Painter {
+ public:
+  struct Result {
+    Picture thumbnail;
+    std::shared_ptr<const CastPortrait> portrait;
+  };
+
+  explicit Painter(std::shared_ptr<std::mutex> baking) : baking_(std::move(baking)) {}
+
+  lararium::Result<Result> Paint(const ProjectPaths& paths,
+                                 const Order& order,
+                                 std::vector<std::string>& warnings) {
+    const std::filesystem::path file = paths.Human(order.member.name);
+    if (seated_ != order.key) {
+      LARARIUM_RETURN_IF_ERROR(BakeAlone(paths, order.member, warnings));
+    }
+    Result result;
+    if (std::optional<cv::Mat> known = LoadThumbnail(file)) {
+      result.thumbnail = std::make_shared<const cv::Mat>(std::move(*known));
+    }
+    if (order.gaze || result.thumbnail == nullptr) {
+      LARARIUM_RETURN_IF_ERROR(Seat(file, order.key));
+    }
+    if (result.thumbnail == nullptr) {
+      LARARIUM_ASSIGN_OR_RETURN(cv::Mat made, MakeThumbnail(file, *studio_));
+      result.thumbnail = std::make_shared<const cv::Mat>(std::move(made));
+    }
+    if (order.gaze) {
+      LARARIUM_ASSIGN_OR_RETURN(result.portrait, Portray(*order.gaze));
+    }
+    return result;
+  }
+
+ private:
+  Status BakeAlone(const ProjectPaths& paths,
+                   const CastDocument& member,
+                   std::vector<std::string>& warnings) {
+    const std::lock_guard turn(*baking_);
+    ProjectDocument alone;
+    alone.cast.push_back(member);
+    NoProgress silent;
+    LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, silent));
+    std::move(report.warnings.begin(), report.warnings.end(), std::back_inserter(warnings));
+    return Status();
+  }
+
+  Status Seat(const std::filesystem::path& file, const std::string& key) {
+    if (seated_ == key) {
+      return Status();
+    }
+    if (studio_ == nullptr) {
+      LARARIUM_ASSIGN_OR_RETURN(studio_, Studio::Create());
+    }
+    seated_.clear();
+    LARARIUM_ASSIGN_OR_RETURN(const human::Human human, human::LoadHuman(file));
+    LARARIUM_RETURN_IF_ERROR(studio_->Seat(human, CalmPose(human)));
+    joints_ = human.skeleton.names;
+    parents_ = human.skeleton.parents;
+    seated_ = key;
+    return Status();
+  }
+
+  lararium::Result<std::shared_ptr<const CastPortrait>> Portray(const Gaze& gaze) {
+    LARARIUM_ASSIGN_OR_RETURN(StudioShot shot, studio_->Shoot(gaze.view, gaze.size));
+    return std::make_shared<const CastPortrait>(CastPortrait{
+        gaze.name, gaze.view, std::move(shot.picture), joints_, parents_, std::move(shot.joints)});
+  }
+
+  std::shared_ptr<std::mutex> baking_;
+  std::unique_ptr<Studio> studio_;
+  std::string seated_;  // the key of who sits there
+  std::vector<std::string> joints_;
+  std::vector<int16_t> parents_;
+};
+
+CastPictures::CastPictures(ProjectPaths project,
+                           std::filesystem::path presets,
+                           std::shared_ptr<std::mutex> baking)
+    : project_(std::move(project)),
+      presets_folder_{std::move(presets)},
+      baking_(std::move(baking)) {}
+
+CastPictures::~CastPictures() = default;
+
+// Changes with what the person is made of: what the project says, and the files it names.
+std::string CastPictures::KeyOf(const CastDocument& member) const {
+  std::string key = FormatCastMember(member).dump();
+  for (const std::string& file : {member.model, member.bone_map}) {
+    key += file.empty() ? "" : StampOf(project_.Resolve(file));
+  }
+  for (const ClipDocument& clip : member.clips) {
+    key += StampOf(project_.Resolve(clip.file));
+  }
+  return key;
+}
+
+void CastPictures::SetCast(const std::vector<CastDocument>& cast) {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, Sitter> now;
+  for (const CastDocument& member : cast) {
+    Sitter& sitter = now[member.name];
+    if (const auto known = cast_.find(member.name); known != cast_.end()) {
+      sitter = std::move(known->second);
+    }
+    sitter.member = member;
+    sitter.key = KeyOf(member);
+  }
+  cast_ = std::move(now);
+  Start();
+}
+
+void CastPictures::WantPresets() {
+  const std::lock_guard lock(mutex_);
+  if (!presets_.empty()) {
+    return;
+  }
+  for (const std::string& name : import::CastPresetNames()) {
+    Sitter& sitter = presets_[name];
+    sitter.member.name = sitter.member.preset = sitter.key = name;
+  }
+  Start();
+}
+
+void CastPictures::Look(const std::string& name, const StudioView& view, cv::Size size) {
+  const std::lock_guard lock(mutex_);
+  gaze_ = name.empty() ? std::nullopt : std::optional(Gaze{name, view, size});
+  Start();
+}
+
+CastPictures::Picture CastPictures::Thumbnail(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = cast_.find(name);
+  return found == cast_.end() ? nullptr : found->second.thumbnail;
+}
+
+CastPictures::Picture CastPictures::PresetThumbnail(const std::string& preset) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = presets_.find(preset);
+  return found == presets_.end() ? nullptr : found->second.thumbnail;
+}
+
+std::shared_ptr<const CastPortrait> CastPictures::portrait() const {
+  const std::lock_guard lock(mutex_);
+  return portrait_;
+}
+
+bool CastPictures::Working() const {
+  const std::lock_guard lock(mutex_);
+  const std::optional<Order> order = NextOrder();
+  return order && !order->of_preset;
+}
+
+bool CastPictures::Working(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = cast_.find(name);
+  return found != cast_.end() && found->second.done != found->second.key;
+}
+
+std::vector<Status> CastPictures::TakeProblems() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(problems_, {});
+}
+
+std::vector<std::string> CastPictures::TakeWarnings() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(warnings_, {});
+}
+
+// With the lock held. The thread begins with the first order.
+void CastPictures::Start() {
+  if (!NextOrder()) {
+    return;
+  }
+  if (!thread_) {
+    thread_.emplace([this](std::stop_token stop) { Run(stop); });
+  }
+  ordered_.notify_one();
+}
+
+// With the lock held. Who is looked at comes first, presets last.
+std::optional<CastPictures::Order> CastPictures::NextOrder() const {
+  if (gaze_) {
+    const auto found = cast_.find(gaze_->name);
+    if (found != cast_.end() && (found->second.key != gaze_done_ || gaze_ != gazed_)) {
+      return Order{false, found->second.member, found->second.key, gaze_};
+    }
+  }
+  for (const auto* people : {&cast_, &presets_}) {
+    for (const auto& [name, sitter] : *people) {
+      if (sitter.done != sitter.key) {
+        return Order{people == &presets_, sitter.member, sitter.key, {}};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+void CastPictures::Deliver(const Order& order,
+                           Picture thumbnail,
+                           std::shared_ptr<const CastPortrait> portrait) {
+  auto& people = order.of_preset ? presets_ : cast_;
+  if (const auto found = people.find(order.member.name); found != people.end()) {
+    found->second.done = order.key;
+    if (thumbnail != nullptr) {
+      found->second.thumbnail = std::move(thumbnail);
+    }
+  }
+  if (order.gaze) {
+    gaze_done_ = order.key;
+    gazed_ = order.gaze;
+    if (portrait != nullptr) {
+      portrait_ = std::move(portrait);
+    }
+  }
+}
+
+void CastPictures::Run(std::stop_token stop) {
+  Painter painter(baking_);
+  std::unique_lock lock(mutex_);
+  while (ordered_.wait(lock, stop, [this] { return NextOrder().has_value(); })) {
+    const Order order = *NextOrder();
+    lock.unlock();
+    std::vector<std::string> warnings;
+    auto painted = painter.Paint(order.of_preset ? presets_folder_ : project_, order, warnings);
+    lock.lock();
+    if (!painted.ok()) {
+      problems_.push_back(painted.status());
+      Deliver(order, nullptr, nullptr);
+    } else {
+      Deliver(order, std::move(painted->thumbnail), std::move(painted->portrait));
+    }
+    std::move(warnings.begin(), warnings.end(), std::back_inserter(warnings_));
+    if (stop.stop_requested()) {
+      return;
+    }
+  }
+}
+
+}  // namespace lararium::app
