@@ -184,12 +184,13 @@ function Actor:walk_to(target)
   return true
 end
 
--- Does with an object what it is for: use("jar", "open"), {seconds = at least so long}.
+-- Does with an object what it is for: use("jar", "open"), {seconds = at least so long};
+-- without an action the first that it has.
 -- Walks there, waits for its turn, and goes on when it is done.
 function Actor:use(thing, action, options)
   options = options_of(options, "use")
   local id = object_id(thing, "use")
-  if type(action) ~= "string" then
+  if action ~= nil and type(action) ~= "string" then
     error("use: give the name of an action", 2)
   end
   await("use", host.use(self.id, id, action, number(options, "seconds", 0, "use")))
@@ -221,7 +222,8 @@ function Actor:give(thing, to)
   await("give", host.give(self.id, object_id(thing, "give"), actor_id(to, "give")))
 end
 
--- Sits down on an object and stays until its next task, or stand().
+-- Sits down on an object and stays until it has to go elsewhere, or stand(): what it
+-- holds it uses sitting, and takes and puts what is in reach.
 function Actor:sit(thing, action)
   await("sit", host.use(self.id, object_id(thing, "sit"), action or "sit", 0))
 end

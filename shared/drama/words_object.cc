@@ -106,12 +106,14 @@ int Run::StandUp(lua_State* lua) {
   return PushTask(lua, stage_.tasks().Stand(CheckActorId(lua, 1)));
 }
 
-// use(actor, object, action, seconds) -> task
+// use(actor, object, action or nil, seconds) -> task
 int Run::Use(lua_State* lua) {
   CheckFreeActor(lua);
+  const std::vector<stage::ObjectAction>& actions = CheckObject(lua, 2).use().actions;
+  const std::string_view first = actions.empty() ? std::string_view() : actions.front().name;
   const auto seconds = static_cast<float>(CheckFinite(lua, 4, "seconds"));
   return PushTask(lua, stage_.tasks().Use(CheckActorId(lua, 1), CheckObjectId(lua, 2),
-                                          CheckText(lua, 3), seconds));
+                                          lua_isnil(lua, 3) ? first : CheckText(lua, 3), seconds));
 }
 
 // take(actor, object) -> task

@@ -203,7 +203,7 @@ class WalkingPose {
     ik.end = leg.ankle;
     ik.target = Actor(foot.ankle);
     // The knee points between where the body faces and where the foot points.
-    ik.pole = TurnY(0.6f * heading) * kForward;
+    ik.pole = TurnY(kKneeTurn * heading) * kForward;
     ik.hinge = glm::vec3(1.0f, 0.0f, 0.0f);
     ik.Solve(skeleton_, body_, pose_);
     const glm::quat sole = TurnY(heading) * TurnX(foot.print.slope_pitch) *

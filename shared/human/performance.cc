@@ -11,6 +11,7 @@ std::shared_ptr<const PerformanceModel> MakePerformanceModel(std::shared_ptr<con
   auto model = std::make_shared<PerformanceModel>();
   const Body body = MakeBody(human->skeleton);
   model->locomotion = MakeLocomotionModel(*human, body);
+  model->sitting = MakeSittingModel(*human, body);
   model->gaze = MakeGazeModel(body);
   model->reach = MakeReachModel(body);
   model->hands = MakeHandModel(human->skeleton, body);
@@ -32,6 +33,7 @@ void UpdatePerformance(const PerformanceModel& model,
   performance.time += static_cast<double>(seconds);
   UpdateAnimation(performance.animation, static_cast<double>(seconds));
   UpdateLocomotion(model.locomotion, position, heading, seconds, floor, performance.locomotion);
+  UpdateSitting(performance.sitting, seconds);
   UpdateGaze(model.gaze, position, heading, performance.seed, seconds, performance.gaze);
   for (size_t side = 0; side < 2; ++side) {
     UpdateReach(performance.reaches[side], seconds);
@@ -48,6 +50,7 @@ Performance Interpolate(const Performance& previous, const Performance& current,
   mixed.time = previous.time + static_cast<double>(alpha) * (current.time - previous.time);
   mixed.animation = Interpolate(previous.animation, current.animation, alpha);
   mixed.locomotion = Interpolate(previous.locomotion, current.locomotion, alpha);
+  mixed.sitting = Interpolate(previous.sitting, current.sitting, alpha);
   mixed.gaze = Interpolate(previous.gaze, current.gaze, alpha);
   for (size_t side = 0; side < 2; ++side) {
     mixed.reaches[side] = Interpolate(previous.reaches[side], current.reaches[side], alpha);
@@ -75,7 +78,8 @@ void Performer::Pose(const Performance& performance) {
   const LifeSample life = SampleLife(performance.seed, performance.time, performance.vigour);
   PoseBody(performance, life);
   ApplyLife(skeleton, body, life, pose_);
-  ApplyReachPosture(model_->reach, skeleton, performance.reaches, pose_);
+  ApplyReachPosture(model_->reach, skeleton, performance.reaches, SeatedShare(performance.sitting),
+                    pose_);
   Gaze gaze = performance.gaze;
   for (const Reach& reach : performance.reaches) {
     gaze.torso *= 1.0f - 0.8f * Goal(reach).weight;  // the trunk serves the hands first
@@ -100,7 +104,10 @@ void Performer::PoseBody(const Performance& performance, const LifeSample& life)
   const bool hidden =
       !fades && animation.clip != Animation::kNoClip && animation.part == BodyPart::kWhole;
   if (!hidden) {
-    ApplyLocomotion(model_->locomotion, human().skeleton, performance.locomotion, life, pose_);
+    Locomotion standing = performance.locomotion;
+    standing.settled *= 1.0f - performance.sitting.amount;  // a seat bears the weight
+    ApplyLocomotion(model_->locomotion, human().skeleton, standing, life, pose_);
+    ApplySitting(model_->sitting, model_->reach, human().skeleton, performance.sitting, pose_);
   }
   if (fades) {
     std::copy(pose_.begin(), pose_.end(), previous_pose_.begin());

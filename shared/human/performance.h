@@ -19,6 +19,7 @@
 #include "shared/human/life.h"
 #include "shared/human/locomotion.h"
 #include "shared/human/reach.h"
+#include "shared/human/sitting.h"
 
 namespace lararium::human {
 
@@ -26,13 +27,14 @@ struct Human;
 
 // Plain values: copy it, compare it, interpolate between two ticks of it. Where a
 // member is to be set from outside, its header says so; the functions there change it
-// (StartClip, StartReach, SetHandPose, SetExpression, ...).
+// (StartClip, SitDown, StartReach, SetHandPose, SetExpression, ...).
 struct Performance {
   uint64_t seed = 0;    // of everything that differs between people: set once
   double time = 0.0;    // seconds of life
   float vigour = 1.0f;  // of life, 0..1
   Animation animation;
   Locomotion locomotion;
+  Sitting sitting;
   Gaze gaze;
   std::array<Reach, 2> reaches;  // by side: kRight, kLeft
   std::array<HandState, 2> hands;
@@ -46,6 +48,7 @@ struct PerformanceModel {
   std::shared_ptr<const Human> human;
   std::vector<CompressedClip> clips;  // parallel to Human::clips
   LocomotionModel locomotion;
+  SittingModel sitting;
   GazeModel gaze;
   ReachModel reach;
   HandModel hands;
@@ -74,7 +77,7 @@ class Performer {
   const PerformanceModel& model() const { return *model_; }
   const Human& human() const { return *model_->human; }
 
-  // Clip or gait, life, posture, gaze, reach, fingers, face, in this order.
+  // Clip or gait and seat, life, posture, gaze, reach, fingers, face, in this order.
   void Pose(const Performance& performance);
 
   // Of the last pose, parallel to the skeleton's joints.

@@ -45,6 +45,12 @@ class Reacher {
     return {wrist * wrist_from_grip_.position, wrist.rotation * wrist_from_grip_.rotation};
   }
 
+  // Of the wrist from the shoulder, on its way to a goal.
+  glm::vec3 Way(const ReachGoal& goal) const {
+    const GripFrame palm = Mix(ActorFromPalm(), goal.actor_from_grip, goal.weight);
+    return ActorFromWrist(palm).position - Position(arm_.shoulder);
+  }
+
   void Bring(const ReachGoal& goal) {
     const GripFrame from = ActorFromPalm();
     GripFrame palm = Mix(from, goal.actor_from_grip, goal.weight);
@@ -146,12 +152,17 @@ class Reacher {
 
 // Of an arm's length: what lies further needs the trunk's help.
 constexpr float kComfortable = 0.92f;
+// Of an arm's length: what it reaches exactly.
+constexpr float kWithinReach = 0.99f;
 
 // The trunk bends in hips and spine over feet that stay, so that shoulders come nearer.
 class TrunkHelp {
  public:
-  TrunkHelp(const Body& body, const Skeleton& skeleton, std::span<JointTransform> pose)
-      : body_(body), skeleton_(skeleton), pose_(pose) {
+  TrunkHelp(const Body& body,
+            const Skeleton& skeleton,
+            float seated,
+            std::span<JointTransform> pose)
+      : body_(body), skeleton_(skeleton), pose_(pose), seated_(seated) {
     hips_share_ = body.walks() ? 0.4f : 0.0f;
     if (body.walks()) {
       pivot_ = hips_share_ * Position(body.root);
@@ -196,10 +207,37 @@ class TrunkHelp {
       TurnInActor(skeleton_, joint, share, pose_);
     }
     if (body_.walks()) {
+      const glm::vec3 hips = Hips();
       TurnInActor(skeleton_, body_.root, TurnBy(hips_share_ * turn), pose_);
       glm::vec3 back = 0.14f * body_.leg_length() * glm::cross(turn, kUp);
       back.y = 0.0f;
-      MoveRoot(-back);
+      MoveRoot(glm::mix(-back, hips - Hips(), seated_));
+    }
+  }
+
+  // What neither trunk nor arm makes up for: hips go down and over the feet as far as
+  // knees and balance allow, and the trunk bends the rest. way: from the shoulder to
+  // where the wrist has to be; missing: by how much it is too long.
+  void ComeNearer(const glm::vec3& shoulder, const glm::vec3& way, float missing) {
+    const glm::vec3 wanted = missing * Direction(way, -kUp);
+    const glm::vec3 before = moved_;
+    moved_ = WithinBalance(moved_ + (1.0f - seated_) * wanted);
+    MoveRoot(moved_ - before);
+    const float left = missing - std::max(glm::dot(moved_ - before, Direction(way, -kUp)), 0.0f);
+    const JointIndex waist = body_.spine.empty() ? kNoJoint : body_.spine.front();
+    if (waist == kNoJoint || left <= 0.0f) {
+      return;
+    }
+    constexpr float kMost = 0.6f;  // radians
+    const glm::vec3 lever = shoulder - Position(waist);
+    const glm::vec3 axis = Direction(glm::cross(lever, way), glm::vec3(-1.0f, 0.0f, 0.0f));
+    const float angle = std::min(left / std::max(glm::length(lever), 0.1f), kMost - bent_);
+    if (angle > 0.0f) {
+      bent_ += angle;
+      const glm::quat share = TurnBy(angle / static_cast<float>(body_.spine.size()) * axis);
+      for (const JointIndex joint : body_.spine) {
+        TurnInActor(skeleton_, joint, share, pose_);
+      }
     }
   }
 
@@ -220,26 +258,31 @@ class TrunkHelp {
 
   // The feet where they were before all this.
   void KeepFeet() {
-    for (size_t side = 0; body_.walks() && side < 2; ++side) {
-      const Body::Leg& leg = body_.legs[side];
-      const JointFrame& ankle = ankles_[side];
-      TwoBoneIk ik;
-      ik.upper = leg.hip;
-      ik.lower = leg.knee;
-      ik.end = leg.ankle;
-      ik.target = ankle.position;
-      const glm::quat turned =
-          ankle.rotation * glm::conjugate(body_.rest[static_cast<size_t>(leg.ankle)].rotation);
-      ik.pole = turned * (TurnY(leg.toe_out) * glm::vec3(0.0f, 0.0f, -1.0f));
-      ik.hinge = glm::vec3(1.0f, 0.0f, 0.0f);
-      ik.Solve(skeleton_, body_, pose_);
-      SetActorRotation(skeleton_, leg.ankle, ankle.rotation, pose_);
+    for (const int side : {kRight, kLeft}) {
+      if (body_.walks()) {
+        BringFoot(skeleton_, body_, side, ankles_[static_cast<size_t>(side)], pose_);
+      }
     }
   }
 
  private:
   glm::vec3 Position(JointIndex joint) const {
     return ActorFromJoint(skeleton_, pose_, joint).position;
+  }
+  glm::vec3 Hips() const {
+    return 0.5f * (Position(body_.legs[0].hip) + Position(body_.legs[1].hip));
+  }
+
+  // Heels on the floor: hips no lower than deep in the knees, no further aside than feet.
+  glm::vec3 WithinBalance(const glm::vec3& moved) const {
+    const float lowest = -0.42f * body_.leg_length();
+    const float furthest = 0.16f * body_.leg_length();
+    glm::vec3 within(moved.x, std::clamp(moved.y, lowest, 0.02f * body_.leg_length()), moved.z);
+    const float aside = glm::length(glm::vec2(within.x, within.z));
+    const float share = std::min(1.0f, furthest / std::max(aside, 1e-6f));
+    within.x *= share;
+    within.z *= share;
+    return within;
   }
 
   static glm::vec3 RotationVector(const glm::quat& turn) {
@@ -252,8 +295,11 @@ class TrunkHelp {
   const Body& body_;
   const Skeleton& skeleton_;
   std::span<JointTransform> pose_;
+  float seated_ = 0.0f;
   glm::vec3 pivot_ = glm::vec3(0.0f);
   float hips_share_ = 0.0f, spine_share_ = 0.0f;
+  glm::vec3 moved_ = glm::vec3(0.0f);  // by ComeNearer()
+  float bent_ = 0.0f;
   std::array<JointFrame, 2> ankles_;
 };
 
@@ -263,8 +309,13 @@ class ReachPosture {
   ReachPosture(const ReachModel& model,
                const Skeleton& skeleton,
                const std::array<Reach, 2>& reaches,
+               float seated,
                std::span<JointTransform> pose)
-      : model_(model), skeleton_(skeleton), pose_(pose), trunk_(model.body, skeleton, pose) {
+      : model_(model),
+        skeleton_(skeleton),
+        pose_(pose),
+        seated_(seated),
+        trunk_(model.body, skeleton, seated, pose) {
     for (const int side : {kRight, kLeft}) {
       const bool whole = Arm(side).whole();
       goals_[static_cast<size_t>(side)] =
@@ -278,11 +329,12 @@ class ReachPosture {
       trunk_.Turn(turn);
       LetArmsHang(turn);
     }
-    const float drop = Drop();
+    const float drop = (1.0f - seated_) * Drop();
     if (drop > 0.0f) {
       trunk_.MoveRoot(-drop * kUp);
     }
-    if (glm::length(turn) > 1e-5f || drop > 0.0f) {
+    const bool came = ComeNearer();
+    if (glm::length(turn) > 1e-5f || drop > 0.0f || came) {
       trunk_.KeepFeet();
     }
   }
@@ -290,6 +342,33 @@ class ReachPosture {
  private:
   const Body::Arm& Arm(int side) const { return model_.body.arms[static_cast<size_t>(side)]; }
   const ReachGoal& GoalOf(int side) const { return goals_[static_cast<size_t>(side)]; }
+
+  // Until both arms reach, or nothing helps any more. Whether anything moved.
+  bool ComeNearer() {
+    constexpr int kRounds = 12;
+    bool moved = false;
+    for (int round = 0; round < kRounds; ++round) {
+      float most = 0.0f;
+      for (const int side : {kRight, kLeft}) {
+        if (GoalOf(side).weight <= 0.0f) {
+          continue;
+        }
+        const Reacher reacher(model_, skeleton_, side, pose_);
+        const glm::vec3 way = reacher.Way(GoalOf(side));
+        const float slack = 0.03f * (1.0f - GoalOf(side).weight);  // arms may hang straight
+        const float missing = glm::length(way) - (kWithinReach + slack) * reacher.Length();
+        if (missing > 0.0f) {
+          most = std::max(most, missing);
+          trunk_.ComeNearer(reacher.Position(Arm(side).shoulder), way, missing);
+        }
+      }
+      if (most < 1e-4f) {
+        break;
+      }
+      moved = true;
+    }
+    return moved;
+  }
 
   glm::vec3 ChestTurn() const {
     constexpr float kMost = 1.25f;
@@ -336,6 +415,7 @@ class ReachPosture {
   const ReachModel& model_;
   const Skeleton& skeleton_;
   std::span<JointTransform> pose_;
+  float seated_;
   TrunkHelp trunk_;
   std::array<ReachGoal, 2> goals_;
 };
@@ -446,8 +526,9 @@ GripFrame ActorFromPalm(const ReachModel& model,
 void ApplyReachPosture(const ReachModel& model,
                        const Skeleton& skeleton,
                        const std::array<Reach, 2>& reaches,
+                       float seated,
                        std::span<JointTransform> pose) {
-  ReachPosture(model, skeleton, reaches, pose).Apply();
+  ReachPosture(model, skeleton, reaches, seated, pose).Apply();
 }
 
 void ApplyReach(const ReachModel& model,

@@ -72,9 +72,11 @@ GripFrame ActorFromPalm(const ReachModel& model,
                         int side);
 
 // Bends trunk, and knees for what is low, towards grips that arms cannot reach alone.
+// Feet stay. seated: 0..1, how much a seat bears the body: hips that it bears stay too.
 void ApplyReachPosture(const ReachModel& model,
                        const Skeleton& skeleton,
                        const std::array<Reach, 2>& reaches,
+                       float seated,
                        std::span<JointTransform> pose);
 // Then clavicle and arm bring the palm to its grip.
 void ApplyReach(const ReachModel& model,

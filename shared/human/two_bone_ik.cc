@@ -64,4 +64,25 @@ float TwoBoneIk::Solve(const Skeleton& skeleton,
   return glm::distance(a + distance * direction, target);
 }
 
+void BringFoot(const Skeleton& skeleton,
+               const Body& body,
+               int side,
+               const JointFrame& ankle,
+               std::span<JointTransform> pose) {
+  const Body::Leg& leg = body.legs[static_cast<size_t>(side)];
+  const glm::vec3 forward(0.0f, 0.0f, -1.0f);
+  const glm::quat turned =
+      ankle.rotation * glm::conjugate(body.rest[static_cast<size_t>(leg.ankle)].rotation);
+  const glm::vec3 points = turned * (TurnY(leg.toe_out) * forward);
+  TwoBoneIk ik;
+  ik.upper = leg.hip;
+  ik.lower = leg.knee;
+  ik.end = leg.ankle;
+  ik.target = ankle.position;
+  ik.pole = TurnY(kKneeTurn * std::atan2(-points.x, -points.z)) * forward;
+  ik.hinge = glm::vec3(1.0f, 0.0f, 0.0f);
+  ik.Solve(skeleton, body, pose);
+  SetActorRotation(skeleton, leg.ankle, ankle.rotation, pose);
+}
+
 }  // namespace lararium::human

@@ -28,4 +28,15 @@ struct TwoBoneIk {
   float Solve(const Skeleton& skeleton, const Body& body, std::span<JointTransform> pose) const;
 };
 
+// How much of the foot's turn the knee takes part in.
+inline constexpr float kKneeTurn = 0.6f;
+
+// Bends a whole leg so that its foot is there again: ankle in the actor frame. The knee
+// points between where the body faces and where the foot does.
+void BringFoot(const Skeleton& skeleton,
+               const Body& body,
+               int side,
+               const JointFrame& ankle,
+               std::span<JointTransform> pose);
+
 }  // namespace lararium::human

@@ -24,6 +24,11 @@ Pose StageFromActorPose(const ActorState& state) {
   return {state.position, glm::angleAxis(state.heading, glm::vec3(0.0f, 1.0f, 0.0f))};
 }
 
+Pose StageFromUpperBody(const Actor& actor) {
+  return StageFromActorPose(actor.state) *
+         Pose{human::HipsShift(actor.model->sitting, actor.state.performance.sitting)};
+}
+
 glm::vec2 Direction(float heading) { return {-std::sin(heading), -std::cos(heading)}; }
 
 float HeadingOf(glm::vec2 direction) { return std::atan2(-direction.x, -direction.y); }

@@ -94,6 +94,9 @@ struct Actor {
 // stage_from_actor of an actor that stands and faces as its state says.
 glm::mat4 StageFromActor(const ActorState& state);
 Pose StageFromActorPose(const ActorState& state);
+// Likewise, moved along with hips that sink onto a seat: where arms and eyes are as they
+// are upright.
+Pose StageFromUpperBody(const Actor& actor);
 
 // The way that somebody faces who has a heading, (x, z), and back.
 glm::vec2 Direction(float heading);

@@ -16,9 +16,7 @@ constexpr float kInView = 1.4f;     // radians to either side
 constexpr float kListenFor = 8.0f;  // metres from which speech is listened to
 constexpr size_t kMaxPeople = 64;
 
-glm::vec3 EyesOf(const Actor& actor) {
-  return StageFromActorPose(actor.state) * actor.model->gaze.eyes;
-}
+glm::vec3 EyesOf(const Actor& actor) { return StageFromUpperBody(actor) * actor.model->gaze.eyes; }
 
 // How far it is to a point, and whether it lies before the actor.
 bool IsInView(const Actor& actor, const glm::vec3& point, float within) {

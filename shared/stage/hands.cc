@@ -48,7 +48,7 @@ void AdvanceHeld(World& world, Object& object, float seconds) {
     return;
   }
   object.held.time += seconds;
-  object.state.stage_from_object = StageFromActorPose(holder->state) * object.held.now();
+  object.state.stage_from_object = StageFromUpperBody(*holder) * object.held.now();
   MoveHands(*holder, object, object.state.hands);
   if (object.state.hand < 0) {
     return;
@@ -226,8 +226,7 @@ float CarriedTurn(const ObjectUse& use) {
 void TakeHold(World& world, ActorId actor, ObjectId id, const HandGrips& hands) {
   Object& object = world.object(id);
   ObjectState& state = object.state;
-  const Pose here =
-      StageFromActorPose(world.actor(actor).state).Inverse() * state.stage_from_object;
+  const Pose here = StageFromUpperBody(world.actor(actor)).Inverse() * state.stage_from_object;
   object.held = {here, here, 0.0f, 0.0f};
   state.holder = actor;
   state.hands = hands;

@@ -27,7 +27,7 @@ std::optional<HandGrips> ChooseReceivingHands(const World& world,
                                               ObjectId object,
                                               const Pose& actor_from_object);
 
-// Where an actor carries an object with these hands: actor_from_object.
+// Where an actor carries an object with these hands, in the frame of its upper body.
 Pose CarryPose(const Actor& actor, const Object& object, const HandGrips& hands);
 // How an object lies to whoever carries it, about +Y, radians: who takes it or puts it
 // down with this turn against the own heading need not twist the hands.

@@ -58,7 +58,7 @@ struct Object {
   Pose initial_pose;  // stage_from_object
   ObjectState state;
 
-  // While it is held: where it is in its holder's frame, on its way from one pose to
+  // While it is held: where it is in the frame of its holder's upper body, on its way from one pose to
   // another (minimum jerk).
   struct Held {
     Pose from;

@@ -92,7 +92,7 @@ struct ObjectAction {
     Pose pose;
   };
   struct Seat {
-    glm::vec3 position = glm::vec3(0.0f);  // where the hip joints come to lie, object frame
+    glm::vec3 position = glm::vec3(0.0f);  // on its surface, below the hip joints; object frame
     float heading = 0.0f;
   };
 

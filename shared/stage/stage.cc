@@ -265,6 +265,7 @@ void Stage::Place(ActorId id, const glm::vec3& position, float heading) {
   }
   actor->state.position = position;
   actor->state.heading = heading;
+  actor->state.performance.sitting = {};
 }
 
 void Stage::Show(ActorId id, bool visible) {
@@ -280,6 +281,7 @@ void Stage::Show(ActorId id, bool visible) {
   }
   actor->state.visible = visible;
   actor->state.performance.locomotion.placed = false;
+  actor->state.performance.sitting = {};
 }
 
 void Stage::Place(ObjectId id, const Pose& stage_from_object) {

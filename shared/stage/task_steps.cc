@@ -21,7 +21,8 @@ constexpr float kLowerSeconds = 0.5f;
 constexpr float kAbove = 0.10f;  // metres
 constexpr float kOfferSeconds = 0.9f;
 constexpr float kBothSeconds = 0.35f;  // that both hold it
-constexpr float kSitSeconds = 1.2f;
+constexpr float kBackUpPace = 0.35f;   // m/s, backwards to a seat
+constexpr float kFeetStand = 1.5f;     // seconds at most that feet take to come to rest
 constexpr float kClipFade = 0.3f;
 constexpr float kOfferHeight = 1.12f;  // metres, between people 1.7 m tall
 constexpr float kGreet = 2.5f;         // metres from which one turns to who comes
@@ -32,7 +33,7 @@ float MinimumJerk(float t) {
 }
 
 Pose InHolderFrame(const Actor& holder, const Pose& stage_from_object) {
-  return StageFromActorPose(holder.state).Inverse() * stage_from_object;
+  return StageFromUpperBody(holder).Inverse() * stage_from_object;
 }
 
 void PlayClip(Actor& actor, int clip) {
@@ -41,10 +42,10 @@ void PlayClip(Actor& actor, int clip) {
 
 // Where the object comes between two people, upright, its front to who gives.
 Pose Between(const Actor& giver, const Actor& receiver) {
-  const float height = 0.5f * (ScaledTo(giver, {{0.0f, kOfferHeight, 0.0f}}).position.y +
-                               ScaledTo(receiver, {{0.0f, kOfferHeight, 0.0f}}).position.y);
-  glm::vec3 middle = 0.5f * (giver.state.position + receiver.state.position);
-  middle.y = giver.state.position.y + height;
+  const Pose offer = {{0.0f, kOfferHeight, 0.0f}};
+  const glm::vec3 middle =
+      0.5f * ((StageFromUpperBody(giver) * ScaledTo(giver, offer)).position +
+              (StageFromUpperBody(receiver) * ScaledTo(receiver, offer)).position);
   return {middle, StageFromActorPose(giver.state).rotation};
 }
 
@@ -73,10 +74,17 @@ Pose SamplePath(const std::vector<ObjectAction::Key>& path,
 void Tasks::Enter(Task& task, Phase phase) {
   task.phase = phase;
   task.time = 0.0f;
-  if (phase == Phase::kSit || phase == Phase::kRise) {
-    task.begin = StageFromActorPose(world_.actor(task.actor).state);
-  }
-  if (phase == Phase::kRise) {
+  Actor& actor = world_.actor(task.actor);
+  human::Performance& performance = actor.state.performance;
+  const float seconds =
+      human::SittingSeconds(actor.model->locomotion.body, performance.locomotion.style.cadence);
+  if (phase == Phase::kBackUp) {
+    task.begin = StageFromActorPose(actor.state);
+  } else if (phase == Phase::kSit) {
+    const Pose actor_from_seat = StageFromActorPose(actor.state).Inverse() * task.seat;
+    human::SitDown(performance.sitting, actor_from_seat.position, seconds);
+  } else if (phase == Phase::kRise) {
+    human::StandUp(performance.sitting, seconds);
     EndAction(task);  // moves as it did before it sat down
   }
 }
@@ -108,6 +116,10 @@ void Tasks::Abandon(Task& task) {
   }
   if (task.kind == Kind::kUse) {
     EndAction(task);
+    if (object->use().actions[static_cast<size_t>(task.action)].seat) {
+      human::Sitting& sitting = actor.state.performance.sitting;
+      human::StandUp(sitting, sitting.seconds);
+    }
   }
   for (const auto& [id, hands] :
        {std::pair(task.actor, task.hands), std::pair(task.partner, task.partner_hands)}) {
@@ -144,7 +156,7 @@ void Tasks::Step(Task& task, float seconds) {
     }
     if (task.kind == Kind::kGive && task.phase == Phase::kApproach) {
       Actor& partner = world_.actor(task.partner);
-      if (glm::distance(actor.place(), partner.place()) < kGreet) {
+      if (glm::distance(actor.place(), partner.place()) < kGreet && !Sits(task.partner)) {
         TurnTowards(partner, HeadingOf(actor.place() - partner.place()), seconds);
       }
     }
@@ -175,7 +187,7 @@ void Tasks::Arrive(Task& task) {
   if (task.kind == Kind::kUse || task.kind == Kind::kTake) {
     if (task.kind == Kind::kUse && object.use().actions[static_cast<size_t>(task.action)].seat) {
       task.clip_before = actor.state.performance.animation.clip;
-      Enter(task, Phase::kSit);
+      BeginSeat(task);
       return;
     }
     task.reach_seconds = ReachFor(actor, object, task.hands);
@@ -232,35 +244,54 @@ void Tasks::FollowPath(const Task& task, Object& object) {
   object.held = {pose, pose, 0.0f, 0.0f, task.time >= action.duration, false};
 }
 
+// Where it will sit, and stand to sit down.
+void Tasks::BeginSeat(Task& task) {
+  const Object& object = world_.object(task.object);
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  const human::SittingModel& model = world_.actor(task.actor).model->sitting;
+  const glm::vec2 direction = Direction(action.seat->heading);
+  const glm::vec3& at = action.seat->position;
+  float front = 0.0f;
+  for (const glm::vec2& corner : object.use().footprint.outline) {
+    front = std::max(front, glm::dot(corner - glm::vec2(at.x, at.z), direction));
+  }
+  const float forward = human::ForwardOnSeat(model, front);
+  task.seat = object.state.stage_from_object *
+              Pose{at, glm::angleAxis(action.seat->heading, glm::vec3(0.0f, 1.0f, 0.0f))} *
+              Pose{{0.0f, 0.0f, -forward}};
+  Enter(task, Phase::kBackUp);
+  const float height = task.seat.position.y - task.begin.position.y;
+  task.stand =
+      task.seat * Pose{{0.0f, 0.0f, -human::StandBeforeSeat(model, height, front - forward)}};
+  task.stand.position.y = task.begin.position.y;
+  const float way = glm::distance(task.stand.position, task.begin.position);
+  task.reach_seconds = std::max(0.3f, 1.9f * way / kBackUpPace);
+}
+
 void Tasks::StepSeat(Task& task) {
   Object& object = world_.object(task.object);
   Actor& actor = world_.actor(task.actor);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
-  const float done = MinimumJerk(task.time / kSitSeconds);
-  Pose goal;
-  if (task.phase == Phase::kSit) {
-    const Pose& base = object.state.stage_from_object;
-    goal = base * Pose{action.seat->position,
-                       glm::angleAxis(action.seat->heading, glm::vec3(0.0f, 1.0f, 0.0f))};
-  } else {
-    const ApproachPlace& place = object.use().places[static_cast<size_t>(task.place)];
-    goal = object.state.stage_from_object * Pose{{place.position.x, 0.0f, place.position.y}};
-    goal.rotation = task.begin.rotation;
-  }
-  goal.position.y = task.begin.position.y;
-  const Pose pose = Mix(task.begin, goal, done);
-  actor.state.position = pose.position;
-  const glm::vec3 forward = pose.rotation * glm::vec3(0.0f, 0.0f, -1.0f);
-  actor.state.heading = HeadingOf({forward.x, forward.z});
-  if (task.phase == Phase::kSit && task.time > 0.3f * kSitSeconds && object.state.action < 0) {
-    PlayClip(actor, FindClip(actor.human(), "sit"));
-    object.state.action = static_cast<int8_t>(task.action);
-  }
-  if (task.time < kSitSeconds) {
+  const human::Performance& performance = actor.state.performance;
+  if (task.phase == Phase::kBackUp) {
+    const Pose pose = Mix(task.begin, task.stand, MinimumJerk(task.time / task.reach_seconds));
+    actor.state.position = pose.position;
+    actor.state.heading = HeadingOf(pose.rotation);
+    const float stands = task.time - task.reach_seconds;
+    if (stands > kFeetStand || (stands > 0.1f && !performance.locomotion.stepping)) {
+      Enter(task, Phase::kSit);
+      PlayClip(actor, human::Animation::kNoClip);  // one that moves all of it would hide this
+      object.state.action = static_cast<int8_t>(task.action);
+    }
     return;
   }
   if (task.phase == Phase::kRise) {
-    task.stage = Stage::kDone;
+    if (performance.sitting.amount <= 0.0f) {
+      task.stage = Stage::kDone;
+    }
+    return;
+  }
+  if (performance.sitting.amount < 1.0f) {
     return;
   }
   if (action.to >= 0) {
@@ -272,7 +303,7 @@ void Tasks::StepSeat(Task& task) {
 }
 
 void Tasks::StepAct(Task& task) {
-  if (task.phase == Phase::kSit || task.phase == Phase::kRise) {
+  if (task.phase == Phase::kBackUp || task.phase == Phase::kSit || task.phase == Phase::kRise) {
     StepSeat(task);
     return;
   }
@@ -414,7 +445,7 @@ void Tasks::StepGive(Task& task, float seconds) {
   Object& object = world_.object(task.object);
   Actor& giver = world_.actor(task.actor);
   Actor& receiver = world_.actor(task.partner);
-  if (task.phase == Phase::kOffer || task.phase == Phase::kReach) {
+  if ((task.phase == Phase::kOffer || task.phase == Phase::kReach) && !Sits(task.partner)) {
     TurnTowards(receiver, HeadingOf(giver.place() - receiver.place()), seconds);
   }
   switch (task.phase) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <numbers>
 
 #include "shared/stage/hands.h"
 #include "shared/stage/walking.h"
@@ -22,6 +23,7 @@ constexpr float kReachFurthest = 0.75f;
 constexpr float kTwistAllowed = 0.5f;  // radians that hands may twist
 constexpr float kGiveNearest = 0.75f;  // metres between two people
 constexpr float kGiveFurthest = 1.05f;
+constexpr float kBeforeSeat = 0.8f;     // radians aside, of who gives to somebody who sits
 constexpr float kMakeWayWithin = 0.5f;  // metres
 constexpr float kMakeWayStuck = 0.75f;
 constexpr float kStuckAfter = 1.5f;   // seconds
@@ -76,13 +78,7 @@ Result<TaskId> Tasks::Begin(Task task) {
     std::erase_if(
         tasks_, [](const Task& t) { return t.stage == Stage::kDone || t.stage == Stage::kFailed; });
   }
-  // Who sat down gets up for the next thing, so that nobody keeps a seat while waiting.
-  for (Task& other : tasks_) {
-    if (other.actor == task.actor && other.stage == Stage::kLingering) {
-      other.stage = Stage::kRunning;
-      Enter(other, Phase::kRise);
-    }
-  }
+  GetsUpFor(task);  // so that nobody keeps a seat while waiting
   task.id = ++last_;
   tasks_.push_back(std::move(task));
   return last_;
@@ -147,12 +143,6 @@ Result<TaskId> Tasks::Use(ActorId actor, ObjectId object, std::string_view actio
     return Status::Error(Quoted(of->name), "has no action " + Quoted(std::string(action)),
                          known.empty() ? "it has none" : "it has " + known);
   }
-  const ObjectAction& what = of->use().actions[static_cast<size_t>(task.action)];
-  const Actor* who = world_.actors.Find(actor);
-  if (what.seat && who != nullptr && FindClip(who->human(), "sit") < 0) {
-    return Status::Error(Quoted(who->name), "has no clip 'sit' and cannot sit down",
-                         "give the figure one");
-  }
   return Begin(std::move(task));
 }
 
@@ -208,6 +198,83 @@ Result<TaskId> Tasks::Give(ActorId actor, ObjectId object, ActorId to) {
   task.partner = to;
   task.object = object;
   return Begin(std::move(task));
+}
+
+// ---- sitting ----
+
+Tasks::Task* Tasks::SeatOf(ActorId actor) {
+  const auto found = std::find_if(tasks_.begin(), tasks_.end(), [actor](const Task& task) {
+    return task.actor == actor && task.stage == Stage::kLingering;
+  });
+  return found == tasks_.end() ? nullptr : &*found;
+}
+
+bool Tasks::Sits(ActorId actor) const { return const_cast<Tasks*>(this)->SeatOf(actor) != nullptr; }
+
+bool Tasks::CanReachSitting(ActorId id, const glm::vec3& point) const {
+  constexpr float kFurthest = 0.78f;                 // metres, of somebody 1.7 m tall
+  constexpr float kLowest = 0.70f, kHighest = 1.7f;  // as if upright
+  constexpr float kAside = 1.1f;                     // radians
+  const Actor& actor = world_.actor(id);
+  Pose at = StageFromUpperBody(actor).Inverse() * Pose{point};
+  at.position /= ScaledTo(actor, {{1.0f, 0.0f, 0.0f}}).position.x;
+  const glm::vec2 way = OnFloor(at.position);
+  return glm::length(way) < kFurthest && std::abs(HeadingOf(way)) < kAside &&
+         at.position.y > kLowest && at.position.y < kHighest;
+}
+
+bool Tasks::IsDoneSitting(const Task& task) const {
+  const Object* object = world_.objects.Find(task.object);
+  switch (task.kind) {
+    case Kind::kWalk:
+      return false;
+    case Kind::kUse:
+      return object->use().actions[static_cast<size_t>(task.action)].held;
+    case Kind::kTake:
+      return object->state.holder == task.actor ||
+             CanReachSitting(task.actor, object->state.stage_from_object.position);
+    case Kind::kPut: {
+      const Object* on = world_.objects.Find(task.target.object);
+      if (on == nullptr) {
+        return false;
+      }
+      for (size_t s = 0; s < on->use().surfaces.size(); ++s) {
+        for (size_t i = 0; i < on->use().surfaces[s].spots.size(); ++i) {
+          if (IsSpotFor(task, static_cast<int>(s), static_cast<int>(i)) &&
+              !IsOccupied(world_, task.target.object, static_cast<int>(s), static_cast<int>(i))) {
+            return true;
+          }
+        }
+      }
+      return false;
+    }
+    case Kind::kGive:
+      return glm::distance(world_.actor(task.actor).place(), world_.actor(task.partner).place()) <
+             kGiveFurthest;
+  }
+  return false;
+}
+
+// Of the surface that was asked for, and in reach of who sits.
+bool Tasks::IsSpotFor(const Task& task, int surface, int spot) const {
+  if (task.target.surface >= 0 && task.target.surface != surface) {
+    return false;
+  }
+  const Object& on = world_.object(task.target.object);
+  return !Sits(task.actor) ||
+         CanReachSitting(task.actor, (on.state.stage_from_object *
+                                      ObjectFromSpot(*on.model, on.state.joints, surface, spot))
+                                         .position);
+}
+
+bool Tasks::GetsUpFor(const Task& task) {
+  Task* seat = SeatOf(task.actor);
+  if (seat == nullptr || IsDoneSitting(task)) {
+    return false;
+  }
+  seat->stage = Stage::kRunning;
+  Enter(*seat, Phase::kRise);
+  return true;
 }
 
 const Tasks::Task* Tasks::Find(TaskId id) const {
@@ -392,6 +459,10 @@ bool Tasks::Grant(Task& task) {
     Fail(task, Quoted(actor.name) + " is not on the stage; place it first");
     return true;
   }
+  const bool gets_up = actor.state.performance.sitting.amount > 0.0f && !Sits(task.actor);
+  if (gets_up || GetsUpFor(task)) {
+    return false;
+  }
   switch (task.kind) {
     case Kind::kWalk:
       if (task.only_turns) {
@@ -443,6 +514,10 @@ bool Tasks::Approach(Task& task, glm::vec2 goal, std::optional<float> heading) {
 }
 
 bool Tasks::ApproachNear(Task& task, const glm::vec3& point, std::optional<float> facing) {
+  if (Sits(task.actor)) {
+    Arrive(task);
+    return true;
+  }
   const Actor& actor = world_.actor(task.actor);
   const glm::vec2 on_floor = OnFloor(point);
   const float distance = glm::distance(actor.place(), on_floor);
@@ -464,6 +539,10 @@ bool Tasks::ApproachNear(Task& task, const glm::vec3& point, std::optional<float
 }
 
 bool Tasks::ApproachPlaceOf(Task& task, ObjectId id, int place) {
+  if (Sits(task.actor)) {
+    Arrive(task);
+    return true;
+  }
   if (IsPlaceTaken(id, place, task)) {
     return false;
   }
@@ -611,12 +690,12 @@ bool Tasks::GrantPut(Task& task) {
   int spot = -1;
   bool may_become_free = false;
   for (size_t s = 0; s < on.use().surfaces.size(); ++s) {
-    if (task.target.surface >= 0 && static_cast<size_t>(task.target.surface) != s) {
-      continue;
-    }
     for (size_t i = 0; i < on.use().surfaces[s].spots.size(); ++i) {
       const int at_s = static_cast<int>(s);
       const int at_i = static_cast<int>(i);
+      if (!IsSpotFor(task, at_s, at_i)) {
+        continue;
+      }
       const bool is_wanted = std::any_of(tasks_.begin(), tasks_.end(), [&](const Task& other) {
         return other.id != task.id && other.kind == Kind::kPut && other.stage == Stage::kRunning &&
                other.target.object == task.target.object && other.target.surface == at_s &&
@@ -684,19 +763,31 @@ bool Tasks::GrantGive(Task& task) {
     return true;
   }
   task.hands = object.state.hands;
-  const float distance = glm::distance(actor.place(), partner.place());
+  if (Sits(task.actor)) {
+    Arrive(task);
+    return true;
+  }
+  // Who sits takes it from the front.
+  const glm::vec2 to = OnFloor(StageFromUpperBody(partner).position);
+  const float distance = glm::distance(actor.place(), to);
+  std::optional<float> facing;
+  if (Sits(task.partner)) {
+    facing = partner.state.heading + std::numbers::pi_v<float>;
+  }
+  const bool is_before =
+      !facing || std::abs(TurnBetween(*facing, HeadingOf(to - actor.place()))) < kBeforeSeat;
   std::optional<glm::vec2> stand;
-  if (distance >= 0.8f * kGiveNearest && distance <= kGiveFurthest) {
+  if (distance >= 0.8f * kGiveNearest && distance <= kGiveFurthest && is_before) {
     stand = actor.place();
   } else {
-    stand = FindStand(world_, task.actor, partner.place(), kGiveNearest, kGiveFurthest);
+    stand = FindStand(world_, task.actor, to, kGiveNearest, kGiveFurthest, facing);
   }
   if (!stand) {
     Fail(task, what() + ", who is out of reach");
     return true;
   }
   EndWalk(world_, world_.actor(task.partner));
-  return Approach(task, *stand, HeadingOf(partner.place() - *stand));
+  return Approach(task, *stand, HeadingOf(to - *stand));
 }
 
 // ---- waiting ----

@@ -79,6 +79,7 @@ class Tasks {
 
   // Whether the actor does or is about to do something, and with which object.
   bool IsBusy(ActorId actor) const;
+  bool Sits(ActorId actor) const;
   std::optional<ObjectId> ObjectOf(ActorId actor) const;
 
   // Whether there is anything to do.
@@ -95,6 +96,7 @@ class Tasks {
     kApproach,
     kReach,
     kAct,
+    kBackUp,  // to where one sits down from
     kSit,
     kRise,
     kCarry,  // the object comes to where it is carried
@@ -131,6 +133,8 @@ class Tasks {
     float reach_seconds = 0.0f;
     std::array<float, ObjectUse::kMaxJoints> joints = {};  // when the action began
     Pose begin;                                            // of whatever moves in the phase
+    Pose seat;                                             // stage frame, on its surface
+    Pose stand;                                            // of the actor that sits down
     int clip_before = -1;
     std::string message;
   };
@@ -138,6 +142,13 @@ class Tasks {
   Result<TaskId> Begin(Task task);
   Status CheckActor(ActorId actor) const;
   const Task* Find(TaskId id) const;
+  Task* SeatOf(ActorId actor);
+  // Whether somebody who sits need not get up for it.
+  bool IsDoneSitting(const Task& task) const;
+  bool IsSpotFor(const Task& task, int surface, int spot) const;
+  bool CanReachSitting(ActorId actor, const glm::vec3& point) const;
+  // Who sits gets up for what is not done sitting: whether somebody has to wait for that.
+  bool GetsUpFor(const Task& task);
 
   // ---- whose turn it is (tasks.cc) ----
   void GrantTurns();
@@ -166,6 +177,7 @@ class Tasks {
   void StepAct(Task& task);
   void MoveJoints(const Task& task, Object& object) const;
   void FollowPath(const Task& task, Object& object);
+  void BeginSeat(Task& task);
   void StepSeat(Task& task);
   void StepReach(Task& task);
   Pose PutGoal(const Task& task) const;

@@ -28,7 +28,7 @@ void ApplyBoth(const ReachModel& model,
                const Skeleton& skeleton,
                const std::array<Reach, 2>& reaches,
                Pose& pose) {
-  ApplyReachPosture(model, skeleton, reaches, pose);
+  ApplyReachPosture(model, skeleton, reaches, 0.0f, pose);
   for (const int side : {kRight, kLeft}) {
     ApplyReach(model, skeleton, reaches[static_cast<size_t>(side)], side, pose);
   }

@@ -31,6 +31,25 @@ class BodyTest : public ::testing::Test {
     stage_.Advance();
     stage_.Perform();
   }
+  void Finish(const Result<TaskId>& task) {
+    ASSERT_TRUE(task.ok()) << task.message();
+    for (int tick = 0; tick < 60 * 120 && !stage_.tasks().report(*task).over(); ++tick) {
+      Tick();
+    }
+    EXPECT_EQ(stage_.tasks().report(*task).state, TaskReport::State::kDone)
+        << stage_.tasks().report(*task).message;
+  }
+  // Of the body as it is drawn: the middle between the hip joints, stage frame.
+  glm::vec3 Hips() {
+    performer_.Pose(State().performance);
+    glm::vec3 middle(0.0f);
+    for (const human::Body::Leg& leg : performer_.model().sitting.body.legs) {
+      middle +=
+          0.5f *
+          human::ActorFromJoint(performer_.human().skeleton, performer_.pose(), leg.hip).position;
+    }
+    return StageFromActorPose(State()) * middle;
+  }
   const ActorState& State() { return stage_.Find(keeper_)->state; }
 
   // Of the body as it is drawn, stage frame.
@@ -94,6 +113,79 @@ TEST_F(BodyTest, WhatIsCarriedStaysInTheHandAndUpright) {
   }
   EXPECT_LT(furthest, 1e-4f);
   EXPECT_GT(most_tilted, 0.995f) << "within 6 degrees";
+}
+
+TEST_F(BodyTest, SitsOnAStoolDrinksThereAndGetsUp) {
+  const ObjectId stool = AddObject("stool", test::MakeStool(), 0, 0);
+  const ObjectId cup = AddObject("cup", test::MakeCup(), 1.5f, -1.5f);
+  stage_.SetState(cup, 1);
+  Place(1, -3);
+  Finish(stage_.tasks().Take(keeper_, cup));
+  Finish(stage_.tasks().Use(keeper_, stool, "sit", 0.0f));
+  ASSERT_TRUE(stage_.tasks().Sits(keeper_));
+  const human::SittingModel& model = performer_.model().sitting;
+  EXPECT_NEAR(Hips().y, 0.46f + model.seat_to_hips, 0.01f);
+  EXPECT_LT(glm::length(glm::vec2(Hips().x, Hips().z - 0.02f)), 0.05f) << "over the seat";
+  EXPECT_LT(std::abs(State().heading), 0.05f);
+
+  const auto drink = stage_.tasks().Use(keeper_, cup, "drink", 0.0f);
+  const glm::vec3 feet = State().position;
+  float nearest = 1.0f;
+  float missed = 0.0f;
+  while (!stage_.tasks().report(*drink).over()) {
+    Tick();
+    const Object& object = *stage_.Find(cup);
+    const Pose palm = StageFromPalm(human::kRight);
+    const Pose grip = object.state.stage_from_object *
+                      ObjectFromGrip(*object.model, object.state.joints, object.state.hands[0]);
+    missed = std::max(missed, glm::distance(palm.position, grip.position));
+    const glm::vec3 mouth =
+        StageFromUpperBody(*stage_.Find(keeper_)) * glm::vec3(0.0f, 1.5f, -0.1f);
+    nearest = std::min(nearest, glm::distance(object.state.stage_from_object.position, mouth));
+  }
+  EXPECT_LT(missed, 0.005f);
+  EXPECT_LT(nearest, 0.2f);
+  EXPECT_TRUE(stage_.tasks().Sits(keeper_)) << "nobody gets up to drink";
+  EXPECT_EQ(State().position, feet);
+
+  Finish(stage_.tasks().Walk(keeper_, {1, -2}, {}, 0.0f));
+  EXPECT_EQ(State().performance.sitting.amount, 0.0f);
+  EXPECT_LT(glm::distance(stage_.Find(keeper_)->place(), glm::vec2(1, -2)), 0.05f);
+}
+
+TEST_F(BodyTest, FeetStandWhileTheBodySitsDownAndGetsUp) {
+  const ObjectId stool = AddObject("stool", test::MakeStool(), 0, 0);
+  Place(1, -3);
+  const auto sit = stage_.tasks().Use(keeper_, stool, "sit", 0.0f);
+  std::array<glm::vec3, 2> stood;
+  float slid = 0.0f;
+  bool watching = false;
+  const auto watch = [&] {
+    performer_.Pose(State().performance);
+    for (size_t side = 0; side < 2; ++side) {
+      const human::JointFrame ankle =
+          human::ActorFromJoint(performer_.human().skeleton, performer_.pose(),
+                                performer_.model().sitting.body.legs[side].ankle);
+      const glm::vec3 at = StageFromActorPose(State()) * ankle.position;
+      slid = watching ? std::max(slid, glm::distance(at, stood[side])) : 0.0f;
+      stood[side] = watching ? stood[side] : at;
+    }
+    watching = true;
+  };
+  while (!stage_.tasks().report(*sit).over()) {
+    Tick();
+    if (State().performance.sitting.amount > 0.0f) {
+      watch();
+    }
+  }
+  const auto stand = stage_.tasks().Stand(keeper_);
+  while (State().performance.sitting.amount > 0.0f) {
+    Tick();
+    watch();
+  }
+  EXPECT_TRUE(watching);
+  EXPECT_LT(slid, 0.005f);
+  Finish(stand);
 }
 
 TEST_F(BodyTest, FeetDoNotSlideOnTheCrowdsWays) {

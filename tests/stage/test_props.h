@@ -91,6 +91,20 @@ inline stage::Prop MakeCup() {
   return prop;
 }
 
+// To sit on, facing -Z.
+inline stage::Prop MakeStool() {
+  stage::Prop prop;
+  prop.name = "stool";
+  prop.parts.resize(1);
+  prop.parts[0].name = "stool";
+  prop.parts[0].meshes = {MakeBox({-0.19f, 0.0f, -0.17f}, {0.19f, 0.46f, 0.17f})};
+  prop.use = R"({
+    "schema": 1,
+    "places": {"front": {"at": [0, -0.5], "heading": 0}},
+    "actions": {"sit": {"seat": {"at": [0, 0.46, 0.02], "heading": 0}}}})";
+  return prop;
+}
+
 inline std::shared_ptr<const stage::ObjectModel> Model(stage::Prop prop) {
   auto model = stage::ObjectModel::Create(std::move(prop), "test.larprop");
   CHECK(model.ok());
