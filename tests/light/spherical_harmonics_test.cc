@@ -8,32 +8,12 @@
 #include <numbers>
 #include <vector>
 
-#include "shared/core/random.h"
+#include "tests/light/sh_test_support.h"
 
 namespace lararium::light {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-glm::vec3 RandomDirection(Random& random) {
-  const double z = random.Uniform(-1.0, 1.0);
-  const double angle = random.Uniform(0.0, 2.0 * kPi);
-  const double radius = std::sqrt(1.0 - z * z);
-  return {radius * std::cos(angle), radius * std::sin(angle), z};
-}
-
-glm::quat RandomRotation(Random& random) {
-  return glm::normalize(
-      glm::quat(random.Normal(), random.Normal(), random.Normal(), random.Normal()));
-}
-
-ShRgb RandomCoefficients(Random& random) {
-  ShRgb radiance;
-  for (glm::vec3& coefficient : radiance) {
-    coefficient = glm::vec3(random.Normal(), random.Normal(), random.Normal());
-  }
-  return radiance;
-}
 
 // Calls visit(direction, solid angle) for equal-angle cells that tile the sphere.
 void ForEachDirection(int rows, const std::function<void(const glm::vec3&, double)>& visit) {

@@ -1,0 +1,69 @@
+#pragma once
+
+// The logarithm of what a ball hides, and its exponential: Ren, Wang, Snyder, Tong, Liu,
+// Sun, Zhou & Guo, "Real-time Soft Shadows in Dynamic Scenes using Spherical Harmonic
+// Exponentiation", SIGGRAPH 2006. Visibility of many blockers is exp(sum of logs).
+//
+// Deviation from the paper: its logarithm is that of the clamped eigenvalues of the
+// matrix that multiplies with the visibility. Here it is the inverse of the exponential
+// that is really computed, so that one blocker comes out as it should, and logs that
+// would grow without bound are kept small by a penalty.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "shared/light/lanes.h"
+#include "shared/light/sh_product.h"
+
+namespace lararium::light {
+
+// exp of f = dc + rest is e^dc (1 + rest / 2^p)^(2^p), with p squarings (DC isolation
+// and scaling, Ren et al. 2006, section 4.2).
+inline constexpr int kExpSquarings = 3;
+
+// Coefficients of eight receivers; result overlaps log.
+void ExpSh(const ShProductTable& products, const Lanes* log, Lanes* result);
+
+// The log visibility past one ball about the direction of its centre, tabulated over
+// how large it looks.
+class BlockerTable {
+ public:
+  // count: 9, 16 or 25. Made once for each count, then shared and constant.
+  static const BlockerTable& ForCount(int count);
+
+  // The share of a ball of radius r at distance d, from the receiver to its centre:
+  // q = r^2 / (d^2 + r^2). It is 1/2 where they touch. Angular radii follow asin(r / d)
+  // and approach kMaxAngularRadius smoothly as the receiver comes close; inside, the
+  // higher bands fade to nothing at the centre.
+  static double AngularRadius(double share);
+  static constexpr double kMaxAngularRadius = 1.4;
+
+  // factors[l]: the coefficient of Y_lm is factors[l] Y_lm(direction). Linear between
+  // kEntries values.
+  using Factors = std::array<float, kLanes>;  // by degree; zeros follow
+  Factors At(float share) const;
+
+  // The same for eight receivers: factors[l] for l <= degree.
+  void At(const Lanes& share, Lanes* factors) const;
+
+  int degree() const { return degree_; }
+
+ private:
+  explicit BlockerTable(int count);
+
+  static constexpr int kEntries = 256;
+  struct alignas(32) Entry {
+    Factors value{};
+    Factors slope{};  // to the next entry
+  };
+
+  int degree_;
+  std::vector<Entry> entries_;
+};
+
+// Projection of the indicator of what a ball of this angular radius about +Z leaves
+// visible: the coefficient of Y_l0.
+double ZonalVisibility(int degree, double angular_radius);
+
+}  // namespace lararium::light

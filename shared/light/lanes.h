@@ -1,0 +1,97 @@
+#pragma once
+
+// Eight floats in one register, or in the two that the processor has instead.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+namespace lararium::light {
+
+using Lanes = float __attribute__((vector_size(32)));
+using IntLanes = int32_t __attribute__((vector_size(32)));
+inline constexpr size_t kLanes = 8;
+
+constexpr size_t PaddedToLanes(size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
+
+inline Lanes Load(const float* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof(lanes));
+  return lanes;
+}
+inline void Store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof(lanes)); }
+
+// The first count only; the other lanes are zero or stay as they were.
+inline Lanes LoadFirst(const float* from, size_t count) {
+  if (count >= kLanes) {
+    return Load(from);
+  }
+  Lanes lanes = {};
+  std::memcpy(&lanes, from, count * sizeof(float));
+  return lanes;
+}
+inline void StoreFirst(const Lanes& lanes, float* to, size_t count) {
+  std::memcpy(to, &lanes, std::min(count, kLanes) * sizeof(float));
+}
+
+inline Lanes Max(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+inline Lanes Min(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+
+inline Lanes Sqrt(const Lanes& a) {
+#ifdef __AVX__
+  return _mm256_sqrt_ps(a);
+#else
+  Lanes root;
+  for (size_t i = 0; i < kLanes; ++i) {
+    root[i] = std::sqrt(a[i]);
+  }
+  return root;
+#endif
+}
+
+inline bool AnyAbove(const Lanes& a, float threshold) {
+#ifdef __AVX__
+  return _mm256_movemask_ps(_mm256_cmp_ps(a, _mm256_set1_ps(threshold), _CMP_GT_OQ)) != 0;
+#else
+  bool any = false;
+  for (size_t i = 0; i < kLanes; ++i) {
+    any = any || a[i] > threshold;
+  }
+  return any;
+#endif
+}
+
+inline float Sum(const Lanes& a) {
+  const Lanes halves = a + __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3);
+  const Lanes quarters = halves + __builtin_shufflevector(halves, halves, 2, 3, 0, 1, 6, 7, 4, 5);
+  return quarters[0] + quarters[1];
+}
+
+// e^a with a relative error below 1e-6, for a in [-80, 80]; beyond, as at the border.
+inline Lanes Exp(const Lanes& a) {
+  const Lanes bounded = Min(Max(a, Lanes{} - 80.0f), Lanes{} + 80.0f);
+  // 2^t with t = whole + rest, rest in [-1/2, 1/2]. Adding 1.5 * 2^23 rounds.
+  const Lanes t = bounded * 1.44269504f;
+  const float kRound = 12582912.0f;
+  const Lanes whole = (t + kRound) - kRound;
+  const Lanes rest = (t - whole) * 0.69314718f;
+  // The power series of e^rest.
+  Lanes power = rest * (1.0f / 5040.0f) + 1.0f / 720.0f;
+  power = power * rest + 1.0f / 120.0f;
+  power = power * rest + 1.0f / 24.0f;
+  power = power * rest + 1.0f / 6.0f;
+  power = power * rest + 0.5f;
+  power = power * rest + 1.0f;
+  power = power * rest + 1.0f;
+  const IntLanes exponent = (__builtin_convertvector(whole, IntLanes) + 127) << 23;
+  Lanes scale;
+  std::memcpy(&scale, &exponent, sizeof(scale));
+  return power * scale;
+}
+
+}  // namespace lararium::light

@@ -1,0 +1,197 @@
+#include "shared/light/receivers.h"
+
+#include <algorithm>
+
+#include "shared/light/blocker_table.h"
+
+namespace lararium::light {
+namespace {
+
+// The normalisation of the basis as floats, for registers.
+const std::array<float, kShCount>& Normalisation() {
+  static const std::array<float, kShCount> factors = [] {
+    std::array<float, kShCount> rounded;
+    std::copy(ShNormalisation().begin(), ShNormalisation().end(), rounded.begin());
+    return rounded;
+  }();
+  return factors;
+}
+
+struct Register3 {
+  Lanes x, y, z;
+};
+
+// q of eight receivers (BlockerTable), faded to nothing near kLeastShare.
+inline Lanes FadedShare(const Lanes& distance2, float radius2) {
+  const Lanes share = radius2 / (distance2 + (radius2 + 1e-12f));
+  const Lanes fade = (share - kLeastShare) * (1.0f / kLeastShare);
+  return share * Min(Max(fade, Lanes{}), Lanes{} + 1.0f);
+}
+
+template <int Count>
+inline void AddSphere(const BlockerTable& table,
+                      const float* normalisation,
+                      const Register3& to_centre,
+                      const Lanes& distance2,
+                      const Lanes& share,
+                      Lanes* log) {
+  constexpr int kDegree = ShDegreeOf(Count);
+  Lanes factors[kDegree + 1];
+  table.At(share, factors);
+  const Lanes inverse = 1.0f / Sqrt(distance2 + 1e-12f);
+  Lanes basis[Count];
+  EvaluateShBasis<Count>(to_centre.x * inverse, to_centre.y * inverse, to_centre.z * inverse,
+                         normalisation, basis);
+#pragma GCC unroll 5
+  for (int l = 0; l <= kDegree; ++l) {
+#pragma GCC unroll 9
+    for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
+      log[k] += factors[l] * basis[k];
+    }
+  }
+}
+
+template <int Count>
+void AddSpheres(const Spheres& spheres,
+                const Points& receivers,
+                ReceiverRange range,
+                ShRows& log_visibility) {
+  const BlockerTable& table = BlockerTable::ForCount(Count);
+  const float* normalisation = Normalisation().data();
+  for (size_t i = range.begin; i < range.end; i += kLanes) {
+    const size_t valid = std::min(kLanes, range.end - i);
+    const Register3 at = {LoadFirst(&receivers.x[i], valid), LoadFirst(&receivers.y[i], valid),
+                          LoadFirst(&receivers.z[i], valid)};
+    Lanes log[Count];
+    for (int k = 0; k < Count; ++k) {
+      log[k] = Load(log_visibility.row(k) + i);
+    }
+    for (size_t s = 0; s < spheres.radius.size(); ++s) {
+      const Register3 d = {spheres.x[s] - at.x, spheres.y[s] - at.y, spheres.z[s] - at.z};
+      const Lanes distance2 = d.x * d.x + d.y * d.y + d.z * d.z;
+      const Lanes share = FadedShare(distance2, spheres.radius[s] * spheres.radius[s]);
+      if (AnyAbove(share, 0.0f)) {
+        AddSphere<Count>(table, normalisation, d, distance2, share, log);
+      }
+    }
+    for (int k = 0; k < Count; ++k) {
+      Store(log[k], log_visibility.row(k) + i);
+    }
+  }
+}
+
+void LoadBlock(const ShRows& rows, size_t begin, Lanes* block) {
+  for (int k = 0; k < rows.count(); ++k) {
+    block[k] = Load(rows.row(k) + begin);
+  }
+}
+
+// target = matrix * vector for eight receivers; rows of count.
+void MultiplyMatrix(const float* matrix, const Lanes* vector, int count, Lanes* target) {
+  for (int i = 0; i < count; ++i, matrix += count) {
+    Lanes even = matrix[0] * vector[0], odd = {};
+    for (int j = 1; j + 1 < count; j += 2) {
+      odd += matrix[j] * vector[j];
+      even += matrix[j + 1] * vector[j + 1];
+    }
+    if (count % 2 == 0) {
+      odd += matrix[count - 1] * vector[count - 1];
+    }
+    target[i] = even + odd;
+  }
+}
+
+}  // namespace
+
+void ClearLogVisibility(ReceiverRange range, ShRows& log_visibility) {
+  CheckRegisters(range, log_visibility);
+  for (int k = 0; k < log_visibility.count(); ++k) {
+    float* row = log_visibility.row(k);
+    std::fill(row + range.begin, row + PaddedToLanes(range.end), 0.0f);
+  }
+}
+
+void AddLogVisibility(const Spheres& spheres,
+                      const Points& receivers,
+                      ReceiverRange range,
+                      ShRows& log_visibility) {
+  CheckRegisters(range, log_visibility);
+  CHECK(receivers.x.size() == log_visibility.receivers() &&
+        receivers.y.size() == receivers.x.size() && receivers.z.size() == receivers.x.size());
+  CHECK(spheres.x.size() == spheres.radius.size() && spheres.y.size() == spheres.x.size() &&
+        spheres.z.size() == spheres.x.size());
+  switch (log_visibility.count()) {
+    case 9:
+      return AddSpheres<9>(spheres, receivers, range, log_visibility);
+    case 16:
+      return AddSpheres<16>(spheres, receivers, range, log_visibility);
+    default:
+      CHECK(log_visibility.count() == 25);
+      return AddSpheres<25>(spheres, receivers, range, log_visibility);
+  }
+}
+
+void ExpRows(const ShRows& log_visibility, ReceiverRange range, ShRows& visibility) {
+  CheckRegisters(range, log_visibility);
+  CheckRegisters(range, visibility);
+  CHECK(visibility.count() == log_visibility.count());
+  const ShProductTable& products = ShProductTable::ForCount(log_visibility.count());
+  for (size_t i = range.begin; i < range.end; i += kLanes) {
+    Lanes log[25], result[25];
+    LoadBlock(log_visibility, i, log);
+    ExpSh(products, log, result);
+    for (int k = 0; k < visibility.count(); ++k) {
+      Store(result[k], visibility.row(k) + i);
+    }
+  }
+}
+
+void ShadowLight(const LightMatrix& light,
+                 const ShRows& log_visibility,
+                 ReceiverRange range,
+                 ShRowsRgb& shadowed) {
+  CheckRegisters(range, log_visibility);
+  const int count = light.count();
+  CHECK(log_visibility.count() == count);
+  const ShProductTable& products = ShProductTable::ForCount(count);
+  for (size_t i = range.begin; i < range.end; i += kLanes) {
+    Lanes log[25], visibility[25], lit[25];
+    LoadBlock(log_visibility, i, log);
+    ExpSh(products, log, visibility);
+    for (int channel = 0; channel < 3; ++channel) {
+      ShRows& rows = shadowed[static_cast<size_t>(channel)];
+      MultiplyMatrix(light.channel(channel), visibility, count, lit);
+      for (int k = 0; k < count; ++k) {
+        Store(lit[k], rows.row(k) + i);
+      }
+    }
+  }
+}
+
+void RotateRows(const ShRows& source,
+                const ShRotation& rotation,
+                ReceiverRange range,
+                ShRows& target) {
+  CHECK(source.count() == target.count() && source.stride() == target.stride() &&
+        range.begin <= range.end && range.end <= source.receivers());
+  for (size_t i = range.begin; i < range.end; i += kLanes) {
+    const size_t valid = std::min(kLanes, range.end - i);
+    for (int l = 0; l * l < source.count(); ++l) {
+      const int side = 2 * l + 1;
+      const float* matrix = rotation.band(l).data();
+      Lanes band[2 * kShDegree + 1];
+      for (int n = 0; n < side; ++n) {
+        band[n] = LoadFirst(source.row(l * l + n) + i, valid);
+      }
+      for (int m = 0; m < side; ++m, matrix += side) {
+        Lanes sum = matrix[0] * band[0];
+        for (int n = 1; n < side; ++n) {
+          sum += matrix[n] * band[n];
+        }
+        StoreFirst(sum, target.row(l * l + m) + i, valid);
+      }
+    }
+  }
+}
+
+}  // namespace lararium::light

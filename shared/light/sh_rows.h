@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "shared/core/check.h"
+#include "shared/light/lanes.h"
+
+namespace lararium::light {
+
+// Spherical-harmonic coefficients of many receivers as a structure of arrays: row k
+// holds coefficient k of each. Rows are padded to whole registers; what lies in the
+// padding is finite but means nothing. Made once; nothing below allocates.
+class ShRows {
+ public:
+  ShRows() = default;
+  ShRows(int count, size_t receivers)
+      : count_(count),
+        receivers_(receivers),
+        stride_(PaddedToLanes(receivers)),
+        values_(static_cast<size_t>(count) * stride_, 0.0f) {}
+
+  int count() const { return count_; }
+  size_t receivers() const { return receivers_; }
+  // How many floats a row has with its padding.
+  size_t stride() const { return stride_; }
+  float* row(int k) { return values_.data() + static_cast<size_t>(k) * stride_; }
+  const float* row(int k) const { return values_.data() + static_cast<size_t>(k) * stride_; }
+  float& at(int k, size_t receiver) { return row(k)[receiver]; }
+  float at(int k, size_t receiver) const { return row(k)[receiver]; }
+
+ private:
+  int count_ = 0;
+  size_t receivers_ = 0;
+  size_t stride_ = 0;
+  std::vector<float> values_;
+};
+
+using ShRowsRgb = std::array<ShRows, 3>;
+
+// Receivers [begin, end). Jobs may run side by side on ranges that share no register:
+// where a function asks for it, begin is a multiple of kLanes.
+struct ReceiverRange {
+  size_t begin = 0;
+  size_t end = 0;
+};
+
+inline void CheckRegisters(const ReceiverRange& range, const ShRows& rows) {
+  CHECK(range.begin % kLanes == 0 && range.begin <= range.end && range.end <= rows.receivers());
+}
+
+}  // namespace lararium::light

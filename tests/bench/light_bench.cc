@@ -1,0 +1,124 @@
+// Light at run time. Budgets, on one core: shadows of 60 balls on 1280 receivers (five
+// people) well under 1.5 ms with 16 coefficients; 125 000 vertices lit in 3 ms.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "shared/core/random.h"
+#include "shared/light/blocker_table.h"
+#include "shared/light/receivers.h"
+
+namespace lararium::light {
+namespace {
+
+constexpr size_t kReceivers = 1280;
+
+// Five people on a floor of six by six metres: twelve balls each, receivers near them.
+struct Crowd {
+  std::vector<float> x, y, z, radius;  // balls
+  std::vector<float> px, py, pz;       // receivers
+
+  Crowd() {
+    Random random(51);
+    for (int person = 0; person < 5; ++person) {
+      const double at_x = random.Uniform(-3, 3), at_z = random.Uniform(-3, 3);
+      for (int i = 0; i < 12; ++i) {
+        x.push_back(static_cast<float>(at_x + random.Uniform(-0.3, 0.3)));
+        y.push_back(static_cast<float>(random.Uniform(0.1, 1.7)));
+        z.push_back(static_cast<float>(at_z + random.Uniform(-0.3, 0.3)));
+        radius.push_back(static_cast<float>(random.Uniform(0.06, 0.18)));
+      }
+      for (size_t i = 0; i < kReceivers / 5; ++i) {
+        px.push_back(static_cast<float>(at_x + random.Uniform(-0.4, 0.4)));
+        py.push_back(static_cast<float>(random.Uniform(0.0, 1.8)));
+        pz.push_back(static_cast<float>(at_z + random.Uniform(-0.4, 0.4)));
+      }
+    }
+  }
+  Spheres spheres() const { return {x, y, z, radius}; }
+  Points points() const { return {px, py, pz}; }
+};
+
+ShRgb SomeLight() {
+  Random random(52);
+  ShRgb light;
+  for (glm::vec3& coefficient : light) {
+    coefficient = glm::vec3(random.Normal(), random.Normal(), random.Normal());
+  }
+  return light;
+}
+
+ShRowsRgb RgbRows(int count) {
+  return {ShRows(count, kReceivers), ShRows(count, kReceivers), ShRows(count, kReceivers)};
+}
+
+void BenchLogVisibility(benchmark::State& bench) {
+  const Crowd crowd;
+  ShRows log(static_cast<int>(bench.range(0)), kReceivers);
+  for (auto _ : bench) {
+    ClearLogVisibility({0, kReceivers}, log);
+    AddLogVisibility(crowd.spheres(), crowd.points(), {0, kReceivers}, log);
+    benchmark::DoNotOptimize(log.row(0));
+  }
+}
+BENCHMARK(BenchLogVisibility)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+void BenchExponential(benchmark::State& bench) {
+  const Crowd crowd;
+  const int count = static_cast<int>(bench.range(0));
+  ShRows log(count, kReceivers), visibility(count, kReceivers);
+  AddLogVisibility(crowd.spheres(), crowd.points(), {0, kReceivers}, log);
+  for (auto _ : bench) {
+    ExpRows(log, {0, kReceivers}, visibility);
+    benchmark::DoNotOptimize(visibility.row(0));
+  }
+}
+BENCHMARK(BenchExponential)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+// Logs, exponential, product with the light.
+void BenchShadowedReceivers(benchmark::State& bench) {
+  const Crowd crowd;
+  const int count = static_cast<int>(bench.range(0));
+  const LightMatrix light(SomeLight(), count);
+  ShRows log(count, kReceivers);
+  ShRowsRgb shadowed = RgbRows(count);
+  for (auto _ : bench) {
+    ClearLogVisibility({0, kReceivers}, log);
+    AddLogVisibility(crowd.spheres(), crowd.points(), {0, kReceivers}, log);
+    ShadowLight(light, log, {0, kReceivers}, shadowed);
+    benchmark::DoNotOptimize(shadowed[0].row(0));
+  }
+}
+BENCHMARK(BenchShadowedReceivers)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+// Light of 80 bones with 16 receivers each into the bones' frames, matrices included.
+void BenchRotateReceivers(benchmark::State& bench) {
+  const int count = static_cast<int>(bench.range(0));
+  const glm::quat turn = glm::normalize(glm::quat(0.3f, 0.5f, -0.2f, 0.7f));
+  const ShRowsRgb source = RgbRows(count);
+  ShRowsRgb target = RgbRows(count);
+  for (auto _ : bench) {
+    for (size_t bone = 0; bone < 80; ++bone) {
+      const ShRotation rotation(turn);
+      for (size_t channel = 0; channel < 3; ++channel) {
+        RotateRows(source[channel], rotation, {16 * bone, 16 * bone + 16}, target[channel]);
+      }
+    }
+    benchmark::DoNotOptimize(target[0].row(0));
+  }
+}
+BENCHMARK(BenchRotateReceivers)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+void BenchLightMatrix(benchmark::State& bench) {
+  const ShRgb light = SomeLight();
+  for (auto _ : bench) {
+    const LightMatrix matrix(light, static_cast<int>(bench.range(0)));
+    benchmark::DoNotOptimize(matrix.channel(0));
+  }
+}
+BENCHMARK(BenchLightMatrix)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace lararium::light
