@@ -39,7 +39,7 @@ const std::array<float, kShCount>& FloatNormalisation() {
 // A band's matrix while it is made: (2l+1)^2 numbers addressed by m and n.
 class BandMatrix {
  public:
-  explicit BandMatrix(int degree) : degree_(degree), values_{} {}
+  explicit BandMatrix(int degree) : degree_(degree) {}
   int degree() const { return degree_; }
   double& operator()(int m, int n) { return values_[Index(m, n)]; }
   double operator()(int m, int n) const { return values_[Index(m, n)]; }
@@ -93,33 +93,60 @@ double W(const BandMatrix& first, const BandMatrix& below, int m, int n) {
                : P(first, below, 1, m - 1, n) - P(first, below, -1, 1 - m, n);
 }
 
-// Ivanic & Ruedenberg, table 1: u, v, w weigh U, V, W. Where a weight is zero its term
-// would reach outside the band below.
-BandMatrix NextBand(const BandMatrix& first, const BandMatrix& below) {
-  const int l = below.degree() + 1;
-  BandMatrix band(l);
-  for (int m = -l; m <= l; ++m) {
-    const int a = std::abs(m);
-    for (int n = -l; n <= l; ++n) {
-      const double scale = std::abs(n) < l ? (l + n) * (l - n) : 2 * l * (2 * l - 1);
-      double sum = 0.0;
-      if (a < l) {
-        sum += std::sqrt((l + m) * (l - m) / scale) * P(first, below, 0, m, n);
-      }
-      const double v = 0.5 * std::sqrt((l + a - 1) * (l + a) / scale);
-      sum += (m == 0 ? -std::sqrt(2.0) * v : v) * V(first, below, m, n);
-      if (m != 0 && a < l - 1) {
-        sum -= 0.5 * std::sqrt((l - a - 1) * (l - a) / scale) * W(first, below, m, n);
-      }
-      band(m, n) = sum;
-    }
-  }
-  return band;
+// u, v, w of Ivanic & Ruedenberg, table 1, for an entry of a band's matrix; the signs of
+// their Kronecker deltas included.
+struct Weights {
+  double u = 0.0, v = 0.0, w = 0.0;
+};
+
+Weights WeightsOf(int l, int m, int n) {
+  const int a = std::abs(m);
+  const double scale = std::abs(n) < l ? (l + n) * (l - n) : 2 * l * (2 * l - 1);
+  const double v = 0.5 * std::sqrt((l + a - 1) * (l + a) / scale);
+  return {std::sqrt((l + m) * (l - m) / scale), m == 0 ? -std::sqrt(2.0) * v : v,
+          m == 0 ? 0.0 : -0.5 * std::sqrt((l - a - 1) * (l - a) / scale)};
 }
 
 // Where the band of a degree begins among all of them: 0, 1, 10, 35, 84, 165.
 size_t BandBegin(int degree) {
   return static_cast<size_t>(degree * (2 * degree - 1) * (2 * degree + 1) / 3);
+}
+
+// Of all entries of all bands: square roots are slow.
+const std::array<Weights, 286>& AllWeights() {
+  static const std::array<Weights, 286> all = [] {
+    std::array<Weights, 286> weights;
+    size_t i = BandBegin(2);
+    for (int l = 2; l <= kShDegree; ++l) {
+      for (int m = -l; m <= l; ++m) {
+        for (int n = -l; n <= l; ++n) {
+          weights[i++] = WeightsOf(l, m, n);
+        }
+      }
+    }
+    return weights;
+  }();
+  return all;
+}
+
+// Where a weight is zero its term would reach outside the band below.
+BandMatrix NextBand(const BandMatrix& first, const BandMatrix& below) {
+  const int l = below.degree() + 1;
+  const Weights* weights = AllWeights().data() + BandBegin(l);
+  BandMatrix band(l);
+  for (int m = -l; m <= l; ++m) {
+    for (int n = -l; n <= l; ++n, ++weights) {
+      double sum = weights->v * V(first, below, m, n);
+      if (std::abs(m) < l) {
+        sum += weights->u * P(first, below, 0, m, n);
+      }
+      if (m != 0 && std::abs(m) < l - 1) {
+        sum += weights->w * W(first, below, m, n);
+      }
+      band(m, n) = sum;
+    }
+  }
+  return band;
 }
 
 // Directions spread evenly (a Fibonacci spiral).
@@ -198,13 +225,15 @@ glm::vec3 EvaluateIrradiance(const ShRgb& radiance, const glm::vec3& normal) {
   return glm::max(EvaluateRadiance(ConvolveWithCosine(radiance), normal), glm::vec3(0.0f));
 }
 
-ShRotation::ShRotation(const glm::quat& rotation) : ShRotation(glm::mat3_cast(rotation)) {}
+ShRotation::ShRotation(const glm::quat& rotation, int degree)
+    : ShRotation(glm::mat3_cast(rotation), degree) {}
 
-ShRotation::ShRotation(const glm::mat3& rotation) {
+ShRotation::ShRotation(const glm::mat3& rotation, int degree) : degree_(degree) {
+  CHECK(degree >= 0 && degree <= kShDegree);
   const BandMatrix first = FirstBand(rotation);
   BandMatrix band = first;
   bands_[0] = 1.0f;
-  for (int l = 1; l <= kShDegree; ++l) {
+  for (int l = 1; l <= degree; ++l) {
     if (l > 1) {
       band = NextBand(first, band);
     }
@@ -218,7 +247,7 @@ ShRotation::ShRotation(const glm::mat3& rotation) {
 }
 
 std::span<const float> ShRotation::band(int degree) const {
-  DCHECK(degree >= 0 && degree <= kShDegree);
+  DCHECK(degree >= 0 && degree <= degree_);
   const auto side = static_cast<size_t>(2 * degree + 1);
   return std::span(bands_).subspan(BandBegin(degree), side * side);
 }

@@ -99,8 +99,9 @@ glm::vec3 EvaluateIrradiance(const ShRgb& radiance, const glm::vec3& normal);
 // corrections in 102 (1998).
 class ShRotation {
  public:
-  explicit ShRotation(const glm::quat& rotation);
-  explicit ShRotation(const glm::mat3& rotation);
+  // degree: the highest that is needed; less is faster.
+  explicit ShRotation(const glm::quat& rotation, int degree = kShDegree);
+  explicit ShRotation(const glm::mat3& rotation, int degree = kShDegree);
 
   // Of a degree: (2l+1) x (2l+1), row-major, rows and columns by m + l.
   std::span<const float> band(int degree) const;
@@ -109,6 +110,7 @@ class ShRotation {
 
  private:
   static constexpr size_t kFloats = 1 + 9 + 25 + 49 + 81 + 121;
+  int degree_;
   std::array<float, kFloats> bands_;
 };
 

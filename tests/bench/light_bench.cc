@@ -9,6 +9,7 @@
 #include "shared/core/random.h"
 #include "shared/light/blocker_table.h"
 #include "shared/light/receivers.h"
+#include "shared/light/transfer.h"
 
 namespace lararium::light {
 namespace {
@@ -101,7 +102,7 @@ void BenchRotateReceivers(benchmark::State& bench) {
   ShRowsRgb target = RgbRows(count);
   for (auto _ : bench) {
     for (size_t bone = 0; bone < 80; ++bone) {
-      const ShRotation rotation(turn);
+      const ShRotation rotation(turn, ShDegreeOf(count));
       for (size_t channel = 0; channel < 3; ++channel) {
         RotateRows(source[channel], rotation, {16 * bone, 16 * bone + 16}, target[channel]);
       }
@@ -119,6 +120,50 @@ void BenchLightMatrix(benchmark::State& bench) {
   }
 }
 BENCHMARK(BenchLightMatrix)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+// Five people of 25 000 vertices, five key poses of which two count.
+void BenchLightVertices(benchmark::State& bench) {
+  constexpr size_t kVertices = 125000, kPoses = 5;
+  const int count = static_cast<int>(bench.range(0));
+  Random random(53);
+  Transfer transfer = QuantiseTransfer(
+      std::vector<float>(kPoses * kVertices * 3 * static_cast<size_t>(count), 0.5f), count, kPoses);
+  for (int8_t& value : transfer.values) {
+    value = static_cast<int8_t>(random.Next() & 127);
+  }
+  std::vector<VertexReceivers> receivers(kVertices);
+  for (size_t v = 0; v < kVertices; ++v) {
+    const size_t near = v * (kReceivers - 16) / kVertices;
+    for (uint16_t& receiver : receivers[v].receiver) {
+      receiver = static_cast<uint16_t>(near + random.Below(16));
+    }
+    receivers[v].weight = {120, 80, 40, 15};
+  }
+  const ReceiverLight light(count, kReceivers);
+  std::vector<float> weights(kReceivers * kMaxKeyPoses, 0.0f);
+  for (size_t i = 0; i < kReceivers; ++i) {
+    weights[i * kMaxKeyPoses + 1] = 0.7f;
+    weights[i * kMaxKeyPoses + 3] = 0.3f;
+  }
+  std::vector<glm::vec3> irradiance(kVertices);
+  const LightVerticesJob job{&transfer, receivers, &light, weights, irradiance};
+  for (auto _ : bench) {
+    job.Run(0, kVertices);
+    benchmark::DoNotOptimize(irradiance.data());
+  }
+}
+BENCHMARK(BenchLightVertices)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+void BenchPackReceiverLight(benchmark::State& bench) {
+  const int count = static_cast<int>(bench.range(0));
+  const ShRowsRgb light = RgbRows(count);
+  ReceiverLight packed(count, kReceivers);
+  for (auto _ : bench) {
+    PackReceiverLight(light, {0, kReceivers}, packed);
+    benchmark::DoNotOptimize(packed.row(0));
+  }
+}
+BENCHMARK(BenchPackReceiverLight)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace lararium::light

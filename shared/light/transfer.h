@@ -1,0 +1,95 @@
+#pragma once
+
+// Light at vertices by transfer vectors: irradiance = sum_k T_k L_k for each channel
+// (Sloan, Kautz & Snyder 2002, diffuse transfer), with T in the frame of the vertex's
+// bone, blended between key poses, and L the light that reaches the vertex's receivers,
+// turned into the frame of their bone.
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "shared/core/status.h"
+#include "shared/light/lanes.h"
+#include "shared/light/sh_rows.h"
+
+namespace lararium::light {
+
+inline constexpr size_t kMaxKeyPoses = 8;
+inline constexpr size_t kReceiversOfVertex = 4;
+// Key poses with less weight at a vertex are passed over.
+inline constexpr float kLeastPoseWeight = 1.0f / 64.0f;
+
+// Transfer vectors of a mesh for its key poses, as bytes: T[k] = value * scale(pose,
+// vertex). A scale for each coefficient besides was measured to gain nothing.
+struct Transfer {
+  int count = 0;  // coefficients: 9, 16, 25 or 36
+  size_t poses = 0;
+  size_t vertices = 0;
+  std::vector<float> scale;    // [pose][vertex]
+  std::vector<int8_t> values;  // [pose][vertex][3][padded count], padding zero
+
+  size_t padded_count() const { return PaddedToLanes(static_cast<size_t>(count)); }
+  const int8_t* row(size_t pose, size_t vertex) const {
+    return values.data() + (pose * vertices + vertex) * 3 * padded_count();
+  }
+};
+
+// What is wrong with sizes or numbers, for readers of files. place: file and part.
+Status CheckTransfer(const Transfer& transfer, const std::string& place);
+
+// vectors: [pose][vertex][3][count]. Each is off by half a scale at most.
+Transfer QuantiseTransfer(std::span<const float> vectors, int count, size_t poses);
+
+// [3][count] of one vertex and pose.
+void DecodeTransfer(const Transfer& transfer, size_t pose, size_t vertex, std::span<float> vectors);
+
+// Light of receivers as vertices read it: [receiver][3][padded count]. Made once; filling it does
+// not allocate.
+class ReceiverLight {
+ public:
+  ReceiverLight(int count, size_t receivers)
+      : count_(count),
+        receivers_(receivers),
+        values_(receivers * 3 * PaddedToLanes(static_cast<size_t>(count)), 0.0f) {}
+
+  int count() const { return count_; }
+  size_t receivers() const { return receivers_; }
+  size_t stride() const { return 3 * PaddedToLanes(static_cast<size_t>(count_)); }
+  float* row(size_t receiver) { return values_.data() + receiver * stride(); }
+  const float* row(size_t receiver) const { return values_.data() + receiver * stride(); }
+
+ private:
+  int count_;
+  size_t receivers_;
+  std::vector<float> values_;
+};
+
+// Fills the receivers of range, which may be any; jobs on disjoint ranges may run
+// together. light: in the receivers' bone frames (RotateRows).
+void PackReceiverLight(const ShRowsRgb& light, ReceiverRange range, ReceiverLight& packed);
+
+// The receivers that light a vertex. Weights in 1/255, sum 255, the largest first; those
+// after a weight of 0 are not looked at.
+struct VertexReceivers {
+  std::array<uint16_t, kReceiversOfVertex> receiver{};
+  std::array<uint8_t, kReceiversOfVertex> weight{};
+};
+
+// irradiance[v] for the vertices [begin, end), never negative: transfer and light blended
+// at the vertex and multiplied. pose_weights: [receiver][kMaxKeyPoses] (key_poses.h).
+// Several ranges may run together. Allocates nothing.
+struct LightVerticesJob {
+  const Transfer* transfer = nullptr;
+  std::span<const VertexReceivers> receivers;  // [vertex]
+  const ReceiverLight* light = nullptr;
+  std::span<const float> pose_weights;
+  std::span<glm::vec3> irradiance;  // [vertex]
+
+  void Run(size_t begin, size_t end) const;
+};
+
+}  // namespace lararium::light
