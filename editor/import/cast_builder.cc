@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
 #include "editor/import/cast_capsules.h"
+#include "editor/import/cast_complexion.h"
 #include "editor/import/cast_face.h"
 #include "editor/import/cast_hair.h"
 #include "editor/import/cast_hang.h"
+#include "editor/import/cast_mouth.h"
 #include "editor/import/cast_paint.h"
 #include "editor/import/cast_parts.h"
 #include "editor/import/cast_rig.h"
@@ -41,7 +44,7 @@ Look LookOf(CastPart part) {
     case CastPart::kTeeth:
       return {human::Surface::kPlain, 0.35f, 0.0f, false, 256};
     case CastPart::kTongue:
-      return {human::Surface::kSkin, 0.4f, 0.0f, false, 128};
+      return {human::Surface::kPlain, 0.6f, 0.0f, false, 128};
     case CastPart::kEyebrows:
     case CastPart::kEyelashes:
       return {human::Surface::kHair, 0.7f, 0.25f, true, 512};
@@ -77,6 +80,42 @@ BaseShape ShapeOf(const CastLibrary& library,
   return shape;
 }
 
+// Raises a person whose soles are below the floor: shoes are made around bare feet.
+void StandOnSoles(human::Human& human) {
+  std::vector<bool> of_foot(human.skeleton.size(), false);
+  for (const char* joint : {"l_ankle", "r_ankle", "l_midtarsal", "r_midtarsal"}) {
+    if (const auto index = human.skeleton.Find(joint)) {
+      of_foot[static_cast<size_t>(*index)] = true;
+    }
+  }
+  float lowest = 0.0f;
+  for (const human::SkinnedMesh& mesh : human.meshes) {
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+      if (of_foot[mesh.joints[v][0]]) {
+        lowest = std::min(lowest, mesh.positions[v].y);
+      }
+    }
+  }
+  const glm::vec3 lift(0.0f, -lowest, 0.0f);
+  for (human::SkinnedMesh& mesh : human.meshes) {
+    for (glm::vec3& p : mesh.positions) {
+      p += lift;
+    }
+  }
+  for (human::Cloth& cloth : human.cloths) {
+    for (glm::vec3& p : cloth.positions) {
+      p += lift;
+    }
+  }
+  for (size_t joint = 0; joint < human.skeleton.size(); ++joint) {
+    if (human.skeleton.parents[joint] == human::Skeleton::kNoParent) {
+      human.skeleton.rest[joint].translation += lift;
+    }
+    glm::mat4& joint_from_actor = human.skeleton.joint_from_actor[joint];
+    joint_from_actor = glm::translate(joint_from_actor, -lift);
+  }
+}
+
 // One person in the making.
 class CastBuilder {
  public:
@@ -101,6 +140,7 @@ class CastBuilder {
     for (const CastDyed& beard : recipe_.beard) {
       LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kHair, beard));
     }
+    ShadeMouth(pieces_, recipe_.teeth, recipe_.tongue);
     AddFace(library_, recipe_, body_.base, pieces_, human_);
     for (CastPiece& piece : pieces_) {
       AddLevelsOfDetail(piece.mesh);
@@ -110,6 +150,7 @@ class CastBuilder {
       AddGarment(std::move(garment));
     }
     human_.capsules = body_.capsules;
+    StandOnSoles(human_);
     LARARIUM_RETURN_IF_ERROR(human_.Validate(recipe_.name));
     return std::move(human_);
   }
@@ -194,6 +235,12 @@ class CastBuilder {
     paint.stubble = recipe_.stubble;
     paint.weathering = recipe_.weathering;
     paint.seed = recipe_.seed;
+    if (recipe_.freckles > 0.0f) {
+      paint.freckles = WhereFrecklesAre(body_, skin, recipe_.freckles);
+    }
+    if (recipe_.sunburn > 0.0f) {
+      paint.sunburn = WhereTheSunBurns(body_, skin, recipe_.sunburn);
+    }
     if (recipe_.hair) {
       LARARIUM_ASSIGN_OR_RETURN(paint.scalp, CoverBy({*recipe_.hair}, skin));
       paint.scalp_colour = paint.beard_colour = HairColour(*recipe_.hair);
@@ -211,7 +258,7 @@ class CastBuilder {
     return hair.colour.value_or(glm::vec3(0.12f, 0.09f, 0.07f));
   }
 
-  // Of each vertex of the skin's head: 1 where one of these parts lies over it.
+  // Of each vertex of the skin's head: how much of these parts lies over it, 0..1.
   Result<std::vector<float>> CoverBy(const std::vector<CastDyed>& parts,
                                      const CastPiece& skin) const {
     const float lowest = body_.height - kHeadShare * body_.height;
@@ -219,11 +266,18 @@ class CastBuilder {
     for (const CastDyed& part : parts) {
       LARARIUM_ASSIGN_OR_RETURN(const CastProxy proxy,
                                 library_.LoadPart(CastPart::kHair, part.name));
+      LARARIUM_ASSIGN_OR_RETURN(const std::string file, TextureFile(CastPart::kHair, proxy));
+      Coverage picture;
+      if (!file.empty()) {
+        LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
+                                  ReadBytes(proxy.folder / file));
+        LARARIUM_ASSIGN_OR_RETURN(picture, CoverageOf(part.name, bytes));
+      }
       const CastPiece piece = Fit(CastPart::kHair, part, proxy);
       for (size_t v = 0; v < cover.size(); ++v) {
-        if (skin.mesh.positions[v].y > lowest && cover[v] == 0.0f &&
-            IsCovered(skin.mesh.positions[v], skin.mesh.normals[v], piece.mesh)) {
-          cover[v] = 1.0f;
+        if (skin.mesh.positions[v].y > lowest && cover[v] < 1.0f) {
+          cover[v] = std::max(cover[v], CoverOver(skin.mesh.positions[v], skin.mesh.normals[v],
+                                                  piece.mesh, picture));
         }
       }
     }

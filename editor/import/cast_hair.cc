@@ -63,51 +63,64 @@ glm::vec3 Outward(const glm::vec3& p, const glm::vec3& middle) {
   return length > 1e-4f ? offset / length : glm::vec3(0.0f, 1.0f, 0.0f);
 }
 
-// How far along the ray the triangle is, or a negative number (Moeller & Trumbore, Journal
-// of Graphics Tools 2(1), 1997). Both of its sides count.
-float HitDistance(const glm::vec3& from,
-                  const glm::vec3& direction,
-                  const glm::vec3& a,
-                  const glm::vec3& b,
-                  const glm::vec3& c) {
+// Where a ray meets a triangle: how far along, and the weights of its corners b and c.
+struct Hit {
+  float distance = -1.0f;  // negative: nowhere
+  float b = 0.0f;
+  float c = 0.0f;
+};
+
+// Moeller & Trumbore, Journal of Graphics Tools 2(1), 1997. Both sides count.
+Hit Meet(const glm::vec3& from,
+         const glm::vec3& direction,
+         const glm::vec3& a,
+         const glm::vec3& b,
+         const glm::vec3& c) {
   const glm::vec3 ab = b - a;
   const glm::vec3 ac = c - a;
   const glm::vec3 p = glm::cross(direction, ac);
   const float determinant = glm::dot(ab, p);
   if (std::abs(determinant) < 1e-12f) {
-    return -1.0f;
+    return {};
   }
   const glm::vec3 offset = from - a;
   const float u = glm::dot(offset, p) / determinant;
   const glm::vec3 q = glm::cross(offset, ab);
   const float v = glm::dot(direction, q) / determinant;
   if (u < 0.0f || v < 0.0f || u + v > 1.0f) {
-    return -1.0f;
+    return {};
   }
-  return glm::dot(ac, q) / determinant;
+  return {glm::dot(ac, q) / determinant, u, v};
 }
 
 }  // namespace
 
-bool IsCovered(const glm::vec3& place, const glm::vec3& normal, const human::SkinnedMesh& hair) {
+float CoverOver(const glm::vec3& place,
+                const glm::vec3& normal,
+                const human::SkinnedMesh& hair,
+                const Coverage& picture) {
   constexpr float kClose = 0.02f;  // metres
   constexpr float kSunk = 0.005f;  // metres below the skin that hair may lie
   const glm::vec3 from = place - kSunk * normal;
-  for (size_t i = 0; i + 2 < hair.indices.size(); i += 3) {
-    const glm::vec3& a = hair.positions[hair.indices[i]];
-    const glm::vec3& b = hair.positions[hair.indices[i + 1]];
-    const glm::vec3& c = hair.positions[hair.indices[i + 2]];
+  float most = 0.0f;
+  for (size_t i = 0; i + 2 < hair.indices.size() && most < 1.0f; i += 3) {
+    const uint32_t* corners = &hair.indices[i];
+    const glm::vec3& a = hair.positions[corners[0]];
+    const glm::vec3& b = hair.positions[corners[1]];
+    const glm::vec3& c = hair.positions[corners[2]];
     const glm::vec3 low = glm::min(a, glm::min(b, c)) - kClose;
     const glm::vec3 high = glm::max(a, glm::max(b, c)) + kClose;
     if (glm::any(glm::lessThan(place, low)) || glm::any(glm::greaterThan(place, high))) {
       continue;
     }
-    const float distance = HitDistance(from, normal, a, b, c);
-    if (distance >= 0.0f && distance < kClose + kSunk) {
-      return true;
+    const Hit hit = Meet(from, normal, a, b, c);
+    if (hit.distance >= 0.0f && hit.distance < kClose + kSunk) {
+      const glm::vec2 uv = (1.0f - hit.b - hit.c) * hair.uvs[corners[0]] +
+                           hit.b * hair.uvs[corners[1]] + hit.c * hair.uvs[corners[2]];
+      most = std::max(most, picture.At(uv));
     }
   }
-  return false;
+  return most;
 }
 
 void LayHair(CastPiece& hair, const FittedBody& body, const HairFit& fit) {

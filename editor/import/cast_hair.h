@@ -2,6 +2,7 @@
 
 // Hair that lies on the head that it was not made for.
 
+#include "editor/import/cast_paint.h"
 #include "editor/import/cast_parts.h"
 
 namespace lararium::import {
@@ -18,7 +19,11 @@ struct HairFit {
 // rounded whole that it is, not as the cards that it is made of.
 void LayHair(CastPiece& hair, const FittedBody& body, const HairFit& fit);
 
-// Whether the hair lies over a place of the skin: straight out from it, and close.
-bool IsCovered(const glm::vec3& place, const glm::vec3& normal, const human::SkinnedMesh& hair);
+// How much of the hair (0..1, its picture's coverage) lies over a place of the skin: straight
+// out from it, and close.
+float CoverOver(const glm::vec3& place,
+                const glm::vec3& normal,
+                const human::SkinnedMesh& hair,
+                const Coverage& picture);
 
 }  // namespace lararium::import

@@ -275,6 +275,38 @@ void PaintHairs(
   Cover(skin, cover, LinearBgr(colour));
 }
 
+// The shade of hair that lies on the scalp, fading where it begins to grow.
+void ShadeScalp(cv::Mat& skin, const SkinPaint& paint, cv::RNG& random) {
+  cv::Mat mask = Spread(paint, paint.scalp);
+  cv::GaussianBlur(mask, mask, {}, 5.0);
+  mask = cv::min(cv::max((mask - 0.3) / 0.55, 0.0), 1.0);
+  const cv::Mat uneven = 0.8 + 0.08 * BandNoise(random, 0.0, 1.5);
+  Cover(skin, 0.85 * mask.mul(uneven), LinearBgr(paint.scalp_colour));
+}
+
+// Spots of a millimetre or two where the noise peaks, browner than the skin.
+void Freckle(cv::Mat& skin, const SkinPaint& paint, cv::RNG& random) {
+  if (paint.freckles.empty()) {
+    return;
+  }
+  cv::Mat mask = Spread(paint, paint.freckles);
+  cv::GaussianBlur(mask, mask, {}, 6.0);
+  cv::Mat spots = (BandNoise(random, 1.1, 3.0) - 1.1) / 0.8;
+  spots = cv::min(cv::max(spots, 0.0), 1.0);
+  Modulate(skin, mask.mul(spots), cv::Scalar(-0.62, -0.5, -0.3));
+}
+
+// Blood close under skin that the sun has burnt, in patches.
+void Burn(cv::Mat& skin, const SkinPaint& paint, cv::RNG& random) {
+  if (paint.sunburn.empty()) {
+    return;
+  }
+  cv::Mat mask = Spread(paint, paint.sunburn);
+  cv::GaussianBlur(mask, mask, {}, 9.0);
+  const cv::Mat patches = cv::max(1.0 + 0.25 * BandNoise(random, 6.0, 20.0), 0.0);
+  Modulate(skin, mask.mul(patches), cv::Scalar(-0.42, -0.36, 0.1));
+}
+
 }  // namespace
 
 Result<human::Texture> SkinTexture(const std::string& name,
@@ -291,7 +323,9 @@ Result<human::Texture> SkinTexture(const std::string& name,
   Modulate(skin, BandNoise(random, 0.7, 1.8), cv::Scalar(0.035, 0.03, 0.025));
   Modulate(skin, BandNoise(random, 8.0, 30.0), cv::Scalar(-0.02, -0.015, 0.01));
   Weather(skin, paint.weathering, random);
-  PaintHairs(skin, Spread(paint, paint.scalp), paint.scalp_colour, 0.4f, random);
+  Burn(skin, paint, random);
+  Freckle(skin, paint, random);
+  ShadeScalp(skin, paint, random);
   PaintHairs(skin, Spread(paint, paint.beard), paint.beard_colour, 0.75f * paint.stubble, random);
   return EncodeJpeg(name, ToBytes(skin));
 }
@@ -316,6 +350,28 @@ Result<human::Texture> EyeTexture(const std::string& name,
     DyeIrises(image, *colour);
   }
   return EncodePng(name, image);
+}
+
+float Coverage::At(const glm::vec2& uv) const {
+  if (alpha.empty()) {
+    return 1.0f;
+  }
+  const glm::vec2 within = uv - glm::floor(uv);
+  const int x = std::min(static_cast<int>(within.x * float(width)), width - 1);
+  const int y = std::min(static_cast<int>(within.y * float(height)), height - 1);
+  return static_cast<float>(alpha[static_cast<size_t>(y * width + x)]) / 255.0f;
+}
+
+Result<Coverage> CoverageOf(const std::string& name, std::span<const std::byte> encoded) {
+  constexpr int kSize = 512;
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, DecodeWithAlpha(name, encoded, kSize));
+  Coverage coverage{image.cols, image.rows, {}};
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      coverage.alpha.push_back(image.at<cv::Vec4b>(y, x)[3]);
+    }
+  }
+  return coverage;
 }
 
 Result<human::Texture> OpaqueTexture(const std::string& name,

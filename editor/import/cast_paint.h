@@ -23,6 +23,8 @@ struct SkinPaint {
   std::span<const uint32_t> indices;  // its triangles
   std::vector<float> scalp;           // where hair grows or lies
   std::vector<float> beard;           // where a beard would grow
+  std::vector<float> freckles;        // how many
+  std::vector<float> sunburn;         // how red
   glm::vec3 scalp_colour{0.1f};       // sRGB-encoded, as are the next
   glm::vec3 beard_colour{0.1f};
   float stubble = 0.0f;  // 0..1
@@ -50,6 +52,16 @@ Result<human::Texture> EyeTexture(const std::string& name,
                                   std::span<const std::byte> encoded,
                                   const std::optional<glm::vec3>& colour,
                                   int max_size);
+
+// How much a picture covers.
+struct Coverage {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> alpha;  // row by row from the top, 0..255; empty: all is covered
+
+  float At(const glm::vec2& uv) const;  // 0..1, of the nearest pixel; repeats
+};
+Result<Coverage> CoverageOf(const std::string& name, std::span<const std::byte> encoded);
 
 // A picture without its alpha, as a JPEG.
 Result<human::Texture> OpaqueTexture(const std::string& name,

@@ -168,12 +168,15 @@ Status ReadSkin(const JsonView& root, CastRecipe& recipe) {
     return Status();
   }
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, root.Field("skin"));
-  constexpr std::string_view kKnown[] = {"name", "tint", "stubble", "weathering"};
+  constexpr std::string_view kKnown[] = {"name",       "tint",     "stubble",
+                                         "weathering", "freckles", "sunburn"};
   LARARIUM_RETURN_IF_ERROR(OnlyFields(field, kKnown));
   LARARIUM_RETURN_IF_ERROR(ReadText(field, "name", recipe.skin));
   LARARIUM_RETURN_IF_ERROR(ReadColour(field, "tint", recipe.skin_tint));
   LARARIUM_RETURN_IF_ERROR(ReadNumber(field, "stubble", 0.0, 1.0, recipe.stubble));
-  return ReadNumber(field, "weathering", 0.0, 1.0, recipe.weathering);
+  LARARIUM_RETURN_IF_ERROR(ReadNumber(field, "weathering", 0.0, 1.0, recipe.weathering));
+  LARARIUM_RETURN_IF_ERROR(ReadNumber(field, "freckles", 0.0, 1.0, recipe.freckles));
+  return ReadNumber(field, "sunburn", 0.0, 1.0, recipe.sunburn);
 }
 
 Status ReadDyedParts(const JsonView& root, CastRecipe& recipe) {
@@ -254,7 +257,10 @@ Result<CastRecipe> LoadCastRecipe(const std::filesystem::path& file) {
 }
 
 Json ToJson(const CastRecipe& recipe) {
-  Json skin = {{"stubble", recipe.stubble}, {"weathering", recipe.weathering}};
+  Json skin = {{"stubble", recipe.stubble},
+               {"weathering", recipe.weathering},
+               {"freckles", recipe.freckles},
+               {"sunburn", recipe.sunburn}};
   if (!recipe.skin.empty()) {
     skin["name"] = recipe.skin;
   }

@@ -50,6 +50,8 @@ struct CastRecipe {
   std::optional<glm::vec3> skin_tint;  // mean colour that the skin is brought to
   float stubble = 0.0f;                // 0..1, painted where a beard would grow
   float weathering = 0.0f;             // 0..1, sun and years
+  float freckles = 0.0f;               // 0..1, on nose and cheeks
+  float sunburn = 0.0f;                // 0..1, of what faces the sky on face and forearms
   CastDyed eyes{"brownlight", {}};     // one of the colours that there are, dyed
   CastDyed eyebrows{"eyebrow010", {}};
   std::string eyelashes = "eyelashes02";

@@ -1,0 +1,71 @@
+#include "editor/import/cast_complexion.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <initializer_list>
+#include <string>
+
+#include "editor/import/plain_skeleton.h"
+
+namespace lararium::import {
+namespace {
+
+// How much of a vertex these joints and those below them move.
+class Moved {
+ public:
+  Moved(const human::Skeleton& skeleton, std::initializer_list<const char*> names)
+      : by_(skeleton.size(), false) {
+    for (const char* name : names) {
+      by_[JointIndex(skeleton, name)] = true;
+    }
+    for (size_t joint = 0; joint < by_.size(); ++joint) {
+      const int16_t parent = skeleton.parents[joint];
+      by_[joint] = by_[joint] || (parent >= 0 && by_[static_cast<size_t>(parent)]);
+    }
+  }
+  float Share(const human::SkinnedMesh& mesh, size_t v) const {
+    float share = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+      share += by_[mesh.joints[v][static_cast<size_t>(k)]] ? mesh.weights[v][k] : 0.0f;
+    }
+    return share;
+  }
+
+ private:
+  std::vector<bool> by_;
+};
+
+}  // namespace
+
+std::vector<float> WhereFrecklesAre(const FittedBody& body, const CastPiece& skin, float amount) {
+  const glm::vec3 left = RestPosition(body.skeleton, "l_eyeball_joint");
+  const glm::vec3 right = RestPosition(body.skeleton, "r_eyeball_joint");
+  const float eyes = glm::distance(left, right);  // the face's measure
+  const glm::vec3 eye_middle = 0.5f * (left + right);
+  const Moved head(body.skeleton, {"skullbase"});
+  std::vector<float> amounts(skin.mesh.positions.size(), 0.0f);
+  for (size_t v = 0; v < amounts.size(); ++v) {
+    const glm::vec3 p = (skin.mesh.positions[v] - eye_middle) / eyes;
+    if (p.z > 0.2f || head.Share(skin.mesh, v) < 0.5f) {
+      continue;
+    }
+    const glm::vec2 off(p.x / 0.95f, (p.y + 0.45f) / 0.42f);
+    amounts[v] = amount * std::exp(-0.5f * glm::dot(off, off));
+  }
+  return amounts;
+}
+
+std::vector<float> WhereTheSunBurns(const FittedBody& body, const CastPiece& skin, float amount) {
+  const Moved bare(body.skeleton, {"vc7", "l_elbow", "r_elbow"});
+  std::vector<float> amounts(skin.mesh.positions.size(), 0.0f);
+  for (size_t v = 0; v < amounts.size(); ++v) {
+    // The sun stands high, and one looks towards one's work.
+    const glm::vec3 sun = glm::normalize(glm::vec3(0.0f, 1.0f, -0.55f));
+    const float facing = glm::smoothstep(0.1f, 0.9f, glm::dot(skin.mesh.normals[v], sun));
+    amounts[v] = amount * bare.Share(skin.mesh, v) * facing;
+  }
+  return amounts;
+}
+
+}  // namespace lararium::import
