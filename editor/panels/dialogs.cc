@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -22,7 +23,8 @@ namespace {
 
 constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", ".webm"};
 constexpr std::array<const char*, 6> kModels = {".glb", ".gltf", ".fbx", ".dae", ".obj", ".ply"};
-constexpr std::array<const char*, 5> kFigures = {".json", ".glb", ".vrm", ".fbx", ".dae"};
+constexpr std::array<const char*, 7> kFigures = {".json", ".glb", ".gltf", ".vrm",
+                                                 ".fbx",  ".dae", ".x"};
 constexpr std::array<const char*, 2> kProbes = {".exr", ".hdr"};
 
 // Ends the dialog with a row of Cancel and the action. problem: why the action
@@ -274,25 +276,42 @@ void LoadFigure(app::Workspace& workspace, const std::string& file, app::CastDoc
   }
 }
 
-// "none" and the presets' names; true when another was chosen.
-bool PresetField(DialogFields& fields) {
+// The presets in pictures; a second click on the chosen one takes it back. True when another
+// was chosen.
+bool PresetGrid(app::Workspace& workspace, EditorState& state) {
+  DialogFields& fields = state.fields;
   const std::vector<std::string> names = import::CastPresetNames();
-  const char* shown = fields.preset.empty() ? "none" : fields.preset.c_str();
-  PropertyLabel("Preset");
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const auto columns = static_cast<float>(std::max<size_t>(names.size(), 1));
+  const float side =
+      std::floor((ImGui::GetContentRegionAvail().x - (columns - 1.0f) * gap) / columns);
   bool changed = false;
-  if (ImGui::BeginCombo("##preset", shown)) {
-    if (ImGui::Selectable("none", fields.preset.empty())) {
-      fields.preset.clear();
+  workspace.cast_pictures().WantPresets();
+  for (const std::string& name : names) {
+    ImGui::PushID(name.c_str());
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const float height = side + ImGui::GetTextLineHeight() + Px(6);
+    ImGui::BeginGroup();
+    ShowThumbnail(state.pictures, "preset " + name, workspace.cast_pictures().PresetThumbnail(name),
+                  side);
+    DimText(name);
+    ImGui::EndGroup();
+    ImGui::SetCursorScreenPos(from);
+    if (ImGui::InvisibleButton("choose", ImVec2(side, height))) {
+      fields.preset = fields.preset == name ? "" : name;
       changed = true;
     }
-    for (const std::string& name : names) {
-      if (ImGui::Selectable(name.c_str(), fields.preset == name)) {
-        fields.preset = name;
-        changed = true;
-      }
+    const bool chosen = fields.preset == name;
+    if (chosen || ImGui::IsItemHovered()) {
+      ImGui::GetWindowDrawList()->AddRect(from, ImVec2(from.x + side, from.y + side),
+                                          Packed(chosen ? colour::kAccent : colour::kDim),
+                                          ImGui::GetStyle().FrameRounding, 0,
+                                          Px(chosen ? 3.0f : 1.0f));
     }
-    ImGui::EndCombo();
+    ImGui::SameLine(0, gap);
+    ImGui::PopID();
   }
+  ImGui::NewLine();
   return changed;
 }
 
@@ -315,12 +334,13 @@ void CastDialog(app::Workspace& workspace, EditorState& state) {
       "One of the people that come with the editor, a recipe of your own (.json), or a rigged "
       "figure to import. Without any: the plain figure that is built in.");
   DialogFields& fields = state.fields;
+  const std::string before = fields.preset;
+  if (PresetGrid(workspace, state) && fields.name == before) {
+    fields.name = fields.preset;
+  }
   if (BeginProperties("cast")) {
     PropertyLabel("Name");
     ImGui::InputText("##name", &fields.name);
-    if (PresetField(fields) && fields.name.empty()) {
-      fields.name = fields.preset;
-    }
     PropertyLabel("File");
     PathField("file", fields.file, workspace.paths().folder, kFigures);
     EndProperties();

@@ -3,11 +3,14 @@
 // What the interface remembers beside the project: what is selected, how the
 // views look, what is being dragged. Nothing of it is saved or undone.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "editor/app/cast_pictures.h"
 #include "editor/panels/gizmo.h"
+#include "editor/panels/picture_textures.h"
 #include "editor/panels/view_camera.h"
 
 namespace lararium::panels {
@@ -43,6 +46,15 @@ struct KeyPress {
   bool repeats = false;  // it was held down
 };
 
+// How the person who is selected is looked at.
+struct CastView {
+  int frame = 0;         // head and shoulders, face, figure
+  float azimuth = 0.0f;  // radians, as StudioView
+  std::string search;    // among the features
+  std::string joint;     // of an imported figure, lit in its portrait
+  bool all_joints = false;
+};
+
 struct EditorState {
   std::vector<KeyPress> keys;  // since the last frame
   Selection selection;
@@ -56,6 +68,10 @@ struct EditorState {
   // Picking: which anchor the next click sets, and in which keyframe.
   int anchor = 0;
   int keyframe = 0;
+
+  CastView cast;
+  std::shared_ptr<const app::CastPortrait> portrait;  // the one shown in this frame
+  PictureTextures pictures;
 
   Dialog dialog = Dialog::kNone;
   DialogFields fields;

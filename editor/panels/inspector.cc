@@ -429,6 +429,9 @@ void ShowInspector(app::Workspace& workspace, EditorState& state) {
   const auto document = workspace.commands().snapshot();
   const app::PlaceDocument* place = workspace.place();
   const std::string& name = state.selection.name;
+  if (state.selection.kind != Kind::kActor) {
+    workspace.cast_pictures().Look("", {}, {});
+  }
   if (state.selection.kind == Kind::kProject) {
     ShowProject(workspace);
     return;

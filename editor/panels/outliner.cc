@@ -21,6 +21,29 @@ void Row(EditorState& state, const char* label, const Selection& selection) {
   ImGui::PopID();
 }
 
+// A person with their thumbnail before the name.
+void PersonRow(app::Workspace& workspace, EditorState& state, const app::CastDocument& member) {
+  const Selection selection{Selection::Kind::kActor, member.name};
+  const float side = Px(34);
+  ImGui::PushID(member.name.c_str());
+  ImGui::Indent(Px(6));
+  const ImVec2 from = ImGui::GetCursorPos();
+  if (ImGui::Selectable("##person", state.selection == selection, ImGuiSelectableFlags_None,
+                        ImVec2(0, side))) {
+    state.selection = selection;
+  }
+  const ImVec2 after = ImGui::GetCursorPos();
+  ImGui::SetCursorPos(from);
+  ShowThumbnail(state.pictures, "person " + member.name,
+                workspace.cast_pictures().Thumbnail(member.name), side);
+  ImGui::SetCursorPos(
+      ImVec2(from.x + side + Px(8), from.y + 0.5f * (side - ImGui::GetTextLineHeight())));
+  ImGui::TextUnformatted(member.name.c_str());
+  ImGui::SetCursorPos(after);
+  ImGui::Unindent(Px(6));
+  ImGui::PopID();
+}
+
 // A heading with a button at the right that adds to its list.
 void Section(const char* title, EditorState* state = nullptr, Dialog add = Dialog::kNone) {
   ImGui::Dummy(ImVec2(0, Px(4)));
@@ -66,7 +89,7 @@ void ShowOutliner(app::Workspace& workspace, EditorState& state) {
   }
   Section("Cast", &state, Dialog::kCast);
   for (const app::CastDocument& member : workspace.document().cast) {
-    Row(state, member.name.c_str(), {Kind::kActor, member.name});
+    PersonRow(workspace, state, member);
   }
   Section("Objects", &state, Dialog::kObject);
   for (const app::ObjectDocument& object : workspace.document().objects) {

@@ -14,14 +14,7 @@ namespace lararium::panels {
 
 namespace {
 
-constexpr float kLabelWidth = 92.0f;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-void EndGestureWithItem(app::Workspace& workspace) {
-  if (ImGui::IsItemDeactivated()) {
-    workspace.EndGesture();
-  }
-}
 
 struct FolderEntry {
   std::string name;
@@ -128,11 +121,22 @@ bool Segmented(const char* id, std::span<const char* const> labels, int& chosen)
   return changed;
 }
 
-bool BeginProperties(const char* id) {
+bool Fold(const char* title, bool open_at_first) {
+  ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_HeaderActive, colour::kHover);
+  const ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_SpanAvailWidth |
+                                   ImGuiTreeNodeFlags_NoTreePushOnOpen |
+                                   (open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  const bool open = ImGui::TreeNodeEx(title, flags);
+  ImGui::PopStyleColor(2);
+  return open;
+}
+
+bool BeginProperties(const char* id, float label_width) {
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) {
     return false;
   }
-  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, Px(kLabelWidth));
+  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, Px(label_width));
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
   return true;
 }
@@ -226,6 +230,48 @@ bool ColourProperty(app::Workspace& workspace, const char* label, Eigen::Vector3
   if (changed) {
     albedo = colour.cast<double>().unaryExpr(decode).cwiseMax(0.0).cwiseMin(1.0);
   }
+  return changed;
+}
+
+void EndGestureWithItem(app::Workspace& workspace) {
+  if (ImGui::IsItemDeactivated()) {
+    workspace.EndGesture();
+  }
+}
+
+bool NameCombo(const char* id,
+               std::string& chosen,
+               std::span<const std::string> names,
+               const char* none) {
+  const char* shown = chosen.empty() && none != nullptr ? none : chosen.c_str();
+  if (!ImGui::BeginCombo(id, shown, ImGuiComboFlags_HeightLarge)) {
+    return false;
+  }
+  const std::string before = chosen;
+  if (none != nullptr && ImGui::Selectable(none, chosen.empty())) {
+    chosen.clear();
+  }
+  for (size_t i = 0; i < names.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    const bool selected = names[i] == before;
+    if (ImGui::Selectable(names[i].empty() ? "(no name)" : names[i].c_str(), selected)) {
+      chosen = names[i];
+    }
+    if (selected && ImGui::IsWindowAppearing()) {
+      ImGui::SetScrollHereY();
+    }
+    ImGui::PopID();
+  }
+  ImGui::EndCombo();
+  return chosen != before;
+}
+
+bool Swatch(app::Workspace& workspace, const char* id, glm::vec3& srgb) {
+  const bool changed =
+      ImGui::ColorEdit3(id, &srgb.x,
+                        ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel |
+                            ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueWheel);
+  EndGestureWithItem(workspace);
   return changed;
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 
@@ -21,8 +22,11 @@ void Hint(const std::string& text);
 // A row of buttons of which one is chosen; true when the choice changed.
 bool Segmented(const char* id, std::span<const char* const> labels, int& chosen);
 
-// A grid of label and value; values fill the width that is left.
-bool BeginProperties(const char* id);
+// A heading that folds what follows away; true while it is open.
+bool Fold(const char* title, bool open_at_first);
+
+// A grid of label and value; values fill the width that is left. label_width: logical pixels.
+bool BeginProperties(const char* id, float label_width = 92.0f);
 void EndProperties();
 // Starts a row: the next widget is the value.
 void PropertyLabel(const char* label);
@@ -54,6 +58,19 @@ bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quate
 
 // A linear RGB albedo, shown and typed as the sRGB colour that people know.
 bool ColourProperty(app::Workspace& workspace, const char* label, Eigen::Vector3d& albedo);
+
+// The end of a drag of the item before this: the next change is a command of its own.
+void EndGestureWithItem(app::Workspace& workspace);
+
+// Chooses one of the names; none: what stands for the empty one, nullptr: there must be one.
+// True when another was chosen. As wide as the next item is to be.
+bool NameCombo(const char* id,
+               std::string& chosen,
+               std::span<const std::string> names,
+               const char* none);
+
+// A patch of colour that opens a picker. srgb: 0..1.
+bool Swatch(app::Workspace& workspace, const char* id, glm::vec3& srgb);
 
 // A path as text, and a button that lists the folder. extensions: with dots,
 // lower case; none: folders are chosen. folder: what relative paths start from.

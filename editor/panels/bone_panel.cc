@@ -1,0 +1,176 @@
+#include "editor/panels/bone_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <optional>
+#include <string>
+
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+namespace {
+
+constexpr const char* kNone = "no such joint";
+constexpr const char* kAsFound = "as it is found";
+
+ImVec4 ColourOf(const app::BoneRow& row) {
+  if (row.problem.empty()) {
+    return row.bone.empty() ? colour::kDim : colour::kText;
+  }
+  return row.bone.empty() ? colour::kError : colour::kWarning;
+}
+
+void Choose(app::Workspace& workspace,
+            const app::CastDocument& member,
+            const std::string& joint,
+            const std::optional<std::string>& bone) {
+  workspace.Edit("bone of " + joint + " of " + member.name, [&](app::ProjectDocument& document) {
+    for (app::CastDocument& known : document.cast) {
+      if (known.name == member.name) {
+        app::ChooseBone(joint, bone, known);
+      }
+    }
+  });
+}
+
+void JointCell(EditorState& state, const app::BoneRow& row) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushStyleColor(ImGuiCol_Text, ColourOf(row));
+  if (ImGui::Selectable(row.joint.c_str(), state.cast.joint == row.joint)) {
+    state.cast.joint = row.joint;
+  }
+  ImGui::PopStyleColor();
+  if (!row.problem.empty() && ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s: %s", row.joint.c_str(), row.problem.c_str());
+  }
+}
+
+void BoneCell(app::Workspace& workspace,
+              EditorState& state,
+              const app::CastDocument& member,
+              const app::BoneReview& review,
+              const app::BoneRow& row) {
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (!ImGui::BeginCombo("##bone", row.bone.empty() ? "\xe2\x80\x93" : row.bone.c_str(),
+                         ImGuiComboFlags_HeightLarge)) {
+    return;
+  }
+  state.cast.joint = row.joint;
+  if (member.bones.contains(row.joint) && ImGui::Selectable(kAsFound)) {
+    Choose(workspace, member, row.joint, std::nullopt);
+  }
+  if (ImGui::Selectable(kNone)) {
+    Choose(workspace, member, row.joint, "");
+  }
+  ImGui::Separator();
+  for (size_t i = 0; i < review.bones.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable(review.bones[i].c_str(), review.bones[i] == row.bone)) {
+      Choose(workspace, member, row.joint, review.bones[i]);
+    }
+    ImGui::PopID();
+  }
+  ImGui::EndCombo();
+}
+
+std::string HowFound(const app::CastDocument& member, const app::BoneRow& row) {
+  if (member.bones.contains(row.joint)) {
+    return "by hand";
+  }
+  return row.found_by ? import::NameOf(*row.found_by) : "\xe2\x80\x93";
+}
+
+void FoundCell(const app::CastDocument& member, const app::BoneRow& row) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushStyleColor(ImGuiCol_Text, row.problem.empty() ? colour::kDim : ColourOf(row));
+  ImGui::TextUnformatted(HowFound(member, row).c_str());
+  ImGui::PopStyleColor();
+  if (row.found_by && ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%.0f%% sure%s%s", static_cast<double>(100.0f * row.confidence),
+                      row.problem.empty() ? "" : ": ", row.problem.c_str());
+  }
+}
+
+// What was found and what a person needs; the other joints only when asked for.
+bool IsShown(const EditorState& state, const app::CastDocument& member, const app::BoneRow& row) {
+  return state.cast.all_joints || !row.bone.empty() || !row.problem.empty() ||
+         member.bones.contains(row.joint);
+}
+
+void ShowTable(app::Workspace& workspace,
+               EditorState& state,
+               const app::CastDocument& member,
+               const app::BoneReview& review) {
+  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg;
+  if (!ImGui::BeginTable("bones", 3, kFlags)) {
+    return;
+  }
+  ImGui::TableSetupColumn("Joint", ImGuiTableColumnFlags_WidthFixed, Px(112));
+  ImGui::TableSetupColumn("Bone", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("Found by", ImGuiTableColumnFlags_WidthFixed, Px(66));
+  ImGui::TableHeadersRow();
+  for (const app::BoneRow& row : review.rows) {
+    if (!IsShown(state, member, row)) {
+      continue;
+    }
+    ImGui::PushID(row.joint.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    JointCell(state, row);
+    ImGui::TableNextColumn();
+    BoneCell(workspace, state, member, review, row);
+    ImGui::TableNextColumn();
+    FoundCell(member, row);
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+}
+
+void ShowVerdict(const app::BoneReview& review) {
+  const auto problems = std::count_if(review.rows.begin(), review.rows.end(),
+                                      [](const app::BoneRow& row) { return !row.problem.empty(); });
+  if (problems == 0) {
+    Hint("Every joint that a person needs was found.");
+    return;
+  }
+  ImGui::PushStyleColor(ImGuiCol_Text, review.is_human ? colour::kWarning : colour::kError);
+  ImGui::TextWrapped(
+      review.is_human
+          ? "A person; look over the rows in yellow."
+          : "Not yet a person: without the joints in red it cannot walk, reach or look about. "
+            "Choose their bones.");
+  ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void ShowBones(app::Workspace& workspace, EditorState& state, const app::CastDocument& member) {
+  if (!Fold("Bones", true)) {
+    return;
+  }
+  const app::BoneReview* review = workspace.bone_review(member);
+  if (review == nullptr) {
+    Hint(workspace.tasks().Running(app::Workspace::kReview)
+             ? "Reading the figure\xe2\x80\xa6"
+             : "The figure could not be read; the messages below say why.");
+    return;
+  }
+  ShowVerdict(*review);
+  ImGui::Checkbox("All joints that people can have", &state.cast.all_joints);
+  ShowTable(workspace, state, member, *review);
+  for (const std::string& note : review->notes) {
+    Hint(note);
+  }
+  ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kReview));
+  if (ImGui::Button("Save the map", ImVec2(-FLT_MIN, 0))) {
+    workspace.SaveBones(member);
+  }
+  ImGui::EndDisabled();
+  Hint(member.bone_map.empty() ? "For other figures of the same make: cast --bone-map."
+                               : "Saved in " + member.bone_map);
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,42 @@
+#include "editor/panels/picture_textures.h"
+
+#include <cstdint>
+
+#include "editor/panels/theme.h"
+
+namespace lararium::panels {
+
+ImTextureID PictureTextures::Show(const std::string& key,
+                                  const std::shared_ptr<const cv::Mat>& picture) {
+  Entry& entry = entries_[key];
+  if (entry.uploaded != picture) {
+    entry.texture.Upload(*picture);
+    entry.uploaded = picture;
+  }
+  return reinterpret_cast<ImTextureID>(static_cast<intptr_t>(entry.texture.id()));
+}
+
+void ShowThumbnail(PictureTextures& textures,
+                   const std::string& key,
+                   const std::shared_ptr<const cv::Mat>& picture,
+                   float side) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const ImVec2 to(from.x + side, from.y + side);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float rounding = ImGui::GetStyle().FrameRounding;
+  if (picture != nullptr) {
+    draw.AddImageRounded(textures.Show(key, picture), from, to, ImVec2(0, 0), ImVec2(1, 1),
+                         IM_COL32_WHITE, rounding);
+  } else {
+    // A head and shoulders in outline, until there is a picture.
+    const ImU32 ink = Packed(colour::kDim, 0.35f);
+    draw.AddRectFilled(from, to, Packed(colour::kFrame), rounding);
+    draw.AddCircleFilled(ImVec2(from.x + 0.5f * side, from.y + 0.4f * side), 0.17f * side, ink);
+    draw.PushClipRect(from, to, true);
+    draw.AddCircleFilled(ImVec2(from.x + 0.5f * side, from.y + 0.98f * side), 0.33f * side, ink);
+    draw.PopClipRect();
+  }
+  ImGui::Dummy(ImVec2(side, side));
+}
+
+}  // namespace lararium::panels

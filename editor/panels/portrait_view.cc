@@ -1,0 +1,170 @@
+#include "editor/panels/portrait_view.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kWidest = 420.0f;  // logical pixels
+constexpr int kSizeStep = 16;      // pixels: not a new picture for each step of a splitter
+constexpr app::StudioFrame kFrames[] = {app::StudioFrame::kBust, app::StudioFrame::kFace,
+                                        app::StudioFrame::kFigure};
+constexpr int kFigure = 2;
+
+struct Place {
+  ImVec2 from;
+  ImVec2 to;
+  float scale = 1.0f;  // screen pixels of one of the picture's
+
+  ImVec2 At(const glm::vec2& pixel) const {
+    return {from.x + scale * (pixel.x + 0.5f), from.y + scale * (pixel.y + 0.5f)};
+  }
+};
+
+cv::Size PictureSize(int frame) {
+  const float width = std::min(ImGui::GetContentRegionAvail().x, Px(kWidest));
+  const int columns = std::max(1, static_cast<int>(width) / kSizeStep) * kSizeStep;
+  return {columns, frame == kFigure ? columns * 4 / 3 : columns * 7 / 8};
+}
+
+// -1: none near.
+int JointAt(const app::CastPortrait& portrait, const Place& place, const ImVec2& mouse) {
+  int nearest = -1;
+  float best = Px(9);
+  for (size_t i = 0; i < portrait.pixels.size(); ++i) {
+    const ImVec2 at = place.At(portrait.pixels[i]);
+    const float distance = std::hypot(at.x - mouse.x, at.y - mouse.y);
+    if (distance < best) {
+      best = distance;
+      nearest = static_cast<int>(i);
+    }
+  }
+  return nearest;
+}
+
+void DrawSkeleton(const app::CastPortrait& portrait, const Place& place, const std::string& lit) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 shadow = IM_COL32(0, 0, 0, 110);
+  for (size_t i = 0; i < portrait.pixels.size(); ++i) {
+    if (portrait.parents[i] >= 0) {
+      const ImVec2 from = place.At(portrait.pixels[static_cast<size_t>(portrait.parents[i])]);
+      const ImVec2 to = place.At(portrait.pixels[i]);
+      draw.AddLine(from, to, shadow, Px(3.5f));
+      draw.AddLine(from, to, Packed(colour::kAxes[2], 0.9f), Px(1.5f));
+    }
+  }
+  for (size_t i = 0; i < portrait.pixels.size(); ++i) {
+    const bool chosen = portrait.joints[i] == lit;
+    const ImVec2 at = place.At(portrait.pixels[i]);
+    draw.AddCircleFilled(at, Px(chosen ? 7.0f : 3.5f), shadow);
+    draw.AddCircleFilled(at, Px(chosen ? 5.5f : 2.2f),
+                         Packed(chosen ? colour::kAccent : colour::kText));
+  }
+}
+
+void Interact(EditorState& state,
+              const app::CastPortrait* portrait,
+              const Place& place,
+              bool bones) {
+  const ImVec2 size(place.to.x - place.from.x, place.to.y - place.from.y);
+  ImGui::SetCursorScreenPos(place.from);
+  ImGui::InvisibleButton("portrait", size);
+  const bool hovered = ImGui::IsItemHovered();
+  if (ImGui::IsItemActive()) {
+    // A person turns with the hand: dragging to the right shows their right side.
+    state.cast.azimuth =
+        std::remainder(state.cast.azimuth + kPi * ImGui::GetIO().MouseDelta.x / size.x, 2.0f * kPi);
+  }
+  if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    state.cast.azimuth = 0.0f;
+  }
+  if (!bones || portrait == nullptr) {
+    return;
+  }
+  const int joint = hovered ? JointAt(*portrait, place, ImGui::GetIO().MousePos) : -1;
+  if (joint >= 0) {
+    const std::string& name = portrait->joints[static_cast<size_t>(joint)];
+    ImGui::SetTooltip("%s", name.c_str());
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+      state.cast.joint = name;
+    }
+  }
+}
+
+void DrawPicture(EditorState& state, const app::CastPortrait* portrait, Place& place) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float rounding = ImGui::GetStyle().FrameRounding;
+  draw.AddRectFilled(place.from, place.to, Packed(colour::kFrame), rounding);
+  if (portrait == nullptr) {
+    return;
+  }
+  // The older picture may have another shape: it keeps it, within the frame.
+  const float width = place.to.x - place.from.x;
+  const float height = place.to.y - place.from.y;
+  place.scale = std::min(width / static_cast<float>(portrait->bgr.cols),
+                         height / static_cast<float>(portrait->bgr.rows));
+  const ImVec2 shown(place.scale * static_cast<float>(portrait->bgr.cols),
+                     place.scale * static_cast<float>(portrait->bgr.rows));
+  place.from = {place.from.x + 0.5f * (width - shown.x), place.from.y + 0.5f * (height - shown.y)};
+  place.to = {place.from.x + shown.x, place.from.y + shown.y};
+  const auto whole = std::shared_ptr<const cv::Mat>(state.portrait, &portrait->bgr);
+  draw.AddImageRounded(state.pictures.Show("portrait", whole), place.from, place.to, ImVec2(0, 0),
+                       ImVec2(1, 1), IM_COL32_WHITE, rounding);
+}
+
+void Caption(const Place& frame, const char* text) {
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  const ImVec2 at(frame.from.x + Px(10), frame.to.y - size.y - Px(10));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(ImVec2(at.x - Px(6), at.y - Px(3)),
+                     ImVec2(at.x + size.x + Px(6), at.y + size.y + Px(3)),
+                     Packed(colour::kWindow, 0.75f), ImGui::GetStyle().FrameRounding);
+  draw.AddText(at, Packed(colour::kText), text);
+}
+
+}  // namespace
+
+void ShowPortrait(app::Workspace& workspace,
+                  EditorState& state,
+                  const app::CastDocument& member,
+                  bool bones) {
+  const cv::Size size = PictureSize(state.cast.frame);
+  workspace.cast_pictures().Look(
+      member.name, {.azimuth = state.cast.azimuth, .frame = kFrames[state.cast.frame]}, size);
+  state.portrait = workspace.cast_pictures().portrait();
+  const bool known = state.portrait != nullptr && state.portrait->name == member.name;
+  const app::CastPortrait* portrait = known ? state.portrait.get() : nullptr;
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const Place frame{
+      from,
+      {from.x + static_cast<float>(size.width), from.y + static_cast<float>(size.height)},
+      1.0f};
+  Place picture = frame;
+  DrawPicture(state, portrait, picture);
+  if (bones && portrait != nullptr) {
+    ImGui::PushClipRect(frame.from, frame.to, true);
+    DrawSkeleton(*portrait, picture, state.cast.joint);
+    ImGui::PopClipRect();
+  }
+  Interact(state, portrait, picture, bones);
+  ImGui::SetCursorScreenPos(ImVec2(from.x, frame.to.y + ImGui::GetStyle().ItemSpacing.y));
+  if (workspace.cast_pictures().Working(member.name)) {
+    Caption(frame, "Building\xe2\x80\xa6");
+  }
+  static constexpr const char* kLabels[] = {"Bust", "Face", "Figure"};
+  Segmented("frame", kLabels, state.cast.frame);
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  DimText("Drag to turn");
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,329 @@
+#include "editor/panels/recipe_panel.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cstdio>
+#include <optional>
+
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+namespace {
+
+using import::CastRecipe;
+
+constexpr float kFeatureLabel = 132.0f;  // logical pixels
+constexpr size_t kMostBeards = 4;        // that a recipe can hold
+constexpr const char* kReset = "\xc3\x97";
+
+// A share from 0 to 1, or a number with a unit, of a recipe.
+struct RecipeSlider {
+  const char* label;
+  float CastRecipe::*value;
+  double min;
+  double max;
+  const char* format;
+};
+
+constexpr RecipeSlider kBodySliders[] = {
+    {"Age", &CastRecipe::age, 1.0, 90.0, "%.0f years"},
+    {"Woman to man", &CastRecipe::sex, 0.0, 1.0, "%.2f"},
+    {"Weight", &CastRecipe::weight, 0.0, 1.0, "%.2f"},
+    {"Muscle", &CastRecipe::muscle, 0.0, 1.0, "%.2f"},
+    {"Proportions", &CastRecipe::proportions, 0.0, 1.0, "%.2f"},
+    {"Breast size", &CastRecipe::breast_size, 0.0, 1.0, "%.2f"},
+    {"Breast firmness", &CastRecipe::breast_firmness, 0.0, 1.0, "%.2f"}};
+constexpr RecipeSlider kSkinSliders[] = {{"Stubble", &CastRecipe::stubble, 0.0, 1.0, "%.2f"},
+                                         {"Weathering", &CastRecipe::weathering, 0.0, 1.0, "%.2f"},
+                                         {"Asymmetry", &CastRecipe::asymmetry, 0.0, 1.0, "%.2f"}};
+
+std::string InSmallLetters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+class RecipePanel {
+ public:
+  RecipePanel(app::Workspace& workspace, EditorState& state, CastRecipe& recipe)
+      : workspace_(workspace), state_(state), recipe_(recipe), catalogue_(workspace.catalogue()) {}
+
+  RecipeChange Show() {
+    if (Fold("Body", true)) {
+      ShowBody();
+    }
+    if (Fold("Features", false)) {
+      ShowFeatures();
+    }
+    if (Fold("Skin and eyes", false)) {
+      ShowSkin();
+    }
+    if (Fold("Hair and beard", false)) {
+      ShowHair();
+    }
+    if (Fold("Clothes", false)) {
+      ShowWardrobe(workspace_, recipe_, change_);
+    }
+    return std::move(change_);
+  }
+
+ private:
+  void ShowSliders(std::span<const RecipeSlider> sliders) {
+    for (const RecipeSlider& slider : sliders) {
+      double value = recipe_.*slider.value;
+      if (SliderProperty(workspace_, slider.label, value, slider.min, slider.max, slider.format)) {
+        recipe_.*slider.value = static_cast<float>(value);
+        change_.Drag(InSmallLetters(slider.label));
+      }
+    }
+  }
+
+  void ShowBody() {
+    if (!BeginProperties("body", 110.0f)) {
+      return;
+    }
+    ShowSliders(kBodySliders);
+    double height = recipe_.height.value_or(1.7f);
+    if (SliderProperty(workspace_, "Height", height, app::kMinHeight, app::kMaxHeight, "%.2f m")) {
+      recipe_.height = static_cast<float>(height);
+      change_.Drag("height");
+    }
+    ShowDescent();
+    EndProperties();
+  }
+
+  void ShowDescent() {
+    constexpr std::array<const char*, 3> kLabels = {"European", "African", "Asian"};
+    for (int i = 0; i < 3; ++i) {
+      double share = recipe_.ethnicity[i];
+      if (SliderProperty(workspace_, kLabels[i], share, 0.0, 1.0, "%.2f")) {
+        recipe_.ethnicity[i] = static_cast<float>(share);
+        change_.Drag("descent");
+      }
+    }
+    if (recipe_.ethnicity.x + recipe_.ethnicity.y + recipe_.ethnicity.z <= 0.0f) {
+      recipe_.ethnicity.x = 0.01f;  // somebody's they must be
+    }
+  }
+
+  // ---- Single features -------------------------------------------------------------
+
+  void ShowFeatures() {
+    if (!HasCatalogue()) {
+      return;
+    }
+    std::string& search = state_.cast.search;
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::InputTextWithHint("##search", "Search: nose, lip, thigh\xe2\x80\xa6", &search);
+    bool any = false;
+    for (const app::CastSliderGroup& group : catalogue_->groups) {
+      any |= ShowGroup(group);
+    }
+    if (!any) {
+      Hint("No feature is called so.");
+    }
+    ImGui::BeginDisabled(recipe_.modifiers.empty());
+    if (ImGui::Button("Reset all features", ImVec2(-FLT_MIN, 0))) {
+      recipe_.modifiers.clear();
+      change_.Choose("reset of all features");
+    }
+    ImGui::EndDisabled();
+  }
+
+  // While something is searched for, the groups with hits are open and the others gone.
+  bool ShowGroup(const app::CastSliderGroup& group) {
+    const std::string& search = state_.cast.search;
+    std::vector<const app::CastSlider*> shown;
+    int set = 0;
+    for (const app::CastSlider& slider : group.sliders) {
+      set += recipe_.modifiers.contains(slider.modifier);
+      if (app::Matches(group, slider, search)) {
+        shown.push_back(&slider);
+      }
+    }
+    if (shown.empty()) {
+      return false;
+    }
+    const std::string title =
+        group.title + (set > 0 ? " (" + std::to_string(set) + ")" : "") + "###" + group.title;
+    if (!search.empty()) {
+      ImGui::SetNextItemOpen(true);
+    }
+    ImGui::Indent(Px(8));
+    if (Fold(title.c_str(), false) && BeginProperties(group.title.c_str(), kFeatureLabel)) {
+      for (const app::CastSlider* slider : shown) {
+        ShowFeature(group, *slider);
+      }
+      EndProperties();
+    }
+    ImGui::Unindent(Px(8));
+    return true;
+  }
+
+  void ShowFeature(const app::CastSliderGroup& group, const app::CastSlider& slider) {
+    const auto known = recipe_.modifiers.find(slider.modifier);
+    const bool set = known != recipe_.modifiers.end();
+    float value = set ? known->second : 0.0f;
+    const std::string what = InSmallLetters(group.title) + ": " + slider.label;
+    PropertyLabel(slider.label.c_str());
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s", slider.modifier.c_str());
+    }
+    ImGui::PushID(slider.modifier.c_str());
+    const float reset = ImGui::GetFrameHeight();
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - reset -
+                            ImGui::GetStyle().ItemInnerSpacing.x);
+    if (ImGui::SliderFloat("##value", &value, slider.min, 1.0f, Format(slider, value).c_str(),
+                           ImGuiSliderFlags_AlwaysClamp)) {
+      recipe_.modifiers[slider.modifier] = value;
+      change_.Drag(what);
+    }
+    EndGestureWithItem(workspace_);
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    if (set && ImGui::Button(kReset, ImVec2(reset, 0))) {
+      recipe_.modifiers.erase(slider.modifier);
+      change_.Choose("reset of " + what);
+    }
+    ImGui::PopID();
+  }
+
+  // "more 0.30"; what is left alone shows a dash.
+  static std::string Format(const app::CastSlider& slider, float value) {
+    if (value == 0.0f) {
+      return "\xe2\x80\x93";
+    }
+    char text[64];
+    std::snprintf(text, sizeof(text), "%s %.2f",
+                  (value < 0.0f ? slider.less : slider.more).substr(0, 40).c_str(),
+                  static_cast<double>(std::abs(value)));
+    return text;
+  }
+
+  // ---- Parts -----------------------------------------------------------------------
+
+  void ShowSkin() {
+    if (!HasCatalogue() || !BeginProperties("skin", 110.0f)) {
+      return;
+    }
+    PropertyLabel("Skin");
+    if (NameCombo("##skin", recipe_.skin, catalogue_->skins, "by age, sex and descent")) {
+      change_.Choose("skin");
+    }
+    PropertyLabel("Tint");
+    ColourField("skin tint", recipe_.skin_tint, glm::vec3(0.7f, 0.52f, 0.4f));
+    ShowSliders(kSkinSliders);
+    PartField("Eyes", recipe_.eyes, catalogue_->eyes, nullptr);
+    PropertyLabel("Eyelashes");
+    if (NameCombo("##eyelashes", recipe_.eyelashes, catalogue_->eyelashes, "none")) {
+      change_.Choose("eyelashes");
+    }
+    EndProperties();
+  }
+
+  void ShowHair() {
+    if (!HasCatalogue() || !BeginProperties("hair", 110.0f)) {
+      return;
+    }
+    import::CastDyed hair = recipe_.hair.value_or(import::CastDyed());
+    if (PartField("Hair", hair, catalogue_->hair, "none")) {
+      recipe_.hair = hair.name.empty() ? std::nullopt : std::optional(hair);
+    }
+    if (recipe_.hair) {
+      double volume = recipe_.hair->volume;
+      if (SliderProperty(workspace_, "Volume", volume, 0.1, 2.0, "%.2f")) {
+        recipe_.hair->volume = static_cast<float>(volume);
+        change_.Drag("volume of the hair");
+      }
+    }
+    PartField("Brows", recipe_.eyebrows, catalogue_->eyebrows, "none");
+    for (size_t i = 0; i < recipe_.beard.size(); ++i) {
+      const std::string label = i == 0 ? "Beard" : "Beard " + std::to_string(i + 1);
+      PartField(label.c_str(), recipe_.beard[i], catalogue_->beards, "none");
+    }
+    std::erase_if(recipe_.beard, [](const import::CastDyed& part) { return part.name.empty(); });
+    EndProperties();
+    ImGui::BeginDisabled(recipe_.beard.size() >= kMostBeards || catalogue_->beards.empty());
+    if (ImGui::Button("Add a beard", ImVec2(-FLT_MIN, 0))) {
+      const auto colour = recipe_.hair ? recipe_.hair->colour : std::nullopt;
+      recipe_.beard.push_back({catalogue_->beards.front(), colour});
+      change_.Choose("beard");
+    }
+    ImGui::EndDisabled();
+  }
+
+  // A part by name with the colour that it is dyed to.
+  bool PartField(const char* label,
+                 import::CastDyed& part,
+                 std::span<const std::string> names,
+                 const char* none) {
+    const std::string what = InSmallLetters(label);
+    PropertyLabel(label);
+    ImGui::PushID(label);
+    const float swatch = ImGui::GetFrameHeight();
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2 * (swatch + gap));
+    bool changed = false;
+    if (NameCombo("##name", part.name, names, none)) {
+      change_.Choose(what);
+      changed = true;
+    }
+    ImGui::SameLine(0, gap);
+    changed |= ColourField("colour of the " + what, part.colour, glm::vec3(0.2f, 0.14f, 0.1f));
+    ImGui::PopID();
+    return changed;
+  }
+
+  // none: what the picker begins with where no colour was chosen.
+  bool ColourField(const std::string& what,
+                   std::optional<glm::vec3>& colour,
+                   const glm::vec3& none) {
+    bool changed = false;
+    glm::vec3 value = colour.value_or(none);
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, colour ? 1.0f : 0.35f);
+    if (Swatch(workspace_, "##colour", value)) {
+      colour = value;
+      change_.Drag(what);
+      changed = true;
+    }
+    ImGui::PopStyleVar();
+    if (!colour && ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("As the part was made; click to dye it");
+    }
+    if (colour) {
+      ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+      if (ImGui::Button(kReset, ImVec2(ImGui::GetFrameHeight(), 0))) {
+        colour.reset();
+        change_.Choose("reset of the " + what);
+        changed = true;
+      }
+    }
+    return changed;
+  }
+
+  bool HasCatalogue() {
+    if (catalogue_ == nullptr) {
+      Hint(workspace_.catalogue_problem().empty() ? "Opening the cast library\xe2\x80\xa6"
+                                                  : workspace_.catalogue_problem());
+    }
+    return catalogue_ != nullptr;
+  }
+
+  app::Workspace& workspace_;
+  EditorState& state_;
+  CastRecipe& recipe_;
+  const app::CastCatalogue* catalogue_;
+  RecipeChange change_;
+};
+
+}  // namespace
+
+RecipeChange ShowRecipe(app::Workspace& workspace, EditorState& state, CastRecipe& recipe) {
+  return RecipePanel(workspace, state, recipe).Show();
+}
+
+}  // namespace lararium::panels
