@@ -31,15 +31,26 @@ inline glm::vec3 AroundNormal(const glm::vec3& n, const glm::vec3& about_z) {
   return about_z.x * x + about_z.y * y + about_z.z * n;
 }
 
-// The second coordinate of point i of Hammersley's set: i's bits behind the point,
-// turned round.
-inline float RadicalInverse(uint32_t i) {
+// The bits of i in the opposite order.
+inline uint32_t ReverseBits(uint32_t i) {
   i = (i << 16) | (i >> 16);
   i = ((i & 0x55555555u) << 1) | ((i & 0xaaaaaaaau) >> 1);
   i = ((i & 0x33333333u) << 2) | ((i & 0xccccccccu) >> 2);
   i = ((i & 0x0f0f0f0fu) << 4) | ((i & 0xf0f0f0f0u) >> 4);
-  i = ((i & 0x00ff00ffu) << 8) | ((i & 0xff00ff00u) >> 8);
-  return static_cast<float>(i >> 8) * 0x1p-24f;
+  return ((i & 0x00ff00ffu) << 8) | ((i & 0xff00ff00u) >> 8);
+}
+
+// Point i of Sobol's (0, 2)-sequence in [0, 1)^2, scrambled by two masks: any power of
+// two of its points is well stratified (Kollig & Keller, "Efficient Multidimensional
+// Sampling", Eurographics 2002).
+inline glm::vec2 SobolPoint(uint32_t i, uint32_t mask_x, uint32_t mask_y) {
+  uint32_t y = 0;
+  for (uint32_t direction = 1u << 31, rest = i; rest != 0;
+       rest >>= 1, direction ^= direction >> 1) {
+    y ^= (rest & 1u) != 0 ? direction : 0u;
+  }
+  return {static_cast<float>((ReverseBits(i) ^ mask_x) >> 8) * 0x1p-24f,
+          static_cast<float>((y ^ mask_y) >> 8) * 0x1p-24f};
 }
 
 }  // namespace lararium::bake

@@ -28,6 +28,23 @@ glm::vec3 DirectionFromImage(float column, float row, int width, int height) {
   return {level * std::sin(azimuth), std::sin(elevation), -level * std::cos(azimuth)};
 }
 
+// The mean luminance over a texel of what is interpolated between it and its
+// neighbours: beside a small sun the light is far from dark.
+float InterpolatedLuminance(const ProbeImage& image, int column, int row) {
+  constexpr float kShare[3] = {0.125f, 0.75f, 0.125f};
+  float sum = 0.0f;
+  for (int down = -1; down <= 1; ++down) {
+    const int y = std::clamp(row + down, 0, image.height - 1);
+    for (int across = -1; across <= 1; ++across) {
+      const int x = (column + across + image.width) % image.width;
+      sum += kShare[down + 1] * kShare[across + 1] *
+             Luminance(image.pixels[static_cast<size_t>(y) * static_cast<size_t>(image.width) +
+                                    static_cast<size_t>(x)]);
+    }
+  }
+  return sum;
+}
+
 // Cumulates in place and divides by the sum, which is returned.
 float Cumulate(std::span<float> values) {
   double sum = 0.0;
@@ -67,7 +84,8 @@ Environment::Environment(ProbeImage image, const ProbePlacement& placement)
         kPi * (0.5f - (static_cast<float>(row) + 0.5f) / static_cast<float>(image_.height));
     for (size_t column = 0; column < width; ++column) {
       column_ends_[row * width + column] =
-          Luminance(image_.pixels[row * width + column]) * std::cos(elevation);
+          InterpolatedLuminance(image_, static_cast<int>(column), static_cast<int>(row)) *
+          std::cos(elevation);
     }
     row_ends_[row] = Cumulate(std::span(column_ends_).subspan(row * width, width));
   }

@@ -1,6 +1,7 @@
 #include "editor/bake/path_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -23,10 +24,44 @@ struct SurfacePoint {
   glm::vec3 albedo = glm::vec3(0.0f);
 };
 
-glm::vec2 DrawPair(Random& random) {
-  const auto x = static_cast<float>(random.Uniform());
-  return {std::min(x, 0.99999994f), std::min(static_cast<float>(random.Uniform()), 0.99999994f)};
-}
+// Random numbers of one path: well stratified over the paths of a pixel for what matters
+// most (within the pixel, and the two directions from what it sees), independent later.
+class PathRandom {
+ public:
+  PathRandom(const PathTracing& tracing, uint64_t pixel) : random_(tracing.seed, pixel) {
+    for (Masks& pair : masks_) {
+      pair = {random_.Next(), random_.Next(), random_.Next()};
+    }
+  }
+
+  void StartPath(int sample) {
+    sample_ = static_cast<uint32_t>(sample);
+    pair_ = 0;
+  }
+  glm::vec2 DrawPair() {
+    if (pair_ < masks_.size()) {
+      // Another order of the same points for each pair.
+      const Masks& masks = masks_[pair_++];
+      return SobolPoint(sample_ ^ (masks.order & kOrderMask), masks.x, masks.y);
+    }
+    const uint32_t x = random_.Next();
+    return {static_cast<float>(x >> 8) * 0x1p-24f,
+            static_cast<float>(random_.Next() >> 8) * 0x1p-24f};
+  }
+
+ private:
+  static constexpr uint32_t kOrderMask = 15;
+  struct Masks {
+    uint32_t order = 0;
+    uint32_t x = 0;
+    uint32_t y = 0;
+  };
+
+  Random random_;
+  std::array<Masks, 3> masks_;
+  uint32_t sample_ = 0;
+  size_t pair_ = 0;
+};
 
 float PowerHeuristic(float density, float other) {
   const float a = density * density;
@@ -42,13 +77,13 @@ class Tracer {
   glm::vec4 Trace(const glm::vec3& origin,
                   const glm::vec3& direction,
                   int bounces,
-                  Random& random) const;
+                  PathRandom& random) const;
 
  private:
   SurfacePoint PointOf(const glm::vec3& origin,
                        const glm::vec3& direction,
                        const RayHit& hit) const;
-  glm::vec3 SampleProbe(const SurfacePoint& point, Random& random) const;
+  glm::vec3 SampleProbe(const SurfacePoint& point, PathRandom& random) const;
 
   std::span<const SurfaceMesh> meshes_;
   const RayScene& rays_;
@@ -70,8 +105,8 @@ SurfacePoint Tracer::PointOf(const glm::vec3& origin,
 }
 
 // Light that a direction drawn from the probe brings, over the albedo.
-glm::vec3 Tracer::SampleProbe(const SurfacePoint& point, Random& random) const {
-  const Environment::Sample sample = environment_.Draw(DrawPair(random));
+glm::vec3 Tracer::SampleProbe(const SurfacePoint& point, PathRandom& random) const {
+  const Environment::Sample sample = environment_.Draw(random.DrawPair());
   const float cosine = glm::dot(point.normal, sample.direction);
   if (sample.density <= 0.0f || cosine <= 0.0f || glm::dot(point.face, sample.direction) <= 0.0f ||
       rays_.Blocked(point.position, sample.direction)) {
@@ -84,7 +119,7 @@ glm::vec3 Tracer::SampleProbe(const SurfacePoint& point, Random& random) const {
 glm::vec4 Tracer::Trace(const glm::vec3& origin,
                         const glm::vec3& direction,
                         int bounces,
-                        Random& random) const {
+                        PathRandom& random) const {
   std::optional<RayHit> hit = rays_.Trace(origin, direction);
   if (!hit) {
     return glm::vec4(0.0f);
@@ -95,7 +130,7 @@ glm::vec4 Tracer::Trace(const glm::vec3& origin,
   for (int bounce = 0;; ++bounce) {
     throughput *= point.albedo;
     radiance += throughput * SampleProbe(point, random);
-    const glm::vec3 next = AroundNormal(point.normal, CosineDirection(DrawPair(random)));
+    const glm::vec3 next = AroundNormal(point.normal, CosineDirection(random.DrawPair()));
     if (glm::dot(point.face, next) <= 0.0f) {
       break;
     }
@@ -143,10 +178,11 @@ void TraceRow(const Tracer& tracer,
   for (int column = 0; column < image.width; ++column) {
     const size_t index =
         static_cast<size_t>(row) * static_cast<size_t>(image.width) + static_cast<size_t>(column);
-    Random random(tracing.seed, index);
+    PathRandom random(tracing, index);
     glm::vec4 sum(0.0f);
     for (int sample = 0; sample < tracing.samples; ++sample) {
-      const glm::vec2 pixel = glm::vec2(column, row) + DrawPair(random) - 0.5f;
+      random.StartPath(sample);
+      const glm::vec2 pixel = glm::vec2(column, row) + random.DrawPair() - 0.5f;
       sum += tracer.Trace(lens.eye, lens.Direction(pixel), tracing.bounces, random);
     }
     image.pixels[index] = sum / static_cast<float>(tracing.samples);

@@ -118,6 +118,7 @@ Status Human::Validate(const std::string& place) const {
   for (const BodyCapsule& capsule : capsules) {
     LARARIUM_RETURN_IF_ERROR(capsule.Validate(skeleton.size(), place));
   }
+  LARARIUM_RETURN_IF_ERROR(light.Validate(meshes, skeleton.size(), place));
   for (const Clip& clip : clips) {
     LARARIUM_RETURN_IF_ERROR(clip.Validate(skeleton.size(), place));
   }

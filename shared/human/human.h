@@ -16,6 +16,7 @@
 #include "shared/core/status.h"
 #include "shared/human/clip.h"
 #include "shared/human/face_shape.h"
+#include "shared/human/light_transfer.h"
 #include "shared/human/material.h"
 #include "shared/human/skeleton.h"
 #include "shared/human/soft_parts.h"
@@ -59,6 +60,7 @@ struct Human {
   std::vector<SpringChain> springs;
   std::vector<BodyCapsule> capsules;
   std::vector<Clip> clips;
+  LightTransfer light;  // empty: not baked
   std::string credits;  // authors and licences of what it is made of
 
   Status Validate(const std::string& place) const;

@@ -9,7 +9,7 @@
 namespace lararium::human {
 namespace {
 
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;
 constexpr char kRemedy[] = "bake or export it again";
 
 glm::quat ReadQuaternion(const fb::Quaternion& q) { return glm::quat(q.w(), q.x(), q.y(), q.z()); }
@@ -116,6 +116,28 @@ void ReadClip(const fb::Clip& from, BlockReader& reader, Clip& to) {
   ReadTransforms(from.keys(), reader, to.keys);
 }
 
+void ReadKeyPose(const fb::KeyPose& from, BlockReader& reader, std::vector<JointTransform>& to) {
+  ReadTransforms(from.joints(), reader, to);
+}
+
+void ReadMeshLight(const fb::MeshLight& from, BlockReader& reader, LightTransfer::Mesh& to) {
+  reader.Read(from.receivers(), to.receivers);
+  reader.Read(from.weights(), to.weights);
+  reader.Read(from.coefficients(), to.coefficients);
+  reader.Read(from.scale(), to.scale);
+}
+
+void ReadLight(const fb::LightTransfer* from, BlockReader& reader, LightTransfer& to) {
+  if (from != nullptr) {
+    to.count = from->count();
+    to.bounces = from->bounces();
+    reader.ReadTables(from->key_poses(), to.key_poses, ReadKeyPose);
+    reader.Read(from->blockers(), to.blockers);
+    reader.Read(from->receivers(), to.receivers);
+    reader.ReadTables(from->meshes(), to.meshes, ReadMeshLight);
+  }
+}
+
 // Of a buffer whose structure has been verified.
 Result<Human> ReadHuman(const fb::Human& from, size_t file_size, const std::string& place) {
   BlockReader reader(file_size);
@@ -133,6 +155,7 @@ Result<Human> ReadHuman(const fb::Human& from, size_t file_size, const std::stri
   reader.ReadTables(from.springs(), human.springs, ReadSpring);
   reader.Read(from.capsules(), human.capsules);
   reader.ReadTables(from.clips(), human.clips, ReadClip);
+  ReadLight(from.light(), reader, human.light);
   if (!reader.ok()) {
     return Status::Error(place, "the file is damaged: its parts overlap", kRemedy);
   }
@@ -232,6 +255,30 @@ auto WriteClip(flatbuffers::FlatBufferBuilder& builder, const Clip& clip) {
                         keys);
 }
 
+auto WriteKeyPose(flatbuffers::FlatBufferBuilder& builder,
+                  const std::vector<JointTransform>& pose) {
+  const auto joints = WriteTransforms(builder, pose);
+  return fb::CreateKeyPose(builder, joints);
+}
+
+auto WriteMeshLight(flatbuffers::FlatBufferBuilder& builder, const LightTransfer::Mesh& mesh) {
+  const auto receivers = WriteBlock<fb::VertexReceivers>(builder, mesh.receivers);
+  const auto weights = WriteBlock<fb::JointIndices>(builder, mesh.weights);
+  const auto coefficients = builder.CreateVector(mesh.coefficients);
+  const auto scale = builder.CreateVector(mesh.scale);
+  return fb::CreateMeshLight(builder, receivers, weights, coefficients, scale);
+}
+
+auto WriteLight(flatbuffers::FlatBufferBuilder& builder, const LightTransfer& light) {
+  const auto key_poses = WriteTables(builder, light.key_poses, WriteKeyPose);
+  const auto blockers = WriteBlock<fb::LightBlocker>(builder, light.blockers);
+  const auto receivers = WriteBlock<fb::LightReceiver>(builder, light.receivers);
+  const auto meshes = WriteTables(builder, light.meshes, WriteMeshLight);
+  return fb::CreateLightTransfer(builder, static_cast<uint8_t>(light.count),
+                                 static_cast<uint8_t>(light.bounces), key_poses, blockers,
+                                 receivers, meshes);
+}
+
 }  // namespace
 
 Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& place) {
@@ -278,10 +325,11 @@ std::vector<std::byte> SerializeHuman(const Human& human) {
   const auto springs = WriteTables(builder, human.springs, WriteSpring);
   const auto capsules = WriteBlock<fb::BodyCapsule>(builder, human.capsules);
   const auto clips = WriteTables(builder, human.clips, WriteClip);
+  const auto light = WriteLight(builder, human.light);
   fb::FinishHumanBuffer(
       builder, fb::CreateHuman(builder, kVersion, name, credits, skeleton,
                                static_cast<uint8_t>(human.skinning), textures, materials, meshes,
-                               morphs, face, cloths, springs, capsules, clips));
+                               morphs, face, cloths, springs, capsules, clips, light));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
   return {bytes.begin(), bytes.end()};
 }

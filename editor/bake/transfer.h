@@ -1,0 +1,30 @@
+#pragma once
+
+// Bakes the light transfer of a person (Sloan, Kautz & Snyder, SIGGRAPH 2002), self
+// shadows and interreflections, at several key poses.
+
+#include <cstddef>
+
+#include "shared/core/progress.h"
+#include "shared/core/status.h"
+#include "shared/human/human.h"
+#include "shared/human/light_transfer.h"
+
+namespace lararium::bake {
+
+struct TransferOptions {
+  int count = 25;   // coefficients: 9, 16, 25 or 36
+  int rays = 512;   // from each vertex at each key pose
+  int bounces = 2;  // reflections between surfaces; 0: shadowed direct light alone
+  size_t key_poses = 5;
+  size_t blockers = 56;
+  size_t receivers = 240;
+};
+
+// Deterministic, whatever the number of cores. The person must be valid. Fails where a
+// texture cannot be decoded, or when cancelled.
+Result<human::LightTransfer> BakeTransfer(const human::Human& human,
+                                          const TransferOptions& options,
+                                          Progress& progress);
+
+}  // namespace lararium::bake
