@@ -5,6 +5,7 @@
 
 #include "editor/app/options.h"
 #include "editor/app/portrait.h"
+#include "editor/app/reference.h"
 #include "editor/app/subcommands.h"
 #include "editor/app/terminal.h"
 #include "editor/app/window.h"
@@ -56,6 +57,9 @@ struct Runner {
     return RunRender(options, progress, log);
   }
   Result<CommandResult> operator()(const PortraitOptions& options) { return RunPortrait(options); }
+  Result<CommandResult> operator()(const ReferenceOptions& options) {
+    return RunReference(options, progress);
+  }
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);
   }

@@ -27,6 +27,7 @@ struct AllOptions {
   RenderOptions render;
   PortraitOptions portrait;
   std::string portrait_size;
+  ReferenceOptions reference;
   ExportOptions export_;
 };
 
@@ -164,6 +165,40 @@ void AddPortrait(CLI::App& app, PortraitOptions& portrait, std::string& size) {
   command->add_flag("--sheet", portrait.sheet, "A contact sheet: all views, faces and shapes");
 }
 
+void AddReference(CLI::App& app, ReferenceOptions& reference) {
+  CLI::App* command = app.add_subcommand("reference", "Path-trace a person in a probe's light");
+  command->fallthrough();
+  command->add_option("FILE", reference.human, "The person (.larhuman)")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--probe", reference.probe, "The light (.exr, .hdr)")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--probe-turn", reference.probe_turn, "Degrees about the vertical")
+      ->check(CLI::Range(-360.0, 360.0));
+  command->add_option("--probe-scale", reference.probe_scale, "Radiance for each unit of the file")
+      ->check(CLI::Range(1e-6, 1e6));
+  command->add_option("--camera", reference.camera, "Where from (poses.json, world = stage)")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--frame", reference.frame, "Which of its poses")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--clip", reference.clip, "The clip to pose by; the rest pose otherwise");
+  command->add_option("--time", reference.time, "Seconds into the clip")
+      ->check(CLI::Range(0.0, 3600.0));
+  command->add_option("--ground", reference.ground, "Albedo of a floor")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_flag("--without-person", reference.without_person, "The floor alone");
+  command->add_option("--samples", reference.samples, "Paths for each pixel")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command->add_option("--bounces", reference.bounces, "Reflections between surfaces; 0: direct")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  command->add_option("--seed", reference.seed, "Of the noise");
+  command->add_option("--out", reference.out, "The image (.exr)")->required();
+}
+
 void AddOthers(CLI::App& app, AllOptions& options) {
   CLI::App* create = AddSubcommand(app, "new", "Make an empty project", options.create.project);
   create->add_option("--title", options.create.title, "Title; the folder's name otherwise");
@@ -183,6 +218,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
 
   AddRender(app, options.render);
   AddPortrait(app, options.portrait, options.portrait_size);
+  AddReference(app, options.reference);
 
   CLI::App* pack = AddSubcommand(app, "export", "Pack the show", options.export_.project);
   pack->add_option("--out", options.export_.out, "The bundle (.larshow)")->required();
@@ -201,6 +237,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("check")) return options.check;
   if (app.got_subcommand("render")) return options.render;
   if (app.got_subcommand("portrait")) return options.portrait;
+  if (app.got_subcommand("reference")) return options.reference;
   if (app.got_subcommand("export")) return options.export_;
   return options.window;
 }

@@ -2,6 +2,7 @@
 
 // The editor's command line.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -104,6 +105,24 @@ struct PortraitOptions {
   bool sheet = false;  // everyone from several sides, and each shape of the first face
 };
 
+// A person in a probe's light, in linear radiance.
+struct ReferenceOptions {
+  std::filesystem::path human;  // .larhuman, standing at the stage's origin
+  std::filesystem::path probe;  // HDR image
+  double probe_turn = 0.0;      // degrees about the vertical, stage from probe
+  double probe_scale = 1.0;
+  std::filesystem::path camera;  // poses.json; its world is the stage
+  int frame = 0;                 // of the camera file
+  std::string clip;              // empty: the rest pose
+  double time = 0.0;             // seconds into the clip
+  std::optional<double> ground;  // albedo of a floor of 4 x 4 m, if there is one
+  bool without_person = false;   // the floor alone
+  int samples = 256;             // of each pixel
+  int bounces = 4;
+  uint64_t seed = 1;
+  std::filesystem::path out;  // .exr
+};
+
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
@@ -121,6 +140,7 @@ using Subcommand = std::variant<WindowOptions,
                                 CheckOptions,
                                 RenderOptions,
                                 PortraitOptions,
+                                ReferenceOptions,
                                 ExportOptions>;
 
 struct CommandLine {
