@@ -30,18 +30,25 @@ struct Trim {
 struct DrapedGarment {
   std::vector<glm::mat4> skin;  // of the pose it was draped in
   Sheet sheet;                  // with weights
-  size_t coarse_particles = 0;  // the first of sheet's particles, those of the coarse sheet
-  std::vector<Triangle> coarse_triangles;  // of these particles
-  std::vector<float> reach;                // of each particle; 0: plain skin
+  // What is simulated: sheet's first particles, at places of their own, and triangles of
+  // them; which of these each triangle of sheet follows.
+  std::vector<glm::vec3> coarse_positions;
+  std::vector<Triangle> coarse_triangles;
+  std::vector<uint32_t> coarse_of;
+  std::vector<float> reach;  // of each particle; 0: plain skin
   std::function<glm::vec3(uint8_t panel, const glm::vec2& flat)> dye;  // linear RGB
   std::vector<Trim> trims;
   // What lies further left and higher is covered for certain: the arm in a mantle.
   float covers_left_of = -1e9f;
   float covers_above = 1e9f;
   bool covers = true;          // hides what lies below it
+  bool wraps = false;          // covers so much that what it hides need not be simulated
   float cover_margin = 0.05f;  // from its edges, within which garments below it stay
   float hide_margin = 0.03f;   // metres from the cloth's edges within which skin stays
   float loose_margin = 0.16f;  // the same from hems of loose parts, seen from below
 };
+
+// Takes the sheet as it is for what is simulated, and divides it so often for drawing.
+void Divide(int times, Sheet& sheet, DrapedGarment& garment);
 
 }  // namespace lararium::import

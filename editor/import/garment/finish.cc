@@ -19,8 +19,12 @@ namespace {
 // How far from its normal a place may be looked at, radians: cloth lies close on cloth.
 constexpr float kSkinView = 0.85f;
 constexpr float kClothView = 0.35f;
+// So many margins from every edge of a garment is deep below it.
+constexpr float kDeep = 1.6f;
 
-constexpr float kFoldShade = 0.5f;  // how much darker the bottom of a deep fold is
+constexpr float kFoldShade = 0.4f;   // how much darker the bottom of a deep fold is
+constexpr float kDeepFold = 0.025f;  // metres below the cloth around it
+constexpr int kShadeRounds = 14;     // of smoothing, which levels the folds
 
 // Which small cubes of space cloth passes through.
 class Screen {
@@ -120,12 +124,18 @@ std::vector<bool> CoveredBy(const DrapedGarment& draped,
     if (glm::dot(normals[i], normals[i]) < 0.5f) {
       return;
     }
+    if (IsNear(places[i], rims.fixed, fixed_margin) ||
+        IsNear(places[i], rims.loose, loose_margin)) {
+      return;
+    }
     const std::vector<glm::vec3> directions = ConeAbout(normals[i], widest);
-    const bool blocked = std::all_of(
+    const auto blocked = std::count_if(
         directions.begin(), directions.end(),
         [&](const glm::vec3& direction) { return screen.Blocks(places[i], direction, 0.6f); });
-    covered[i] = blocked && !IsNear(places[i], rims.fixed, fixed_margin) &&
-                 !IsNear(places[i], rims.loose, loose_margin);
+    // Far from any edge nobody looks under it: what misses, misses between folds.
+    const bool deep = !IsNear(places[i], rims.fixed, kDeep * fixed_margin) &&
+                      !IsNear(places[i], rims.loose, kDeep * loose_margin);
+    covered[i] = blocked >= ptrdiff_t(deep ? directions.size() / 2 : directions.size());
   });
   return {covered.begin(), covered.end()};
 }
@@ -175,31 +185,37 @@ glm::mat4 BlendOf(const Influences& influences, std::span<const glm::mat4> skin)
   return sum;
 }
 
-// Darker where the cloth is hollow: little light comes down there.
-std::vector<float> FoldShades(const Sheet& sheet) {
-  const std::vector<Triangle> triangles = sheet.ParticleTriangles();
-  const std::vector<glm::vec3> normals = Normals(sheet.positions, triangles);
-  const auto neighbours = NeighboursOf(sheet.positions.size(), triangles);
-  std::vector<float> shade(sheet.positions.size(), 1.0f);
-  for (size_t p = 0; p < shade.size(); ++p) {
-    float hollow = 0.0f;
-    for (const uint32_t q : neighbours[p]) {
-      const glm::vec3 d = sheet.positions[q] - sheet.positions[p];
-      hollow += glm::dot(normals[p], d) / std::max(glm::length(d), 1e-6f);
-    }
-    hollow /= std::max<float>(1.0f, static_cast<float>(neighbours[p].size()));
-    shade[p] = 1.0f - kFoldShade * std::clamp(hollow, -0.12f, 0.5f);
-  }
-  for (int round = 0; round < 2; ++round) {
-    const std::vector<float> before = shade;
-    for (size_t p = 0; p < shade.size(); ++p) {
-      float sum = before[p];
+// Each place amid its neighbours, so often.
+template <typename Value>
+void Smooth(const std::vector<std::vector<uint32_t>>& neighbours,
+            int rounds,
+            std::vector<Value>& values) {
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<Value> before = values;
+    for (size_t p = 0; p < values.size(); ++p) {
+      Value sum = before[p];
       for (const uint32_t q : neighbours[p]) {
         sum += before[q];
       }
-      shade[p] = sum / static_cast<float>(neighbours[p].size() + 1);
+      values[p] = sum / static_cast<float>(neighbours[p].size() + 1);
     }
   }
+}
+
+// Darker the deeper the cloth lies below its surroundings: little light comes down
+// there.
+std::vector<float> FoldShades(const Sheet& sheet) {
+  const std::vector<Triangle> triangles = sheet.ParticleTriangles();
+  const auto neighbours = NeighboursOf(sheet.positions.size(), triangles);
+  std::vector<glm::vec3> smooth = sheet.positions;
+  Smooth(neighbours, kShadeRounds, smooth);
+  const std::vector<glm::vec3> normals = Normals(smooth, triangles);
+  std::vector<float> shade(sheet.positions.size(), 1.0f);
+  for (size_t p = 0; p < shade.size(); ++p) {
+    const float depth = glm::dot(normals[p], smooth[p] - sheet.positions[p]);
+    shade[p] = 1.0f - kFoldShade * std::clamp(depth / kDeepFold, -0.3f, 1.0f);
+  }
+  Smooth(neighbours, 1, shade);
   return shade;
 }
 
@@ -250,7 +266,9 @@ glm::vec3 OnTriangle(const glm::vec3& p,
 class ClothMaker {
  public:
   ClothMaker(const DrapedGarment& draped, const human::SkinnedMesh& mesh)
-      : draped_(draped), mesh_(mesh), particle_(draped.coarse_particles, human::Cloth::kUnbound) {}
+      : draped_(draped),
+        mesh_(mesh),
+        particle_(draped.coarse_positions.size(), human::Cloth::kUnbound) {}
 
   std::optional<human::Cloth> Make() {
     triangle_.assign(draped_.coarse_triangles.size(), human::Cloth::kUnbound);
@@ -272,26 +290,24 @@ class ClothMaker {
   }
 
  private:
-  // A vertex that stands for each coarse particle exists: it was there before.
   uint32_t Particle(uint32_t p) {
     if (particle_[p] == human::Cloth::kUnbound) {
       particle_[p] = static_cast<uint32_t>(cloth_.positions.size());
-      const std::vector<uint32_t>& particles = draped_.sheet.particle;
-      const size_t v = size_t(std::find(particles.begin(), particles.end(), p) - particles.begin());
-      cloth_.positions.push_back(mesh_.positions[v]);
-      cloth_.joints.push_back(mesh_.joints[v]);
-      cloth_.weights.push_back(mesh_.weights[v]);
+      const Influences influences = StrongestOf(draped_.sheet.WeightsOf(p));
+      const glm::mat4 back = glm::inverse(BlendOf(influences, draped_.skin));
+      cloth_.positions.emplace_back(back * glm::vec4(draped_.coarse_positions[p], 1.0f));
+      cloth_.joints.push_back(influences.joints);
+      cloth_.weights.push_back(influences.weights);
       cloth_.reach.push_back(draped_.reach[p]);
     }
     return particle_[p];
   }
 
-  // Four triangles of the sheet were one of the coarse sheet.
   void Bind() {
     cloth_.vertex_triangle.assign(mesh_.positions.size(), human::Cloth::kUnbound);
     cloth_.vertex_weights.assign(mesh_.positions.size(), glm::vec3(0.0f));
     for (size_t t = 0; t < draped_.sheet.triangles.size(); ++t) {
-      const uint32_t coarse = triangle_[t / 4];
+      const uint32_t coarse = triangle_[draped_.coarse_of[t]];
       if (coarse == human::Cloth::kUnbound) {
         continue;
       }
@@ -355,11 +371,14 @@ Result<Garment> FinishGarment(const DrapedGarment& draped,
 
 namespace {
 
-std::vector<bool> CoveredByAny(std::span<const DrapedGarment> outer, const Sheet& sheet) {
+// only_wraps: by those alone that cover so much that nothing below needs to move.
+std::vector<bool> CoveredByAny(std::span<const DrapedGarment> outer,
+                               const Sheet& sheet,
+                               bool only_wraps) {
   const std::vector<glm::vec3> normals = Normals(sheet.positions, sheet.ParticleTriangles());
   std::vector<bool> covered(sheet.positions.size(), false);
   for (const DrapedGarment& garment : outer) {
-    if (!garment.covers) {
+    if (!garment.covers || (only_wraps && !garment.wraps)) {
       continue;
     }
     const std::vector<bool> by_this = CoveredBy(garment, sheet.positions, normals, kClothView,
@@ -373,6 +392,42 @@ std::vector<bool> CoveredByAny(std::span<const DrapedGarment> outer, const Sheet
   return covered;
 }
 
+// Of each simulated triangle: whether any place of what follows it is not covered.
+std::vector<bool> SeenGroups(const std::vector<bool>& covered, const DrapedGarment& garment) {
+  std::vector<bool> seen(garment.coarse_triangles.size(), false);
+  for (size_t t = 0; t < garment.sheet.triangles.size(); ++t) {
+    for (const uint32_t p : garment.sheet.Particles(garment.sheet.triangles[t])) {
+      seen[garment.coarse_of[t]] = seen[garment.coarse_of[t]] || !covered[p];
+    }
+  }
+  return seen;
+}
+
+// What no longer hangs from anything would fall.
+void DropLoosePieces(const DrapedGarment& garment, std::vector<bool>& moving) {
+  std::vector<bool> held(garment.coarse_positions.size(), false);
+  for (size_t p = 0; p < held.size(); ++p) {
+    held[p] = garment.reach[p] == 0.0f;
+  }
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (size_t t = 0; t < moving.size(); ++t) {
+      const Triangle& corners = garment.coarse_triangles[t];
+      const auto count =
+          std::count_if(corners.begin(), corners.end(), [&](uint32_t p) { return held[p]; });
+      if (moving[t] && count > 0 && count < 3) {
+        for (const uint32_t p : corners) {
+          held[p] = true;
+        }
+        grows = true;
+      }
+    }
+  }
+  for (size_t t = 0; t < moving.size(); ++t) {
+    moving[t] = moving[t] && held[garment.coarse_triangles[t][0]];
+  }
+}
+
 }  // namespace
 
 void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner) {
@@ -380,32 +435,38 @@ void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner)
     return;
   }
   for (Trim& trim : inner.trims) {
-    const std::vector<bool> covered = CoveredByAny(outer, trim.sheet);
+    const std::vector<bool> covered = CoveredByAny(outer, trim.sheet, false);
     std::erase_if(trim.sheet.triangles, [&](const Triangle& t) {
       const Triangle corners = trim.sheet.Particles(t);
       return std::any_of(corners.begin(), corners.end(), [&](uint32_t p) { return covered[p]; });
     });
     DropUnusedVertices(trim.sheet);
   }
-  const std::vector<bool> covered = CoveredByAny(outer, inner.sheet);
-  // Whole triangles of the coarse sheet, so that what follows one still has it.
-  std::vector<Triangle> kept;
-  std::vector<Triangle> kept_coarse;
-  for (size_t t = 0; t < inner.sheet.triangles.size(); t += 4) {
-    bool seen = false;
-    for (size_t k = t; k < t + 4 && !seen; ++k) {
-      const Triangle corners = inner.sheet.Particles(inner.sheet.triangles[k]);
-      seen = std::any_of(corners.begin(), corners.end(), [&](uint32_t p) { return !covered[p]; });
+  // Whole triangles of what is simulated, so that edges are as even as its threads.
+  const std::vector<bool> drawn = SeenGroups(CoveredByAny(outer, inner.sheet, false), inner);
+  std::vector<bool> moving = SeenGroups(CoveredByAny(outer, inner.sheet, true), inner);
+  DropLoosePieces(inner, moving);
+  std::vector<uint32_t> renamed(moving.size(), 0);
+  std::vector<Triangle> coarse;
+  for (size_t t = 0; t < moving.size(); ++t) {
+    renamed[t] = static_cast<uint32_t>(coarse.size());
+    if (moving[t]) {
+      coarse.push_back(inner.coarse_triangles[t]);
     }
-    if (seen) {
-      kept.insert(kept.end(), inner.sheet.triangles.begin() + ptrdiff_t(t),
-                  inner.sheet.triangles.begin() + ptrdiff_t(t + 4));
-      kept_coarse.push_back(inner.coarse_triangles[t / 4]);
+  }
+  std::vector<Triangle> kept;
+  std::vector<uint32_t> kept_of;
+  for (size_t t = 0; t < inner.sheet.triangles.size(); ++t) {
+    const uint32_t group = inner.coarse_of[t];
+    if (drawn[group] && moving[group]) {
+      kept.push_back(inner.sheet.triangles[t]);
+      kept_of.push_back(renamed[group]);
     }
   }
   inner.sheet.triangles = std::move(kept);
+  inner.coarse_of = std::move(kept_of);
+  inner.coarse_triangles = std::move(coarse);
   DropUnusedVertices(inner.sheet);
-  inner.coarse_triangles = std::move(kept_coarse);
 }
 
 }  // namespace lararium::import

@@ -17,7 +17,7 @@ Result<DrapedGarment> Drape(const GarmentPattern& pattern,
   switch (pattern.kind) {
     case GarmentKind::kTunic:
     case GarmentKind::kStola:
-      return DrapeTunic(pattern, body);
+      return DrapeTunic(pattern, body, worn);
     case GarmentKind::kApron:
       return DrapeApron(pattern, body, worn);
     case GarmentKind::kToga:

@@ -94,7 +94,7 @@ GarmentPattern PlainPattern(GarmentKind kind) {
       pattern.belt = Belt::kCord;
       break;
     case GarmentKind::kToga:
-      pattern.hem = 1.68f;
+      pattern.hem = 1.82f;
       pattern.colour = ToLinear(0xe9e4d6);
       pattern.belt = Belt::kNone;
       break;

@@ -222,9 +222,11 @@ glm::mat4 Blend(std::span<const glm::mat4> skin, std::span<const float> weights)
   return sum;
 }
 
-std::vector<float> ArmShare(const FittedBody& body) {
-  return ShareOf(body, Below(body.skeleton, {"l_shoulder", "r_shoulder"}));
+std::vector<bool> ArmJoints(const FittedBody& body) {
+  return Below(body.skeleton, {"l_shoulder", "r_shoulder"});
 }
+
+std::vector<float> ArmShare(const FittedBody& body) { return ShareOf(body, ArmJoints(body)); }
 
 std::vector<float> HeadShare(const FittedBody& body) {
   return ShareOf(body, Below(body.skeleton, {"vc7"}));

@@ -92,6 +92,8 @@ class Girth {
 // How much of a base vertex moves with an arm or with head and neck, 0..1.
 std::vector<float> ArmShare(const FittedBody& body);
 std::vector<float> HeadShare(const FittedBody& body);
+// Of each joint: whether it is a shoulder or below one.
+std::vector<bool> ArmJoints(const FittedBody& body);
 // Of those helpers that are no body: false.
 std::vector<bool> IsBody(const FittedBody& body);
 

@@ -23,6 +23,7 @@ struct Source {
 bool HasPart(WeightSource source, float arm, bool forearm, float x) {
   switch (source) {
     case WeightSource::kTrunk:
+    case WeightSource::kApron:
       return arm < 0.2f;
     case WeightSource::kMantle:
       return arm < 0.2f || (x < 0.0f && !forearm);
@@ -106,7 +107,7 @@ std::vector<float> TakeWeights(const FittedBody& body,
     const glm::vec3& place = sheet.positions[p];
     const float top = hips + 0.1f * (hips - knees);
     const float bottom = hips - 0.2f * (hips - knees);
-    const bool skirted = source == WeightSource::kSkirted || source == WeightSource::kMantle;
+    const bool skirted = source != WeightSource::kBody && source != WeightSource::kTrunk;
     float below = skirted ? std::clamp((top - place.y) / (top - bottom), 0.0f, 1.0f) : 0.0f;
     below = skirt.empty() ? 0.0f : below;
     if (below < 1.0f) {

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "editor/import/garment/drape.h"
+#include "editor/import/garment/folds.h"
 #include "editor/import/garment/girdle.h"
+#include "editor/import/garment/outline.h"
 #include "editor/import/garment/skin_weights.h"
 #include "shared/core/random.h"
 
@@ -17,6 +19,10 @@ namespace {
 
 constexpr float kCoarseParticles = 1150.0f;  // about so many
 constexpr float kAboveSkin = 0.012f;
+constexpr float kAboveCloth = 0.022f;
+constexpr float kFoldWidth = 0.13f;    // metres round the body, of one fold of a skirt
+constexpr float kDeepestFold = 0.05f;  // metres, half of what lies between trough and crest
+constexpr uint32_t kSleeve = 0xffffffffu;
 constexpr uint8_t kFront = 0;
 constexpr uint8_t kBack = 1;
 
@@ -24,7 +30,8 @@ constexpr uint8_t kBack = 1;
 // middle outward: height and side at a length along it.
 class ShoulderLine {
  public:
-  ShoulderLine(const FittedBody& body, const PosedBody& posed) {
+  // above: metres from the skin, upward.
+  ShoulderLine(const FittedBody& body, const PosedBody& posed, float above) {
     const std::vector<float> head = HeadShare(body);
     const std::vector<bool> is_body = IsBody(body);
     const glm::vec3 wrist = JointPlace(body, posed, "r_wrist");
@@ -44,7 +51,7 @@ class ShoulderLine {
     }
     float length = 0.0f;
     for (size_t b = 0; b <= bins; ++b) {
-      places_.emplace_back(kBin * static_cast<float>(b), top[b] + kAboveSkin);
+      places_.emplace_back(kBin * static_cast<float>(b), top[b] + above);
       length += b > 0 ? glm::distance(places_[b], places_[b - 1]) : 0.0f;
       lengths_.push_back(length);
     }
@@ -73,6 +80,44 @@ class ShoulderLine {
   std::vector<float> lengths_;
 };
 
+// What lies on trunk and legs of garments of cloth, without their sleeves: what is worn
+// over them does not go over those.
+std::vector<Sheet> TrunkClothOf(std::span<const DrapedGarment> worn, const FittedBody& body) {
+  constexpr float kLeastOfArm = 0.2f;
+  std::vector<Sheet> sheets;
+  for (const DrapedGarment& garment : worn) {
+    if (garment.reach.empty()) {
+      continue;
+    }
+    const std::vector<bool> arm = ArmJoints(body);
+    Sheet trunk;
+    trunk.joint_count = garment.sheet.joint_count;
+    std::vector<uint32_t> renamed;
+    for (size_t p = 0; p < garment.sheet.positions.size(); ++p) {
+      const std::span<const float> weights = garment.sheet.WeightsOf(p);
+      float share = 0.0f;
+      for (size_t j = 0; j < weights.size(); ++j) {
+        share += arm[j] ? weights[j] : 0.0f;
+      }
+      const bool kept = share < kLeastOfArm;
+      renamed.push_back(kept ? static_cast<uint32_t>(trunk.positions.size()) : kSleeve);
+      if (kept) {
+        trunk.positions.push_back(garment.sheet.positions[p]);
+        trunk.weights.insert(trunk.weights.end(), weights.begin(), weights.end());
+        trunk.particle.push_back(renamed.back());
+      }
+    }
+    for (const Triangle& t : garment.sheet.ParticleTriangles()) {
+      const Triangle moved = {renamed[t[0]], renamed[t[1]], renamed[t[2]]};
+      if (std::find(moved.begin(), moved.end(), kSleeve) == moved.end()) {
+        trunk.triangles.push_back(moved);
+      }
+    }
+    sheets.push_back(std::move(trunk));
+  }
+  return sheets;
+}
+
 // Sizes of the two rectangles.
 struct TunicCut {
   float half_width = 0.4f;   // below the waist
@@ -89,12 +134,15 @@ struct TunicCut {
 
 class TunicDraper {
  public:
-  TunicDraper(const GarmentPattern& pattern, const FittedBody& body)
+  TunicDraper(const GarmentPattern& pattern,
+              const FittedBody& body,
+              std::span<const DrapedGarment> worn)
       : pattern_(pattern),
         body_(body),
         bound_(PoseBody(body, {})),
         standing_(PoseBody(body, StandingTurns(body, 1.0f))),
-        line_(body, bound_),
+        worn_(TrunkClothOf(worn, body)),
+        line_(body, bound_, worn_.empty() ? kAboveSkin : kAboveCloth),
         walls_(standing_) {
     Measure();
     material_.own_gap = std::min(0.016f, 0.45f * thread_);
@@ -110,18 +158,40 @@ class TunicDraper {
     DrapedGarment result;
     for (int round = 0; round < 2; ++round) {
       LevelHem();
-      TieBelt(standing_, 60);
+      TieBelt(standing_, 40);
+      LayFolds();
     }
     KeepHemLine();
-    result.coarse_particles = sheet_.positions.size();
-    result.coarse_triangles = sheet_.ParticleTriangles();
-    sheet_ = Subdivided(sheet_);
+    Divide(1, sheet_, result);
+    LayFolds();
     SettleFine();
+    std::copy_n(sheet_.positions.begin(), result.coarse_positions.size(),
+                result.coarse_positions.begin());
     Finish(result);
     return result;
   }
 
  private:
+  // Over what is worn below, carried along to the pose.
+  BodyField FieldAt(const PosedBody& posed, float cell, float band, bool forearms = true) const {
+    if (worn_.empty()) {
+      return FieldOf(posed, cell, band, forearms);
+    }
+    std::vector<Sheet> carried;
+    for (const Sheet& sheet : worn_) {
+      carried.push_back(sheet);
+      carried.back().positions = Carried(sheet, standing_.skin, posed.skin);
+    }
+    return FieldOver(posed, PointersTo(carried), cell, band);
+  }
+  static std::vector<const Sheet*> PointersTo(const std::vector<Sheet>& sheets) {
+    std::vector<const Sheet*> pointers;
+    for (const Sheet& sheet : sheets) {
+      pointers.push_back(&sheet);
+    }
+    return pointers;
+  }
+
   void Measure() {
     const auto place = [&](const char* joint) { return JointPlace(body_, bound_, joint); };
     const glm::vec3 shoulder = place("r_shoulder");
@@ -134,13 +204,22 @@ class TunicDraper {
     }
     cut_.shoulder = line_.LengthTo(shoulder.x);
     const float sleeve = pattern_.sleeve == Sleeve::kNone    ? 0.12f
-                         : pattern_.sleeve == Sleeve::kShort ? 0.45f
-                                                             : 0.9f;
+                         : pattern_.sleeve == Sleeve::kShort ? 0.62f
+                                                             : 1.0f;
     cut_.half_top = cut_.shoulder + sleeve * upper_arm;
-    cut_.half_width = std::max(cut_.half_top, 0.25f * pattern_.ease * widest);
     cut_.neck = 0.72f * cut_.shoulder;
     cut_.neck_front = 0.28f * cut_.shoulder;
-    cut_.arm = std::max(0.85f * upper_arm, 0.6f * cut_.half_top);
+    if (HasStraps()) {
+      cut_.half_top = 0.97f * cut_.shoulder;
+      cut_.neck = 0.70f * cut_.shoulder;
+      cut_.neck_front = 0.85f * cut_.shoulder;
+      cut_.neck_back = 0.35f * cut_.shoulder;
+    }
+    cut_.half_width = std::max(cut_.half_top, 0.25f * pattern_.ease * widest);
+    // A long sleeve is narrow, or the hand would be caught in it.
+    cut_.arm = pattern_.sleeve == Sleeve::kElbow
+                   ? 0.68f * upper_arm
+                   : std::max(0.85f * upper_arm, 0.6f * cut_.half_top);
     cut_.hem_height = pattern_.hem < 1.0f ? glm::mix(hip, knee, pattern_.hem)
                                           : glm::mix(knee, 0.0f, pattern_.hem - 1.0f);
     belt_height_ = BeltHeight(pattern_, body_);
@@ -234,14 +313,18 @@ class TunicDraper {
     Sew(sheet_, seams);
   }
 
-  // A woman's sleeve is pinned at a few places; between them it gapes.
+  // A woman's sleeve is pinned along the arm; between the pins it gapes.
   bool IsPinned(float s) const {
-    if (pattern_.kind != GarmentKind::kStola) {
+    if (pattern_.kind != GarmentKind::kStola || HasStraps()) {
       return true;
     }
     const float along = (std::abs(s) - cut_.neck) / (cut_.half_top - cut_.neck);
     const float phase = along * 3.0f - std::floor(along * 3.0f);
     return along < 0.06f || along > 0.97f || phase < 0.34f;
+  }
+  // The stola hangs from two straps, over a tunic with sleeves.
+  bool HasStraps() const {
+    return pattern_.kind == GarmentKind::kStola && pattern_.sleeve == Sleeve::kNone;
   }
 
   // The cloth hangs from its upper edge.
@@ -259,7 +342,7 @@ class TunicDraper {
   }
 
   void SettleInBindPose() {
-    const BodyField field = FieldOf(bound_, 0.015f, 0.045f);
+    const BodyField field = FieldAt(bound_, 0.015f, 0.045f);
     Draper draper(sheet_, material_);
     AddTethers(draper);
     draper.damping = 0.04f;
@@ -287,7 +370,7 @@ class TunicDraper {
       sheet_.positions = Carried(sheet_, from.skin, to.skin);
       draper.Rest();
       walls.emplace(to);
-      draper.Run(i == kPoses ? 100 : 12, FieldOf(to, 0.015f, 0.045f, false));
+      draper.Run(i == kPoses ? 100 : 12, FieldAt(to, 0.015f, 0.045f, false));
       from = std::move(to);
     }
   }
@@ -298,7 +381,7 @@ class TunicDraper {
     AddTethers(draper);
     HoldShoulders(draper);
     draper.gravity = 2.0f;
-    const BodyField field = FieldOf(posed, 0.0125f, 0.04f, false);
+    const BodyField field = FieldAt(posed, 0.0125f, 0.04f, false);
     if (pattern_.belt == Belt::kNone) {
       if (&posed == &standing_) {
         draper.rule = [this](std::vector<glm::vec3>& x) { KeepFromHands(walls_, x); };
@@ -309,6 +392,7 @@ class TunicDraper {
     const Girth girth(body_, standing_, belt_height_, 0.025f);
     if (belted_.empty()) {
       ChooseBelted();
+      coarse_belted_ = belted_;
     }
     draper.Gather(belted_);
     const std::vector<float> angles = GatheredAngles(girth);
@@ -343,6 +427,83 @@ class TunicDraper {
       belt_heights_.push_back(belt_height_ + std::clamp(off, -0.012f, 0.012f));
     }
   }
+
+  // How far down on a panel the belt goes round, at shares of its width as columns.
+  std::vector<float> BeltLine(uint8_t panel) const {
+    std::vector<float> line(cut_.columns, 0.0f);
+    for (size_t c = 0; c < cut_.columns; ++c) {
+      float count = 0.0f;
+      for (size_t r = 0; r < cut_.rows; ++r) {
+        const uint32_t v = Vertex(panel, c, r);
+        if (coarse_belted_[sheet_.particle[v]]) {
+          line[c] += sheet_.flat[v].y;
+          count += 1.0f;
+        }
+      }
+      line[c] = count > 0.0f ? line[c] / count : c > 0 ? line[c - 1] : longest_ * 0.4f;
+    }
+    return line;
+  }
+
+  // How deep folds are at heights below the belt: as the width of the cloth asks for.
+  std::vector<float> FoldDepths(const Girth& girth,
+                                const Outline& outline,
+                                const FoldWave& wave,
+                                float step) const {
+    std::vector<float> depths;
+    for (float down = 0.0f; down < belt_height_; down += step) {
+      const float height = belt_height_ - down;
+      const float length = 4.0f * HalfWidth(cut_.arm + 0.25f);
+      const auto curve = [&](float share, float out) {
+        const float angle = girth.AngleAt(share);
+        return outline.Place(
+            angle, outline.Hanging(angle, belt_height_, height) + material_.gap + out, 0.0f);
+      };
+      depths.push_back(FoldDepth(curve, wave, 0.0f, 1.0f, length, kDeepestFold));
+    }
+    return depths;
+  }
+
+  // Below the belt the cloth falls in folds all round: left alone it would stand off as
+  // a bell, which costs cloth without weight nothing.
+  void LayFolds() {
+    if (pattern_.belt == Belt::kNone) {
+      return;
+    }
+    constexpr float kStep = 0.03f;
+    const Girth girth(body_, standing_, belt_height_, 0.025f);
+    const Outline outline(body_, standing_, PointersTo(worn_), false);
+    const int count = std::max(
+        6, static_cast<int>(
+               std::round(Girth(body_, standing_, HipHeight(), 0.03f).Length() / kFoldWidth)));
+    const FoldWave wave(count, pattern_.seed);
+    const std::vector<float> depths = FoldDepths(girth, outline, wave, kStep);
+    const std::array<std::vector<float>, 2> belt = {BeltLine(kFront), BeltLine(kBack)};
+    for (size_t v = 0; v < sheet_.flat.size(); ++v) {
+      const glm::vec2& flat = sheet_.flat[v];
+      const float share = std::clamp(0.5f * flat.x / HalfWidth(flat.y) + 0.5f, 0.0f, 0.9999f);
+      const float column = share * static_cast<float>(cut_.columns - 1);
+      const std::vector<float>& line = belt[sheet_.panel[v]];
+      const size_t at = static_cast<size_t>(column);
+      const float down = flat.y - glm::mix(line[at], line[at + 1], column - static_cast<float>(at));
+      const float laid = glm::smoothstep(0.01f, 0.06f, down);
+      if (laid <= 0.0f) {
+        continue;
+      }
+      const float quarter = 0.5f * (share - 0.5f);
+      const float round = sheet_.panel[v] == kFront ? 0.5f - quarter : quarter;
+      const float angle = girth.AngleAt(round);
+      const float height = belt_height_ - down;
+      const size_t level = std::min(depths.size() - 1, static_cast<size_t>(down / kStep));
+      const float depth = depths[level] * glm::smoothstep(0.0f, 0.15f, down);
+      const float radius = outline.Hanging(angle, belt_height_, height) + material_.gap +
+                           depth * (1.0f + wave.At(round - std::floor(round)));
+      glm::vec3& x = sheet_.positions[sheet_.particle[v]];
+      x = glm::mix(x, outline.Place(angle, radius, height), laid);
+    }
+  }
+
+  float HipHeight() const { return JointPlace(body_, standing_, "r_hip").y; }
 
   // Cuts off or adds what the hem hangs too low or too high.
   void LevelHem() {
@@ -428,7 +589,8 @@ class TunicDraper {
       KeepFromHands(walls_, x);
     };
     draper.floor = true;
-    draper.Run(140, FieldOf(standing_, 0.01f, 0.03f));
+    draper.TakeLengths(1.0f);
+    draper.Run(50, FieldAt(standing_, 0.01f, 0.03f));
   }
 
   // Where they lie by now.
@@ -446,6 +608,7 @@ class TunicDraper {
 
   void Finish(DrapedGarment& result) {
     result.skin = standing_.skin;
+    result.wraps = true;
     // Nobody looks under what reaches the floor.
     result.loose_margin = std::clamp(0.4f * cut_.hem_height, 0.05f, 0.18f);
     SetReach(result);
@@ -465,6 +628,15 @@ class TunicDraper {
     for (const glm::vec3& p : sheet_.positions) {
       const float below = top - 0.05f - p.y;
       result.reach.push_back(below <= 0.0f ? 0.0f : 0.02f + 0.8f * below);
+    }
+    // Sleeves hang from the arm, the freer the further from shoulder and upper edge.
+    for (size_t v = 0; v < sheet_.flat.size(); ++v) {
+      const glm::vec2& flat = sheet_.flat[v];
+      const float out = std::abs(flat.x) - cut_.shoulder - 0.03f;
+      const float down = flat.y - 0.03f;
+      if (out > 0.0f && down > 0.0f && flat.y < cut_.arm + 0.02f) {
+        result.reach[sheet_.particle[v]] = std::min(0.06f, 0.5f * std::min(out, down));
+      }
     }
   }
 
@@ -518,6 +690,7 @@ class TunicDraper {
   const FittedBody& body_;
   PosedBody bound_;
   PosedBody standing_;
+  std::vector<Sheet> worn_;
   ShoulderLine line_;
   ArmWalls walls_;
   DrapeMaterial material_;
@@ -528,6 +701,7 @@ class TunicDraper {
   uint32_t first_[2] = {0, 0};
   Sheet sheet_;
   std::vector<bool> belted_;
+  std::vector<bool> coarse_belted_;  // of the sheet before it was divided
   std::vector<float> belt_heights_;
   bool tied_ = false;
   std::vector<float> hem_[2];
@@ -535,27 +709,10 @@ class TunicDraper {
 
 }  // namespace
 
-std::vector<JointTurn> StandingTurns(const FittedBody& body, float share) {
-  std::vector<JointTurn> turns = ArmsLowered(body, 0.3f, share);
-  // Legs: the ankles a little further apart than the hip joints.
-  for (const bool right : {false, true}) {
-    const auto place = [&](const char* r, const char* l) {
-      return glm::vec3(
-          glm::inverse(body.skeleton.joint_from_actor[JointNumber(body, right ? r : l)])[3]);
-    };
-    const glm::vec3 hip = place("r_hip", "l_hip");
-    const glm::vec3 ankle = place("r_ankle", "l_ankle");
-    const float now = std::atan2(ankle.x - hip.x, hip.y - ankle.y);
-    const float wanted = std::atan2(0.35f * hip.x, hip.y - ankle.y);
-    const glm::quat turn = glm::angleAxis(share * (wanted - now), glm::vec3(0.0f, 0.0f, 1.0f));
-    turns.emplace_back(right ? "r_hip" : "l_hip", turn);
-    turns.emplace_back(right ? "r_ankle" : "l_ankle", glm::inverse(turn));
-  }
-  return turns;
-}
-
-Result<DrapedGarment> DrapeTunic(const GarmentPattern& pattern, const FittedBody& body) {
-  return TunicDraper(pattern, body).Drape();
+Result<DrapedGarment> DrapeTunic(const GarmentPattern& pattern,
+                                 const FittedBody& body,
+                                 std::span<const DrapedGarment> worn) {
+  return TunicDraper(pattern, body, worn).Drape();
 }
 
 }  // namespace lararium::import

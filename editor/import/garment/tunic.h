@@ -5,6 +5,8 @@
 // the cloth makes the sleeves. A belt gathers it, and some of its length is drawn up
 // over the belt (Croom, "Roman Clothing and Fashion", 2000, chapters 2 and 4).
 
+#include <span>
+
 #include "editor/import/cast_body.h"
 #include "editor/import/garment/draped.h"
 #include "editor/import/garment/garment_pattern.h"
@@ -12,6 +14,9 @@
 
 namespace lararium::import {
 
-Result<DrapedGarment> DrapeTunic(const GarmentPattern& pattern, const FittedBody& body);
+// worn: what lies below it.
+Result<DrapedGarment> DrapeTunic(const GarmentPattern& pattern,
+                                 const FittedBody& body,
+                                 std::span<const DrapedGarment> worn);
 
 }  // namespace lararium::import

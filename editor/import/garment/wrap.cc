@@ -7,18 +7,14 @@
 #include <glm/gtc/constants.hpp>
 
 #include "editor/import/garment/drape.h"
+#include "editor/import/garment/folds.h"
 #include "editor/import/garment/girdle.h"
+#include "editor/import/garment/outline.h"
 #include "editor/import/garment/skin_weights.h"
 #include "shared/core/random.h"
 
 namespace lararium::import {
 namespace {
-
-constexpr float kPi = glm::pi<float>();
-// Angles about the body's axis, as Girth's: 0 back, then right, front and left.
-constexpr float kRight = 0.5f * kPi;
-constexpr float kFrontAngle = kPi;
-constexpr float kLeft = 1.5f * kPi;
 
 std::vector<const Sheet*> SheetsOf(std::span<const DrapedGarment> worn) {
   std::vector<const Sheet*> sheets;
@@ -28,79 +24,10 @@ std::vector<const Sheet*> SheetsOf(std::span<const DrapedGarment> worn) {
   return sheets;
 }
 
-// The dressed body as cloth lies round it: convex at every height, and hanging.
-class Outline {
- public:
-  // arms: of which sides they are wrapped in.
-  Outline(const FittedBody& body,
-          const PosedBody& posed,
-          std::span<const Sheet* const> worn,
-          bool left_arm) {
-    const std::vector<float> arm = ArmShare(body);
-    const std::vector<float> head = HeadShare(body);
-    const std::vector<bool> is_body = IsBody(body);
-    std::vector<std::vector<glm::vec2>> slabs;
-    const auto add = [&](const glm::vec3& p) {
-      const size_t level = static_cast<size_t>(std::max(0.0f, p.y) / kLevel);
-      slabs.resize(std::max(slabs.size(), level + 2));
-      for (size_t at = level > 0 ? level - 1 : 0; at <= level + 1; ++at) {
-        slabs[at].emplace_back(p.x, p.z);
-      }
-    };
-    for (size_t v = 0; v < posed.positions.size(); ++v) {
-      const bool wrapped_arm = left_arm && body.base.positions[v].x < 0.0f && !posed.forearm[v];
-      if (is_body[v] && head[v] < 0.5f && (arm[v] < 0.3f || wrapped_arm)) {
-        add(posed.positions[v]);
-      }
-    }
-    const float free_side = JointPlace(body, posed, "r_shoulder").x;
-    const glm::vec3 waist = JointPlace(body, posed, "vl1");
-    for (const Sheet* sheet : worn) {
-      for (const glm::vec3& p : sheet->positions) {
-        if (p.x < (p.y > waist.y - 0.1f ? 0.8f : 1.1f) * free_side) {
-          add(p);
-        }
-      }
-    }
-    middle_ = {0.0f, waist.z - 0.02f};
-    for (std::vector<glm::vec2>& slab : slabs) {
-      radius_.push_back(slab.empty() ? std::vector<float>(kAngles, 0.0f)
-                                     : HullRadius(slab, middle_, kAngles));
-    }
-  }
-
-  float Radius(float angle, float height) const {
-    const float level = std::clamp(height / kLevel - 0.5f, 0.0f, float(radius_.size() - 1) - 0.01f);
-    const size_t at = static_cast<size_t>(level);
-    return glm::mix(AtLevel(at, angle), AtLevel(at + 1, angle), level - float(at));
-  }
-  // Cloth that hangs from a height: it leans in but little below what it lies on.
-  float Hanging(float angle, float from, float height) const {
-    float radius = 0.0f;
-    for (float y = from; y > height - 1e-4f; y -= kLevel) {
-      radius = std::max(Radius(angle, y), radius - 0.22f * kLevel);
-    }
-    return radius;
-  }
-  glm::vec3 Place(float angle, float radius, float height) const {
-    return {middle_.x + radius * std::sin(angle), height, middle_.y + radius * std::cos(angle)};
-  }
-
- private:
-  static constexpr float kLevel = 0.02f;
-  static constexpr int kAngles = 72;
-
-  float AtLevel(size_t level, float angle) const {
-    float turn = angle / glm::two_pi<float>();
-    turn = (turn - std::floor(turn)) * kAngles;
-    const int k = static_cast<int>(turn) % kAngles;
-    const std::vector<float>& radius = radius_[level];
-    return glm::mix(radius[k], radius[(k + 1) % kAngles], turn - std::floor(turn));
-  }
-
-  glm::vec2 middle_ = glm::vec2(0.0f);
-  std::vector<std::vector<float>> radius_;
-};
+constexpr float kPi = glm::pi<float>();
+// Angles about the body's axis, as Girth's: 0 back, then right, front and left.
+constexpr float kRight = 0.5f * kPi;
+constexpr float kLeft = 1.5f * kPi;
 
 // A curve through points at rising angles, with smooth steps between them.
 struct Knot {
@@ -134,7 +61,7 @@ class MantleDraper {
     hem_ = pattern.hem < 1.0f ? glm::mix(y("r_hip"), y("r_knee"), pattern.hem)
                               : glm::mix(y("r_knee"), 0.0f, pattern.hem - 1.0f);
     shoulder_ = ShoulderTop() + 0.012f;
-    hip_ = y("r_hip");
+    knee_ = y("r_knee");
     const float waist = y("vl1");
     const float chest = y("vt4");
     upper_ = {{-0.72f * kPi, glm::mix(chest, shoulder_, 0.35f)},
@@ -149,31 +76,22 @@ class MantleDraper {
   }
 
   DrapedGarment Drape() {
-    LayRound();
-    if (toga_) {
-      LaySinus();
-    }
+    LayOut();
     DrapeMaterial material;
     material.gap = 0.012f;
-    material.own_gap = 0.018f;
+    material.own_gap = 0.016f;
     material.bend = 0.02f;
     material.friction = 0.8f;
     DrapedGarment result;
-    Settle(material, 110, 0.0125f);
+    Settle(material, 40, 0.0125f);
     const std::vector<float> distances =
         TakeWeights(body_, standing_, WeightSource::kMantle, sheet_);
     SmoothWeights(sheet_, 8, distances);
-    result.coarse_particles = sheet_.positions.size();
-    result.coarse_triangles = sheet_.ParticleTriangles();
-    std::vector<std::array<uint32_t, 2>> parents;
-    sheet_ = Subdivided(sheet_, &parents);
-    std::vector<bool> held;
-    for (const auto& [a, b] : parents) {
-      held.push_back(held_[a] && held_[b]);
-    }
-    held_ = std::move(held);
-    material.own_gap = 0.010f;
-    Settle(material, 60, 0.01f);
+    Divide(2, sheet_, result);
+    held_.assign(sheet_.positions.size(), false);
+    LayFine();
+    material.own_gap = 0.006f;
+    Settle(material, 16, 0.01f);
     Finish(result);
     return result;
   }
@@ -181,6 +99,8 @@ class MantleDraper {
  private:
   static constexpr float kFirst = -0.70f * kPi;
   static constexpr float kLast = 1.78f * kPi;
+  static constexpr float kSinusFirst = 0.20f * kPi;
+  static constexpr float kSinusLast = kLeft + 0.10f;
 
   // Of the left shoulder, half way to the neck.
   float ShoulderTop() const {
@@ -202,11 +122,17 @@ class MantleDraper {
     return 0.016f + 0.018f * std::clamp((angle + kPi) / (2.2f * kPi), 0.0f, 1.0f);
   }
 
-  // Folds that run down from the shoulder: deeper below, and where much is gathered.
-  float Fold(float along, float down) const {
-    const float wave = std::sin(along) + 0.6f * std::sin(1.73f * along + 1.1f) +
-                       0.4f * std::sin(2.9f * along + 2.3f);
-    return (0.006f + 0.016f * down) * wave;
+  // A row of folds, -1 in the hollows, 1 on the narrow crests.
+  static float Crests(float phase) {
+    return 1.0f - 2.0f * std::pow(std::abs(std::sin(0.5f * phase)), 0.8f);
+  }
+
+  // Folds run down and away from the left shoulder, over back and chest alike.
+  float Fold(float angle, float down) const {
+    const float line = angle + 0.9f * std::cos(angle) * (1.0f - down);
+    const float wave = Crests(11.0f * line + 0.9f * std::sin(2.0f * line)) +
+                       0.55f * Crests(19.0f * line + 1.3f * std::sin(3.0f * line) + 2.0f);
+    return (0.007f + 0.011f * down) * wave;
   }
 
   // Where the hem is cut away: it rises towards the ends, which the semicircle's corners
@@ -220,80 +146,96 @@ class MantleDraper {
                             (toga_ ? 0.0f : 0.05f) * left_hand);
   }
 
-  void LayRound() {
+  // The cloth round the body. along: of its width, down: of its length, 0..1; folds: 0
+  // as if it had none.
+  glm::vec3 WrapPlace(float along, float down, float folds) const {
+    const float angle = glm::mix(kFirst, kLast, along);
+    const float top = HeightAt(upper_, angle);
+    const float height = glm::mix(top, Hem(angle), down);
+    // At the very top they lie flat on the shoulder.
+    const float rise = glm::smoothstep(0.0f, 0.12f, down);
+    const float radius = outline_.Hanging(angle, top, height) + Layer(angle) + 0.012f * down +
+                         folds * rise * Fold(angle, down);
+    return outline_.Place(angle, radius, height);
+  }
+
+  // The bow below the balteus: all its folds come from the left shoulder and go behind
+  // the right hip, the lowest hangs before the right knee.
+  glm::vec3 SinusPlace(float along, float down, float folds) const {
+    const float angle = glm::mix(kSinusFirst, kSinusLast, along);
+    const float top = HeightAt(upper_, angle) + 0.012f;
+    const float bow = std::pow(std::max(0.0f, std::sin(kPi * std::pow(along, 0.85f))), 0.75f);
+    const float deepest = HeightAt(upper_, 0.62f * kPi) - knee_ - 0.02f;
+    const float height = top - down * (0.04f + bow * deepest);
+    const float wave = Crests(glm::two_pi<float>() * 4.0f * std::pow(down, 0.85f) +
+                              0.9f * std::sin(4.0f * along) + 1.2f) +
+                       0.4f * Crests(glm::two_pi<float>() * 7.0f * down + 2.5f * along);
+    const float radius = outline_.Hanging(angle, top, height) + Layer(angle) + 0.028f +
+                         0.03f * bow * down + folds * (0.005f + 0.013f * bow) * wave;
+    return outline_.Place(angle, radius, height);
+  }
+
+  // A panel of cloth whose place on itself says where it lies.
+  struct Panel {
+    size_t columns;
+    size_t rows;
+    glm::vec2 size;  // metres
+  };
+
+  void LayOut() {
     Random random(pattern_.seed, 3);
-    GridPanel grid;
-    grid.columns = 58;
-    grid.rows = 19;
-    const auto angle_of = [&](size_t column) {
-      return glm::mix(kFirst, kLast, float(column) / float(grid.columns - 1));
-    };
-    grid.flat = [&](size_t column, size_t row) {
-      return glm::vec2(0.055f * scale_ * float(column), 0.06f * scale_ * float(row));
-    };
-    grid.place = [&](size_t column, size_t row) {
-      const float angle = angle_of(column);
-      const float top = HeightAt(upper_, angle);
-      const float down = float(row) / float(grid.rows - 1);
-      const float height = glm::mix(top, Hem(angle), down);
-      const float radius = outline_.Hanging(angle, top, height) + Layer(angle) +
-                           Fold(5.5f * angle + 0.8f * down, down) + 0.01f * down +
-                           0.002f * float(random.Normal());
-      return outline_.Place(angle + 0.015f * std::sin(9.0f * angle), radius, height);
-    };
-    const uint32_t first = AddPanel(sheet_, grid, 0);
-    held_.assign(sheet_.positions.size(), false);
-    for (size_t c = 0; c < grid.columns; ++c) {
-      held_[first + c] = true;
+    panels_ = {{33, 12, glm::vec2(3.1f, 1.1f) * scale_}};
+    if (toga_) {
+      panels_.push_back({17, 7, glm::vec2(1.5f, 0.55f) * scale_});
+    }
+    for (uint8_t panel = 0; panel < panels_.size(); ++panel) {
+      const Panel& cloth = panels_[panel];
+      GridPanel grid;
+      grid.columns = cloth.columns;
+      grid.rows = cloth.rows;
+      const auto share = [&cloth](size_t column, size_t row) {
+        return glm::vec2(float(column) / float(cloth.columns - 1),
+                         float(row) / float(cloth.rows - 1));
+      };
+      grid.flat = [&](size_t column, size_t row) { return cloth.size * share(column, row); };
+      grid.place = [&](size_t column, size_t row) {
+        const glm::vec2 at = share(column, row);
+        return Place(panel, at, 0.0f) + 0.001f * float(random.Normal());
+      };
+      const uint32_t first = AddPanel(sheet_, grid, panel);
+      held_.resize(sheet_.positions.size(), false);
+      for (size_t c = 0; c < grid.columns; ++c) {
+        held_[first + c] = true;
+      }
+      // Both ends of the bow are caught under what lies over them.
+      for (size_t r = 0; panel == 1 && r < grid.rows; ++r) {
+        held_[first + r * grid.columns] = true;
+        held_[first + (r + 1) * grid.columns - 1] = true;
+      }
     }
   }
 
-  // Rows from the balteus down to the bow's lowest edge: they all come from the left
-  // shoulder and go behind the right hip.
-  void LaySinus() {
-    Random random(pattern_.seed, 4);
-    GridPanel grid;
-    grid.columns = 30;
-    grid.rows = 11;
-    const float knee = JointPlace(body_, standing_, "r_knee").y;
-    const auto angle_of = [&](size_t column) {
-      return glm::mix(0.22f * kPi, kLeft + 0.12f, float(column) / float(grid.columns - 1));
-    };
-    grid.flat = [&](size_t column, size_t row) {
-      return glm::vec2(0.05f * scale_ * float(column), 0.055f * scale_ * float(row));
-    };
-    grid.place = [&](size_t column, size_t row) {
-      const float angle = angle_of(column);
-      const float along = float(column) / float(grid.columns - 1);
-      const float top = HeightAt(upper_, angle) + 0.012f;
-      const float down = float(row) / float(grid.rows - 1);
-      // The bow: deepest before the right thigh.
-      const float bow = std::pow(std::max(0.0f, std::sin(kPi * std::pow(along, 0.8f))), 0.85f);
-      const float deepest = HeightAt(upper_, 0.62f * kPi) - knee - 0.02f;
-      const float height = top - down * (0.03f + bow * deepest);
-      const float fold = (0.010f + 0.014f * bow) *
-                         std::sin(11.0f * down + 2.2f * along + 0.7f * std::sin(5.0f * along));
-      const float radius = outline_.Hanging(angle, top, height) + Layer(angle) + 0.030f +
-                           0.02f * bow * down + fold + 0.0015f * float(random.Normal());
-      return outline_.Place(angle, radius, height);
-    };
-    const uint32_t first = AddPanel(sheet_, grid, 1);
-    held_.resize(sheet_.positions.size(), false);
-    for (size_t c = 0; c < grid.columns; ++c) {
-      held_[first + c] = true;
-    }
-    // Both ends are caught under what lies over them.
-    for (size_t r = 0; r < grid.rows; ++r) {
-      held_[first + r * grid.columns] = true;
-      held_[first + r * grid.columns + grid.columns - 1] = true;
+  glm::vec3 Place(uint8_t panel, const glm::vec2& share, float folds) const {
+    return panel == 0 ? WrapPlace(share.x, share.y, folds) : SinusPlace(share.x, share.y, folds);
+  }
+
+  // The drawn sheet is fine enough for folds.
+  void LayFine() {
+    for (size_t v = 0; v < sheet_.flat.size(); ++v) {
+      const Panel& cloth = panels_[sheet_.panel[v]];
+      sheet_.positions[sheet_.particle[v]] =
+          Place(sheet_.panel[v], sheet_.flat[v] / cloth.size, 1.0f);
+      if (sheet_.flat[v].y < 1e-4f) {
+        held_[sheet_.particle[v]] = true;
+      }
     }
   }
 
   void Settle(const DrapeMaterial& material, int steps, float cell) {
     const BodyField field = FieldOver(standing_, worn_, cell, 3.0f * cell);
     Draper draper(sheet_, material);
-    draper.TakeLengths(1.035f);
-    draper.gravity = 1.5f;
+    draper.TakeLengths(1.01f);
+    draper.gravity = 1.0f;
     draper.damping = 0.1f;
     draper.floor = true;
     for (uint32_t p = 0; p < sheet_.positions.size(); ++p) {
@@ -306,16 +248,22 @@ class MantleDraper {
 
   void Finish(DrapedGarment& result) {
     result.skin = standing_.skin;
+    // What hangs below the knee swings; above, cloth lies on cloth.
     for (size_t p = 0; p < sheet_.positions.size(); ++p) {
-      const float below = hip_ - 0.04f - sheet_.positions[p].y;
-      result.reach.push_back(below <= 0.0f || held_[p] ? 0.0f : 0.02f + 0.5f * below);
+      const float below = knee_ + 0.03f - sheet_.positions[p].y;
+      result.reach.push_back(below <= 0.0f ? 0.0f : 0.015f + 0.5f * below);
+    }
+    for (size_t v = 0; v < sheet_.flat.size(); ++v) {
+      if (sheet_.panel[v] == 1) {
+        result.reach[sheet_.particle[v]] = 0.0f;
+      }
     }
     const GarmentPattern pattern = pattern_;
-    const float rows = 0.06f * scale_ * 18.0f;
-    const float bow = 0.055f * scale_ * 10.0f;
-    const float row = 0.03f * scale_;  // of the divided sheet
+    const float rows = panels_[0].size.y;
+    const float bow = toga_ ? panels_[1].size.y : 0.0f;
+    const float row = panels_[0].size.y / (4.0f * float(panels_[0].rows - 1));
     MarkBands(sheet_, [&](uint8_t panel, const glm::vec2& middle) {
-      return pattern.border && (panel == 0 ? rows : bow) - middle.y < 1.99f * row;
+      return pattern.border && (panel == 0 ? rows : bow) - middle.y < 2.99f * row;
     });
     result.dye = [=](uint8_t panel, const glm::vec2& flat) {
       const bool is_wrap = (panel & ~kBand) == 0;
@@ -327,42 +275,44 @@ class MantleDraper {
     result.covers_left_of = JointPlace(body_, standing_, "l_shoulder").x - 0.005f;
     result.covers_above = JointPlace(body_, standing_, "l_elbow").y - 0.05f;
     result.loose_margin = std::clamp(0.4f * hem_, 0.05f, 0.18f);
+    result.wraps = true;
+    result.cover_margin = 0.025f;
     if (toga_) {
       result.trims.push_back(RollBalteus());
+      result.trims.push_back(PullUmbo());
     }
     result.sheet = std::move(sheet_);
   }
 
-  // The rolled edge: a tube with twisted folds along the upper edge.
+  // Middle of the balteus: 0 under the right arm, 1 behind the left shoulder.
+  glm::vec3 BalteusPlace(float along, float out, float up) const {
+    const float angle = glm::mix(0.12f * kPi, kLeft + 0.30f, along);
+    const float top = HeightAt(upper_, angle);
+    return outline_.Place(
+        angle, outline_.Hanging(angle, top + 0.01f, top + up) + Layer(angle) + 0.026f + out,
+        top + up);
+  }
+
+  // The upper edge is gathered into a flat band of folds that lie one above the other.
   Trim RollBalteus() const {
     Trim trim;
     trim.colour = pattern_.colour;
     GridPanel roll;
-    roll.columns = 56;
-    roll.rows = 15;
-    roll.mirrored = false;
-    const auto middle = [&](float along) {
-      const float angle = glm::mix(0.1f * kPi, kLeft + 0.25f, along);
-      const float top = HeightAt(upper_, angle);
-      return outline_.Place(
-          angle, outline_.Hanging(angle, top + 0.01f, top) + Layer(angle) + 0.034f, top + 0.004f);
-    };
+    roll.columns = 36;
+    roll.rows = 25;
     roll.flat = [&](size_t column, size_t row) {
-      return glm::vec2(0.025f * float(column), 0.012f * float(row));
+      return glm::vec2(0.03f * float(column), 0.011f * float(row));
     };
     roll.place = [&](size_t column, size_t row) {
       const float along = float(column) / float(roll.columns - 1);
       const float turn = glm::two_pi<float>() * float(row) / float(roll.rows - 1);
-      const glm::vec3 at = middle(along);
-      const glm::vec3 ahead = glm::normalize(middle(along + 0.01f) - middle(along - 0.01f));
-      const glm::vec3 out = glm::normalize(glm::vec3(at.x, 0.0f, at.z) -
-                                           ahead * glm::dot(ahead, glm::vec3(at.x, 0.0f, at.z)));
-      const glm::vec3 up = glm::cross(ahead, out);
-      const float ends = std::min(1.0f, 4.0f * std::min(along, 1.0f - along) + 0.12f);
-      const float twist = 1.0f + 0.16f * std::sin(3.0f * turn + 26.0f * along) +
-                          0.08f * std::sin(5.0f * turn - 17.0f * along + 1.0f);
-      const float size = 0.030f * scale_ * ends * twist;
-      return at + size * (0.75f * std::cos(turn) * out + 1.15f * std::sin(turn) * up);
+      const float ends = std::min(1.0f, 5.0f * std::min(along, 1.0f - along) + 0.25f);
+      // Five folds on the outside, which wander up and down a little.
+      const float up = std::sin(turn);
+      const float folds = std::max(0.0f, std::cos(turn)) *
+                          Crests(5.0f * kPi * up + 1.5f * std::sin(5.0f * along) + 3.0f * along);
+      const float out = 0.013f * std::cos(turn) + 0.0075f * folds;
+      return BalteusPlace(along, scale_ * ends * out, scale_ * ends * 0.052f * up);
     };
     const uint32_t first = AddPanel(trim.sheet, roll, 0);
     std::vector<std::array<uint32_t, 2>> seam;
@@ -370,10 +320,42 @@ class MantleDraper {
       seam.push_back({first + c, first + uint32_t(roll.rows - 1) * uint32_t(roll.columns) + c});
     }
     Sew(trim.sheet, seam);
+    TakeTrimWeights(trim);
+    return trim;
+  }
+
+  // The umbo: cloth from below, drawn out over the balteus on the left breast so that it
+  // hangs over it in small bows.
+  Trim PullUmbo() const {
+    Trim trim;
+    trim.colour = pattern_.colour;
+    GridPanel pouch;
+    pouch.columns = 17;
+    pouch.rows = 17;
+    const float middle = 1.10f * kPi;
+    pouch.flat = [](size_t column, size_t row) { return 0.012f * glm::vec2(column, row); };
+    pouch.place = [&](size_t column, size_t row) {
+      const float across = 2.0f * float(column) / float(pouch.columns - 1) - 1.0f;
+      const float down = float(row) / float(pouch.rows - 1);
+      const float angle = middle + 0.17f * kPi * across * (1.0f - 0.25f * down);
+      const float top = HeightAt(upper_, angle) + 0.03f * scale_;
+      const float bow = std::pow(1.0f - across * across, 0.7f);
+      const float height = top - scale_ * (0.015f + 0.19f * bow) * down;
+      const float bulge = 0.032f * std::sin(kPi * std::min(1.0f, 0.12f + 0.8f * down)) * bow;
+      const float folds = 0.006f * bow * Crests(glm::two_pi<float>() * 3.5f * down + 0.8f * across);
+      const float radius =
+          outline_.Hanging(angle, top, height) + Layer(angle) + 0.032f + scale_ * (bulge + folds);
+      return outline_.Place(angle, radius, height);
+    };
+    AddPanel(trim.sheet, pouch, 0);
+    TakeTrimWeights(trim);
+    return trim;
+  }
+
+  void TakeTrimWeights(Trim& trim) const {
     const std::vector<float> distances =
         TakeWeights(body_, standing_, WeightSource::kMantle, trim.sheet);
     SmoothWeights(trim.sheet, 6, distances);
-    return trim;
   }
 
   const GarmentPattern pattern_;
@@ -385,10 +367,146 @@ class MantleDraper {
   float scale_;
   float hem_ = 0.3f;
   float shoulder_ = 1.4f;
-  float hip_ = 0.9f;
+  float knee_ = 0.5f;
   std::vector<Knot> upper_;
+  std::vector<Panel> panels_;
   Sheet sheet_;
   std::vector<bool> held_;
+};
+
+// A square of cloth, gathered on a cord round the waist.
+class ApronDraper {
+ public:
+  ApronDraper(const GarmentPattern& pattern,
+              const FittedBody& body,
+              std::span<const DrapedGarment> worn)
+      : pattern_(pattern),
+        body_(body),
+        standing_(PoseBody(body, StandingTurns(body, 1.0f))),
+        worn_(SheetsOf(worn)),
+        outline_(body, standing_, worn_, false),
+        wave_(kFolds, pattern.seed + 5) {
+    const auto y = [&](const char* joint) { return JointPlace(body_, standing_, joint).y; };
+    hem_ = pattern.hem < 1.0f ? glm::mix(y("r_hip"), y("r_knee"), pattern.hem)
+                              : glm::mix(y("r_knee"), 0.0f, pattern.hem - 1.0f);
+    top_ = BeltHeight(pattern, body) - 0.03f;
+    waist_ = y("vl1");
+    MeasureFolds();
+  }
+
+  DrapedGarment Drape() {
+    LayOut();
+    DrapedGarment result;
+    Settle(100, 0.0125f, 0.014f);
+    const std::vector<float> distances =
+        TakeWeights(body_, standing_, WeightSource::kApron, sheet_);
+    SmoothWeights(sheet_, 8, distances);
+    Divide(1, sheet_, result);
+    Settle(40, 0.01f, 0.008f);
+    std::copy_n(sheet_.positions.begin(), result.coarse_positions.size(),
+                result.coarse_positions.begin());
+    Finish(result);
+    return result;
+  }
+
+ private:
+  static constexpr int kFolds = 14;  // as if they went all round
+  static constexpr float kHalfTurn = 0.50f * kPi;
+  static constexpr float kFullness = 1.22f;  // width of the cloth over what it spans
+
+  float Angle(float across) const { return kPi + kHalfTurn * across; }
+  glm::vec3 Curve(float across, float out, float height) const {
+    const float angle = Angle(across);
+    return outline_.Place(angle, outline_.Hanging(angle, top_, height) + 0.014f + out, height);
+  }
+
+  void MeasureFolds() {
+    const float middle = 0.5f * (top_ + hem_);
+    const auto curve = [&](float share, float out) {
+      return Curve(2.0f * share - 1.0f, out, middle);
+    };
+    float span = 0.0f;
+    for (int i = 0; i < 60; ++i) {
+      span += glm::distance(curve(float(i) / 60.0f, 0.0f), curve(float(i + 1) / 60.0f, 0.0f));
+    }
+    width_ = kFullness * span;
+    depth_ = FoldDepth(curve, wave_, 0.0f, 1.0f, width_, 0.03f);
+  }
+
+  void LayOut() {
+    Random random(pattern_.seed, 5);
+    GridPanel grid;
+    grid.columns = 23;
+    grid.rows = 1 + static_cast<size_t>(std::round((top_ - hem_) / (0.05f * body_.height / 1.7f)));
+    grid.flat = [&](size_t column, size_t row) {
+      return glm::vec2(width_ * float(column) / float(grid.columns - 1),
+                       (top_ - hem_) * float(row) / float(grid.rows - 1));
+    };
+    grid.place = [&](size_t column, size_t row) {
+      const float share = float(column) / float(grid.columns - 1);
+      const float down = float(row) / float(grid.rows - 1);
+      // Gathered on the cord, a little longer at the corners.
+      const float across = 2.0f * share - 1.0f;
+      const float height = glm::mix(top_, hem_ - 0.02f * across * across, down);
+      const float fold = depth_ * glm::mix(0.3f, 1.0f, glm::smoothstep(0.0f, 0.5f, down));
+      return Curve(across, fold * (1.0f + wave_.At(share)) + 0.001f * float(random.Normal()),
+                   height);
+    };
+    AddPanel(sheet_, grid, 0);
+  }
+
+  void Settle(int steps, float cell, float own_gap) {
+    DrapeMaterial material;
+    material.gap = 0.012f;
+    material.own_gap = own_gap;
+    const BodyField field = FieldOver(standing_, worn_, cell, 3.0f * cell);
+    Draper draper(sheet_, material);
+    draper.TakeLengths(1.01f);
+    draper.gravity = 1.5f;
+    for (uint32_t p = 0; p < sheet_.positions.size(); ++p) {
+      if (sheet_.flat[p].y < 1e-4f) {
+        draper.pins.push_back({p, sheet_.positions[p], 1.0f});
+      }
+    }
+    draper.Run(steps, field);
+  }
+
+  void Finish(DrapedGarment& result) {
+    result.skin = standing_.skin;
+    for (const glm::vec3& p : sheet_.positions) {
+      const float below = std::min(top_ - 0.05f, waist_) - p.y;
+      result.reach.push_back(below <= 0.0f ? 0.0f : 0.015f + 0.5f * below);
+    }
+    const float length = top_ - hem_;
+    result.dye = [pattern = pattern_, length](uint8_t, const glm::vec2& flat) {
+      const float stain = pattern.wear * glm::smoothstep(0.35f, 1.0f, flat.y / length);
+      return pattern.colour * (1.0f - 0.22f * stain);
+    };
+    GarmentPattern cord = pattern_;
+    cord.belt = Belt::kCord;
+    cord.belt_colour = 0.85f * pattern_.colour;
+    // The cord goes over the garment and what is below.
+    Sheet all = sheet_;
+    for (const Sheet* below : worn_) {
+      all.positions.insert(all.positions.end(), below->positions.begin(), below->positions.end());
+    }
+    result.trims.push_back(TieGirdle(cord, body_, standing_, all, top_ - 0.008f));
+    result.sheet = std::move(sheet_);
+    result.cover_margin = 0.045f;
+  }
+
+  const GarmentPattern pattern_;
+  const FittedBody& body_;
+  PosedBody standing_;
+  std::vector<const Sheet*> worn_;
+  Outline outline_;
+  FoldWave wave_;
+  float hem_ = 0.5f;
+  float top_ = 1.0f;
+  float waist_ = 1.0f;
+  float width_ = 0.6f;
+  float depth_ = 0.01f;
+  Sheet sheet_;
 };
 
 }  // namespace
@@ -402,87 +520,7 @@ Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
 Result<DrapedGarment> DrapeApron(const GarmentPattern& pattern,
                                  const FittedBody& body,
                                  std::span<const DrapedGarment> worn) {
-  const PosedBody standing = PoseBody(body, StandingTurns(body, 1.0f));
-  const std::vector<const Sheet*> sheets = SheetsOf(worn);
-  const Outline outline(body, standing, sheets, false);
-  const auto y = [&](const char* joint) { return JointPlace(body, standing, joint).y; };
-  const float hip = y("r_hip");
-  const float hem = pattern.hem < 1.0f ? glm::mix(hip, y("r_knee"), pattern.hem)
-                                       : glm::mix(y("r_knee"), 0.0f, pattern.hem - 1.0f);
-  const float top = BeltHeight(pattern, body) - 0.03f;
-  const float girth = Girth(body, standing, top, 0.03f).Length();
-  const float half_turn = 0.40f * kPi;
-  DrapedGarment result;
-  Sheet sheet;
-  Random random(pattern.seed, 5);
-  GridPanel grid;
-  grid.columns = 19;
-  grid.rows = 1 + static_cast<size_t>(std::round((top - hem) / (0.042f * body.height / 1.7f)));
-  const float width = 0.48f * girth;
-  grid.flat = [&](size_t column, size_t row) {
-    return glm::vec2(width * float(column) / float(grid.columns - 1),
-                     (top - hem) * float(row) / float(grid.rows - 1));
-  };
-  grid.place = [&](size_t column, size_t row) {
-    const float across = 2.0f * float(column) / float(grid.columns - 1) - 1.0f;
-    const float angle = kPi + half_turn * across;
-    const float down = float(row) / float(grid.rows - 1);
-    const float height = glm::mix(top, hem, down);
-    const float fold = (0.004f + 0.014f * down) *
-                       (std::sin(8.0f * across + 0.5f) + 0.5f * std::sin(15.0f * across));
-    return outline.Place(
-        angle,
-        outline.Hanging(angle, top, height) + 0.016f + fold + 0.002f * float(random.Normal()),
-        height);
-  };
-  AddPanel(sheet, grid, 0);
-  DrapeMaterial material;
-  material.gap = 0.012f;
-  material.own_gap = 0.014f;
-  for (const int level : {0, 1}) {
-    const float cell = level == 0 ? 0.0125f : 0.01f;
-    const BodyField field = FieldOver(standing, sheets, cell, 3.0f * cell);
-    Draper draper(sheet, material);
-    draper.TakeLengths(level == 0 ? 1.02f : 1.01f);
-    draper.gravity = 1.5f;
-    for (uint32_t p = 0; p < sheet.positions.size(); ++p) {
-      if (sheet.flat[p].y < 1e-4f) {
-        draper.pins.push_back({p, sheet.positions[p], 1.0f});
-      }
-    }
-    draper.Run(level == 0 ? 120 : 60, field);
-    if (level == 0) {
-      const std::vector<float> distances =
-          TakeWeights(body, standing, WeightSource::kSkirted, sheet);
-      SmoothWeights(sheet, 8, distances);
-      result.coarse_particles = sheet.positions.size();
-      result.coarse_triangles = sheet.ParticleTriangles();
-      sheet = Subdivided(sheet);
-      material.own_gap = 0.008f;
-    }
-  }
-  result.skin = standing.skin;
-  for (const glm::vec3& p : sheet.positions) {
-    const float below = std::min(top - 0.05f, y("vl1")) - p.y;
-    result.reach.push_back(below <= 0.0f ? 0.0f : 0.015f + 0.5f * below);
-  }
-  const float length = top - hem;
-  result.dye = [pattern, length](uint8_t, const glm::vec2& flat) {
-    const float stain = pattern.wear * glm::smoothstep(0.35f, 1.0f, flat.y / length);
-    return pattern.colour * (1.0f - 0.22f * stain);
-  };
-  GarmentPattern cord = pattern;
-  cord.belt = Belt::kCord;
-  cord.belt_colour = 0.85f * pattern.colour;
-  // The cord goes over the garment and what is below.
-  Sheet all = sheet;
-  for (const Sheet* below : sheets) {
-    all.positions.insert(all.positions.end(), below->positions.begin(), below->positions.end());
-  }
-  result.trims.push_back(TieGirdle(cord, body, standing, all, top - 0.008f));
-  result.sheet = std::move(sheet);
-  result.cover_margin = 0.045f;
-  return result;
+  return ApronDraper(pattern, body, worn).Drape();
 }
 
 }  // namespace lararium::import
