@@ -8,7 +8,9 @@
 
 #include "shared/core/random.h"
 #include "shared/light/blocker_table.h"
+#include "shared/light/key_poses.h"
 #include "shared/light/receivers.h"
+#include "shared/light/shadow_ratio.h"
 #include "shared/light/transfer.h"
 
 namespace lararium::light {
@@ -164,6 +166,34 @@ void BenchPackReceiverLight(benchmark::State& bench) {
   }
 }
 BENCHMARK(BenchPackReceiverLight)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+void BenchKeyPoses(benchmark::State& bench) {
+  const Crowd crowd;
+  const int count = static_cast<int>(bench.range(0));
+  std::vector<ShRows> keys(5, ShRows(count, kReceivers));
+  ShRows now(count, kReceivers), delta(count, kReceivers);
+  AddLogVisibility(crowd.spheres(), crowd.points(), {0, kReceivers}, now);
+  std::vector<float> weights(kReceivers * kMaxKeyPoses);
+  for (auto _ : bench) {
+    KeyPoseWeights(keys, now, {}, {0, kReceivers}, weights);
+    SubtractKeyPoses(keys, now, weights, {0, kReceivers}, delta);
+    benchmark::DoNotOptimize(delta.row(0));
+  }
+}
+BENCHMARK(BenchKeyPoses)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+void BenchShadowRatio(benchmark::State& bench) {
+  const Crowd crowd;
+  ShRows log(static_cast<int>(bench.range(0)), kReceivers);
+  AddLogVisibility(crowd.spheres(), crowd.points(), {0, kReceivers}, log);
+  const ShRgb falls = CosineLight(SomeLight(), {0.0f, 1.0f, 0.0f});
+  std::vector<float> r(kReceivers), g(kReceivers), b(kReceivers);
+  for (auto _ : bench) {
+    ShadowRatio(falls, log, {0, kReceivers}, {r, g, b});
+    benchmark::DoNotOptimize(r.data());
+  }
+}
+BENCHMARK(BenchShadowRatio)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace lararium::light
