@@ -221,6 +221,42 @@ INSTANTIATE_TEST_SUITE_P(All,
                          testing::ValuesIn(CastPresetNames()),
                          [](const auto& info) { return info.param; });
 
+// Shod in sandals alone: other garments take long to cut.
+TEST_P(CastPresets, StandOnTheSolesOfTheirSandals) {
+  CastRecipe recipe = *LoadCastPreset(GetParam());
+  std::erase_if(recipe.garments, [](const Json& g) { return g["name"] != "sandals"; });
+  ASSERT_EQ(recipe.garments.size(), 1u);
+  const auto human = BuildCast(*Library(), recipe);
+  ASSERT_TRUE(human.ok()) << human.status().message();
+  float lowest = 1.0f;
+  for (const human::SkinnedMesh& mesh : human->meshes) {
+    for (const glm::vec3& p : mesh.positions) {
+      lowest = std::min(lowest, p.y);
+    }
+  }
+  EXPECT_NEAR(lowest, 0.0f, 1e-5f);
+  // The joints went with the flesh.
+  for (size_t joint = 0; joint < human->skeleton.size(); ++joint) {
+    const glm::vec3 bound(glm::inverse(human->skeleton.joint_from_actor[joint])[3]);
+    const glm::vec3 rest = RestPosition(human->skeleton, human->skeleton.names[joint]);
+    EXPECT_LT(glm::distance(bound, rest), 1e-5f) << human->skeleton.names[joint];
+  }
+  EXPECT_GT(RestPosition(human->skeleton, "l_ankle").y,
+            RestPosition(Preset(GetParam()).skeleton, "l_ankle").y + 0.004f);
+}
+
+TEST_P(CastPresets, WearHairThatSwingsOnlyWhereItHangs) {
+  const human::Human& human = Preset(GetParam());
+  EXPECT_EQ(human.springs.size(), GetParam() == "girl" ? 1u : 0u);
+  for (const human::SpringChain& chain : human.springs) {
+    const human::Skeleton& skeleton = human.skeleton;
+    EXPECT_EQ(skeleton.names[static_cast<size_t>(skeleton.parents[chain.joints[0]])], "skullbase");
+    const float root = RestPosition(skeleton, skeleton.names[chain.joints.front()]).y;
+    const float end = RestPosition(skeleton, skeleton.names[chain.joints.back()]).y;
+    EXPECT_GT(root - end, 0.15f);
+  }
+}
+
 TEST(CastLibraryData, TargetsMoveWhatTheirNamesSay) {
   if (Library() == nullptr) {
     GTEST_SKIP() << "needs the cast library: run scripts/fetch_cast_library.sh";
