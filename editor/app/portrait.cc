@@ -22,10 +22,10 @@ constexpr std::array kSheetShapes = {"joy",     "sadness", "anger", "fear", "dis
                                      "DD",      "kk",      "CH",    "SS",   "nn",      "RR",
                                      "aa",      "E",       "ih",    "oh",   "ou"};
 constexpr std::array kSheetViews = {"front", "side", "three-quarter"};
-const cv::Size kFigureCell(300, 560);
-const cv::Size kHeadCell(300, 300);
-const cv::Size kShapeCell(180, 200);
-constexpr int kShapesPerRow = 10;
+const cv::Size kFigureCell(304, 560);
+const cv::Size kHeadCell(304, 304);
+const cv::Size kShapeCell(190, 200);
+constexpr int kShapesPerRow = 8;
 
 template <typename T>
 std::optional<size_t> FindByName(const std::vector<T>& all, std::string_view name) {
