@@ -195,7 +195,7 @@ void ExpSh(const ShProductTable& products, const Lanes* log, Lanes* result) {
   constexpr float kScale = 1.0f / (1 << kExpSquarings);
   const auto one = static_cast<float>(kOne);
   const Lanes brightness = Exp(log[0] * (1.0f / one));
-  base[0] = Lanes{} + one;
+  base[0] = Broadcast(one);
   for (size_t k = 1; k < count; ++k) {
     base[k] = log[k] * kScale;
   }
@@ -267,7 +267,7 @@ void BlockerTable::At(const Lanes& share, Lanes* factors) const {
   Lanes rows[kLanes];
   for (size_t i = 0; i < kLanes; ++i) {
     const Entry& entry = entries_[static_cast<size_t>(index[i])];
-    rows[i] = Load(entry.value.data()) + rest[i] * Load(entry.slope.data());
+    rows[i] = MultiplyAdd(Broadcast(rest[i]), Load(entry.slope.data()), Load(entry.value.data()));
   }
   Transpose(rows);
   for (size_t l = 0; l <= static_cast<size_t>(degree_); ++l) {

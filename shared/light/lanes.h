@@ -39,6 +39,18 @@ inline void StoreFirst(const Lanes& lanes, float* to, size_t count) {
   std::memcpy(to, &lanes, std::min(count, kLanes) * sizeof(float));
 }
 
+inline Lanes Broadcast(float a) { return Lanes{a, a, a, a, a, a, a, a}; }
+
+// a b + c. Where the processor can, in one step with one rounding; the compiler is told
+// not to do so by itself.
+inline Lanes MultiplyAdd(const Lanes& a, const Lanes& b, const Lanes& c) {
+#ifdef __FMA__
+  return _mm256_fmadd_ps(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
 inline Lanes Max(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 inline Lanes Min(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 
@@ -74,20 +86,18 @@ inline float Sum(const Lanes& a) {
 
 // e^a with a relative error below 1e-6, for a in [-80, 80]; beyond, as at the border.
 inline Lanes Exp(const Lanes& a) {
-  const Lanes bounded = Min(Max(a, Lanes{} - 80.0f), Lanes{} + 80.0f);
+  const Lanes bounded = Min(Max(a, Broadcast(-80.0f)), Broadcast(80.0f));
   // 2^t with t = whole + rest, rest in [-1/2, 1/2]. Adding 1.5 * 2^23 rounds.
   const Lanes t = bounded * 1.44269504f;
   const float kRound = 12582912.0f;
   const Lanes whole = (t + kRound) - kRound;
   const Lanes rest = (t - whole) * 0.69314718f;
   // The power series of e^rest.
-  Lanes power = rest * (1.0f / 5040.0f) + 1.0f / 720.0f;
-  power = power * rest + 1.0f / 120.0f;
-  power = power * rest + 1.0f / 24.0f;
-  power = power * rest + 1.0f / 6.0f;
-  power = power * rest + 0.5f;
-  power = power * rest + 1.0f;
-  power = power * rest + 1.0f;
+  Lanes power = Broadcast(1.0f / 5040.0f);
+  for (const float term :
+       {1.0f / 720.0f, 1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f}) {
+    power = MultiplyAdd(power, rest, Broadcast(term));
+  }
   const IntLanes exponent = (__builtin_convertvector(whole, IntLanes) + 127) << 23;
   Lanes scale;
   std::memcpy(&scale, &exponent, sizeof(scale));

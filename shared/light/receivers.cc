@@ -25,7 +25,7 @@ struct Register3 {
 inline Lanes FadedShare(const Lanes& distance2, float radius2) {
   const Lanes share = radius2 / (distance2 + (radius2 + 1e-12f));
   const Lanes fade = (share - kLeastShare) * (1.0f / kLeastShare);
-  return share * Min(Max(fade, Lanes{}), Lanes{} + 1.0f);
+  return share * Min(Max(fade, Lanes{}), Broadcast(1.0f));
 }
 
 template <int Count>
@@ -46,7 +46,7 @@ inline void AddSphere(const BlockerTable& table,
   for (int l = 0; l <= kDegree; ++l) {
 #pragma GCC unroll 9
     for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
-      log[k] += factors[l] * basis[k];
+      log[k] = MultiplyAdd(factors[l], basis[k], log[k]);
     }
   }
 }
@@ -91,11 +91,11 @@ void MultiplyMatrix(const float* matrix, const Lanes* vector, int count, Lanes* 
   for (int i = 0; i < count; ++i, matrix += count) {
     Lanes even = matrix[0] * vector[0], odd = {};
     for (int j = 1; j + 1 < count; j += 2) {
-      odd += matrix[j] * vector[j];
-      even += matrix[j + 1] * vector[j + 1];
+      odd = MultiplyAdd(Broadcast(matrix[j]), vector[j], odd);
+      even = MultiplyAdd(Broadcast(matrix[j + 1]), vector[j + 1], even);
     }
     if (count % 2 == 0) {
-      odd += matrix[count - 1] * vector[count - 1];
+      odd = MultiplyAdd(Broadcast(matrix[count - 1]), vector[count - 1], odd);
     }
     target[i] = even + odd;
   }
@@ -186,7 +186,7 @@ void RotateRows(const ShRows& source,
       for (int m = 0; m < side; ++m, matrix += side) {
         Lanes sum = matrix[0] * band[0];
         for (int n = 1; n < side; ++n) {
-          sum += matrix[n] * band[n];
+          sum = MultiplyAdd(Broadcast(matrix[n]), band[n], sum);
         }
         StoreFirst(sum, target.row(l * l + m) + i, valid);
       }

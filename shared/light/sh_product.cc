@@ -99,7 +99,8 @@ void ShProductTable::Multiply(const Lanes* a, const Lanes* b, Lanes* product) co
   for (size_t k = 0; k < static_cast<size_t>(count_); ++k) {
     Lanes sum = {};
     for (const Term* end = terms_.data() + begin_[k + 1]; term != end; ++term) {
-      sum += term->gamma * (a[term->i] * b[term->j] + a[term->j] * b[term->i]);
+      sum = MultiplyAdd(Broadcast(term->gamma),
+                        MultiplyAdd(a[term->i], b[term->j], a[term->j] * b[term->i]), sum);
     }
     product[k] = sum;
   }
@@ -111,11 +112,11 @@ void ShProductTable::Square(const Lanes* a, Lanes* square) const {
     Lanes even = {}, odd = {};  // two sums, so that additions do not wait for each other
     const Term* end = terms_.data() + begin_[k + 1];
     for (; term + 1 < end; term += 2) {
-      even += term[0].gamma * (a[term[0].i] * a[term[0].j]);
-      odd += term[1].gamma * (a[term[1].i] * a[term[1].j]);
+      even = MultiplyAdd(Broadcast(term[0].gamma), a[term[0].i] * a[term[0].j], even);
+      odd = MultiplyAdd(Broadcast(term[1].gamma), a[term[1].i] * a[term[1].j], odd);
     }
     if (term != end) {
-      even += term->gamma * (a[term->i] * a[term->j]);
+      even = MultiplyAdd(Broadcast(term->gamma), a[term->i] * a[term->j], even);
       ++term;
     }
     square[k] = 2.0f * (even + odd);

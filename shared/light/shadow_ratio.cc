@@ -45,9 +45,9 @@ void RatioRange(const ShRows& log_visibility,
         shadowed += visibility[k] * cosine(channel, k, i);
       }
       const Lanes unshadowed = Lanes{} + one * cosine(channel, 0, i);
-      const Lanes quotient = shadowed / Max(unshadowed, Lanes{} + 1e-12f);
-      const Lanes bounded = Min(Max(quotient, Lanes{}), Lanes{} + 1.0f);
-      const Lanes result = unshadowed > 1e-12f ? bounded : Lanes{} + 1.0f;
+      const Lanes quotient = shadowed / Max(unshadowed, Broadcast(1e-12f));
+      const Lanes bounded = Min(Max(quotient, Lanes{}), Broadcast(1.0f));
+      const Lanes result = unshadowed > 1e-12f ? bounded : Broadcast(1.0f);
       StoreFirst(result, channels[channel].data() + i, range.end - i);
     }
   }

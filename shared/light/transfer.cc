@@ -23,38 +23,45 @@ template <size_t Padded>
 void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
   constexpr size_t kRegisters = 3 * Padded / kLanes;
   const Transfer& transfer = *job.transfer;
+  const float* light_rows = job.light->row(0);
+  const float* pose_weight_rows = job.pose_weights.data();
+  const size_t poses = transfer.poses;
   for (size_t v = begin; v < end; ++v) {
     const VertexReceivers& receivers = job.receivers[v];
     Lanes light[kRegisters] = {};
     Lanes pose_weights = {};
     for (size_t r = 0; r < kReceiversOfVertex && receivers.weight[r] > 0; ++r) {
-      const float weight = receivers.weight[r] * (1.0f / 255.0f);
-      const float* row = job.light->row(receivers.receiver[r]);
+      const Lanes weight = Broadcast(receivers.weight[r] * (1.0f / 255.0f));
+      const float* row = light_rows + receivers.receiver[r] * (kRegisters * kLanes);
 #pragma GCC unroll 15
       for (size_t i = 0; i < kRegisters; ++i) {
-        light[i] += weight * Load(row + i * kLanes);
+        light[i] = MultiplyAdd(weight, Load(row + i * kLanes), light[i]);
       }
-      pose_weights += weight * Load(job.pose_weights.data() + receivers.receiver[r] * kMaxKeyPoses);
+      pose_weights = MultiplyAdd(
+          weight, Load(pose_weight_rows + receivers.receiver[r] * kMaxKeyPoses), pose_weights);
     }
     Lanes sums[3] = {};
     float total = 0.0f;
-    for (size_t pose = 0; pose < transfer.poses; ++pose) {
+    const float* scale_of_vertex = transfer.scale.data() + v;
+    const int8_t* row = transfer.row(0, v);
+    for (size_t pose = 0; pose < poses; ++pose) {
       const float weight = pose_weights[pose];
-      if (weight < kLeastPoseWeight) {
-        continue;
-      }
-      total += weight;
-      const Lanes scale = Lanes{} + weight * transfer.scale[pose * transfer.vertices + v];
-      const int8_t* row = transfer.row(pose, v);
+      if (weight >= kLeastPoseWeight) {
+        total += weight;
+        const Lanes scale = Broadcast(weight * *scale_of_vertex);
 #pragma GCC unroll 3
-      for (size_t channel = 0; channel < 3; ++channel) {
-        Lanes sum = {};
-#pragma GCC unroll 5
-        for (size_t i = channel * kRegisters / 3; i < (channel + 1) * kRegisters / 3; ++i) {
-          sum += light[i] * LoadBytes(row + i * kLanes);
+        for (size_t channel = 0; channel < 3; ++channel) {
+          const size_t first = channel * kRegisters / 3;
+          Lanes sum = light[first] * LoadBytes(row + first * kLanes);
+#pragma GCC unroll 4
+          for (size_t i = first + 1; i < first + kRegisters / 3; ++i) {
+            sum = MultiplyAdd(light[i], LoadBytes(row + i * kLanes), sum);
+          }
+          sums[channel] = MultiplyAdd(scale, sum, sums[channel]);
         }
-        sums[channel] += scale * sum;
       }
+      scale_of_vertex += transfer.vertices;
+      row += transfer.vertices * kRegisters * kLanes;
     }
     const glm::vec3 irradiance(Sum(sums[0]), Sum(sums[1]), Sum(sums[2]));
     job.irradiance[v] = glm::max(irradiance * (1.0f / std::max(total, 1e-6f)), glm::vec3(0.0f));
