@@ -1,0 +1,82 @@
+// The frame's work on light allocates nothing once its buffers stand.
+
+#include <gtest/gtest.h>
+
+#include "shared/light/key_poses.h"
+#include "shared/light/receivers.h"
+#include "shared/light/shadow_ratio.h"
+#include "shared/light/transfer.h"
+#include "tests/light/sh_test_support.h"
+#include "tests/support/allocation_counter.h"
+
+namespace lararium::light {
+namespace {
+
+constexpr size_t kReceivers = 20, kVertices = 30;
+constexpr ReceiverRange kAll = {0, kReceivers};
+
+struct Frame {
+  explicit Frame(int count)
+      : balls({{{0.3f, 1.0f, 0.2f}, 0.3f}, {{-0.5f, 1.2f, 0.0f}, 0.2f}}),
+        points(std::vector<glm::vec3>(kReceivers, glm::vec3(0.1f, 0.2f, 0.3f))),
+        log(count, kReceivers),
+        delta(count, kReceivers),
+        keys(3, ShRows(count, kReceivers)),
+        shadowed{log, log, log},
+        turned{log, log, log},
+        packed(count, kReceivers),
+        transfer(QuantiseTransfer(
+            std::vector<float>(3 * kVertices * 3 * static_cast<size_t>(count), 0.1f), count, 3)),
+        receivers(kVertices),
+        weights(kReceivers * kMaxKeyPoses),
+        irradiance(kVertices),
+        ratio(3, std::vector<float>(kReceivers)) {
+    for (VertexReceivers& of : receivers) {
+      of = {{0, 5, 7, 19}, {100, 80, 50, 25}};
+    }
+    light[0] = glm::vec3(1.0f);
+  }
+
+  void Run() {
+    const int count = log.count();
+    ClearLogVisibility(kAll, log);
+    AddLogVisibility(balls.spheres(), points.points(), kAll, log);
+    KeyPoseWeights(keys, log, {}, kAll, weights);
+    SubtractKeyPoses(keys, log, weights, kAll, delta);
+    ShadowLight(LightMatrix(light, count), delta, kAll, shadowed);
+    const ShRotation rotation(glm::quat(1.0f, 0.0f, 0.0f, 0.0f), ShDegreeOf(count));
+    for (size_t channel = 0; channel < 3; ++channel) {
+      RotateRows(shadowed[channel], rotation, {3, 17}, turned[channel]);
+    }
+    PackReceiverLight(turned, kAll, packed);
+    LightVerticesJob{&transfer, receivers, &packed, weights, irradiance}.Run(0, kVertices);
+    ShadowRatio(light, log, kAll, {ratio[0], ratio[1], ratio[2]});
+  }
+
+  BallArrays balls;
+  PointArrays points;
+  ShRgb light = {};
+  ShRows log, delta;
+  std::vector<ShRows> keys;
+  ShRowsRgb shadowed, turned;
+  ReceiverLight packed;
+  Transfer transfer;
+  std::vector<VertexReceivers> receivers;
+  std::vector<float> weights;
+  std::vector<glm::vec3> irradiance;
+  std::vector<std::vector<float>> ratio;
+};
+
+TEST(LightAllocation, AFrameAllocatesNothing) {
+  for (const int count : {9, 16, 25}) {
+    Frame frame(count);
+    frame.Run();  // tables are made by who asks first
+    test::AllocationCounter counter;
+    frame.Run();
+    EXPECT_EQ(counter.Stop(), 0) << count;
+    EXPECT_GT(frame.irradiance[0].r, 0.0f);
+  }
+}
+
+}  // namespace
+}  // namespace lararium::light
