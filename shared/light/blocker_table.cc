@@ -250,7 +250,7 @@ BlockerTable::BlockerTable(int count) : degree_(ShDegreeOf(count)), entries_(kEn
 }
 
 BlockerTable::Factors BlockerTable::At(float share) const {
-  const float position = std::clamp(share, 0.0f, 1.0f) * kEntries;
+  const float position = (share > 0.0f ? std::min(share, 1.0f) : 0.0f) * kEntries;
   const Entry& entry = entries_[static_cast<size_t>(position)];
   const float rest = position - std::floor(position);
   Factors factors;
@@ -258,21 +258,6 @@ BlockerTable::Factors BlockerTable::At(float share) const {
     factors[l] = entry.value[l] + rest * entry.slope[l];
   }
   return factors;
-}
-
-void BlockerTable::At(const Lanes& share, Lanes* factors) const {
-  const Lanes position = share * static_cast<float>(kEntries);
-  const IntLanes index = __builtin_convertvector(position, IntLanes);
-  const Lanes rest = position - __builtin_convertvector(index, Lanes);
-  Lanes rows[kLanes];
-  for (size_t i = 0; i < kLanes; ++i) {
-    const Entry& entry = entries_[static_cast<size_t>(index[i])];
-    rows[i] = MultiplyAdd(Broadcast(rest[i]), Load(entry.slope.data()), Load(entry.value.data()));
-  }
-  Transpose(rows);
-  for (size_t l = 0; l <= static_cast<size_t>(degree_); ++l) {
-    factors[l] = rows[l];
-  }
 }
 
 }  // namespace lararium::light

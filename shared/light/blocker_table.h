@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "shared/core/check.h"
 #include "shared/light/lanes.h"
 #include "shared/light/sh_product.h"
 
@@ -44,7 +45,8 @@ class BlockerTable {
   using Factors = std::array<float, kLanes>;  // by degree; zeros follow
   Factors At(float share) const;
 
-  // The same for eight receivers: factors[l] for l <= degree.
+  // The same for eight receivers with shares from 0 to 1: factors[l] for l <= Degree.
+  template <int Degree>
   void At(const Lanes& share, Lanes* factors) const;
 
   int degree() const { return degree_; }
@@ -61,6 +63,25 @@ class BlockerTable {
   int degree_;
   std::vector<Entry> entries_;
 };
+
+template <int Degree>
+inline void BlockerTable::At(const Lanes& share, Lanes* factors) const {
+  DCHECK(Degree == degree_);
+  const Lanes position = share * static_cast<float>(kEntries);
+  const IntLanes index = __builtin_convertvector(position, IntLanes);
+  const Lanes rest = position - __builtin_convertvector(index, Lanes);
+  Lanes rows[kLanes];
+#pragma GCC unroll 8
+  for (size_t i = 0; i < kLanes; ++i) {
+    const Entry& entry = entries_[static_cast<size_t>(index[i])];
+    rows[i] = MultiplyAdd(Broadcast(rest[i]), Load(entry.slope.data()), Load(entry.value.data()));
+  }
+  Transpose(rows);
+#pragma GCC unroll 6
+  for (size_t l = 0; l <= static_cast<size_t>(Degree); ++l) {
+    factors[l] = rows[l];
+  }
+}
 
 // Projection of the indicator of what a ball of this angular radius about +Z leaves
 // visible: the coefficient of Y_l0.

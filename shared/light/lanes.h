@@ -107,11 +107,14 @@ inline Lanes Exp(const Lanes& a) {
 // rows[i][j] becomes rows[j][i].
 inline void Transpose(Lanes (&rows)[kLanes]) {
   Lanes pairs[kLanes], fours[kLanes];
+#pragma GCC unroll 8
   for (size_t i = 0; i < kLanes; i += 2) {
     pairs[i] = __builtin_shufflevector(rows[i], rows[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
     pairs[i + 1] = __builtin_shufflevector(rows[i], rows[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
   }
+#pragma GCC unroll 8
   for (size_t i = 0; i < kLanes; i += 4) {
+#pragma GCC unroll 8
     for (size_t k = 0; k < 2; ++k) {
       fours[i + k] =
           __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
@@ -119,6 +122,7 @@ inline void Transpose(Lanes (&rows)[kLanes]) {
           __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
     }
   }
+#pragma GCC unroll 8
   for (size_t i = 0; i < 4; ++i) {
     rows[i] = __builtin_shufflevector(fours[i], fours[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
     rows[i + 4] = __builtin_shufflevector(fours[i], fours[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);

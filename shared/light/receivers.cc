@@ -25,7 +25,9 @@ struct Register3 {
 inline Lanes FadedShare(const Lanes& distance2, float radius2) {
   const Lanes share = radius2 / (distance2 + (radius2 + 1e-12f));
   const Lanes fade = (share - kLeastShare) * (1.0f / kLeastShare);
-  return share * Min(Max(fade, Lanes{}), Broadcast(1.0f));
+  // Compared in this order, what is not a number becomes 0: nothing is hidden by it.
+  const Lanes faded = share * Min(Max(fade, Lanes{}), Broadcast(1.0f));
+  return Min(Max(faded, Lanes{}), Broadcast(1.0f));
 }
 
 template <int Count>
@@ -37,7 +39,7 @@ inline void AddSphere(const BlockerTable& table,
                       Lanes* log) {
   constexpr int kDegree = ShDegreeOf(Count);
   Lanes factors[kDegree + 1];
-  table.At(share, factors);
+  table.At<kDegree>(share, factors);
   const Lanes inverse = 1.0f / Sqrt(distance2 + 1e-12f);
   Lanes basis[Count];
   EvaluateShBasis<Count>(to_centre.x * inverse, to_centre.y * inverse, to_centre.z * inverse,

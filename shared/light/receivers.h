@@ -12,8 +12,8 @@
 
 namespace lararium::light {
 
-// Balls that hide light, in stage axes. All spans are equally long; a radius of 0 hides
-// nothing.
+// Balls that hide light, in stage axes. All spans are equally long; a radius of 0, or
+// numbers that are not finite, hide nothing.
 struct Spheres {
   std::span<const float> x, y, z, radius;
 };

@@ -151,19 +151,24 @@ TEST(BlockerTable, AngularRadiusIsThatOfTheBallAndSaturatesSmoothly) {
   EXPECT_NEAR(before, BlockerTable::kMaxAngularRadius, 1e-3);
 }
 
-TEST(BlockerTable, RegistersGetWhatOneGets) {
-  for (const int count : {9, 16, 25}) {
-    const BlockerTable& table = BlockerTable::ForCount(count);
-    const Lanes share = {0.0f, 0.001f, 0.1f, 0.123f, 0.5f, 0.77f, 0.9999f, 1.0f};
-    Lanes factors[kShDegree + 1];
-    table.At(share, factors);
-    for (size_t i = 0; i < kLanes; ++i) {
-      const BlockerTable::Factors one = table.At(share[i]);
-      for (int l = 0; l <= table.degree(); ++l) {
-        EXPECT_NEAR(factors[l][i], one[static_cast<size_t>(l)], 1e-5) << count << " " << share[i];
-      }
+template <int Degree>
+void ExpectRegistersGetWhatOneGets(int count) {
+  const BlockerTable& table = BlockerTable::ForCount(count);
+  const Lanes share = {0.0f, 0.001f, 0.1f, 0.123f, 0.5f, 0.77f, 0.9999f, 1.0f};
+  Lanes factors[Degree + 1];
+  table.At<Degree>(share, factors);
+  for (size_t i = 0; i < kLanes; ++i) {
+    const BlockerTable::Factors one = table.At(share[i]);
+    for (size_t l = 0; l <= Degree; ++l) {
+      EXPECT_NEAR(factors[l][i], one[l], 1e-5) << count << " " << share[i];
     }
   }
+}
+
+TEST(BlockerTable, RegistersGetWhatOneGets) {
+  ExpectRegistersGetWhatOneGets<2>(9);
+  ExpectRegistersGetWhatOneGets<3>(16);
+  ExpectRegistersGetWhatOneGets<4>(25);
 }
 
 TEST(BlockerTable, HasNoLeaps) {

@@ -174,6 +174,23 @@ TEST_P(Receivers, WhatDistantBallsLoseIsBoundedAndComesGradually) {
   }
 }
 
+TEST_P(Receivers, BallsThatAreNotFiniteHideNothing) {
+  const PointArrays at({glm::vec3(0.0f)});
+  ShRows expected(GetParam(), 1), log(GetParam(), 1);
+  const Ball good = {{0.0f, 1.0f, 0.0f}, 0.3f};
+  AddLogVisibility(BallArrays({good}).spheres(), at.points(), {0, 1}, expected);
+  const BallArrays balls({good,
+                          {{NAN, 1.0f, 0.0f}, 0.3f},
+                          {{0.0f, INFINITY, 0.0f}, 0.3f},
+                          {{0.0f, 1.0f, 0.0f}, NAN},
+                          {{0.0f, 1.0f, 0.0f}, INFINITY},
+                          {{0.0f, 1.0f, 0.0f}, 0.0f}});
+  AddLogVisibility(balls.spheres(), at.points(), {0, 1}, log);
+  for (int k = 0; k < GetParam(); ++k) {
+    EXPECT_EQ(log.at(k, 0), expected.at(k, 0));
+  }
+}
+
 TEST_P(Receivers, InsideABallNothingLeaps) {
   double before = -1.0;
   for (int i = 0; i <= 200; ++i) {
