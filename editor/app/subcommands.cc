@@ -13,6 +13,7 @@
 #include "editor/app/rendering.h"
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
+#include "editor/app/thumbnail.h"
 #include "shared/core/file.h"
 #include "shared/drama/drama.h"
 #include "shared/stage/stage.h"
@@ -183,7 +184,11 @@ Result<CommandResult> RunCast(const CastOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const human::Human human, BakeHuman(paths, member));
   LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
   Json clips = Json::array();
-  std::string text = member.name + ": clips";
+  std::string text;
+  if (const Status drawn = LeaveThumbnail(paths.Human(member.name), human); !drawn.ok()) {
+    text += "no thumbnail: " + drawn.message() + "\n";  // machines without OpenGL
+  }
+  text += member.name + ": clips";
   for (const human::Clip& clip : human.clips) {
     clips.push_back(clip.name);
     text += " " + clip.name;

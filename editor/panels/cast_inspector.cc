@@ -10,6 +10,7 @@
 #include "editor/panels/bone_panel.h"
 #include "editor/panels/portrait_view.h"
 #include "editor/panels/recipe_panel.h"
+#include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::panels {
@@ -71,6 +72,10 @@ void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDoc
   Heading(member.name.c_str());
   Hint(KindOf(member));
   ShowPortrait(workspace, state, member, !member.model.empty());
+  // What follows scrolls below the portrait, so that changes are always seen.
+  constexpr float kLeast = 220.0f;  // logical pixels
+  const float height = std::max(ImGui::GetContentRegionAvail().y, Px(kLeast));
+  ImGui::BeginChild("figure", ImVec2(0, height));
   app::CastDocument edited = member;
   const RecipeChange change = ShowFigure(workspace, state, edited);
   if (change.any()) {
@@ -96,6 +101,7 @@ void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDoc
     });
     state.selection = {};
   }
+  ImGui::EndChild();
 }
 
 }  // namespace lararium::panels

@@ -33,7 +33,7 @@ struct Place {
 cv::Size PictureSize(int frame) {
   const float width = std::min(ImGui::GetContentRegionAvail().x, Px(kWidest));
   const int columns = std::max(1, static_cast<int>(width) / kSizeStep) * kSizeStep;
-  return {columns, frame == kFigure ? columns * 4 / 3 : columns * 7 / 8};
+  return {columns, frame == kFigure ? columns * 6 / 5 : columns * 3 / 4};
 }
 
 // -1: none near.

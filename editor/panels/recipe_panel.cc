@@ -35,7 +35,8 @@ constexpr RecipeSlider kBodySliders[] = {
     {"Woman to man", &CastRecipe::sex, 0.0, 1.0, "%.2f"},
     {"Weight", &CastRecipe::weight, 0.0, 1.0, "%.2f"},
     {"Muscle", &CastRecipe::muscle, 0.0, 1.0, "%.2f"},
-    {"Proportions", &CastRecipe::proportions, 0.0, 1.0, "%.2f"},
+    {"Proportions", &CastRecipe::proportions, 0.0, 1.0, "%.2f"}};
+constexpr RecipeSlider kWomanSliders[] = {
     {"Breast size", &CastRecipe::breast_size, 0.0, 1.0, "%.2f"},
     {"Breast firmness", &CastRecipe::breast_firmness, 0.0, 1.0, "%.2f"}};
 constexpr RecipeSlider kSkinSliders[] = {{"Stubble", &CastRecipe::stubble, 0.0, 1.0, "%.2f"},
@@ -88,6 +89,9 @@ class RecipePanel {
       return;
     }
     ShowSliders(kBodySliders);
+    if (recipe_.sex < 0.75f) {
+      ShowSliders(kWomanSliders);
+    }
     double height = recipe_.height.value_or(1.7f);
     if (SliderProperty(workspace_, "Height", height, app::kMinHeight, app::kMaxHeight, "%.2f m")) {
       recipe_.height = static_cast<float>(height);
