@@ -247,7 +247,7 @@ ShRotation::ShRotation(const glm::mat3& rotation, int degree) : degree_(degree) 
 }
 
 std::span<const float> ShRotation::band(int degree) const {
-  DCHECK(degree >= 0 && degree <= degree_);
+  CHECK(degree >= 0 && degree <= degree_);
   const auto side = static_cast<size_t>(2 * degree + 1);
   return std::span(bands_).subspan(BandBegin(degree), side * side);
 }
