@@ -41,6 +41,8 @@ struct DrapedGarment {
   // What lies further left and higher is covered for certain: the arm in a mantle.
   float covers_left_of = -1e9f;
   float covers_above = 1e9f;
+  // What lies lower and does not move with an arm is covered for certain: a tunic's sides.
+  float covers_trunk_below = -1e9f;
   bool covers = true;          // hides what lies below it
   bool wraps = false;          // covers so much that what it hides need not be simulated
   float cover_margin = 0.05f;  // from its edges, within which garments below it stay

@@ -19,6 +19,7 @@ namespace {
 // How far from its normal a place may be looked at, radians: cloth lies close on cloth.
 constexpr float kSkinView = 0.85f;
 constexpr float kClothView = 0.35f;
+constexpr float kBulge = 0.03f;  // metres
 // So many margins from every edge of a garment is deep below it.
 constexpr float kDeep = 1.6f;
 
@@ -119,6 +120,8 @@ std::vector<bool> CoveredBy(const DrapedGarment& draped,
   Screen screen;
   screen.Add(draped.sheet.positions, draped.sheet.ParticleTriangles());
   const Rims rims = RimsOf(draped);
+  // Cloth that bulges a little through what is worn over it is below it all the same.
+  const float within = widest < kSkinView ? kBulge : 0.0f;
   std::vector<uint8_t> covered(places.size(), 0);
   ParallelFor(places.size(), [&](size_t i) {
     if (glm::dot(normals[i], normals[i]) < 0.5f) {
@@ -129,11 +132,13 @@ std::vector<bool> CoveredBy(const DrapedGarment& draped,
       return;
     }
     const std::vector<glm::vec3> directions = ConeAbout(normals[i], widest);
-    const auto blocked = std::count_if(
-        directions.begin(), directions.end(),
-        [&](const glm::vec3& direction) { return screen.Blocks(places[i], direction, 0.6f); });
-    // Far from any edge nobody looks under it: what misses, misses between folds.
-    const bool deep = !IsNear(places[i], rims.fixed, kDeep * fixed_margin) &&
+    const auto blocked =
+        std::count_if(directions.begin(), directions.end(), [&](const glm::vec3& direction) {
+          return screen.Blocks(places[i] - within * direction, direction, 0.6f);
+        });
+    // Far from any edge nobody looks under it: of cloth that lies on cloth, what misses,
+    // misses between folds.
+    const bool deep = widest < kSkinView && !IsNear(places[i], rims.fixed, kDeep * fixed_margin) &&
                       !IsNear(places[i], rims.loose, kDeep * loose_margin);
     covered[i] = blocked >= ptrdiff_t(deep ? directions.size() / 2 : directions.size());
   });
@@ -374,7 +379,15 @@ namespace {
 // only_wraps: by those alone that cover so much that nothing below needs to move.
 std::vector<bool> CoveredByAny(std::span<const DrapedGarment> outer,
                                const Sheet& sheet,
+                               const std::vector<bool>& arm_joints,
                                bool only_wraps) {
+  const auto moves_with_arm = [&](size_t p) {
+    float share = 0.0f;
+    for (size_t j = 0; j < arm_joints.size(); ++j) {
+      share += arm_joints[j] ? sheet.WeightsOf(p)[j] : 0.0f;
+    }
+    return share > 0.5f;
+  };
   const std::vector<glm::vec3> normals = Normals(sheet.positions, sheet.ParticleTriangles());
   std::vector<bool> covered(sheet.positions.size(), false);
   for (const DrapedGarment& garment : outer) {
@@ -386,7 +399,8 @@ std::vector<bool> CoveredByAny(std::span<const DrapedGarment> outer,
     for (size_t p = 0; p < covered.size(); ++p) {
       const glm::vec3& x = sheet.positions[p];
       const bool in_arm = x.x < garment.covers_left_of && x.y > garment.covers_above;
-      covered[p] = covered[p] || by_this[p] || in_arm;
+      const bool in_trunk = x.y < garment.covers_trunk_below && !moves_with_arm(p);
+      covered[p] = covered[p] || by_this[p] || in_arm || in_trunk;
     }
   }
   return covered;
@@ -430,12 +444,20 @@ void DropLoosePieces(const DrapedGarment& garment, std::vector<bool>& moving) {
 
 }  // namespace
 
-void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner) {
+void LeaveOutCovered(std::span<const DrapedGarment> outer,
+                     const FittedBody& body,
+                     DrapedGarment& inner) {
   if (inner.coarse_triangles.empty()) {
     return;
   }
+  const std::vector<bool> arm_joints = ArmJoints(body);
   for (Trim& trim : inner.trims) {
-    const std::vector<bool> covered = CoveredByAny(outer, trim.sheet, false);
+    std::vector<bool> covered = CoveredByAny(outer, trim.sheet, arm_joints, false);
+    // A belt of which little shows was not meant to.
+    const auto count = std::count(covered.begin(), covered.end(), true);
+    if (2 * count > ptrdiff_t(covered.size())) {
+      covered.assign(covered.size(), true);
+    }
     std::erase_if(trim.sheet.triangles, [&](const Triangle& t) {
       const Triangle corners = trim.sheet.Particles(t);
       return std::any_of(corners.begin(), corners.end(), [&](uint32_t p) { return covered[p]; });
@@ -443,8 +465,9 @@ void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner)
     DropUnusedVertices(trim.sheet);
   }
   // Whole triangles of what is simulated, so that edges are as even as its threads.
-  const std::vector<bool> drawn = SeenGroups(CoveredByAny(outer, inner.sheet, false), inner);
-  std::vector<bool> moving = SeenGroups(CoveredByAny(outer, inner.sheet, true), inner);
+  const std::vector<bool> drawn =
+      SeenGroups(CoveredByAny(outer, inner.sheet, arm_joints, false), inner);
+  std::vector<bool> moving = SeenGroups(CoveredByAny(outer, inner.sheet, arm_joints, true), inner);
   DropLoosePieces(inner, moving);
   std::vector<uint32_t> renamed(moving.size(), 0);
   std::vector<Triangle> coarse;

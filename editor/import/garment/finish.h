@@ -17,6 +17,8 @@ Result<Garment> FinishGarment(const DrapedGarment& draped,
                               const FittedBody& body);
 
 // Leaves out of an inner garment what outer ones cover.
-void LeaveOutCovered(std::span<const DrapedGarment> outer, DrapedGarment& inner);
+void LeaveOutCovered(std::span<const DrapedGarment> outer,
+                     const FittedBody& body,
+                     DrapedGarment& inner);
 
 }  // namespace lararium::import

@@ -39,7 +39,7 @@ Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> pattern
     worn.push_back(std::move(draped));
   }
   for (size_t i = 0; i + 1 < worn.size(); ++i) {
-    LeaveOutCovered(std::span(worn).subspan(i + 1), worn[i]);
+    LeaveOutCovered(std::span(worn).subspan(i + 1), body, worn[i]);
   }
   std::vector<Garment> garments;
   for (size_t i = 0; i < worn.size(); ++i) {

@@ -23,7 +23,7 @@ std::vector<float> OuterRadius(const Girth& girth, const Sheet& worn, float heig
     const float angle = girth.AngleOf(p);
     const int k =
         static_cast<int>(std::floor(angle / glm::two_pi<float>() * kRound + kRound)) % kRound;
-    if (std::abs(p.y - height) < slab && out < girth.Radius(angle) + 0.05f) {
+    if (std::abs(p.y - height) < slab && out < girth.Radius(angle) + 0.08f) {
       radius[k] = std::max(radius[k], out);
       radius[(k + 1) % kRound] = std::max(radius[(k + 1) % kRound], out);
     }

@@ -23,7 +23,7 @@ struct Source {
 bool HasPart(WeightSource source, float arm, bool forearm, float x) {
   switch (source) {
     case WeightSource::kTrunk:
-    case WeightSource::kApron:
+    case WeightSource::kArmless:
       return arm < 0.2f;
     case WeightSource::kMantle:
       return arm < 0.2f || (x < 0.0f && !forearm);

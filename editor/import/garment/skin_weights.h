@@ -16,8 +16,8 @@ namespace lararium::import {
 // hangs below the hips, between the legs, takes those of the helper skirt, and half as
 // much of a leg's turn. kTrunk: as if the body had no arms.
 // kMantle: as kSkirted, but as if it had the left upper arm alone.
-// kApron: as kSkirted, but as if it had no arms: what hangs beside hands is not theirs.
-enum class WeightSource : uint8_t { kBody, kSkirted, kTrunk, kMantle, kApron };
+// kArmless: as kSkirted, but as if it had no arms: what hangs beside hands is not theirs.
+enum class WeightSource : uint8_t { kBody, kSkirted, kTrunk, kMantle, kArmless };
 // Returns how far each particle is from what it took them from, metres.
 std::vector<float> TakeWeights(const FittedBody& body,
                                const PosedBody& posed,

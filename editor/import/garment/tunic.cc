@@ -19,10 +19,10 @@ namespace {
 
 constexpr float kCoarseParticles = 1150.0f;  // about so many
 constexpr float kAboveSkin = 0.012f;
-constexpr float kAboveCloth = 0.022f;
+constexpr float kAboveCloth = 0.026f;
+constexpr float kGapOverCloth = 0.018f;
 constexpr float kFoldWidth = 0.13f;    // metres round the body, of one fold of a skirt
 constexpr float kDeepestFold = 0.05f;  // metres, half of what lies between trough and crest
-constexpr uint32_t kSleeve = 0xffffffffu;
 constexpr uint8_t kFront = 0;
 constexpr uint8_t kBack = 1;
 
@@ -80,42 +80,9 @@ class ShoulderLine {
   std::vector<float> lengths_;
 };
 
-// What lies on trunk and legs of garments of cloth, without their sleeves: what is worn
-// over them does not go over those.
-std::vector<Sheet> TrunkClothOf(std::span<const DrapedGarment> worn, const FittedBody& body) {
-  constexpr float kLeastOfArm = 0.2f;
-  std::vector<Sheet> sheets;
-  for (const DrapedGarment& garment : worn) {
-    if (garment.reach.empty()) {
-      continue;
-    }
-    const std::vector<bool> arm = ArmJoints(body);
-    Sheet trunk;
-    trunk.joint_count = garment.sheet.joint_count;
-    std::vector<uint32_t> renamed;
-    for (size_t p = 0; p < garment.sheet.positions.size(); ++p) {
-      const std::span<const float> weights = garment.sheet.WeightsOf(p);
-      float share = 0.0f;
-      for (size_t j = 0; j < weights.size(); ++j) {
-        share += arm[j] ? weights[j] : 0.0f;
-      }
-      const bool kept = share < kLeastOfArm;
-      renamed.push_back(kept ? static_cast<uint32_t>(trunk.positions.size()) : kSleeve);
-      if (kept) {
-        trunk.positions.push_back(garment.sheet.positions[p]);
-        trunk.weights.insert(trunk.weights.end(), weights.begin(), weights.end());
-        trunk.particle.push_back(renamed.back());
-      }
-    }
-    for (const Triangle& t : garment.sheet.ParticleTriangles()) {
-      const Triangle moved = {renamed[t[0]], renamed[t[1]], renamed[t[2]]};
-      if (std::find(moved.begin(), moved.end(), kSleeve) == moved.end()) {
-        trunk.triangles.push_back(moved);
-      }
-    }
-    sheets.push_back(std::move(trunk));
-  }
-  return sheets;
+bool HasCloth(std::span<const DrapedGarment> worn) {
+  return std::any_of(worn.begin(), worn.end(),
+                     [](const DrapedGarment& garment) { return !garment.reach.empty(); });
 }
 
 // Sizes of the two rectangles.
@@ -141,10 +108,12 @@ class TunicDraper {
         body_(body),
         bound_(PoseBody(body, {})),
         standing_(PoseBody(body, StandingTurns(body, 1.0f))),
-        worn_(TrunkClothOf(worn, body)),
-        line_(body, bound_, worn_.empty() ? kAboveSkin : kAboveCloth),
+        over_cloth_(HasCloth(worn)),
+        line_(body, bound_, over_cloth_ ? kAboveCloth : kAboveSkin),
         walls_(standing_) {
     Measure();
+    // What is worn below is thin, and left out where it is covered.
+    material_.gap = over_cloth_ ? kGapOverCloth : material_.gap;
     material_.own_gap = std::min(0.016f, 0.45f * thread_);
   }
 
@@ -152,7 +121,9 @@ class TunicDraper {
     LayOut();
     SettleInBindPose();
     TieBelt(bound_, 160);
-    const std::vector<float> distances = TakeWeights(body_, bound_, WeightSource::kSkirted, sheet_);
+    // On straps it has nothing of the arms.
+    const std::vector<float> distances = TakeWeights(
+        body_, bound_, HasStraps() ? WeightSource::kArmless : WeightSource::kSkirted, sheet_);
     SmoothWeights(sheet_, 8, distances);
     LowerArms();
     DrapedGarment result;
@@ -172,26 +143,6 @@ class TunicDraper {
   }
 
  private:
-  // Over what is worn below, carried along to the pose.
-  BodyField FieldAt(const PosedBody& posed, float cell, float band, bool forearms = true) const {
-    if (worn_.empty()) {
-      return FieldOf(posed, cell, band, forearms);
-    }
-    std::vector<Sheet> carried;
-    for (const Sheet& sheet : worn_) {
-      carried.push_back(sheet);
-      carried.back().positions = Carried(sheet, standing_.skin, posed.skin);
-    }
-    return FieldOver(posed, PointersTo(carried), cell, band);
-  }
-  static std::vector<const Sheet*> PointersTo(const std::vector<Sheet>& sheets) {
-    std::vector<const Sheet*> pointers;
-    for (const Sheet& sheet : sheets) {
-      pointers.push_back(&sheet);
-    }
-    return pointers;
-  }
-
   void Measure() {
     const auto place = [&](const char* joint) { return JointPlace(body_, bound_, joint); };
     const glm::vec3 shoulder = place("r_shoulder");
@@ -215,11 +166,13 @@ class TunicDraper {
       cut_.neck_front = 0.85f * cut_.shoulder;
       cut_.neck_back = 0.35f * cut_.shoulder;
     }
-    cut_.half_width = std::max(cut_.half_top, 0.25f * pattern_.ease * widest);
+    // Long sleeves are sewn on; short ones are the width of the cloth.
+    const bool sewn_on = pattern_.sleeve == Sleeve::kElbow;
+    cut_.half_width = std::max(sewn_on ? 0.0f : cut_.half_top, 0.25f * pattern_.ease * widest);
     // A long sleeve is narrow, or the hand would be caught in it.
-    cut_.arm = pattern_.sleeve == Sleeve::kElbow
-                   ? 0.68f * upper_arm
-                   : std::max(0.85f * upper_arm, 0.6f * cut_.half_top);
+    cut_.arm = HasStraps() ? 0.55f * upper_arm
+               : sewn_on   ? 0.68f * upper_arm
+                           : std::max(0.85f * upper_arm, 0.6f * cut_.half_top);
     cut_.hem_height = pattern_.hem < 1.0f ? glm::mix(hip, knee, pattern_.hem)
                                           : glm::mix(knee, 0.0f, pattern_.hem - 1.0f);
     belt_height_ = BeltHeight(pattern_, body_);
@@ -240,7 +193,9 @@ class TunicDraper {
   }
   // Below the arms the cloth is wider.
   float HalfWidth(float down) const {
-    const float share = glm::smoothstep(0.5f * cut_.arm, cut_.arm + 0.25f, down);
+    const bool narrows = cut_.half_width < cut_.half_top;
+    const float share = narrows ? glm::smoothstep(0.6f * cut_.arm, cut_.arm + 0.10f, down)
+                                : glm::smoothstep(0.5f * cut_.arm, cut_.arm + 0.25f, down);
     return glm::mix(cut_.half_top, cut_.half_width, share);
   }
   // Before the hem is levelled.
@@ -342,7 +297,7 @@ class TunicDraper {
   }
 
   void SettleInBindPose() {
-    const BodyField field = FieldAt(bound_, 0.015f, 0.045f);
+    const BodyField field = FieldOf(bound_, 0.015f, 0.045f);
     Draper draper(sheet_, material_);
     AddTethers(draper);
     draper.damping = 0.04f;
@@ -370,7 +325,7 @@ class TunicDraper {
       sheet_.positions = Carried(sheet_, from.skin, to.skin);
       draper.Rest();
       walls.emplace(to);
-      draper.Run(i == kPoses ? 100 : 12, FieldAt(to, 0.015f, 0.045f, false));
+      draper.Run(i == kPoses ? 100 : 12, FieldOf(to, 0.015f, 0.045f, false));
       from = std::move(to);
     }
   }
@@ -381,7 +336,7 @@ class TunicDraper {
     AddTethers(draper);
     HoldShoulders(draper);
     draper.gravity = 2.0f;
-    const BodyField field = FieldAt(posed, 0.0125f, 0.04f, false);
+    const BodyField field = FieldOf(posed, 0.0125f, 0.04f, false);
     if (pattern_.belt == Belt::kNone) {
       if (&posed == &standing_) {
         draper.rule = [this](std::vector<glm::vec3>& x) { KeepFromHands(walls_, x); };
@@ -472,7 +427,7 @@ class TunicDraper {
     }
     constexpr float kStep = 0.03f;
     const Girth girth(body_, standing_, belt_height_, 0.025f);
-    const Outline outline(body_, standing_, PointersTo(worn_), false);
+    const Outline outline(body_, standing_, {}, false);
     const int count = std::max(
         6, static_cast<int>(
                std::round(Girth(body_, standing_, HipHeight(), 0.03f).Length() / kFoldWidth)));
@@ -590,7 +545,7 @@ class TunicDraper {
     };
     draper.floor = true;
     draper.TakeLengths(1.0f);
-    draper.Run(50, FieldAt(standing_, 0.01f, 0.03f));
+    draper.Run(50, FieldOf(standing_, 0.01f, 0.03f));
   }
 
   // Where they lie by now.
@@ -609,6 +564,10 @@ class TunicDraper {
   void Finish(DrapedGarment& result) {
     result.skin = standing_.skin;
     result.wraps = true;
+    if (HasStraps()) {
+      result.cover_margin = 0.012f;
+      result.covers_trunk_below = JointPlace(body_, standing_, "r_shoulder").y - 0.8f * cut_.arm;
+    }
     // Nobody looks under what reaches the floor.
     result.loose_margin = std::clamp(0.4f * cut_.hem_height, 0.05f, 0.18f);
     SetReach(result);
@@ -690,7 +649,7 @@ class TunicDraper {
   const FittedBody& body_;
   PosedBody bound_;
   PosedBody standing_;
-  std::vector<Sheet> worn_;
+  bool over_cloth_;
   ShoulderLine line_;
   ArmWalls walls_;
   DrapeMaterial material_;

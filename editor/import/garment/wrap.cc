@@ -119,7 +119,7 @@ class MantleDraper {
 
   // The first turn lies below the second.
   float Layer(float angle) const {
-    return 0.016f + 0.018f * std::clamp((angle + kPi) / (2.2f * kPi), 0.0f, 1.0f);
+    return 0.012f + 0.018f * std::clamp((angle + kPi) / (2.2f * kPi), 0.0f, 1.0f);
   }
 
   // A row of folds, -1 in the hollows, 1 on the narrow crests.
@@ -146,6 +146,15 @@ class MantleDraper {
                             (toga_ ? 0.0f : 0.05f) * left_hand);
   }
 
+  // As cloth that does not follow each edge of what it lies on.
+  float Around(float angle, float top, float height) const {
+    float sum = 0.0f;
+    for (int k = -2; k <= 2; ++k) {
+      sum += outline_.Hanging(angle + 0.035f * kPi * float(k), top, height);
+    }
+    return 0.2f * sum;
+  }
+
   // The cloth round the body. along: of its width, down: of its length, 0..1; folds: 0
   // as if it had none.
   glm::vec3 WrapPlace(float along, float down, float folds) const {
@@ -154,8 +163,8 @@ class MantleDraper {
     const float height = glm::mix(top, Hem(angle), down);
     // At the very top they lie flat on the shoulder.
     const float rise = glm::smoothstep(0.0f, 0.12f, down);
-    const float radius = outline_.Hanging(angle, top, height) + Layer(angle) + 0.012f * down +
-                         folds * rise * Fold(angle, down);
+    const float radius = Around(angle, top, height) + Layer(angle) * glm::mix(0.4f, 1.0f, rise) +
+                         0.012f * down + folds * rise * Fold(angle, down);
     return outline_.Place(angle, radius, height);
   }
 
@@ -170,8 +179,8 @@ class MantleDraper {
     const float wave = Crests(glm::two_pi<float>() * 4.0f * std::pow(down, 0.85f) +
                               0.9f * std::sin(4.0f * along) + 1.2f) +
                        0.4f * Crests(glm::two_pi<float>() * 7.0f * down + 2.5f * along);
-    const float radius = outline_.Hanging(angle, top, height) + Layer(angle) + 0.028f +
-                         0.03f * bow * down + folds * (0.005f + 0.013f * bow) * wave;
+    const float radius = Around(angle, top, height) + Layer(angle) + 0.028f + 0.03f * bow * down +
+                         folds * (0.005f + 0.013f * bow) * wave;
     return outline_.Place(angle, radius, height);
   }
 
@@ -288,9 +297,8 @@ class MantleDraper {
   glm::vec3 BalteusPlace(float along, float out, float up) const {
     const float angle = glm::mix(0.12f * kPi, kLeft + 0.30f, along);
     const float top = HeightAt(upper_, angle);
-    return outline_.Place(
-        angle, outline_.Hanging(angle, top + 0.01f, top + up) + Layer(angle) + 0.026f + out,
-        top + up);
+    return outline_.Place(angle, Around(angle, top + 0.01f, top + up) + Layer(angle) + 0.026f + out,
+                          top + up);
   }
 
   // The upper edge is gathered into a flat band of folds that lie one above the other.
@@ -399,7 +407,7 @@ class ApronDraper {
     DrapedGarment result;
     Settle(100, 0.0125f, 0.014f);
     const std::vector<float> distances =
-        TakeWeights(body_, standing_, WeightSource::kApron, sheet_);
+        TakeWeights(body_, standing_, WeightSource::kArmless, sheet_);
     SmoothWeights(sheet_, 8, distances);
     Divide(1, sheet_, result);
     Settle(40, 0.01f, 0.008f);
@@ -492,7 +500,7 @@ class ApronDraper {
     }
     result.trims.push_back(TieGirdle(cord, body_, standing_, all, top_ - 0.008f));
     result.sheet = std::move(sheet_);
-    result.cover_margin = 0.045f;
+    result.cover_margin = 0.03f;
   }
 
   const GarmentPattern pattern_;
