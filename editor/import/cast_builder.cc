@@ -186,6 +186,9 @@ class CastBuilder {
 
   // Its vertices stay in their order: its cloth counts them.
   void AddGarment(Garment garment) {
+    for (human::SpringChain& chain : HangTails(garment, human_.skeleton)) {
+      human_.springs.push_back(std::move(chain));
+    }
     OrderTriangles(garment.mesh);
     AddLevelsOfDetail(garment.mesh);
     if (garment.colour) {

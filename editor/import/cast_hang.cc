@@ -24,6 +24,8 @@ constexpr int kSlices = 24;          // that a bundle's middle is measured in
 constexpr float kBlend = 0.35f;      // of a stick, to both sides of a joint
 constexpr float kStiffness = 70.0f;  // 1/s^2
 constexpr float kDrag = 2.2f;        // 1/s
+constexpr float kThin = 0.6f;        // of its drop, how wide the tail of a belt is at most
+constexpr float kOverSkirt = 0.10f;  // metres
 constexpr float kLeastRadius = 0.008f, kMostRadius = 0.03f;  // metres
 
 struct Bundle {
@@ -31,20 +33,135 @@ struct Bundle {
   glm::vec2 middle{0.0f};  // x, z
 };
 
+// Lays chains of joints through the vertices of a mesh.
+class ChainLayer {
+ public:
+  ChainLayer(human::SkinnedMesh& mesh, human::Skeleton& skeleton)
+      : mesh_(mesh), skeleton_(skeleton) {}
+
+  bool has_room() const { return skeleton_.size() + kMostSticks <= kMostJoints; }
+
+  // path: from the root to the end. The vertices are handed over from the carrier.
+  human::SpringChain Lay(const std::string& name,
+                         const std::vector<uint32_t>& vertices,
+                         const std::vector<glm::vec3>& path,
+                         size_t carrier) {
+    carrier_ = carrier;
+    const float length = LengthOf(path);
+    const int sticks = std::clamp(static_cast<int>(std::lround(length / kStick)), 2, kMostSticks);
+    human::SpringChain chain;
+    chain.name = name;
+    std::vector<glm::vec3> places = Divide(path, sticks);
+    size_t parent = carrier;
+    for (size_t i = 0; i < places.size(); ++i) {
+      parent = AddJoint(chain.name + "_" + std::to_string(i + 1), parent, places[i]);
+      chain.joints.push_back(static_cast<uint32_t>(parent));
+    }
+    places.push_back(path.back());
+    chain.stiffness = kStiffness;
+    chain.drag = kDrag;
+    float squares = 0.0f;
+    for (const uint32_t v : vertices) {
+      squares += HandOver(v, places, chain.joints);
+    }
+    const float spread = std::sqrt(squares / static_cast<float>(vertices.size()));
+    chain.radius = std::clamp(0.7f * spread, kLeastRadius, kMostRadius);
+    return chain;
+  }
+
+ private:
+  static float LengthOf(const std::vector<glm::vec3>& path) {
+    float length = 0.0f;
+    for (size_t i = 1; i < path.size(); ++i) {
+      length += glm::distance(path[i - 1], path[i]);
+    }
+    return length;
+  }
+
+  // So many places evenly along a path, its end left out.
+  static std::vector<glm::vec3> Divide(const std::vector<glm::vec3>& path, int count) {
+    const float step = LengthOf(path) / static_cast<float>(count);
+    std::vector<glm::vec3> places = {path[0]};
+    float walked = 0.0f;
+    for (size_t i = 1; i < path.size(); ++i) {
+      const float length = glm::distance(path[i - 1], path[i]);
+      while (static_cast<int>(places.size()) < count &&
+             walked + length > step * static_cast<float>(places.size())) {
+        const float share = (step * static_cast<float>(places.size()) - walked) / length;
+        places.push_back(glm::mix(path[i - 1], path[i], share));
+      }
+      walked += length;
+    }
+    return places;
+  }
+
+  uint32_t AddJoint(const std::string& name, size_t parent, const glm::vec3& place) {
+    human::JointTransform rest;
+    rest.translation = place - RestPosition(skeleton_, skeleton_.names[parent]);
+    skeleton_.names.push_back(name);
+    skeleton_.parents.push_back(static_cast<int16_t>(parent));
+    skeleton_.rest.push_back(rest);
+    skeleton_.joint_from_actor.push_back(glm::translate(glm::mat4(1.0f), -place));
+    return static_cast<uint32_t>(skeleton_.size() - 1);
+  }
+
+  // Gives a vertex to the joints beside it. Returns its distance from the path, squared.
+  float HandOver(uint32_t v,
+                 const std::vector<glm::vec3>& places,
+                 const std::vector<uint32_t>& joints) {
+    const glm::vec3& p = mesh_.positions[v];
+    float least = 1e9f;
+    float along = 0.0f;  // in sticks from the root
+    for (size_t i = 0; i + 1 < places.size(); ++i) {
+      const glm::vec3 stick = places[i + 1] - places[i];
+      const float share = std::clamp(
+          glm::dot(p - places[i], stick) / std::max(glm::dot(stick, stick), 1e-9f), 0.0f, 1.0f);
+      const glm::vec3 off = p - (places[i] + share * stick);
+      if (glm::dot(off, off) < least) {
+        least = glm::dot(off, off);
+        along = static_cast<float>(i) + share;
+      }
+    }
+    // At each joint the one before hands over to the next; the head to the first.
+    const float last = static_cast<float>(joints.size());
+    const float at = std::clamp(std::round(along), 0.0f, last - 1.0f);
+    const float from = at > 0.0f ? at - kBlend : 0.0f;
+    float share = std::clamp((along - from) / (2.0f * kBlend), 0.0f, 1.0f);
+    share = share * share * (3.0f - 2.0f * share);
+    const auto k = static_cast<size_t>(at);
+    const std::pair<uint8_t, float> influences[] = {
+        {static_cast<uint8_t>(k > 0 ? joints[k - 1] : carrier_), 1.0f - share},
+        {static_cast<uint8_t>(joints[k]), share}};
+    const Influences strongest = Strongest(influences);
+    mesh_.joints[v] = strongest.joints;
+    mesh_.weights[v] = strongest.weights;
+    return least;
+  }
+
+  human::SkinnedMesh& mesh_;
+  human::Skeleton& skeleton_;
+  size_t carrier_ = 0;
+};
+
 class HairHanger {
  public:
   HairHanger(CastPiece& hair, const FittedBody& body, human::Skeleton& skeleton)
-      : hair_(hair), body_(body), skeleton_(skeleton), skull_(JointIndex(skeleton, "skullbase")) {}
+      : hair_(hair),
+        body_(body),
+        skeleton_(skeleton),
+        layer_(hair.mesh, skeleton),
+        skull_(JointIndex(skeleton, "skullbase")) {}
 
   std::vector<human::SpringChain> Run() {
     MeasureClearance();
     std::vector<human::SpringChain> chains;
     for (const Bundle& bundle : FindBundles()) {
       const std::vector<glm::vec3> path = MiddleOf(bundle);
-      if (path.size() < 3 || skeleton_.size() + kMostSticks > kMostJoints) {
+      if (path.size() < 3 || !layer_.has_room()) {
         continue;
       }
-      chains.push_back(MakeChain(bundle, path, chains.size()));
+      const std::string name = hair_.mesh.name + std::to_string(chains.size() + 1);
+      chains.push_back(layer_.Lay(name, bundle.vertices, path, skull_));
     }
     return chains;
   }
@@ -150,105 +267,76 @@ class HairHanger {
     return path;
   }
 
-  static float LengthOf(const std::vector<glm::vec3>& path) {
-    float length = 0.0f;
-    for (size_t i = 1; i < path.size(); ++i) {
-      length += glm::distance(path[i - 1], path[i]);
-    }
-    return length;
-  }
-
-  // So many places evenly along a path, its end left out.
-  static std::vector<glm::vec3> Divide(const std::vector<glm::vec3>& path, int count) {
-    const float step = LengthOf(path) / static_cast<float>(count);
-    std::vector<glm::vec3> places = {path[0]};
-    float walked = 0.0f;
-    for (size_t i = 1; i < path.size(); ++i) {
-      const float length = glm::distance(path[i - 1], path[i]);
-      while (static_cast<int>(places.size()) < count &&
-             walked + length > step * static_cast<float>(places.size())) {
-        const float share = (step * static_cast<float>(places.size()) - walked) / length;
-        places.push_back(glm::mix(path[i - 1], path[i], share));
-      }
-      walked += length;
-    }
-    return places;
-  }
-
-  uint32_t AddJoint(const std::string& name, size_t parent, const glm::vec3& place) {
-    human::JointTransform rest;
-    rest.translation = place - RestPosition(skeleton_, skeleton_.names[parent]);
-    skeleton_.names.push_back(name);
-    skeleton_.parents.push_back(static_cast<int16_t>(parent));
-    skeleton_.rest.push_back(rest);
-    skeleton_.joint_from_actor.push_back(glm::translate(glm::mat4(1.0f), -place));
-    return static_cast<uint32_t>(skeleton_.size() - 1);
-  }
-
-  human::SpringChain MakeChain(const Bundle& bundle,
-                               const std::vector<glm::vec3>& path,
-                               size_t number) {
-    const float length = LengthOf(path);
-    const int sticks = std::clamp(static_cast<int>(std::lround(length / kStick)), 2, kMostSticks);
-    human::SpringChain chain;
-    chain.name = hair_.mesh.name + std::to_string(number + 1);
-    std::vector<glm::vec3> places = Divide(path, sticks);
-    size_t parent = skull_;
-    for (size_t i = 0; i < places.size(); ++i) {
-      parent = AddJoint(chain.name + "_" + std::to_string(i + 1), parent, places[i]);
-      chain.joints.push_back(static_cast<uint32_t>(parent));
-    }
-    places.push_back(path.back());
-    chain.stiffness = kStiffness;
-    chain.drag = kDrag;
-    float squares = 0.0f;
-    for (const uint32_t v : bundle.vertices) {
-      squares += HandOver(v, places, chain.joints);
-    }
-    const float spread = std::sqrt(squares / static_cast<float>(bundle.vertices.size()));
-    chain.radius = std::clamp(0.7f * spread, kLeastRadius, kMostRadius);
-    return chain;
-  }
-
-  // Gives a vertex to the joints beside it. Returns its distance from the path, squared.
-  float HandOver(uint32_t v,
-                 const std::vector<glm::vec3>& places,
-                 const std::vector<uint32_t>& joints) {
-    const glm::vec3& p = hair_.mesh.positions[v];
-    float least = 1e9f;
-    float along = 0.0f;  // in sticks from the root
-    for (size_t i = 0; i + 1 < places.size(); ++i) {
-      const glm::vec3 stick = places[i + 1] - places[i];
-      const float share = std::clamp(
-          glm::dot(p - places[i], stick) / std::max(glm::dot(stick, stick), 1e-9f), 0.0f, 1.0f);
-      const glm::vec3 off = p - (places[i] + share * stick);
-      if (glm::dot(off, off) < least) {
-        least = glm::dot(off, off);
-        along = static_cast<float>(i) + share;
-      }
-    }
-    // At each joint the one before hands over to the next; the head to the first.
-    const float last = static_cast<float>(joints.size());
-    const float at = std::clamp(std::round(along), 0.0f, last - 1.0f);
-    const float from = at > 0.0f ? at - kBlend : 0.0f;
-    float share = std::clamp((along - from) / (2.0f * kBlend), 0.0f, 1.0f);
-    share = share * share * (3.0f - 2.0f * share);
-    const auto k = static_cast<size_t>(at);
-    const std::pair<uint8_t, float> influences[] = {
-        {static_cast<uint8_t>(k > 0 ? joints[k - 1] : skull_), 1.0f - share},
-        {static_cast<uint8_t>(joints[k]), share}};
-    const Influences strongest = Strongest(influences);
-    hair_.mesh.joints[v] = strongest.joints;
-    hair_.mesh.weights[v] = strongest.weights;
-    return least;
-  }
-
   CastPiece& hair_;
   const FittedBody& body_;
-  human::Skeleton& skeleton_;
+  const human::Skeleton& skeleton_;
+  ChainLayer layer_;
   size_t skull_;
   std::vector<float> clearance_;  // metres, of each vertex
 };
+
+// The surfaces of a garment that no cloth carries, told apart by what their triangles share.
+std::vector<std::vector<uint32_t>> UnboundSurfaces(const Garment& garment) {
+  CastPiece piece;
+  piece.mesh.indices = garment.mesh.indices;
+  for (uint32_t v = 0; v < garment.mesh.positions.size(); ++v) {
+    piece.source.push_back(v);
+  }
+  const std::vector<uint32_t> surface_of = ConnectedSurfaces(piece);
+  std::vector<std::vector<uint32_t>> surfaces;
+  std::vector<bool> seen(piece.source.size(), false);
+  std::vector<bool> bound;
+  for (size_t i = 0; i < piece.mesh.indices.size(); ++i) {
+    const uint32_t v = piece.mesh.indices[i];
+    const uint32_t surface = surface_of[i / 3];
+    surfaces.resize(std::max<size_t>(surfaces.size(), surface + 1));
+    bound.resize(surfaces.size(), false);
+    bound[surface] = bound[surface] || garment.cloth->vertex_triangle[v] != human::Cloth::kUnbound;
+    if (!seen[v]) {
+      seen[v] = true;
+      surfaces[surface].push_back(v);
+    }
+  }
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    if (bound[i]) {
+      surfaces[i].clear();
+    }
+  }
+  std::erase_if(surfaces, [](const auto& surface) { return surface.empty(); });
+  return surfaces;
+}
+
+// The middle of something long and thin that hangs straight; empty where it is none.
+std::vector<glm::vec3> ThinMiddle(const human::SkinnedMesh& mesh,
+                                  const std::vector<uint32_t>& vertices) {
+  glm::vec3 low(1e9f);
+  glm::vec3 high(-1e9f);
+  for (const uint32_t v : vertices) {
+    low = glm::min(low, mesh.positions[v]);
+    high = glm::max(high, mesh.positions[v]);
+  }
+  const glm::vec3 size = high - low;
+  if (size.y < kLeastDrop || size.x > kThin * size.y || size.z > kThin * size.y) {
+    return {};
+  }
+  const auto middle_at = [&](float from, float to) {
+    glm::vec3 sum(0.0f);
+    float count = 0.0f;
+    for (const uint32_t v : vertices) {
+      const float share = (high.y - mesh.positions[v].y) / size.y;
+      if (share >= from && share <= to) {
+        sum += mesh.positions[v];
+        count += 1.0f;
+      }
+    }
+    return sum / std::max(count, 1.0f);
+  };
+  std::vector<glm::vec3> path = {middle_at(0.0f, 0.2f), middle_at(0.4f, 0.6f),
+                                 middle_at(0.8f, 1.0f)};
+  path.front().y = high.y;
+  path.back().y = low.y;
+  return path;
+}
 
 }  // namespace
 
@@ -256,6 +344,29 @@ std::vector<human::SpringChain> HangHair(CastPiece& hair,
                                          const FittedBody& body,
                                          human::Skeleton& skeleton) {
   return HairHanger(hair, body, skeleton).Run();
+}
+
+std::vector<human::SpringChain> HangTails(Garment& garment, human::Skeleton& skeleton) {
+  std::vector<human::SpringChain> chains;
+  if (!garment.cloth || garment.cloth->vertex_triangle.size() != garment.mesh.positions.size()) {
+    return chains;
+  }
+  ChainLayer layer(garment.mesh, skeleton);
+  for (const std::vector<uint32_t>& tail : UnboundSurfaces(garment)) {
+    const std::vector<glm::vec3> path = ThinMiddle(garment.mesh, tail);
+    if (path.empty() || !layer.has_room()) {
+      continue;
+    }
+    const uint32_t top = *std::max_element(tail.begin(), tail.end(), [&](uint32_t a, uint32_t b) {
+      return garment.mesh.positions[a].y < garment.mesh.positions[b].y;
+    });
+    // Two garments of one kind may be worn.
+    const std::string name = garment.mesh.name + "_tail" + std::to_string(skeleton.size());
+    chains.push_back(layer.Lay(name, tail, path, garment.mesh.joints[top][0]));
+    // The skirt under a tail holds it as far off the legs as it was tied.
+    chains.back().radius = kOverSkirt;
+  }
+  return chains;
 }
 
 }  // namespace lararium::import

@@ -1,7 +1,7 @@
 #pragma once
 
-// Hair that hangs free of the head (tails, braids, long locks) swings: it gets joints of
-// its own, along its own shape.
+// Hair that hangs free of the head (tails, braids, long locks) and the ends of belts swing:
+// they get joints of their own, along their own shape.
 
 #include <vector>
 
@@ -16,5 +16,8 @@ namespace lararium::import {
 std::vector<human::SpringChain> HangHair(CastPiece& hair,
                                          const FittedBody& body,
                                          human::Skeleton& skeleton);
+
+// Likewise the ends of belts and cords: what is long, thin, hangs and belongs to no cloth.
+std::vector<human::SpringChain> HangTails(Garment& garment, human::Skeleton& skeleton);
 
 }  // namespace lararium::import

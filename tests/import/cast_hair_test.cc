@@ -295,6 +295,48 @@ TEST(HangHair, HangsQuietRightAfterATeleport) {
   }
 }
 
+// A skirt that cloth carries, a belt round it and a cord's end, neither of them cloth.
+Garment Belted() {
+  CastPiece piece;
+  piece.mesh.name = "tunic";
+  AddSheet(piece, 6, 6, [](float u, float v) { return glm::vec3(0.4f * u, 1.0f - 0.5f * v, 0); });
+  const size_t skirt = piece.mesh.positions.size();
+  AddSheet(piece, 6, 2, [](float u, float v) { return glm::vec3(0.4f * u, 1.0f + 0.1f * v, 0); });
+  AddSheet(piece, 3, 9,
+           [](float u, float v) { return glm::vec3(0.2f + 0.01f * u, 1.0f - 0.16f * v, -0.02f); });
+  Garment garment;
+  garment.mesh = piece.mesh;
+  garment.cloth.emplace();
+  garment.cloth->vertex_triangle.assign(piece.mesh.positions.size(), human::Cloth::kUnbound);
+  std::fill_n(garment.cloth->vertex_triangle.begin(), skirt, 0u);
+  return garment;
+}
+
+TEST(HangTails, TakesTheEndOfACordAndNeitherSkirtNorBelt) {
+  Garment garment = Belted();
+  human::Skeleton skeleton = Head().skeleton;
+  const size_t before = skeleton.size();
+  const std::vector<human::SpringChain> chains = HangTails(garment, skeleton);
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_EQ(chains[0].joints.size(), skeleton.size() - before);
+  EXPECT_EQ(skeleton.parents[chains[0].joints[0]], 0);
+  const glm::vec3 root(glm::inverse(skeleton.joint_from_actor[chains[0].joints[0]])[3]);
+  EXPECT_LT(glm::distance(root, glm::vec3(0.205f, 1.0f, -0.02f)), 1e-4f);
+  for (size_t v = 0; v < 48; ++v) {
+    EXPECT_EQ(garment.mesh.joints[v][0], 0) << v;
+  }
+  EXPECT_EQ(garment.mesh.joints.back()[0], chains[0].joints.back());
+}
+
+TEST(HangTails, FindsNothingWhereAllIsCloth) {
+  Garment garment = Belted();
+  garment.cloth->vertex_triangle.assign(garment.mesh.positions.size(), 0u);
+  human::Skeleton skeleton = Head().skeleton;
+  EXPECT_TRUE(HangTails(garment, skeleton).empty());
+  garment.cloth.reset();
+  EXPECT_TRUE(HangTails(garment, skeleton).empty());
+}
+
 TEST(CoverOver, IsWhatThePictureCoversAtTheHit) {
   human::SkinnedMesh hair;
   hair.positions = {{-1, 0.01f, -1}, {1, 0.01f, -1}, {-1, 0.01f, 1}, {1, 0.01f, 1}};
