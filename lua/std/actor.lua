@@ -307,8 +307,16 @@ end
 local gaits = { "cadence", "step_width", "stoop", "arm_swing", "arm_spread", "sway", "lift" }
 
 -- How it walks; what a grown healthy person does is 1: {cadence=, step_width=,
--- arm_swing=, sway=, lift=}, or 0: {stoop = degrees, arm_spread = degrees}.
+-- arm_swing=, sway=, lift=}, or 0: {stoop = degrees, arm_spread = degrees}. Or a style:
+-- gait("tired"); normal, child, stout, old, tired, proud, hurried.
 function Actor:gait(style)
+  if type(style) == "string" then
+    if not host.gait(self.id, style) then
+      error("gait: there is no '" .. style ..
+        "'; use normal, child, stout, old, tired, proud or hurried", 2)
+    end
+    return
+  end
   style = options_of(style, "gait")
   for _, name in ipairs(gaits) do
     if style[name] ~= nil then

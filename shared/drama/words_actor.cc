@@ -197,9 +197,16 @@ int Run::Say(lua_State* lua) {
   return 1;
 }
 
-// gait(actor, name, value)
+// gait(actor, style) -> whether there is such a style; gait(actor, name, value)
 int Run::SetGait(lua_State* lua) {
   human::GaitStyle& style = CheckActor(lua).state.performance.locomotion.style;
+  if (lua_isnoneornil(lua, 3)) {
+    const auto named = human::GaitStyleNamed(CheckText(lua, 2));
+    style = named.value_or(style);
+    only_tracks_ = false;
+    lua_pushboolean(lua, named.has_value());
+    return 1;
+  }
   constexpr const char* kNames[] = {"cadence",    "step_width", "stoop", "arm_swing",
                                     "arm_spread", "sway",       "lift",  nullptr};
   float* const values[] = {&style.cadence,    &style.step_width, &style.stoop, &style.arm_swing,

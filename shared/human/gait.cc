@@ -162,7 +162,17 @@ Stride StrideAt(
 }
 
 std::optional<GaitStyle> GaitStyleNamed(std::string_view name) {
-  if (name == "grown") return GaitStyle{};
+  if (name == "grown" || name == "normal") return GaitStyle{};
+  if (name == "tired") {
+    return GaitStyle{
+        .cadence = 0.88f, .stoop = 0.14f, .arm_swing = 0.55f, .sway = 1.2f, .lift = 0.75f};
+  }
+  if (name == "proud") {
+    return GaitStyle{.cadence = 0.92f, .step_width = 1.1f, .arm_swing = 0.8f, .arm_spread = 0.06f};
+  }
+  if (name == "hurried") {
+    return GaitStyle{.cadence = 1.15f, .step_width = 0.9f, .stoop = 0.07f, .arm_swing = 1.3f};
+  }
   if (name == "child") return GaitStyle{.cadence = 1.06f, .arm_swing = 1.2f, .sway = 1.1f};
   if (name == "stout") {
     return GaitStyle{.cadence = 0.96f, .step_width = 1.35f, .arm_spread = 0.04f, .sway = 1.35f};

@@ -39,8 +39,10 @@ struct GaitStyle {
   friend bool operator==(const GaitStyle&, const GaitStyle&) = default;
 };
 
-// grown, child, stout, old: set by eye, after what is known of such walks (children step
-// faster, the stout more broadly; the old more shortly, with a stoop and little swing).
+// normal (or grown), child, stout, old, tired, proud, hurried: set by eye, after what is
+// known of such walks (children step faster, the stout more broadly; the old more shortly,
+// with a stoop and little swing; the sad and tired stoop and hardly swing their arms,
+// Michalak et al., Psychosom. Med. 71, 2009).
 std::optional<GaitStyle> GaitStyleNamed(std::string_view name);
 
 // Height of the floor in the stage frame, metres, at x and z.

@@ -233,7 +233,7 @@ SittingModel MakeSittingModel(const Human& human, const Body& body) {
   }
   constexpr float kPressed = 0.88f;  // flesh gives way on a seat
   model.seat_to_hips = kPressed * at_hip;
-  model.thigh_radius = glm::mix(at_hip, at_knee, kHandOnThigh) + 0.008f;  // what is worn
+  model.thigh_radius = glm::mix(at_hip, at_knee, kHandOnThigh) + 0.025f;  // what is worn
   return model;
 }
 

@@ -53,10 +53,12 @@ void AdvanceHeld(World& world, Object& object, float seconds) {
   if (object.state.hand < 0) {
     return;
   }
-  const float step = (object.held.comes_loose ? -kInHandPerSecond : kInHandPerSecond) * seconds;
-  object.state.in_hand = std::clamp(object.state.in_hand + step, 0.0f, 1.0f);
   const bool hangs = !object.use().carry->holder_from_object;
   human::Reach& reach = holder->state.performance.reaches[static_cast<size_t>(object.state.hand)];
+  const bool arrives = reach.to_weight > 0.0f && reach.time < reach.duration;
+  const float step =
+      (object.held.comes_loose || arrives ? -kInHandPerSecond : kInHandPerSecond) * seconds;
+  object.state.in_hand = std::clamp(object.state.in_hand + step, 0.0f, 1.0f);
   if (hangs && object.held.rests && object.held.time >= object.held.duration &&
       reach.to_weight > 0.0f) {
     human::EndReach(reach, kLetGoSeconds);  // it hangs in the hand, which swings freely

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "shared/human/animation.h"
 #include "shared/stage/hands.h"
@@ -23,6 +24,7 @@ constexpr float kOfferSeconds = 0.9f;
 constexpr float kBothSeconds = 0.35f;  // that both hold it
 constexpr float kBackUpPace = 0.35f;   // m/s, backwards to a seat
 constexpr float kFeetStand = 1.5f;     // seconds at most that feet take to come to rest
+constexpr float kWaitForRoom = 12.0f;  // seconds until a part that would hit somebody is left
 constexpr float kClipFade = 0.3f;
 constexpr float kOfferHeight = 1.12f;  // metres, between people 1.7 m tall
 constexpr float kGreet = 2.5f;         // metres from which one turns to who comes
@@ -38,6 +40,61 @@ Pose InHolderFrame(const Actor& holder, const Pose& stage_from_object) {
 
 void PlayClip(Actor& actor, int clip) {
   human::StartClip(actor.state.performance.animation, clip, 1.0, kClipFade);
+}
+
+// Where both hold it by one grip, who receives it takes it lower, below the other hand,
+// and shifts to the grip once that has left. In the object's frame.
+Pose BelowTheOther(const HandGrips& giving, const HandGrips& receiving) {
+  constexpr float kBelow = 0.10f;  // metres: the height of a hand around something
+  for (const int grip : receiving) {
+    if (grip >= 0 && (grip == giving[0] || grip == giving[1])) {
+      return {{0.0f, -kBelow, 0.0f}};
+    }
+  }
+  return {};
+}
+
+// Bounds of one part's meshes, part frame.
+struct Box {
+  glm::vec3 low = glm::vec3(1e9f);
+  glm::vec3 high = glm::vec3(-1e9f);
+
+  explicit Box(const PropPart& part) {
+    for (const PropMesh& mesh : part.meshes) {
+      for (const glm::vec3& position : mesh.positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+      }
+    }
+  }
+  bool Holds(const glm::vec3& point, float around) const {
+    return glm::all(glm::greaterThan(point, low - around)) &&
+           glm::all(glm::lessThan(point, high + around));
+  }
+};
+
+// Whether a part that goes from its present value to another comes through somebody.
+bool SweepsThrough(const Object& object, const ObjectAction::Move& move, const Actor& actor) {
+  constexpr int kSamples = 12;                      // of the way
+  constexpr float kBody = 0.2f;                     // metres around the middle of somebody
+  constexpr float kHeights[] = {0.3f, 0.8f, 1.3f};  // shares of the eyes' height below
+  const auto joint = static_cast<size_t>(move.joint);
+  const int part = object.use().joints[joint].part;
+  const Box box(object.model->prop().parts[static_cast<size_t>(part)]);
+  std::array<float, ObjectUse::kMaxJoints> joints = object.state.joints;
+  for (int i = 0; i <= kSamples; ++i) {
+    joints[joint] = glm::mix(object.state.joints[joint], move.to,
+                             static_cast<float>(i) / static_cast<float>(kSamples));
+    const Pose part_from_stage =
+        (object.state.stage_from_object * ObjectFromPart(*object.model, joints, part)).Inverse();
+    for (const float height : kHeights) {
+      const glm::vec3 at(0.0f, height * actor.eye_height() / 1.58f, 0.0f);
+      if (box.Holds(part_from_stage * (actor.state.position + at), kBody)) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 // Where the object comes between two people, upright, its front to who gives.
@@ -302,6 +359,27 @@ void Tasks::StepSeat(Task& task) {
   task.stage = Stage::kLingering;
 }
 
+// Who stands where a part is about to swing; who stands about there steps aside.
+const Actor* Tasks::InTheWay(const Task& task) {
+  const Object& object = world_.object(task.object);
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  for (const ObjectAction::Move& move : action.moves) {
+    for (const ActorId id : world_.actor_ids) {
+      Actor& other = world_.actor(id);
+      if (id == task.actor || !other.state.visible || !SweepsThrough(object, move, other)) {
+        continue;
+      }
+      if (!IsBusy(id) && !Sits(id) && !other.led && other.walk.phase == Walk::Phase::kNone) {
+        if (const auto aside = FindAside(world_, id, other.place())) {
+          (void)BeginWalk(world_, other, *aside, std::nullopt, kWalkSpeed).ok();
+        }
+      }
+      return &other;
+    }
+  }
+  return nullptr;
+}
+
 void Tasks::StepAct(Task& task) {
   if (task.phase == Phase::kBackUp || task.phase == Phase::kSit || task.phase == Phase::kRise) {
     StepSeat(task);
@@ -321,6 +399,15 @@ void Tasks::StepAct(Task& task) {
         Fail(task, "'" + actor.name + "' cannot '" + action.name + "' '" + object.name +
                        "' any more: it is '" +
                        object.use().states[static_cast<size_t>(object.state.state)] + "'");
+        return;
+      }
+      if (const Actor* other = InTheWay(task)) {
+        // The hand rests on its grip until they have gone.
+        if (task.time > task.reach_seconds + kWaitForRoom) {
+          LetGo(actor, action.held ? kNoHands : task.hands);
+          Fail(task, "'" + actor.name + "' cannot '" + action.name + "' '" + object.name + "': '" +
+                         other->name + "' stands in its way");
+        }
         return;
       }
       task.joints = object.state.joints;
@@ -468,17 +555,22 @@ void Tasks::StepGive(Task& task, float seconds) {
       return;
     }
     case Phase::kReach:
-      MoveHands(receiver, object, task.partner_hands);
+      MoveHands(receiver, object, task.partner_hands,
+                BelowTheOther(task.hands, task.partner_hands));
       if (task.time >= task.reach_seconds) {
         Enter(task, Phase::kBoth);
       }
       return;
     case Phase::kBoth:
-      MoveHands(receiver, object, task.partner_hands);
+      MoveHands(receiver, object, task.partner_hands,
+                BelowTheOther(task.hands, task.partner_hands));
       object.held.comes_loose = task.time > 0.5f * kBothSeconds;
       if (task.time >= kBothSeconds) {
         TakeHold(world_, task.partner, task.object, task.partner_hands);
         LetGo(giver, task.hands);
+        if (BelowTheOther(task.hands, task.partner_hands) != Pose()) {
+          ReachFor(receiver, object, task.partner_hands);
+        }
         CarryAlong(receiver, object, kCarrySeconds);
         Enter(task, Phase::kCarry);
       }

@@ -177,6 +177,7 @@ class Tasks {
   void StepAct(Task& task);
   void MoveJoints(const Task& task, Object& object) const;
   void FollowPath(const Task& task, Object& object);
+  const Actor* InTheWay(const Task& task);
   void BeginSeat(Task& task);
   void StepSeat(Task& task);
   void StepReach(Task& task);

@@ -64,6 +64,69 @@ class TasksTest : public ::testing::Test {
   Stage stage_;
 };
 
+TEST_F(TasksTest, ALeafWaitsForWhoStandsWhereItSwings) {
+  stage::Prop gate;
+  gate.name = "gate";
+  gate.parts.resize(1);
+  gate.parts[0].name = "leaf";
+  gate.parts[0].meshes = {test::MakeBox({0.0f, 0.0f, -0.03f}, {1.0f, 1.8f, 0.03f})};
+  gate.use = R"({
+    "schema": 1,
+    "states": ["shut", "open"],
+    "parts": {"leaf": {"hinge": [0, 1, 0], "limits": [-100, 0]}},
+    "places": {"front": {"at": [0.2, -0.7], "heading": 180}},
+    "actions": {"open": {"to": "open", "duration": 2, "moves": [{"part": "leaf", "to": -90}]}},
+    "footprint": {"outline": []}})";
+  const ObjectId leaf = AddObject("gate", std::move(gate), 0, 0);
+  const ActorId porter = AddActor("porter", 0.2f, -2);
+  const ActorId guest = AddActor("guest", 0.5f, 0.5f);
+  const Result<TaskId> task = stage_.tasks().Use(porter, leaf, "open", 0.0f);
+  float hit = 9.0f;
+  while (!stage_.tasks().report(*task).over()) {
+    Tick();
+    const float angle = At(leaf).state.joints[0];
+    const glm::vec2 along(std::cos(angle), -std::sin(angle));
+    const float on = std::clamp(glm::dot(At(guest).place(), along), 0.0f, 1.0f);
+    hit = std::min(hit, angle < 0.0f ? glm::distance(At(guest).place(), on * along) : 9.0f);
+  }
+  EXPECT_EQ(stage_.tasks().report(*task).state, State::kDone);
+  EXPECT_LT(At(leaf).state.joints[0], -1.5f) << "it opened";
+  EXPECT_GT(hit, 0.2f) << "and hit nobody";
+  EXPECT_GT(glm::distance(At(guest).place(), glm::vec2(0.5f, 0.5f)), 0.3f) << "who stepped aside";
+}
+
+TEST_F(TasksTest, TwoHandsOnOneGripKeepApart) {
+  stage::Prop jar = test::MakeCup();
+  jar.use = R"({
+    "schema": 1,
+    "grips": {"neck": {"at": [0.045, 0.05, 0], "palm": [-1, 0, 0], "fingers": [0, 0, -1]}},
+    "carry": {"hands": {"right": "neck"}, "at": [0.2, 1.0, -0.35]}})";
+  const ObjectId cup = AddObject("cup", std::move(jar), 0, 0);
+  const ActorId giver = AddActor("giver", 0.5f, 0.5f);
+  const ActorId receiver = AddActor("receiver", 2, 2);
+  ASSERT_EQ(Finish(stage_.tasks().Take(giver, cup)).state, State::kDone);
+  const Result<TaskId> task = stage_.tasks().Give(giver, cup, receiver);
+  float nearest = 9.0f;
+  const auto palm = [&](ActorId id, int side) {
+    const human::ReachGoal goal = human::Goal(At(id).state.performance.reaches[side]);
+    return StageFromActorPose(At(id).state) * goal.actor_from_grip.position;
+  };
+  while (!stage_.tasks().report(*task).over()) {
+    Tick();
+    for (const int side : {human::kRight, human::kLeft}) {
+      const auto weight = [&](ActorId id, int s) {
+        return human::Goal(At(id).state.performance.reaches[static_cast<size_t>(s)]).weight;
+      };
+      if (weight(giver, human::kRight) > 0.9f && weight(receiver, side) > 0.9f) {
+        nearest = std::min(nearest, glm::distance(palm(giver, 0), palm(receiver, side)));
+      }
+    }
+  }
+  EXPECT_EQ(At(cup).state.holder, receiver);
+  EXPECT_GT(nearest, 0.08f) << "a hand's height";
+  EXPECT_LT(nearest, 0.2f);
+}
+
 TEST_F(TasksTest, AnActionWalksThereMovesThePartsAndChangesTheState) {
   const ActorId keeper = AddActor("keeper", 2, -3);
   const ObjectId chest = AddObject("chest", test::MakeChest(), 0, 0);
