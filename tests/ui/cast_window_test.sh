@@ -1,0 +1,132 @@
+#!/bin/bash
+# Drives the cast in the editor's window with real input events: adds a person from a preset
+# by its thumbnail, moves a slider, undoes, redoes, dyes a garment; imports a figure of
+# another program, names a bone of it, undoes, redoes, saves. Looks at the saved project.
+#
+#   cast_window_test.sh EDITOR OUTPUT_FOLDER
+set -u
+editor=$1
+out=$2
+model=/usr/share/assimp/models/X/Testwuson.X
+
+for tool in xvfb-run Xvfb xdotool import; do
+  if ! command -v $tool > /dev/null; then
+    echo "skipped: $tool is not installed"
+    exit 77
+  fi
+done
+if [ ! -e $model ]; then
+  echo "skipped: the Debian package assimp-testmodels is not installed"
+  exit 77
+fi
+if [ -z "${LARARIUM_UI_TEST_DISPLAY:-}" ]; then
+  export LARARIUM_UI_TEST_DISPLAY=1
+  exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$@"
+fi
+
+export LIBGL_ALWAYS_SOFTWARE=1
+export XDG_STATE_HOME=$out/state
+export XDG_CACHE_HOME=$out/cache
+project=$out/cast.lararium
+json=$project/project.json
+rm -rf "$out"
+mkdir -p "$out"
+pid=0
+
+fail() {
+  echo "FAILED: $*"
+  import -window root "$out/failure.png"
+  cat "$out/editor.log"
+  [ $pid -ne 0 ] && kill $pid
+  exit 1
+}
+
+# wait_for SECONDS COMMAND...: until the command succeeds.
+wait_for() {
+  local tries=$(($1 * 10))
+  shift
+  for ((i = 0; i < tries; ++i)); do
+    "$@" > /dev/null 2>&1 && return 0
+    sleep 0.1
+  done
+  return 1
+}
+
+click() { xdotool mousemove $1 $2 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5; }
+press() { xdotool key --delay 60 "$1" && sleep 0.6; }
+
+# saved CHECK WHAT: saves until the project holds it.
+saved() {
+  for ((n = 0; n < 10; ++n)); do
+    press ctrl+s
+    bash -c "$1" && return 0
+  done
+  fail "$2"
+}
+has() { echo "tr -d ' \n' < '$json' | grep -qE '$1'"; }
+has_not() { echo "! tr -d ' \n' < '$json' | grep -qE '$1'"; }
+
+"$editor" new "$project" > /dev/null || fail "cannot make a project"
+"$editor" "$project" >> "$out/editor.log" 2>&1 &
+pid=$!
+wait_for 20 xdotool search --name Lararium || fail "no window"
+xdotool mousemove 700 780
+sleep 2
+
+# The second of the presets' pictures, which gives the name too.
+click 206 163
+click 618 404
+click 912 592
+saved "$(has '"preset":"keeper"')" "the person was not added"
+
+# Weight, from one to less; the preset becomes a recipe of the project.
+xdotool mousemove 1401 485 sleep 0.4 mousedown 1 sleep 0.4 mousemove 1330 485 sleep 0.3 \
+  mousemove 1280 485 sleep 0.4 mouseup 1 sleep 0.5
+saved "$(has '"weight":0\.[1-6]')" "the slider did not change the weight"
+press ctrl+z
+saved "$(has '"preset":"keeper"')" "undo of the whole pull"
+press ctrl+shift+z
+saved "$(has '"weight":0\.[1-6]')" "redo of the pull"
+
+# The tunic's dye: ochre becomes another.
+click 1150 393  # folds Body
+click 1150 481  # opens Clothes
+click 1280 620
+click 1236 414
+saved "$(has_not '"colour":"ochre"')" "the tunic keeps its colour"
+press ctrl+z
+saved "$(has '"colour":"ochre"')" "undo of the dye"
+import -window root "$out/recipe.png"
+
+# A figure of another program, and one of its bones named by hand.
+click 206 163
+click 771 495
+xdotool type --delay 80 wuson
+click 745 526
+xdotool type --delay 40 $model
+sleep 0.5
+click 912 592
+saved "$(has '"name":"wuson"')" "the figure was not added"
+wait_for 120 test -e "$project/cast/wuson.larhuman" || fail "the figure was not imported"
+sleep 3
+for ((n = 0; n < 5; ++n)); do  # its bones may still be read
+  click 1280 577
+  click 1280 530
+  press ctrl+s
+  bash -c "$(has '"bones":\{"[a-z_]+":"[A-Za-z]')" && break
+done
+saved "$(has '"bones":\{"[a-z_]+":"[A-Za-z]')" "no bone was named"
+press ctrl+z
+saved "$(has_not '"bones":\{')" "undo of the bone"
+press ctrl+shift+z
+saved "$(has '"bones":\{"[a-z_]+":"[A-Za-z]')" "redo of the bone"
+
+# Both have their thumbnails; the keeper is built last of all.
+wait_for 200 test -e "$project/cast/wuson.thumbnail.png" || fail "no thumbnail of the figure"
+wait_for 200 test -e "$project/cast/keeper.thumbnail.png" || fail "no thumbnail of the person"
+sleep 1
+import -window root "$out/bones.png"
+press ctrl+q
+wait_for 60 bash -c "! kill -0 $pid" || fail "did not quit"
+wait $pid || fail "exit code $?"
+echo "passed; screenshots: $out/recipe.png $out/bones.png"
