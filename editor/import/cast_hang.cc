@@ -24,7 +24,7 @@ constexpr int kSlices = 24;          // that a bundle's middle is measured in
 constexpr float kBlend = 0.35f;      // of a stick, to both sides of a joint
 constexpr float kStiffness = 70.0f;  // 1/s^2
 constexpr float kDrag = 2.2f;        // 1/s
-constexpr float kThin = 0.6f;        // of its drop, how wide the tail of a belt is at most
+constexpr float kThin = 0.045f;      // metres, how wide the tail of a belt is at most
 constexpr float kOverSkirt = 0.10f;  // metres
 constexpr float kLeastRadius = 0.008f, kMostRadius = 0.03f;  // metres
 
@@ -316,7 +316,7 @@ std::vector<glm::vec3> ThinMiddle(const human::SkinnedMesh& mesh,
     high = glm::max(high, mesh.positions[v]);
   }
   const glm::vec3 size = high - low;
-  if (size.y < kLeastDrop || size.x > kThin * size.y || size.z > kThin * size.y) {
+  if (size.y < kLeastDrop || size.x > kThin || size.z > kThin) {
     return {};
   }
   const auto middle_at = [&](float from, float to) {
