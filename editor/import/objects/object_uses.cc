@@ -115,7 +115,7 @@ constexpr ObjectUseEntry kUses[] = {
            "edge_back": {"part": "leaf", "at": [0.74, 1.06, 0.04], "palm": [0, 0, -1], "fingers": [1, 0.2, 0],
                          "pose": "flat"}},
  "places": {"front": {"at": [0.1, -0.62], "heading": 180}, "back": {"at": [0.1, 0.75], "heading": 0}},
- "actions": {"open": {"from": ["shut"], "to": "open", "places": ["front"], "duration": 2.0, "release": 0.9, "sound": "door",
+ "actions": {"open": {"from": ["shut"], "to": "open", "places": ["front"], "duration": 2.0, "release": 0.6, "sound": "door",
                       "hands": {"right": "handle_front"},
                       "moves": [{"part": "leaf", "to": -85, "begin": 0.2, "end": 1.9}]},
              "shut": {"from": ["open"], "to": "shut", "places": ["front"], "duration": 2.0, "sound": "door",
