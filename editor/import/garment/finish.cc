@@ -21,7 +21,7 @@ constexpr float kSkinView = 0.85f;
 constexpr float kClothView = 0.35f;
 constexpr float kBulge = 0.03f;  // metres
 // So many margins from every edge of a garment is deep below it.
-constexpr float kDeep = 1.6f;
+constexpr float kDeep = 2.0f;
 
 constexpr float kFoldShade = 0.4f;   // how much darker the bottom of a deep fold is
 constexpr float kDeepFold = 0.025f;  // metres below the cloth around it
@@ -120,8 +120,6 @@ std::vector<bool> CoveredBy(const DrapedGarment& draped,
   Screen screen;
   screen.Add(draped.sheet.positions, draped.sheet.ParticleTriangles());
   const Rims rims = RimsOf(draped);
-  // Cloth that bulges a little through what is worn over it is below it all the same.
-  const float within = widest < kSkinView ? kBulge : 0.0f;
   std::vector<uint8_t> covered(places.size(), 0);
   ParallelFor(places.size(), [&](size_t i) {
     if (glm::dot(normals[i], normals[i]) < 0.5f) {
@@ -131,15 +129,15 @@ std::vector<bool> CoveredBy(const DrapedGarment& draped,
         IsNear(places[i], rims.loose, loose_margin)) {
       return;
     }
+    // Far from any edge nobody looks under it: of cloth that lies on cloth, what misses,
+    // misses between folds; and what bulges a little through it is below all the same.
+    const bool deep = widest < kSkinView && !IsNear(places[i], rims.fixed, kDeep * fixed_margin) &&
+                      !IsNear(places[i], rims.loose, kDeep * loose_margin);
     const std::vector<glm::vec3> directions = ConeAbout(normals[i], widest);
     const auto blocked =
         std::count_if(directions.begin(), directions.end(), [&](const glm::vec3& direction) {
-          return screen.Blocks(places[i] - within * direction, direction, 0.6f);
+          return screen.Blocks(places[i] - (deep ? kBulge : 0.0f) * direction, direction, 0.6f);
         });
-    // Far from any edge nobody looks under it: of cloth that lies on cloth, what misses,
-    // misses between folds.
-    const bool deep = widest < kSkinView && !IsNear(places[i], rims.fixed, kDeep * fixed_margin) &&
-                      !IsNear(places[i], rims.loose, kDeep * loose_margin);
     covered[i] = blocked >= ptrdiff_t(deep ? directions.size() / 2 : directions.size());
   });
   return {covered.begin(), covered.end()};
@@ -339,6 +337,7 @@ class ClothMaker {
 }  // namespace
 
 Result<Garment> FinishGarment(const DrapedGarment& draped,
+                              const DrapedGarment& whole,
                               const GarmentPattern& pattern,
                               const FittedBody& body) {
   Garment garment;
@@ -370,7 +369,7 @@ Result<Garment> FinishGarment(const DrapedGarment& draped,
     }
   }
   garment.hidden =
-      draped.covers ? HiddenSkin(draped, body) : std::vector<bool>(body.base_of_skin.size(), false);
+      whole.covers ? HiddenSkin(whole, body) : std::vector<bool>(body.base_of_skin.size(), false);
   return garment;
 }
 

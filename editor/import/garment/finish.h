@@ -12,7 +12,10 @@
 
 namespace lararium::import {
 
+// whole: the same before anything of it was left out, which hides skin together with
+// what covers it.
 Result<Garment> FinishGarment(const DrapedGarment& draped,
+                              const DrapedGarment& whole,
                               const GarmentPattern& pattern,
                               const FittedBody& body);
 

@@ -38,12 +38,13 @@ Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> pattern
     LARARIUM_ASSIGN_OR_RETURN(DrapedGarment draped, Drape(pattern, body, worn));
     worn.push_back(std::move(draped));
   }
+  const std::vector<DrapedGarment> whole = worn;
   for (size_t i = 0; i + 1 < worn.size(); ++i) {
     LeaveOutCovered(std::span(worn).subspan(i + 1), body, worn[i]);
   }
   std::vector<Garment> garments;
   for (size_t i = 0; i < worn.size(); ++i) {
-    LARARIUM_ASSIGN_OR_RETURN(Garment garment, FinishGarment(worn[i], patterns[i], body));
+    LARARIUM_ASSIGN_OR_RETURN(Garment garment, FinishGarment(worn[i], whole[i], patterns[i], body));
     garments.push_back(std::move(garment));
   }
   return garments;

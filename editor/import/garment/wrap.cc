@@ -285,7 +285,7 @@ class MantleDraper {
     result.covers_above = JointPlace(body_, standing_, "l_elbow").y - 0.05f;
     result.loose_margin = std::clamp(0.4f * hem_, 0.05f, 0.18f);
     result.wraps = true;
-    result.cover_margin = 0.025f;
+    result.cover_margin = 0.03f;
     if (toga_) {
       result.trims.push_back(RollBalteus());
       result.trims.push_back(PullUmbo());
