@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 
 namespace lararium::render {
 namespace {
@@ -81,6 +82,20 @@ void LinearTarget::Resolve(const PixelBounds& b) const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_framebuffer_.id());
   glBlitFramebuffer(b.left, b.bottom, b.right, b.top, b.left, b.bottom, b.right, b.top,
                     GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void LinearTarget::ReadPixels(const PixelBounds& b, cv::Mat& rgba) const {
+  rgba.create(height_, width_, CV_32FC4);
+  rgba.setTo(cv::Scalar::all(0.0));
+  if (b.empty()) {
+    return;
+  }
+  cv::Mat read(b.height(), b.width(), CV_32FC4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_framebuffer_.id());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+  glReadPixels(b.left, b.bottom, b.width(), b.height(), GL_RGBA, GL_FLOAT, read.data);
+  cv::flip(read, rgba(cv::Rect(b.left, height_ - b.top, b.width(), b.height())), 0);
 }
 
 }  // namespace lararium::render

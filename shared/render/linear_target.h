@@ -4,6 +4,7 @@
 // several samples for each pixel. Private to render.
 
 #include <cstdint>
+#include <opencv2/core/mat.hpp>
 
 #include "shared/core/status.h"
 #include "shared/render/gl_object.h"
@@ -21,6 +22,9 @@ class LinearTarget {
   void BindAndClear(const PixelBounds& bounds) const;
   // Averages the samples of each pixel within bounds into texture().
   void Resolve(const PixelBounds& bounds) const;
+  // Copies what was resolved within bounds, and nothing elsewhere, into CV_32FC4: red,
+  // green, blue, coverage; the top row first.
+  void ReadPixels(const PixelBounds& bounds, cv::Mat& rgba) const;
   // OpenGL's order: the bottom row first.
   uint32_t texture() const { return resolved_.id(); }
 

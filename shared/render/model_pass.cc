@@ -150,7 +150,7 @@ void ModelPass::SetLight(const RenderScene& scene) const {
     shaders.Set("key_irradiance", key.irradiance);
     shaders.Set("eye_in_stage", glm::vec3(eye.x(), eye.y(), eye.z()));
     shaders.Set("gain", scene.exposure * scene.gain);
-    shaders.Set("knee", std::clamp(scene.knee, 0.0f, 1.0f));
+    shaders.Set("knee", std::max(scene.knee, 0.0f));
     shaders.Set("colour_texture", 0);
     shaders.Set("normal_texture", 1);
   }

@@ -75,7 +75,8 @@ struct RenderScene {
   float exposure = 1.0f;
   glm::vec3 gain = glm::vec3(1.0f);
   // How the camera renders highlights (the background has it already): linear up
-  // to here, above in an exponential shoulder towards white; 1 clips.
+  // to here, above in an exponential shoulder towards white; 1 clips. Far above
+  // 1, what is drawn stays linear.
   float knee = 0.6f;
 };
 

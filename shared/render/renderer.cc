@@ -26,6 +26,10 @@ glm::vec4 Distortion(const geometry::CameraModel& camera) {
           static_cast<float>(camera.p1), static_cast<float>(camera.p2)};
 }
 
+glm::mat4 ClipFromStage(const RenderScene& scene, const geometry::CameraModel& display) {
+  return ClipFromCamera(display, scene.near, scene.far) * geometry::ToGlm(*scene.camera_from_stage);
+}
+
 void ResetState() {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -146,7 +150,7 @@ void Renderer::State::DrawOccluders(std::span<const SceneOccluder> occluders,
 
 void Renderer::State::CollectDraw(const ModelDraw& draw,
                                   const glm::mat4& clip_from_stage,
-                                  const RenderTarget& target,
+                                  const ImageSize& size,
                                   ScreenBounds& bounds) {
   const glm::mat4 clip_from_model = clip_from_stage * draw.stage_from_model;
   ScreenBounds own;
@@ -164,7 +168,7 @@ void Renderer::State::CollectDraw(const ModelDraw& draw,
       own.Extend(box, clip_from_model);
     }
   }
-  if (!own.Pixels(target.width(), target.height()).empty()) {
+  if (!own.Pixels(size.width, size.height).empty()) {
     bounds.Extend(own);
     draws.push_back(draw);
   }
@@ -172,13 +176,13 @@ void Renderer::State::CollectDraw(const ModelDraw& draw,
 
 PixelBounds Renderer::State::CollectDraws(const RenderScene& scene,
                                           const glm::mat4& clip_from_stage,
-                                          const RenderTarget& target) {
+                                          const ImageSize& size) {
   draws.clear();
   ScreenBounds bounds;
   for (const SceneProp& prop : scene.props) {
     CollectDraw(
         {models.Find(prop.prop), glm::mat4(1.0f), prop.stage_from_part, {}, 0.0f, prop.shown},
-        clip_from_stage, target, bounds);
+        clip_from_stage, size, bounds);
   }
   for (const SceneHuman& human : scene.humans) {
     CollectDraw({models.Find(human.human),
@@ -187,16 +191,16 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene,
                  human.vertices,
                  human.detail,
                  {}},
-                clip_from_stage, target, bounds);
+                clip_from_stage, size, bounds);
   }
-  return bounds.Pixels(target.width(), target.height());
+  return bounds.Pixels(size.width, size.height);
 }
 
 Status Renderer::State::DrawPeople(const RenderScene& scene,
                                    const glm::mat4& clip_from_stage,
                                    const PixelBounds& bounds,
-                                   const RenderTarget& target) {
-  LARARIUM_RETURN_IF_ERROR(people.Prepare(target.width(), target.height(), samples));
+                                   const ImageSize& size) {
+  LARARIUM_RETURN_IF_ERROR(people.Prepare(size.width, size.height, samples));
   if (bounds.empty()) {
     return Status();
   }
@@ -238,24 +242,47 @@ void Renderer::State::Composite(const RenderScene& scene,
   glActiveTexture(GL_TEXTURE0);
 }
 
-Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
-  State& state = *state_;
-  LARARIUM_RETURN_IF_ERROR(state.Validate(scene));
-  ResetState();
-  const geometry::CameraModel display = scene.display.Resized(target.width(), target.height());
-  PixelBounds people_bounds;
-  if (scene.camera_from_stage) {
-    const glm::mat4 clip_from_stage =
-        ClipFromCamera(display, scene.near, scene.far) * geometry::ToGlm(*scene.camera_from_stage);
-    people_bounds = state.CollectDraws(scene, clip_from_stage, target);
-    LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, clip_from_stage, people_bounds, target));
-  }
-  state.Composite(scene, display, people_bounds, target);
+Status Renderer::State::CheckDriver() {
   if (glGetError() != GL_NO_ERROR) {
     return Status::Error("graphics", "the driver reports an error, probably out of memory",
                          "try a smaller picture");
   }
   return Status();
+}
+
+Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
+  State& state = *state_;
+  LARARIUM_RETURN_IF_ERROR(state.Validate(scene));
+  ResetState();
+  const ImageSize size = {target.width(), target.height()};
+  const geometry::CameraModel display = scene.display.Resized(size.width, size.height);
+  PixelBounds people_bounds;
+  if (scene.camera_from_stage) {
+    const glm::mat4 clip_from_stage = ClipFromStage(scene, display);
+    people_bounds = state.CollectDraws(scene, clip_from_stage, size);
+    LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, clip_from_stage, people_bounds, size));
+  }
+  state.Composite(scene, display, people_bounds, target);
+  return State::CheckDriver();
+}
+
+Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
+  State& state = *state_;
+  LARARIUM_RETURN_IF_ERROR(state.Validate(scene));
+  if (!scene.camera_from_stage) {
+    return Status::Error("picture", "people cannot be drawn without the camera's pose");
+  }
+  ResetState();
+  RenderScene linear = scene;
+  linear.exposure = 1.0f;
+  linear.gain = glm::vec3(1.0f);
+  linear.knee = 65504.0f;  // the largest that the target holds
+  const ImageSize size = {scene.display.width, scene.display.height};
+  const glm::mat4 clip_from_stage = ClipFromStage(scene, scene.display);
+  const PixelBounds bounds = state.CollectDraws(linear, clip_from_stage, size);
+  LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, clip_from_stage, bounds, size));
+  state.people.ReadPixels(bounds, rgba);
+  return State::CheckDriver();
 }
 
 }  // namespace lararium::render

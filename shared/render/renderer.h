@@ -42,6 +42,11 @@ class Renderer {
   // memory) the target's content is undefined.
   Status Draw(const RenderScene& scene, const RenderTarget& target);
 
+  // For comparisons with other light: people and props alone, hidden by occluders, at
+  // the display's size. rgba: CV_32FC4, linear radiance times coverage, coverage, before
+  // exposure, gain and the camera's response; in steps of 16-bit floats.
+  Status DrawLinear(const RenderScene& scene, cv::Mat& rgba);
+
  private:
   friend class Overlay;
   struct State;

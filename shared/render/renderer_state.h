@@ -18,6 +18,11 @@
 
 namespace lararium::render {
 
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+};
+
 struct Renderer::State {
   int samples = 1;
   ShaderProgram occluder_pass;
@@ -36,22 +41,23 @@ struct Renderer::State {
   // Fills draws. Says where they may be seen.
   PixelBounds CollectDraws(const RenderScene& scene,
                            const glm::mat4& clip_from_stage,
-                           const RenderTarget& target);
+                           const ImageSize& size);
   // Unless it lies outside the picture.
   void CollectDraw(const ModelDraw& draw,
                    const glm::mat4& clip_from_stage,
-                   const RenderTarget& target,
+                   const ImageSize& size,
                    ScreenBounds& bounds);
   Status DrawPeople(const RenderScene& scene,
                     const glm::mat4& clip_from_stage,
                     const PixelBounds& bounds,
-                    const RenderTarget& target);
+                    const ImageSize& size);
   void DrawOccluders(std::span<const SceneOccluder> occluders,
                      const glm::mat4& clip_from_stage) const;
   void Composite(const RenderScene& scene,
                  const geometry::CameraModel& display,
                  const PixelBounds& people_bounds,
                  const RenderTarget& target);
+  static Status CheckDriver();
 };
 
 }  // namespace lararium::render

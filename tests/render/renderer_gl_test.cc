@@ -331,6 +331,47 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
   EXPECT_GT(beyond_knee, 20);
 }
 
+TEST_F(RendererTest, LinearPictureHoldsRadianceWithoutTheCamerasResponse) {
+  const glm::vec3 albedo(0.8f, 0.5f, 0.3f);
+  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(albedo), 1)).value();
+  const glm::mat4 skin(1.0f);
+  RenderScene scene;
+  scene.display = Pinhole(160, 120, 200.0);
+  scene.camera_from_stage = LookAlongMinusZ();
+  scene.light = UniformLight(20.0f);
+  scene.exposure = 0.1f;
+  scene.gain = glm::vec3(3.0f);
+  SceneHuman human = {.human = ball, .skin = {&skin, 1}};
+  human.stage_from_actor[3] = glm::vec4(-1.0f, 0.5f, -4.0f, 1.0f);
+  scene.humans = {&human, 1};
+  cv::Mat rgba;
+  const Status drawn = renderer_->DrawLinear(scene, rgba);
+  ASSERT_TRUE(drawn.ok()) << drawn.message();
+  ASSERT_EQ(rgba.size(), cv::Size(160, 120));
+  ASSERT_EQ(rgba.type(), CV_32FC4);
+  // The ball's centre: left of the middle and above it.
+  const auto middle = rgba.at<cv::Vec4f>(60 - 25, 80 - 50);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(middle[c], albedo[c] / kPi * 20.0f, 0.01f);
+  }
+  EXPECT_EQ(middle[3], 1.0f);
+  EXPECT_EQ(rgba.at<cv::Vec4f>(60, 120), cv::Vec4f::all(0.0f));
+  EXPECT_EQ(rgba.at<cv::Vec4f>(60 + 40, 80 - 50), cv::Vec4f::all(0.0f));
+  // Edges are the average of the samples: colour goes with coverage.
+  int partly = 0;
+  for (int x = 0; x < 160; ++x) {
+    const auto pixel = rgba.at<cv::Vec4f>(70, x);
+    partly += pixel[3] > 0.0f && pixel[3] < 1.0f ? 1 : 0;
+    EXPECT_NEAR(pixel[0], pixel[3] * albedo[0] / kPi * 20.0f, 0.02f) << x;
+  }
+  EXPECT_GE(partly, 1);
+  human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, 9.0f, 1.0f);
+  EXPECT_TRUE(renderer_->DrawLinear(scene, rgba).ok());
+  EXPECT_EQ(cv::countNonZero(rgba.reshape(1)), 0) << "nobody is in view";
+  scene.camera_from_stage.reset();
+  EXPECT_THAT(renderer_->DrawLinear(scene, rgba).message(), HasSubstr("pose"));
+}
+
 TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
   const glm::mat4 skin(1.0f);
   const auto count_between = [&](int samples) {
