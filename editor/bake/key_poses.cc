@@ -20,6 +20,8 @@ constexpr float kStride = 1.2f;        // seconds
 constexpr int kTicksBetween = 6;       // of candidates while walking
 constexpr double kBetween = 0.25;      // seconds between candidates in clips
 constexpr size_t kMaxCandidates = 400;
+// A sum over blockers of radius^2 times distance^2, m^4: poses less apart are one.
+constexpr float kSamePose = 1e-6f;
 
 // Standing, then walking: what the person does with no clip at all.
 void AddLocomotion(const std::shared_ptr<const human::Human>& human, std::vector<Pose>& poses) {
@@ -54,52 +56,57 @@ void AddClips(const human::Human& human, std::vector<Pose>& poses) {
   }
 }
 
-// Places of the joints, seen from the pelvis (the first joint with several children
-// would do; the root's own frame is what carries everybody).
-std::vector<glm::vec3> JointPlaces(const human::Skeleton& skeleton,
-                                   const Pose& pose,
-                                   size_t pelvis) {
+// Where the blockers are, seen from the pelvis.
+std::vector<glm::vec3> BlockerPlaces(const human::Skeleton& skeleton,
+                                     std::span<const human::LightTransfer::Blocker> blockers,
+                                     const Pose& pose,
+                                     size_t pelvis) {
   std::vector<glm::mat4> actor_from_joint(skeleton.size());
+  std::vector<glm::mat4> skin(skeleton.size());
   human::ComputeActorFromJoint(skeleton, pose, actor_from_joint);
-  const glm::mat4 pelvis_from_actor =
-      glm::inverse(actor_from_joint[pelvis] * skeleton.joint_from_actor[pelvis]);
+  human::ComputeSkinMatrices(skeleton, actor_from_joint, skin);
+  const glm::mat4 pelvis_from_actor = glm::inverse(skin[pelvis]);
   std::vector<glm::vec3> places;
-  for (const glm::mat4& joint : actor_from_joint) {
-    places.emplace_back(pelvis_from_actor * joint[3]);
+  for (const human::LightTransfer::Blocker& blocker : blockers) {
+    places.emplace_back(pelvis_from_actor * skin[blocker.joint] * glm::vec4(blocker.centre, 1.0f));
   }
   return places;
 }
 
-float Distance(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
-  float sum = 0.0f;
-  for (size_t i = 0; i < a.size(); ++i) {
-    sum += glm::dot(a[i] - b[i], a[i] - b[i]);
-  }
-  return sum;
-}
-
 }  // namespace
 
-std::vector<Pose> ChooseKeyPoses(std::shared_ptr<const human::Human> human, size_t count) {
+std::vector<Pose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
+                                 std::span<const human::LightTransfer::Blocker> blockers,
+                                 size_t count) {
   const human::Skeleton& skeleton = human->skeleton;
-  std::vector<Pose> candidates = {skeleton.rest};
+  std::vector<Pose> candidates;
   const human::Body body = human::MakeBody(skeleton);
   if (body.walks()) {
     AddLocomotion(human, candidates);
   }
+  const size_t rest = candidates.size();
+  candidates.push_back(skeleton.rest);
   AddClips(*human, candidates);
   const size_t pelvis = body.root == human::kNoJoint ? 0 : static_cast<size_t>(body.root);
   std::vector<std::vector<glm::vec3>> places;
   for (const Pose& pose : candidates) {
-    places.push_back(JointPlaces(skeleton, pose, pelvis));
+    places.push_back(BlockerPlaces(skeleton, blockers, pose, pelvis));
   }
+  const auto apart = [&](size_t a, size_t b) {
+    float sum = 0.0f;
+    for (size_t i = 0; i < blockers.size(); ++i) {
+      const glm::vec3 moved = places[a][i] - places[b][i];
+      sum += blockers[i].radius * blockers[i].radius * glm::dot(moved, moved);
+    }
+    return sum;
+  };
   std::vector<Pose> chosen;
   std::vector<float> distance(candidates.size(), std::numeric_limits<float>::max());
   size_t next = 0;
-  while (chosen.size() < count && distance[next] > 1e-4f) {
+  while (chosen.size() < count && distance[next] > kSamePose) {
     chosen.push_back(candidates[next]);
     for (size_t i = 0; i < candidates.size(); ++i) {
-      distance[i] = std::min(distance[i], Distance(places[i], places[next]));
+      distance[i] = std::min(distance[i], apart(i, next));
     }
     next =
         static_cast<size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());

@@ -142,8 +142,10 @@ double FacingLuminance(const ProbeImage& image, const Texels& texels, const glm:
   return sum;
 }
 
-// The angle within which lies kHeld of the window's excess. cap is sorted by angle.
+// The angle within which lies kHeld of the window's excess, and a texel more, because the
+// outermost ones are covered in part. cap is sorted by angle.
 double HoldingRadius(const ProbeImage& image,
+                     const Texels& texels,
                      std::span<const CapTexel> cap,
                      const glm::dvec3& around) {
   double all = 0.0;
@@ -154,7 +156,7 @@ double HoldingRadius(const ProbeImage& image,
   for (const CapTexel& texel : cap) {
     held += texel.solid_angle * Luminance(Excess(image, texel, around));
     if (held >= kHeld * all) {
-      return std::min(texel.angle, kWindow);
+      return std::min(texel.angle + texels.side(), kWindow);
     }
   }
   return kWindow;
@@ -184,8 +186,6 @@ Source Measure(const ProbeImage& image,
     flux += Luminance(excess);
     moment += texel.angle * texel.angle * Luminance(excess);
   }
-  // Texels are sampled at their centres: an even disc over few of them is as wide as it
-  // is, and a source within one has no width that can be told.
   const double squared = flux > 0.0 ? 2.0 * moment / flux : 0.0;
   const double of_texel = texels.side() * texels.side() / 3.0;
   source.angular_radius =
@@ -210,7 +210,7 @@ SplitProbe SplitSun(const ProbeImage& image) {
   }
   std::sort(cap.begin(), cap.end(),
             [](const CapTexel& a, const CapTexel& b) { return a.angle < b.angle; });
-  const double radius = HoldingRadius(image, cap, around);
+  const double radius = HoldingRadius(image, texels, cap, around);
   const Source source = Measure(image, texels, cap, around, radius);
 
   SplitProbe split{image, std::nullopt, {}, 0.0};
@@ -228,6 +228,13 @@ SplitProbe SplitSun(const ProbeImage& image) {
     }
   }
   return split;
+}
+
+light::ProbeLight ProjectProbeLight(const ProbeImage& image, const ProbePlacement& placement) {
+  const SplitProbe split = SplitSun(image);
+  return light::Placed(
+      {light::ProjectEquirectangular(split.sky.pixels, image.width, image.height), split.sun},
+      placement.stage_from_probe, placement.radiance_scale);
 }
 
 }  // namespace lararium::bake

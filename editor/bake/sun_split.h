@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "editor/bake/probe.h"
-#include "shared/light/sun.h"
+#include "shared/light/probe_light.h"
 
 namespace lararium::bake {
 
@@ -28,5 +28,8 @@ struct SplitProbe {
 // kMaxSunRadius above the radiance around that. A source that fills a larger cap evenly, like
 // a window, has little above what is around it and stays in the sky.
 SplitProbe SplitSun(const ProbeImage& image);
+
+// The light of a probe in stage axes, its sun apart.
+light::ProbeLight ProjectProbeLight(const ProbeImage& image, const ProbePlacement& placement);
 
 }  // namespace lararium::bake

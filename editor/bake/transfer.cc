@@ -263,13 +263,14 @@ Result<human::LightTransfer> BakeTransfer(const human::Human& human,
   human::LightTransfer transfer;
   transfer.count = options.count;
   transfer.bounces = options.bounces;
-  transfer.key_poses = ChooseKeyPoses(
-      std::shared_ptr<const human::Human>(std::shared_ptr<void>(), &human), options.key_poses);
   LARARIUM_ASSIGN_OR_RETURN(const PosableSurface posable, PosableSurface::Create(human));
   const std::vector<glm::mat4> still(human.skeleton.size(), glm::mat4(1.0f));
   const std::vector<SurfaceMesh> bind = posable.Pose(still);
   LARARIUM_ASSIGN_OR_RETURN(transfer.blockers,
                             FitBlockers(bind, StrongestJoints(human), options.blockers));
+  transfer.key_poses =
+      ChooseKeyPoses(std::shared_ptr<const human::Human>(std::shared_ptr<void>(), &human),
+                     transfer.blockers, options.key_poses);
   PlaceReceivers(bind, human, options.receivers, transfer);
   std::vector<MeshVectors> vectors(human.meshes.size());
   for (size_t k = 0; k < transfer.key_poses.size(); ++k) {

@@ -14,9 +14,9 @@ namespace lararium::bake {
 
 struct TransferOptions {
   int count = 25;   // coefficients: 9, 16, 25 or 36
-  int rays = 512;   // from each vertex at each key pose
+  int rays = 256;   // from each vertex at each key pose
   int bounces = 2;  // reflections between surfaces; 0: shadowed direct light alone
-  size_t key_poses = 5;
+  size_t key_poses = 6;
   size_t blockers = 56;
   size_t receivers = 240;
 };

@@ -1,0 +1,209 @@
+#include "shared/show/person_light.h"
+
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <map>
+#include <utility>
+
+#include "shared/human/skinning.h"
+
+namespace lararium::show {
+namespace {
+
+using human::LightTransfer;
+
+size_t CountSlots(const LightTransfer& transfer) {
+  std::map<uint32_t, size_t> sizes;
+  for (const LightTransfer::Receiver& receiver : transfer.receivers) {
+    ++sizes[receiver.joint];
+  }
+  size_t slots = 0;
+  for (const auto& [joint, size] : sizes) {
+    slots += light::PaddedToLanes(size);
+  }
+  return slots;
+}
+
+// As many coefficients of visibility as its table has, and transfer wants.
+int VisibilityCount(const LightTransfer& transfer) { return std::min(transfer.count, 25); }
+
+// What went away since the key poses can brighten only what transfer has not put out:
+// half of it was measured to come nearest to path-traced poses.
+constexpr float kBrightening = 0.5f;
+
+void DampBrightening(light::ShRows& log) {
+  for (size_t receiver = 0; receiver < log.receivers(); ++receiver) {
+    if (log.at(0, receiver) > 0.0f) {
+      for (int k = 0; k < log.count(); ++k) {
+        log.at(k, receiver) *= kBrightening;
+      }
+    }
+  }
+}
+
+light::ShRowsRgb RowsRgb(int count, size_t slots) {
+  return {light::ShRows(count, slots), light::ShRows(count, slots), light::ShRows(count, slots)};
+}
+
+glm::quat RotationOf(const glm::mat4& matrix) { return human::ToDualQuaternion(matrix).real; }
+
+// Values without padding, as the file has them, in rows with padding.
+light::Transfer Unpack(const LightTransfer& transfer, const LightTransfer::Mesh& mesh) {
+  light::Transfer unpacked;
+  unpacked.count = transfer.count;
+  unpacked.poses = transfer.key_poses.size();
+  unpacked.vertices = mesh.receivers.size();
+  unpacked.scale = mesh.scale;
+  const auto count = static_cast<size_t>(transfer.count);
+  const size_t rows = mesh.coefficients.size() / count;
+  unpacked.values.assign(rows * unpacked.padded_count(), 0);
+  for (size_t row = 0; row < rows; ++row) {
+    std::copy_n(&mesh.coefficients[row * count], count,
+                &unpacked.values[row * unpacked.padded_count()]);
+  }
+  return unpacked;
+}
+
+}  // namespace
+
+void SphereSet::Resize(size_t count) {
+  for (std::vector<float>* values : {&x, &y, &z, &radius}) {
+    values->assign(count, 0.0f);
+  }
+}
+
+void SphereSet::Set(size_t index, const glm::vec3& centre, float ball_radius) {
+  x[index] = centre.x;
+  y[index] = centre.y;
+  z[index] = centre.z;
+  radius[index] = ball_radius;
+}
+
+PersonLight::PersonLight(std::shared_ptr<const human::Human> human)
+    : human_(std::move(human)),
+      skin_(human_->skeleton.size(), glm::mat4(1.0f)),
+      receiver_light_(human_->light.count, CountSlots(human_->light)) {
+  const size_t slots = receiver_light_.receivers();
+  const int count = VisibilityCount(human_->light);
+  own_log_ = stage_log_ = light::ShRows(count, slots);
+  shadowed_ = turned_ = RowsRgb(count, slots);
+  pose_weights_.resize(slots * light::kMaxKeyPoses);
+  blockers_.Resize(human_->light.blockers.size());
+  local_.Resize(blockers_.size());
+  PlaceReceivers();
+  MakeMeshes();
+  FindKeyLogs();
+}
+
+void PersonLight::PlaceReceivers() {
+  const std::vector<LightTransfer::Receiver>& receivers = human_->light.receivers;
+  std::map<uint32_t, std::vector<uint16_t>> by_joint;
+  for (size_t i = 0; i < receivers.size(); ++i) {
+    by_joint[receivers[i].joint].push_back(static_cast<uint16_t>(i));
+  }
+  slots_.resize(receivers.size());
+  bind_points_.Resize(receiver_light_.receivers());
+  stage_points_.Resize(receiver_light_.receivers());
+  size_t slot = 0;
+  for (const auto& [joint, members] : by_joint) {
+    const size_t end = slot + light::PaddedToLanes(members.size());
+    groups_.push_back({joint, {slot, end}});
+    for (size_t i = 0; slot < end; ++slot, ++i) {
+      // Padding repeats the last.
+      const uint16_t member = members[std::min(i, members.size() - 1)];
+      bind_points_.Set(slot, receivers[member].position, 0.0f);
+      if (i < members.size()) {
+        slots_[member] = static_cast<uint16_t>(slot);
+      }
+    }
+  }
+}
+
+void PersonLight::MakeMeshes() {
+  for (const LightTransfer::Mesh& mesh : human_->light.meshes) {
+    MeshLight& made = meshes_.emplace_back();
+    made.transfer = Unpack(human_->light, mesh);
+    made.receivers.resize(mesh.receivers.size());
+    for (size_t v = 0; v < made.receivers.size(); ++v) {
+      for (size_t i = 0; i < light::kReceiversOfVertex; ++i) {
+        made.receivers[v].receiver[i] = slots_[mesh.receivers[v][i]];
+      }
+      made.receivers[v].weight = mesh.weights[v];
+    }
+  }
+}
+
+void PersonLight::FindKeyLogs() {
+  const human::Skeleton& skeleton = human_->skeleton;
+  std::vector<glm::mat4> actor_from_joint(skeleton.size());
+  for (const std::vector<human::JointTransform>& pose : human_->light.key_poses) {
+    human::ComputeActorFromJoint(skeleton, pose, actor_from_joint);
+    human::ComputeSkinMatrices(skeleton, actor_from_joint, skin_);
+    OwnLog(skin_, key_logs_.emplace_back(own_log_.count(), own_log_.receivers()));
+  }
+}
+
+void PersonLight::OwnLog(std::span<const glm::mat4> skin, light::ShRows& log) {
+  for (const Group& group : groups_) {
+    const glm::mat4 bind_from_actor = glm::inverse(skin[group.joint]);
+    for (size_t i = 0; i < local_.size(); ++i) {
+      const LightTransfer::Blocker& blocker = human_->light.blockers[i];
+      const glm::vec4 in_actor = skin[blocker.joint] * glm::vec4(blocker.centre, 1.0f);
+      local_.Set(i, bind_from_actor * in_actor, blocker.radius);
+    }
+    light::ClearLogVisibility(group.range, log);
+    light::AddLogVisibility(local_.spheres(), {bind_points_.x, bind_points_.y, bind_points_.z},
+                            group.range, log);
+  }
+}
+
+void PersonLight::Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor) {
+  std::copy(skin.begin(), skin.end(), skin_.begin());
+  stage_from_actor_ = stage_from_actor;
+  for (size_t i = 0; i < blockers_.size(); ++i) {
+    const LightTransfer::Blocker& blocker = human_->light.blockers[i];
+    const glm::vec4 in_actor = skin_[blocker.joint] * glm::vec4(blocker.centre, 1.0f);
+    blockers_.Set(i, stage_from_actor * in_actor, blocker.radius);
+  }
+}
+
+void PersonLight::Update(const light::LightMatrix& light, const light::Spheres& others) {
+  OwnLog(skin_, own_log_);
+  const light::ReceiverRange all = {0, receiver_light_.receivers()};
+  light::KeyPoseWeights(key_logs_, own_log_, {}, all, pose_weights_);
+  light::SubtractKeyPoses(key_logs_, own_log_, pose_weights_, all, own_log_);
+  DampBrightening(own_log_);
+  for (const Group& group : groups_) {
+    const glm::mat4 stage_from_bind = stage_from_actor_ * skin_[group.joint];
+    for (size_t slot = group.range.begin; slot < group.range.end; ++slot) {
+      const glm::vec4 bind(bind_points_.x[slot], bind_points_.y[slot], bind_points_.z[slot], 1.0f);
+      stage_points_.Set(slot, stage_from_bind * bind, 0.0f);
+    }
+    light::RotateRows(own_log_, light::ShRotation(RotationOf(stage_from_bind)), group.range,
+                      stage_log_);
+  }
+  light::AddLogVisibility(others, {stage_points_.x, stage_points_.y, stage_points_.z}, all,
+                          stage_log_);
+  light::ShadowLight(light, stage_log_, all, shadowed_);
+  for (const Group& group : groups_) {
+    const glm::quat stage_from_bind = RotationOf(stage_from_actor_ * skin_[group.joint]);
+    const light::ShRotation turn(glm::conjugate(stage_from_bind));
+    for (size_t channel = 0; channel < 3; ++channel) {
+      light::RotateRows(shadowed_[channel], turn, group.range, turned_[channel]);
+    }
+  }
+  light::PackReceiverLight(turned_, all, receiver_light_);
+}
+
+void PersonLight::LightVertices(size_t mesh,
+                                size_t begin,
+                                size_t end,
+                                std::span<glm::vec3> irradiance) const {
+  const MeshLight& lit = meshes_[mesh];
+  light::LightVerticesJob{&lit.transfer, lit.receivers, &receiver_light_, pose_weights_, irradiance}
+      .Run(begin, end);
+}
+
+}  // namespace lararium::show

@@ -1,0 +1,90 @@
+#pragma once
+
+// The light on one person from frame to frame: distant light as it was baked for key
+// poses, less what limbs, other people and things keep off now.
+//
+// Per receiver (human::LightTransfer): what the person's own blockers hide, against the
+// same at the key poses, says which key poses are near and corrects for what is left;
+// what others hide comes on top (Ren et al. 2006). Per vertex: the light of its
+// receivers times its transfer vector (Sloan et al. 2002).
+
+#include <array>
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "shared/human/human.h"
+#include "shared/light/key_poses.h"
+#include "shared/light/receivers.h"
+#include "shared/light/transfer.h"
+
+namespace lararium::show {
+
+// Balls in stage axes, metres, as a structure of arrays.
+struct SphereSet {
+  std::vector<float> x, y, z, radius;
+
+  size_t size() const { return x.size(); }
+  void Resize(size_t count);
+  void Set(size_t index, const glm::vec3& centre, float ball_radius);
+  light::Spheres spheres() const { return {x, y, z, radius}; }
+};
+
+class PersonLight {
+ public:
+  // The human's light transfer must not be empty.
+  explicit PersonLight(std::shared_ptr<const human::Human> human);
+
+  // Where the person's blockers are; before Update, and for other people's. Allocates
+  // nothing, like all below.
+  void Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor);
+  const SphereSet& blockers() const { return blockers_; }
+
+  // The light of the stage at the receivers of the last pose. others: blockers that are
+  // not the person's own, stage axes.
+  void Update(const light::LightMatrix& light, const light::Spheres& others);
+
+  // Irradiance of the vertices [begin, end) of a mesh, without albedo.
+  void LightVertices(size_t mesh, size_t begin, size_t end, std::span<glm::vec3> irradiance) const;
+  size_t mesh_count() const { return meshes_.size(); }
+
+ private:
+  // Receivers that follow one joint; they lie in registers of their own.
+  struct Group {
+    uint32_t joint = 0;
+    light::ReceiverRange range;
+  };
+  struct MeshLight {
+    light::Transfer transfer;
+    std::vector<light::VertexReceivers> receivers;
+  };
+
+  void PlaceReceivers();
+  void MakeMeshes();
+  void FindKeyLogs();
+  // The log visibility past own blockers in the bind pose's axes.
+  void OwnLog(std::span<const glm::mat4> skin, light::ShRows& log);
+
+  std::shared_ptr<const human::Human> human_;
+  std::vector<Group> groups_;
+  std::vector<uint16_t> slots_;  // of each receiver of the human
+  SphereSet bind_points_;        // receivers, bind pose; radius unused
+  SphereSet stage_points_;       // receivers of the last pose
+  SphereSet blockers_;           // of the last pose, stage
+  SphereSet local_;              // blockers as seen from one joint's bind pose
+  std::vector<glm::mat4> skin_;
+  glm::mat4 stage_from_actor_ = glm::mat4(1.0f);
+  std::vector<light::ShRows> key_logs_;  // of each key pose
+  light::ShRows own_log_;
+  light::ShRows stage_log_;
+  light::ShRowsRgb shadowed_;
+  light::ShRowsRgb turned_;
+  std::vector<float> pose_weights_;  // [slot][light::kMaxKeyPoses]
+  light::ReceiverLight receiver_light_;
+  std::vector<MeshLight> meshes_;
+};
+
+}  // namespace lararium::show
