@@ -41,6 +41,8 @@ constexpr RecipeSlider kWomanSliders[] = {
     {"Breast firmness", &CastRecipe::breast_firmness, 0.0, 1.0, "%.2f"}};
 constexpr RecipeSlider kSkinSliders[] = {{"Stubble", &CastRecipe::stubble, 0.0, 1.0, "%.2f"},
                                          {"Weathering", &CastRecipe::weathering, 0.0, 1.0, "%.2f"},
+                                         {"Sunburn", &CastRecipe::sunburn, 0.0, 1.0, "%.2f"},
+                                         {"Freckles", &CastRecipe::freckles, 0.0, 1.0, "%.2f"},
                                          {"Asymmetry", &CastRecipe::asymmetry, 0.0, 1.0, "%.2f"}};
 
 std::string InSmallLetters(std::string text) {
