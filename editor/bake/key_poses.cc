@@ -108,8 +108,8 @@ std::vector<Pose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
     for (size_t i = 0; i < candidates.size(); ++i) {
       distance[i] = std::min(distance[i], apart(i, next));
     }
-    next =
-        static_cast<size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
+    const auto farthest = std::max_element(distance.begin(), distance.end());
+    next = chosen.size() == 1 ? rest : static_cast<size_t>(farthest - distance.begin());
   }
   return chosen;
 }
