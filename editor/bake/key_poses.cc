@@ -84,6 +84,7 @@ std::vector<Pose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
   if (body.walks()) {
     AddLocomotion(human, candidates);
   }
+  const size_t rest = candidates.size();
   candidates.push_back(skeleton.rest);
   AddClips(*human, candidates);
   const size_t pelvis = body.root == human::kNoJoint ? 0 : static_cast<size_t>(body.root);

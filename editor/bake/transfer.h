@@ -13,10 +13,10 @@
 namespace lararium::bake {
 
 struct TransferOptions {
-  int count = 25;   // coefficients: 9, 16, 25 or 36
+  int count = 16;   // coefficients: 9, 16, 25 or 36
   int rays = 256;   // from each vertex at each key pose
   int bounces = 2;  // reflections between surfaces; 0: shadowed direct light alone
-  size_t key_poses = 6;
+  size_t key_poses = 7;
   size_t blockers = 56;
   size_t receivers = 240;
 };
