@@ -109,7 +109,8 @@ std::vector<Pose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
       distance[i] = std::min(distance[i], apart(i, next));
     }
     const auto farthest = std::max_element(distance.begin(), distance.end());
-    next = chosen.size() == 1 ? rest : static_cast<size_t>(farthest - distance.begin());
+    const bool rest_is_next = chosen.size() == 1 && distance[rest] > kSamePose;
+    next = rest_is_next ? rest : static_cast<size_t>(farthest - distance.begin());
   }
   return chosen;
 }

@@ -406,11 +406,12 @@ class UseReader {
       LARARIUM_ASSIGN_OR_RETURN(const JsonView seat, view.Field("seat"));
       LARARIUM_RETURN_IF_ERROR(CheckFields(seat, {"at", "heading"}));
       LARARIUM_ASSIGN_OR_RETURN(const JsonView at, seat.Field("at"));
-      action.seat.emplace();
-      LARARIUM_ASSIGN_OR_RETURN(action.seat->position, ReadVector(at));
+      ObjectAction::Seat place;
+      LARARIUM_ASSIGN_OR_RETURN(place.position, ReadVector(at));
       LARARIUM_ASSIGN_OR_RETURN(const double heading,
                                 ReadNumber(seat, "heading", 0.0, -kMaxDegrees, kMaxDegrees));
-      action.seat->heading = Radians(heading);
+      place.heading = Radians(heading);
+      action.seat = place;
     }
     use_.actions.push_back(std::move(action));
     return Status();
