@@ -5,6 +5,8 @@
 #include "spherical_harmonics.glsl"
 
 uniform vec3 irradiance[9];
+uniform vec3 unscattered[9];  // the same where it is not softened by skin
+uniform int matte_only;
 uniform vec3 key_direction;   // towards the light, unit, stage axes
 uniform vec3 key_irradiance;  // of a surface that faces it
 
@@ -72,13 +74,35 @@ vec3 Fuzz(vec3 albedo, vec3 normal, vec3 to_eye, vec3 even) {
   return mix(albedo, vec3(1.0), 0.15) * (0.25 * rim + 0.05 * back) * even / kPi;
 }
 
+// Light that transfer left of what falls on a surface, and how much of it that is.
+struct Arriving {
+  vec3 irradiance;
+  float open;  // 1: nothing is in its way
+};
+
+Arriving Unshadowed(vec3 normal) { return Arriving(Irradiance(irradiance, normal), 1.0); }
+
+// Transfer was worked out for a vertex and its normal; what the normal at hand would see
+// without shadows, over what that one would, carries it over.
+Arriving Transferred(vec3 transferred, vec3 transfer_normal, vec3 normal) {
+  const float kLeast = 1e-3;
+  vec3 there = Irradiance(unscattered, transfer_normal) + kLeast;
+  vec3 here = Irradiance(irradiance, normal) + kLeast;
+  vec3 weight = vec3(0.2126, 0.7152, 0.0722);
+  float open = clamp(dot(transferred, weight) / dot(there, weight), 0.0, 1.0);
+  return Arriving(transferred * min(here / there, 4.0), open);
+}
+
 // strand: unit, along hair from root to tip. Highlights apart, so that they can stay
 // where the surface is hardly there.
 void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness,
-             out vec3 matte, out vec3 highlight) {
-  vec3 even = Irradiance(irradiance, normal);
+             Arriving arriving, out vec3 matte, out vec3 highlight) {
+  vec3 even = arriving.irradiance;
   matte = albedo / kPi * even;
   highlight = vec3(0.0);
+  if (matte_only == 1) {
+    return;
+  }
 #ifdef SURFACE_SKIN
   highlight = Highlight(normal, to_eye, 0.028, roughness);
 #endif
@@ -95,4 +119,5 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
   vec3 glint = KeyHighlight(normal, to_eye, 0.025, 0.2);
   highlight = glint + 0.25 * max(Highlight(normal, to_eye, 0.025, 0.2) - glint, 0.0);
 #endif
+  highlight *= arriving.open;
 }

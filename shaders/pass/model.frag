@@ -20,6 +20,8 @@ in vec3 position_in_stage;
 in vec3 normal_in_stage;
 in vec3 surface_albedo;
 in vec2 surface_uv;
+in vec3 transferred;
+in vec3 transfer_normal;
 
 layout(location = 0) out vec4 colour;
 
@@ -50,6 +52,13 @@ vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
   float scale = inversesqrt(max(size, 1e-20));
   // v grows downward in the image, and the map's green upward.
   return normalize(scale * (bump.x * tangents[0] - bump.y * tangents[1]) + bump.z * normal);
+}
+
+uniform int has_transfer;
+
+Arriving LightOn(vec3 normal) {
+  return has_transfer == 1 ? Transferred(transferred, normalize(transfer_normal), normal)
+                           : Unshadowed(normal);
 }
 
 void main() {
@@ -84,8 +93,8 @@ void main() {
   strand *= inversesqrt(max(dot(strand, strand), 1e-20));
   vec3 matte;
   vec3 highlight;
-  Reflect(albedo, normal, strand, normalize(eye_in_stage - position_in_stage), roughness, matte,
-          highlight);
+  vec3 to_eye = normalize(eye_in_stage - position_in_stage);
+  Reflect(albedo, normal, strand, to_eye, roughness, LightOn(normal), matte, highlight);
 #ifndef SURFACE_EYE
   highlight *= coverage;
 #endif

@@ -2,7 +2,8 @@
 
 uniform mat4 clip_from_model;
 uniform mat4 stage_from_model;
-uniform int motion;  // 0: as it is, 1: by matrices, 2: by dual quaternions
+uniform int posed;             // 1: positions and normals are as they are to be drawn
+uniform int dual_quaternions;  // 0: by matrices
 // Matrices; or in the columns of each the real part, the dual part (x, y, z, w), and
 // the scale.
 layout(std140) uniform Skin { mat4 skin[256]; };
@@ -13,11 +14,15 @@ layout(location = 2) in vec3 albedo;
 layout(location = 3) in uvec4 joints;
 layout(location = 4) in vec4 weights;
 layout(location = 5) in vec2 uv;
+layout(location = 6) in vec3 irradiance_at_vertex;
+layout(location = 7) in vec3 bind_normal;
 
 out vec3 position_in_stage;
 out vec3 normal_in_stage;
 out vec3 surface_albedo;
 out vec2 surface_uv;
+out vec3 transferred;      // irradiance by light transfer
+out vec3 transfer_normal;  // that it was worked out for
 
 mat4 BlendMatrices() {
   return weights.x * skin[joints.x] + weights.y * skin[joints.y] + weights.z * skin[joints.z] +
@@ -55,16 +60,14 @@ mat4 BlendDualQuaternions() {
 }
 
 void main() {
-  mat4 model_from_bind = mat4(1.0);
-  if (motion == 1) {
-    model_from_bind = BlendMatrices();
-  } else if (motion == 2) {
-    model_from_bind = BlendDualQuaternions();
-  }
+  mat4 skinned = dual_quaternions == 1 ? BlendDualQuaternions() : BlendMatrices();
+  mat4 model_from_bind = posed == 1 ? mat4(1.0) : skinned;
   vec4 in_model = model_from_bind * vec4(position, 1.0);
   gl_Position = clip_from_model * in_model;
   position_in_stage = (stage_from_model * in_model).xyz;
   normal_in_stage = mat3(stage_from_model) * (mat3(model_from_bind) * normal);
   surface_albedo = albedo;
   surface_uv = uv;
+  transferred = irradiance_at_vertex;
+  transfer_normal = mat3(stage_from_model) * (mat3(skinned) * bind_normal);
 }

@@ -71,6 +71,11 @@ GlVertexArray CreateVertexArray(const GpuModel::Part& part, const GlBuffer& vert
   DefineFloats(1, 3, sizeof(glm::vec3), bytes);
   glBindBuffer(GL_ARRAY_BUFFER, part.attributes.id());
   DefineAttributes();
+  glBindBuffer(GL_ARRAY_BUFFER, part.irradiance.id());
+  DefineFloats(6, 3, sizeof(glm::vec3), 0);
+  // What transfer vectors were baked with turns with these.
+  glBindBuffer(GL_ARRAY_BUFFER, part.bind_vertices.id());
+  DefineFloats(7, 3, sizeof(glm::vec3), bytes);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.id());
   glBindVertexArray(0);
   return array;
@@ -102,6 +107,10 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
   part.bind_vertices = GlBuffer::Generate();
   part.streamed_vertices = GlBuffer::Generate();
   part.indices = GlBuffer::Generate();
+  part.irradiance = GlBuffer::Generate();
+  glBindBuffer(GL_ARRAY_BUFFER, part.irradiance.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(part.vertex_count * sizeof(glm::vec3)),
+               nullptr, GL_STREAM_DRAW);
   bool two_sided = true;
   if (source.material != human::Material::kNone) {
     ApplyMaterial(materials[static_cast<size_t>(source.material)], part);
@@ -202,7 +211,9 @@ Status AddParts(std::span<const PartSource> sources,
                 GpuModel& model) {
   TextureLoader loader(textures, place);
   for (const PartSource& source : sources) {
+    const size_t first_vertex = model.vertex_count();
     GpuModel::Part& part = model.parts.emplace_back(CreatePart(source, materials));
+    part.first_vertex = first_vertex;
     if (source.material != human::Material::kNone) {
       const human::Material& material = materials[static_cast<size_t>(source.material)];
       part.colour_texture = loader.Want(material.colour_texture, TextureUse::kColour);
@@ -312,6 +323,14 @@ void GpuModel::Stream(size_t part_index,
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(2 * positions.size_bytes()), nullptr,
                GL_STREAM_DRAW);
   Upload(positions, normals);
+}
+
+void GpuModel::StreamIrradiance(size_t part_index, std::span<const glm::vec3> irradiance) {
+  const Part& part = parts[part_index];
+  CHECK(irradiance.size() == part.vertex_count);
+  glBindBuffer(GL_ARRAY_BUFFER, part.irradiance.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(irradiance.size_bytes()), irradiance.data(),
+               GL_STREAM_DRAW);
 }
 
 void GpuModel::Draw(size_t part_index, float allowed_error, bool streamed) const {

@@ -38,12 +38,14 @@ struct GpuModel {
     };
     std::vector<Level> levels;  // of detail, the finest first
     size_t vertex_count = 0;
-    uint8_t prop_part = 0;  // of a prop: which of its parts this belongs to
+    size_t first_vertex = 0;  // among those of all parts
+    uint8_t prop_part = 0;    // of a prop: which of its parts this belongs to
     GlVertexArray bind_pose;
     GlVertexArray streamed;      // positions and normals of this very draw
     GlBuffer attributes;         // what stays: albedo, texture coordinates, skin weights
     GlBuffer bind_vertices;      // all positions, then all normals
     GlBuffer streamed_vertices;  // likewise
+    GlBuffer irradiance;         // of this very draw
     GlBuffer indices;
 
     bool covered() const { return alpha_cutoff > 0.0f; }
@@ -58,6 +60,9 @@ struct GpuModel {
   std::vector<Box> joint_boxes;
 
   size_t joint_count() const { return joint_boxes.size(); }
+  size_t vertex_count() const {
+    return parts.empty() ? 0 : parts.back().first_vertex + parts.back().vertex_count;
+  }
 
   // Fails where a texture cannot be decoded.
   static Result<GpuModel> Create(const human::Human& human);
@@ -68,6 +73,8 @@ struct GpuModel {
   void Stream(size_t part,
               std::span<const glm::vec3> positions,
               std::span<const glm::vec3> normals);
+  // Irradiance for the next draw of a part; one for each of its vertices.
+  void StreamIrradiance(size_t part, std::span<const glm::vec3> irradiance);
   // The coarsest level whose error is allowed, metres. Attributes as in
   // shaders/pass/model.vert.
   void Draw(size_t part, float allowed_error, bool streamed) const;

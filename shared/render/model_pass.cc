@@ -21,9 +21,6 @@ constexpr uint32_t kSkinBinding = 0;
 // multiple of every driver's offset alignment.
 constexpr size_t kSkinStride = human::Skeleton::kMaxJoints * sizeof(glm::mat4);
 
-// As shaders/pass/model.vert numbers them.
-enum class VertexMotion { kPosed, kLinear, kDualQuaternion };
-
 constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
                                                                          "CLOTH", "EYE"};
 
@@ -75,14 +72,6 @@ const SceneVertices* FindVertices(const ModelDraw& draw, size_t part) {
     }
   }
   return nullptr;
-}
-
-VertexMotion Motion(const GpuModel& model, const SceneVertices* vertices) {
-  if (vertices != nullptr && vertices->posed) {
-    return VertexMotion::kPosed;
-  }
-  return model.skinning == human::Skinning::kLinear ? VertexMotion::kLinear
-                                                    : VertexMotion::kDualQuaternion;
 }
 
 }  // namespace
@@ -146,6 +135,8 @@ void ModelPass::SetLight(const RenderScene& scene) const {
     const bool skin = i / 2 == static_cast<size_t>(human::Surface::kSkin);
     shaders.Use();
     shaders.Set("irradiance", skin ? scattered : irradiance);
+    shaders.Set("unscattered", irradiance);
+    shaders.Set("matte_only", scene.matte ? 1 : 0);
     shaders.Set("key_direction", key.direction);
     shaders.Set("key_irradiance", key.irradiance);
     shaders.Set("eye_in_stage", glm::vec3(eye.x(), eye.y(), eye.z()));
@@ -176,11 +167,17 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   if (vertices != nullptr) {
     draw.model->Stream(index, vertices->positions, vertices->normals);
   }
+  if (!draw.irradiance.empty()) {
+    draw.model->StreamIrradiance(index,
+                                 draw.irradiance.subspan(part.first_vertex, part.vertex_count));
+  }
   const ShaderProgram& shaders = programs_[ProgramIndex(part)].shaders;
   shaders.Use();
+  shaders.Set("has_transfer", draw.irradiance.empty() ? 0 : 1);
   shaders.Set("stage_from_model", draw.stage_from_model);
   shaders.Set("clip_from_model", clip_from_stage * draw.stage_from_model);
-  shaders.Set("motion", static_cast<int>(Motion(*draw.model, vertices)));
+  shaders.Set("posed", vertices != nullptr && vertices->posed ? 1 : 0);
+  shaders.Set("dual_quaternions", draw.model->skinning == human::Skinning::kDualQuaternion ? 1 : 0);
   shaders.Set("colour_factor", part.colour);
   shaders.Set("emission", part.emission);
   shaders.Set("roughness", part.roughness);

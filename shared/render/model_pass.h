@@ -28,8 +28,9 @@ struct ModelDraw {
   glm::mat4 stage_from_model = glm::mat4(1.0f);
   std::span<const glm::mat4> skin;  // one for each joint, model frame
   std::span<const SceneVertices> vertices;
-  float detail = 0.0f;             // metres that may be off
-  std::span<const uint8_t> shown;  // of a prop's parts; empty: all
+  std::span<const glm::vec3> irradiance;  // of all vertices of all parts; may be empty
+  float detail = 0.0f;                    // metres that may be off
+  std::span<const uint8_t> shown;         // of a prop's parts; empty: all
 
   bool Shows(size_t prop_part) const { return shown.empty() || shown[prop_part] != 0; }
 };

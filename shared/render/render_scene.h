@@ -42,6 +42,9 @@ struct SceneHuman {
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
   std::span<const glm::mat4> skin = {};  // one for each joint (human::ComputeSkinMatrices)
   std::span<const SceneVertices> vertices = {};
+  // What falls on each vertex, all meshes in a row, with the shadows of body, people and
+  // things (show/person_light.h); empty: unshadowed light.
+  std::span<const glm::vec3> irradiance = {};
   // Metres by which what is drawn may differ from the finest level of detail
   // (shared/render/detail.h).
   float detail = 0.0f;
@@ -78,6 +81,8 @@ struct RenderScene {
   // to here, above in an exponential shoulder towards white; 1 clips. Far above
   // 1, what is drawn stays linear.
   float knee = 0.6f;
+  // Only Lambert's reflection, as path-traced references have it.
+  bool matte = false;
 };
 
 }  // namespace lararium::render

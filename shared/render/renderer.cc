@@ -120,6 +120,10 @@ Status Renderer::State::ValidateModels(const RenderScene& scene) const {
   for (const SceneHuman& human : scene.humans) {
     LARARIUM_RETURN_IF_ERROR(check(human.human, human.skin.size(), "a person"));
     const std::vector<GpuModel::Part>& parts = models.Find(human.human)->parts;
+    if (!human.irradiance.empty() &&
+        human.irradiance.size() != models.Find(human.human)->vertex_count()) {
+      return Status::Error(kPlace, "a person's irradiance is not that of its vertices");
+    }
     for (const SceneVertices& moved : human.vertices) {
       if (moved.mesh >= parts.size() || moved.positions.size() != parts[moved.mesh].vertex_count ||
           moved.normals.size() != parts[moved.mesh].vertex_count) {
@@ -181,7 +185,7 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene,
   ScreenBounds bounds;
   for (const SceneProp& prop : scene.props) {
     CollectDraw(
-        {models.Find(prop.prop), glm::mat4(1.0f), prop.stage_from_part, {}, 0.0f, prop.shown},
+        {models.Find(prop.prop), glm::mat4(1.0f), prop.stage_from_part, {}, {}, 0.0f, prop.shown},
         clip_from_stage, size, bounds);
   }
   for (const SceneHuman& human : scene.humans) {
@@ -189,6 +193,7 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene,
                  human.stage_from_actor,
                  human.skin,
                  human.vertices,
+                 human.irradiance,
                  human.detail,
                  {}},
                 clip_from_stage, size, bounds);

@@ -81,6 +81,19 @@ void SphereSet::Set(size_t index, const glm::vec3& centre, float ball_radius) {
   radius[index] = ball_radius;
 }
 
+void SphereSet::Clear() {
+  for (std::vector<float>* values : {&x, &y, &z, &radius}) {
+    values->clear();
+  }
+}
+
+void SphereSet::Append(const SphereSet& more) {
+  x.insert(x.end(), more.x.begin(), more.x.end());
+  y.insert(y.end(), more.y.begin(), more.y.end());
+  z.insert(z.end(), more.z.begin(), more.z.end());
+  radius.insert(radius.end(), more.radius.begin(), more.radius.end());
+}
+
 PersonLight::PersonLight(std::shared_ptr<const human::Human> human)
     : human_(std::move(human)),
       skin_(human_->skeleton.size(), glm::mat4(1.0f)),

@@ -30,6 +30,8 @@ struct SphereSet {
   size_t size() const { return x.size(); }
   void Resize(size_t count);
   void Set(size_t index, const glm::vec3& centre, float ball_radius);
+  void Clear();
+  void Append(const SphereSet& more);
   light::Spheres spheres() const { return {x, y, z, radius}; }
 };
 
@@ -42,6 +44,8 @@ class PersonLight {
   // nothing, like all below.
   void Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor);
   const SphereSet& blockers() const { return blockers_; }
+  // Coefficients that Update wants its light in.
+  int light_count() const { return own_log_.count(); }
 
   // The light of the stage at the receivers of the last pose. others: blockers that are
   // not the person's own, stage axes.
@@ -50,6 +54,7 @@ class PersonLight {
   // Irradiance of the vertices [begin, end) of a mesh, without albedo.
   void LightVertices(size_t mesh, size_t begin, size_t end, std::span<glm::vec3> irradiance) const;
   size_t mesh_count() const { return meshes_.size(); }
+  size_t vertex_count(size_t mesh) const { return meshes_[mesh].receivers.size(); }
 
  private:
   // Receivers that follow one joint; they lie in registers of their own.

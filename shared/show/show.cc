@@ -44,6 +44,11 @@ Status Show::FillStage() {
     bodies_.emplace_back(stage_.Find(id)->model);
   }
   details_.resize(bodies_.size());
+  std::vector<std::shared_ptr<const human::Human>> cast;
+  for (const CastMember& member : content_.cast) {
+    cast.push_back(member.human);
+  }
+  light_.emplace(cast);
   for (const StageObject& object : content_.objects) {
     LARARIUM_ASSIGN_OR_RETURN(const stage::ObjectId id, stage_.AddObject(object.name, object.model,
                                                                          object.stage_from_object));
@@ -174,6 +179,26 @@ void Show::StageActors(double time, StagedFrame& staged) {
   });
 }
 
+// Who is not seen still shades.
+void Show::LightActors(StagedFrame& staged) {
+  uint32_t vertices = 0;
+  for (StagedActor& actor : staged.actors) {
+    const bool lit = light_->Lights(actor.cast) && details_[actor.cast].drawn;
+    actor.light_begin = vertices;
+    actor.light_count = lit ? static_cast<uint32_t>(light_->vertex_count(actor.cast)) : 0;
+    vertices += actor.light_count;
+  }
+  staged.irradiance.resize(vertices);
+  lit_.clear();
+  for (const StagedActor& actor : staged.actors) {
+    lit_.push_back({actor.cast, std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
+                    actor.stage_from_actor,
+                    std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count)});
+  }
+  staged.helpers_cpu_ms += light_->Light(content_.places[staged.place].stage.light.Whole(), lit_);
+  staged.blockers.assign(light_->blockers().begin(), light_->blockers().end());
+}
+
 // What is in a hand goes with the hand as it is drawn.
 stage::Pose Show::DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const {
   const stage::ObjectState& state = entry.state;
@@ -223,6 +248,7 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
   staged.stage_from_part.clear();
   staged.part_shown.clear();
   StageActors(time, staged);
+  LightActors(staged);
   StageObjects(staged);
 }
 

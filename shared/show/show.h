@@ -18,6 +18,7 @@
 #include "shared/show/body.h"
 #include "shared/show/gain_filter.h"
 #include "shared/show/show_content.h"
+#include "shared/show/stage_light.h"
 #include "shared/stage/stage.h"
 #include "shared/vision/tracked_frame.h"
 
@@ -31,6 +32,8 @@ struct StagedActor {
   uint32_t skin_count = 0;
   uint32_t mesh_begin = 0;  // its moving meshes in StagedFrame::meshes
   uint32_t mesh_count = 0;
+  uint32_t light_begin = 0;  // its vertices in StagedFrame::irradiance
+  uint32_t light_count = 0;  // 0: light as it is without shadows
 };
 
 // A mesh of an actor whose vertices are not those of the bind pose: a face that
@@ -65,6 +68,8 @@ struct StagedFrame {
   std::vector<StagedMesh> meshes;
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
+  std::vector<glm::vec3> irradiance;  // of all vertices of lit actors
+  std::vector<glm::vec4> blockers;    // balls that shade: centre and radius, stage axes
   std::vector<StagedObject> objects;
   std::vector<glm::mat4> stage_from_part;
   std::vector<uint8_t> part_shown;
@@ -109,6 +114,7 @@ class Show {
   // Bodies step, then write what moves; people are spread over the cores.
   void StageActors(double time, StagedFrame& staged);
   void LayOutActors(StagedFrame& staged);
+  void LightActors(StagedFrame& staged);
   void StageObjects(StagedFrame& staged);
   stage::Pose DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const;
 
@@ -131,6 +137,8 @@ class Show {
     const stage::ActorState* state = nullptr;
   };
   std::vector<Visible> visible_;
+  std::optional<StageLight> light_;
+  std::vector<LitActor> lit_;
 };
 
 }  // namespace lararium::show

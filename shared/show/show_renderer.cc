@@ -84,6 +84,7 @@ void ShowRenderer::CollectHumans(const StagedFrame& staged) {
     humans_.push_back({cast_[actor.cast], actor.stage_from_actor,
                        std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
                        std::span(vertices_).subspan(actor.mesh_begin, actor.mesh_count),
+                       std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count),
                        details_[actor.cast].detail});
   }
 }

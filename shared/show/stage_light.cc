@@ -1,0 +1,86 @@
+#include "shared/show/stage_light.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "shared/core/parallel.h"
+
+namespace lararium::show {
+StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast) {
+  for (const std::shared_ptr<const human::Human>& human : cast) {
+    size_t vertices = 0;
+    for (const human::SkinnedMesh& mesh : human->meshes) {
+      vertices += mesh.positions.size();
+    }
+    vertex_counts_.push_back(vertices);
+    people_.push_back(human->light.empty() ? nullptr : std::make_unique<PersonLight>(human));
+    const int count = people_.back() == nullptr ? 0 : people_.back()->light_count();
+    if (count > 0 && std::find(counts_.begin(), counts_.end(), count) == counts_.end()) {
+      counts_.push_back(count);
+    }
+  }
+  others_.resize(people_.size());
+}
+
+const light::LightMatrix& StageLight::MatrixFor(int count) const {
+  const auto found = std::find(counts_.begin(), counts_.end(), count);
+  return matrices_[static_cast<size_t>(found - counts_.begin())];
+}
+
+void StageLight::PoseActor(const LitActor& actor) {
+  if (Lights(actor.cast)) {
+    people_[actor.cast]->Pose(actor.skin, actor.stage_from_actor);
+  }
+}
+
+// What is not the actor's own, for each.
+void StageLight::CollectBlockers(std::span<const LitActor> actors) {
+  all_blockers_.clear();
+  for (size_t i = 0; i < actors.size(); ++i) {
+    SphereSet& others = others_[i];
+    others.Clear();
+    for (const LitActor& other : actors) {
+      if (Lights(other.cast)) {
+        const SphereSet& blockers = people_[other.cast]->blockers();
+        if (&other == &actors[i]) {
+          for (size_t k = 0; k < blockers.size(); ++k) {
+            all_blockers_.emplace_back(blockers.x[k], blockers.y[k], blockers.z[k],
+                                       blockers.radius[k]);
+          }
+        } else {
+          others.Append(blockers);
+        }
+      }
+    }
+  }
+}
+
+double StageLight::Light(const light::ShRgb& light, std::span<const LitActor> actors) {
+  if (!light_ || *light_ != light) {
+    light_ = light;
+    matrices_.clear();
+    for (const int count : counts_) {
+      matrices_.emplace_back(light, count);
+    }
+  }
+  double helpers = ParallelForTimed(actors.size(), [&](size_t i) { PoseActor(actors[i]); });
+  CollectBlockers(actors);
+  helpers += ParallelForTimed(actors.size(), [&](size_t i) { LightActor(actors[i], i); });
+  return helpers;
+}
+
+void StageLight::LightActor(const LitActor& actor, size_t index) {
+  if (!Lights(actor.cast) || actor.irradiance.empty()) {
+    return;
+  }
+  PersonLight& person = *people_[actor.cast];
+  person.Update(MatrixFor(person.light_count()), others_[index].spheres());
+  size_t first = 0;
+  for (size_t mesh = 0; mesh < person.mesh_count(); ++mesh) {
+    const size_t count = person.vertex_count(mesh);
+    person.LightVertices(mesh, 0, count, actor.irradiance.subspan(first, count));
+    first += count;
+  }
+}
+
+}  // namespace lararium::show

@@ -1,0 +1,57 @@
+#pragma once
+
+// The light on everybody who is on stage, frame by frame.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "shared/light/spherical_harmonics.h"
+#include "shared/show/person_light.h"
+
+namespace lararium::show {
+
+// Who is lit, and where the result goes.
+struct LitActor {
+  uint32_t cast = 0;
+  std::span<const glm::mat4> skin;
+  glm::mat4 stage_from_actor = glm::mat4(1.0f);
+  std::span<glm::vec3> irradiance;  // of all vertices of all meshes; empty: not wanted
+};
+
+class StageLight {
+ public:
+  // cast: who may be on stage; those without baked transfer neither take nor cast shade.
+  explicit StageLight(std::span<const std::shared_ptr<const human::Human>> cast);
+
+  bool Lights(uint32_t cast) const { return people_[cast] != nullptr; }
+  // Vertices of all meshes of a member.
+  size_t vertex_count(uint32_t cast) const { return vertex_counts_[cast]; }
+
+  // Lights the actors, who cast shade on each other. Spread over the cores; returns the
+  // processor milliseconds of other threads. After the first frame nothing is allocated
+  // while as many people are there.
+  double Light(const light::ShRgb& light, std::span<const LitActor> actors);
+
+  // Blockers of the actors of the last call, stage axes: centre and radius.
+  std::span<const glm::vec4> blockers() const { return all_blockers_; }
+
+ private:
+  void PoseActor(const LitActor& actor);
+  void CollectBlockers(std::span<const LitActor> actors);
+  void LightActor(const LitActor& actor, size_t index);
+
+  const light::LightMatrix& MatrixFor(int count) const;
+
+  std::vector<std::unique_ptr<PersonLight>> people_;  // of each member, or none
+  std::vector<size_t> vertex_counts_;
+  std::vector<SphereSet> others_;  // of each lit actor of the frame
+  std::vector<glm::vec4> all_blockers_;
+  std::optional<light::ShRgb> light_;         // that the matrices are of
+  std::vector<light::LightMatrix> matrices_;  // one for each count of coefficients in use
+  std::vector<int> counts_;
+};
+
+}  // namespace lararium::show
