@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -47,39 +48,86 @@ Status FillStage(const ProjectPaths& paths, const ProjectDocument& document, sta
   return stage.SetFloor({}, places);
 }
 
-// Runs the drama without drawing and tells what went wrong in it.
-std::vector<std::string> DryRun(const ProjectPaths& paths,
-                                const ProjectDocument& document,
-                                double seconds,
-                                Progress& progress) {
+std::string AtTime(std::string problem, double seconds) {
+  char time[32];
+  std::snprintf(time, sizeof(time), " (at %.2f s)", seconds);
+  return std::move(problem) + time;
+}
+
+// What people were told to do and could not, unless the drama says that it may fail; then
+// errors that are not the ends of such tasks.
+std::vector<std::string> DramaProblems(const drama::Drama& drama) {
   std::vector<std::string> problems;
+  std::vector<const drama::TaskRecord*> failed;
+  for (const drama::TaskRecord& task : drama.tasks()) {
+    if (task.failed && !task.expected) {
+      failed.push_back(&task);
+      problems.push_back(AtTime(task.where + ": " + task.actor + ": " + task.action +
+                                    (task.object.empty() ? "" : " " + task.object) + ": " +
+                                    task.message,
+                                task.ended));
+    }
+  }
+  for (const drama::ScriptError& error : drama.errors()) {
+    const bool is_told = std::any_of(failed.begin(), failed.end(), [&](const auto* task) {
+      return task->ended == error.time && error.message.starts_with(task->where) &&
+             error.message.ends_with(task->message);
+    });
+    if (!is_told) {
+      problems.push_back(AtTime(error.message, error.time));
+    }
+  }
+  return problems;
+}
+
+Json TasksJson(std::span<const drama::TaskRecord> tasks) {
+  Json json = Json::array();
+  for (const drama::TaskRecord& task : tasks) {
+    json.push_back({{"began", task.began},
+                    {"ended", task.ended},
+                    {"where", task.where},
+                    {"actor", task.actor},
+                    {"action", task.action},
+                    {"object", task.object},
+                    {"failed", task.failed},
+                    {"expected", task.expected},
+                    {"message", task.message}});
+  }
+  return json;
+}
+
+struct DryRunReport {
+  std::vector<std::string> problems;
+  Json tasks = Json::array();  // TasksJson()
+};
+
+// Runs the drama without drawing. On a stage that lacks anything it would tell nothing
+// that is true, and is not run.
+DryRunReport DryRun(const ProjectPaths& paths,
+                    const ProjectDocument& document,
+                    double seconds,
+                    Progress& progress) {
   stage::Stage stage;
   if (const Status filled = FillStage(paths, document, stage); !filled.ok()) {
-    problems.push_back(filled.message());
+    return {{filled.message(), paths.Drama().string() + ": was not run: the stage is not complete"},
+            Json::array()};
   }
   const Result<std::string> script = ReadText(paths.Drama());
   if (!script) {
-    problems.push_back(script.message());
-    return problems;
+    return {{script.message()}, Json::array()};
   }
   const std::shared_ptr<Log> silent = MakeSilentLog();
   const auto drama =
       drama::Drama::Create(*script, paths.Drama().filename().string(), stage, {}, *silent);
   if (!drama.ok()) {
-    problems.push_back(drama.message());
-    return problems;
+    return {{drama.message()}, Json::array()};
   }
   const auto ticks = static_cast<int64_t>(seconds * drama::Drama::kTicksPerSecond);
   for (int64_t tick = 0; tick < ticks && !progress.Cancelled(); ++tick) {
     (*drama)->Tick();
     progress.Report("running the drama", static_cast<double>(tick + 1) / ticks);
   }
-  for (const drama::ScriptError& error : (*drama)->errors()) {
-    char time[32];
-    std::snprintf(time, sizeof(time), " (at %.2f s)", error.time);
-    problems.push_back(error.message + time);
-  }
-  return problems;
+  return {DramaProblems(**drama), TasksJson((*drama)->tasks())};
 }
 
 // What keeps a place from being shown; adds how well its stage is known to stages
@@ -231,9 +279,8 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
       problems.push_back(problem.message());
     }
   }
-  for (std::string& problem : DryRun(paths, document, options.seconds, progress)) {
-    problems.push_back(std::move(problem));
-  }
+  const DryRunReport run = DryRun(paths, document, options.seconds, progress);
+  problems.insert(problems.end(), run.problems.begin(), run.problems.end());
   if (progress.Cancelled()) {
     return Status::Error("check", "cancelled");
   }
@@ -248,7 +295,7 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   if (problems.empty()) {
     result.text += "no problems\n";
   }
-  result.json = {{"problems", problems}, {"stages", stages.json}};
+  result.json = {{"problems", problems}, {"stages", stages.json}, {"tasks", run.tasks}};
   result.failed = !problems.empty();
   return result;
 }

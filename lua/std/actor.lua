@@ -132,19 +132,30 @@ local stops = {
   end,
 }
 
+-- An actor's task: what it is called and, where there is one, the thing it is done with.
+local function doing(self, what, thing, action)
+  local name = type(thing) == "table" and thing.name or thing
+  return { id = self.id, what = what, name = name, action = action and what .. " " .. action or what,
+    began = host.time() }
+end
+
 -- Waits until a task is over: what was not quite as asked, or "". Whoever stops
 -- waiting stops the task. Its errors are blamed on who called the caller.
-local function await(what, task, problem)
+local function await(does, task, problem)
   if not task then
-    error(what .. ": " .. problem, 3)
+    host.note_task(does.id, does.action, does.name, does.began, true, problem)
+    error(does.what .. ": " .. problem, 3)
   end
   local guard <close> = setmetatable({ task = task }, stops)
   while true do
     local state, message = host.task(task)
+    if state == "done" or state == "failed" then
+      host.note_task(does.id, does.action, does.name, does.began, state == "failed", message)
+    end
     if state == "done" then
       return message
     elseif state == "failed" then
-      error(what .. ": " .. message, 3)
+      error(does.what .. ": " .. message, 3)
     end
     host.wait(0)
   end
@@ -158,7 +169,7 @@ function Actor:turn_to(degrees, options)
   if speed < 0 then
     error("turn_to: speed must be more than 0", 2)
   end
-  await("turn_to", host.turn(self.id, heading, math.rad(speed)))
+  await(doing(self, "turn_to"), host.turn(self.id, heading, math.rad(speed)))
 end
 
 -- Walks to {x=, z=, heading=, speed = metres per second}, around what is in the way
@@ -176,7 +187,7 @@ function Actor:walk_to(target)
   if target.heading ~= nil then
     heading = math.rad(number(target, "heading", 0, "walk_to"))
   end
-  local message = await("walk_to", host.walk(self.id, x, z, heading, speed))
+  local message = await(doing(self, "walk_to"), host.walk(self.id, x, z, heading, speed))
   if message ~= "" then
     host.warn("walk_to: " .. message)
     return false
@@ -193,12 +204,12 @@ function Actor:use(thing, action, options)
   if action ~= nil and type(action) ~= "string" then
     error("use: give the name of an action", 2)
   end
-  await("use", host.use(self.id, id, action, number(options, "seconds", 0, "use")))
+  await(doing(self, "use", thing, action), host.use(self.id, id, action, number(options, "seconds", 0, "use")))
 end
 
 -- Takes an object into the hands and carries it from now on.
 function Actor:take(thing)
-  await("take", host.take(self.id, object_id(thing, "take")))
+  await(doing(self, "take", thing), host.take(self.id, object_id(thing, "take")))
 end
 
 -- Puts down what it carries: put("cup", "table"), put("cup", "table", "top"), or on
@@ -211,25 +222,25 @@ function Actor:put(thing, where, surface)
     if where.heading ~= nil then
       heading = math.rad(number(where, "heading", 0, "put"))
     end
-    await("put", host.put(self.id, id, nil, x, z, heading))
+    await(doing(self, "put", thing), host.put(self.id, id, nil, x, z, heading))
   else
-    await("put", host.put(self.id, id, object_id(where, "put"), surface))
+    await(doing(self, "put", thing), host.put(self.id, id, object_id(where, "put"), surface))
   end
 end
 
 -- Hands what it carries to somebody else.
 function Actor:give(thing, to)
-  await("give", host.give(self.id, object_id(thing, "give"), actor_id(to, "give")))
+  await(doing(self, "give", thing), host.give(self.id, object_id(thing, "give"), actor_id(to, "give")))
 end
 
 -- Sits down on an object and stays until it has to go elsewhere, or stand(): what it
 -- holds it uses sitting, and takes and puts what is in reach.
 function Actor:sit(thing, action)
-  await("sit", host.use(self.id, object_id(thing, "sit"), action or "sit", 0))
+  await(doing(self, "sit", thing), host.use(self.id, object_id(thing, "sit"), action or "sit", 0))
 end
 
 function Actor:stand()
-  await("stand", host.stand_up(self.id))
+  await(doing(self, "stand"), host.stand_up(self.id))
 end
 
 -- Looks at an actor, an object, "visitor" or a point {x=, y=, z=}; false: straight

@@ -53,6 +53,20 @@ function together(...)
   host.join(tasks, false)
 end
 
+local fails_again = {
+  __close = function(self)
+    host.attempt(self.number)
+  end,
+}
+
+-- Runs f, in which what people do may fail without anybody hearing of it: whether all
+-- of it was done, and if not why.
+function attempt(f)
+  check_function(f, "attempt")
+  local guard <close> = setmetatable({ number = host.attempt() }, fails_again)
+  return pcall(f)
+end
+
 -- Runs all functions at once, goes on when the first is done and stops the others.
 function race(...)
   local tasks <close> = start_all("race", ...)

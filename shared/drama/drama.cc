@@ -14,6 +14,7 @@ constexpr size_t kMaxErrors = 100;  // kept; the log has them all
 // Of a drama of tracks: how often the stage is kept for seeking, and how many.
 constexpr int64_t kCheckpointTicks = int64_t{10} * Drama::kTicksPerSecond;
 constexpr size_t kMaxCheckpoints = 1000;
+constexpr size_t kMaxTaskRecords = 4096;
 
 class LuaDrama : public Drama {
  public:
@@ -31,9 +32,15 @@ class LuaDrama : public Drama {
         Sandbox::Create(options_.memory_limit, options_.instruction_limit, options_.seed));
     stage_.Reset();
     errors_.clear();
-    auto run =
-        std::make_unique<Run>(std::move(sandbox), stage_,
-                              [this](int64_t tick, const LuaError& error) { Report(tick, error); });
+    tasks_.clear();
+    auto run = std::make_unique<Run>(
+        std::move(sandbox), stage_,
+        [this](int64_t tick, const LuaError& error) { Report(tick, error); },
+        [this](TaskRecord record) {
+          if (tasks_.size() < kMaxTaskRecords) {
+            tasks_.push_back(std::move(record));
+          }
+        });
     LARARIUM_RETURN_IF_ERROR(run->Begin(script_, place_));
     run_ = std::move(run);
     played_until_ = std::max(played_until_, run_->tick());
@@ -67,6 +74,7 @@ class LuaDrama : public Drama {
 
   double time() const override { return TimeOf(run_->tick()); }
   std::span<const ScriptError> errors() const override { return errors_; }
+  std::span<const TaskRecord> tasks() const override { return tasks_; }
 
  private:
   // Tracks say at any tick what is to be seen, but bodies remember: feet stand where
@@ -107,6 +115,7 @@ class LuaDrama : public Drama {
   std::unique_ptr<Run> run_;
   std::vector<stage::Stage::Checkpoint> checkpoints_;  // one for each kCheckpointTicks
   std::vector<ScriptError> errors_;
+  std::vector<TaskRecord> tasks_;
   int64_t played_until_ = -1;  // the last tick whose errors were logged
 };
 

@@ -33,6 +33,20 @@ struct ScriptError {
   std::string traceback;  // one call per line; may be empty
 };
 
+// One thing that somebody was told to do with its body, and how it ended. What was
+// stopped before its end is not told.
+struct TaskRecord {
+  double began = 0.0;  // of the drama, seconds
+  double ended = 0.0;
+  std::string where;   // "drama.lua:12"
+  std::string actor;   // who
+  std::string action;  // "walk_to", "take", "use stir", ...
+  std::string object;  // with what; may be empty
+  bool failed = false;
+  bool expected = false;  // within attempt(): it may fail
+  std::string message;    // why it failed; of a done one, what was not quite as asked
+};
+
 class Drama {
  public:
   static constexpr int kTicksPerSecond = 120;
@@ -59,6 +73,8 @@ class Drama {
 
   virtual double time() const = 0;                          // seconds since the beginning
   virtual std::span<const ScriptError> errors() const = 0;  // until time(), oldest first
+  // Likewise, in the order in which they ended; those that the script caught too.
+  virtual std::span<const TaskRecord> tasks() const = 0;
 };
 
 }  // namespace lararium::drama

@@ -29,10 +29,11 @@ glm::vec3 CheckPoint(lua_State* lua, int argument) {
 
 }  // namespace
 
-Run::Run(std::unique_ptr<Sandbox> sandbox, stage::Stage& stage, OnError on_error)
+Run::Run(std::unique_ptr<Sandbox> sandbox, stage::Stage& stage, OnError on_error, OnTask on_task)
     : sandbox_(std::move(sandbox)),
       stage_(stage),
       on_error_(std::move(on_error)),
+      on_task_(std::move(on_task)),
       scheduler_(*sandbox_, [this](const LuaError& error) { on_error_(tick_, error); }) {}
 
 Status Run::Begin(std::string_view script, const std::string& place) {
@@ -112,6 +113,8 @@ void Run::PushHost(lua_State* lua) {
                                      {"stop", Call<&Run::Stop>},
                                      {"join", Call<&Run::Join>},
                                      {"warn", Call<&Run::Warn>},
+                                     {"attempt", Call<&Run::Attempt>},
+                                     {"note_task", Call<&Run::NoteTask>},
                                      {"segment", Call<&Run::AddSegment>},
                                      {"actor", Call<&Run::PushActor>},
                                      {"clip", Call<&Run::PushClip>},
@@ -194,6 +197,39 @@ int Run::Warn(lua_State* lua) {
   luaL_where(lua, 2);
   const std::string where(CheckText(lua, -1));
   on_error_(tick_, {where + std::string(CheckText(lua, 1)), ""});
+  return 0;
+}
+
+// attempt() -> a number: what the calling task does may fail from now on; attempt(number): no
+// longer
+int Run::Attempt(lua_State* lua) {
+  if (lua_isnoneornil(lua, 1)) {
+    attempts_.push_back(scheduler_.running());
+    lua_pushinteger(lua, scheduler_.running());
+    return 1;
+  }
+  const auto found = std::find(attempts_.begin(), attempts_.end(), luaL_checkinteger(lua, 1));
+  if (found != attempts_.end()) {
+    attempts_.erase(found);
+  }
+  return 0;
+}
+
+// note_task(actor, action, object's name or nil, when it began, whether it failed, message):
+// one has ended, of the line that called the function that calls the function that calls this
+int Run::NoteTask(lua_State* lua) {
+  const stage::Actor& actor = CheckActor(lua);
+  const std::string_view action = CheckText(lua, 2);
+  const std::string_view object = lua_isnil(lua, 3) ? std::string_view() : CheckText(lua, 3);
+  const double began = CheckFinite(lua, 4, "the time");
+  const std::string_view message = CheckText(lua, 6);
+  luaL_where(lua, 3);
+  std::string_view where = CheckText(lua, -1);  // "drama.lua:12: "
+  where = where.substr(0, where.find_last_not_of(": ") + 1);
+  const bool expected =
+      std::find(attempts_.begin(), attempts_.end(), scheduler_.running()) != attempts_.end();
+  on_task_({began, TimeOf(tick_), std::string(where), actor.name, std::string(action),
+            std::string(object), lua_toboolean(lua, 5) != 0, expected, std::string(message)});
   return 0;
 }
 

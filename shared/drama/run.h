@@ -24,7 +24,9 @@ class Run {
  public:
   using OnError = std::function<void(int64_t tick, const LuaError&)>;
 
-  Run(std::unique_ptr<Sandbox> sandbox, stage::Stage& stage, OnError on_error);
+  using OnTask = std::function<void(TaskRecord)>;
+
+  Run(std::unique_ptr<Sandbox> sandbox, stage::Stage& stage, OnError on_error, OnTask on_task);
   Run(const Run&) = delete;  // Lua knows its address
   Run& operator=(const Run&) = delete;
 
@@ -56,6 +58,8 @@ class Run {
   int Stop(lua_State* lua);
   int Join(lua_State* lua);
   int Warn(lua_State* lua);
+  int Attempt(lua_State* lua);
+  int NoteTask(lua_State* lua);
   int AddSegment(lua_State* lua);
 
   // words_actor.cc: what people do by themselves
@@ -105,7 +109,9 @@ class Run {
   std::unique_ptr<Sandbox> sandbox_;
   stage::Stage& stage_;
   OnError on_error_;
+  OnTask on_task_;
   Scheduler scheduler_;
+  std::vector<Scheduler::TaskId> attempts_;  // tasks within attempt(), once for each
   std::vector<Track> tracks_;
   int64_t tick_ = 0;
   bool loading_ = false;
