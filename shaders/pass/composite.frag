@@ -1,8 +1,10 @@
 // The finished picture: the camera's image as an undistorted pinhole sees it
-// (each pixel looks up where the camera saw its ray), people over it, encoded as
-// sRGB. Light brighter than white is clipped. The target's top row comes first.
+// (each pixel looks up where the camera saw its ray), darker where people keep light
+// off, people over it, encoded as sRGB. Light brighter than white is clipped. The
+// target's top row comes first.
 
 #include "camera.glsl"
+#include "caught_shadow.glsl"
 #include "colour.glsl"
 
 uniform bool has_image;
@@ -24,10 +26,17 @@ vec3 Background() {
   return has_image && inside ? textureLod(image, position, 0.0).rgb : vec3(0.0);
 }
 
+bool Within(vec2 cell, vec4 bounds) {
+  return all(greaterThan(cell, bounds.xy)) && all(lessThan(cell, bounds.zw));
+}
+
 void main() {
   vec3 light = Background();
   vec2 cell = vec2(gl_FragCoord.x, float(textureSize(people, 0).y) - gl_FragCoord.y);
-  if (all(greaterThan(cell, people_bounds.xy)) && all(lessThan(cell, people_bounds.zw))) {
+  if (Within(cell, catcher_bounds)) {
+    light *= CaughtShadow(ivec2(cell));
+  }
+  if (Within(cell, people_bounds)) {
     vec4 person = texelFetch(people, ivec2(cell), 0);
     light = light * (1.0 - person.a) + person.rgb;
   }

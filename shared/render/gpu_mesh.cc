@@ -10,6 +10,9 @@ GpuMesh GpuMesh::Create(const geometry::TriangleMesh& mesh) {
   gpu.vertices = GlBuffer::Generate();
   gpu.indices = GlBuffer::Generate();
   gpu.index_count = static_cast<int>(mesh.indices.size());
+  for (const glm::vec3& position : mesh.positions) {
+    gpu.box.Extend(position);
+  }
   glBindVertexArray(gpu.vertex_array.id());
   glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.id());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.positions.size() * sizeof(glm::vec3)),

@@ -4,6 +4,7 @@
 
 #include "shared/geometry/triangle_mesh.h"
 #include "shared/render/gl_object.h"
+#include "shared/render/screen_bounds.h"
 
 namespace lararium::render {
 
@@ -12,6 +13,7 @@ struct GpuMesh {
   GlBuffer vertices;
   GlBuffer indices;
   int index_count = 0;
+  Box box;  // of all positions
 
   static GpuMesh Create(const geometry::TriangleMesh& mesh);
   void Draw() const;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <span>
@@ -25,6 +26,7 @@ using ModelHandle = Id<GpuModel>;  // of a person or a prop
 struct SceneOccluder {
   MeshHandle mesh = {};
   glm::mat4 stage_from_mesh = glm::mat4(1.0f);
+  bool receives_shadow = true;  // of RenderScene::blockers, where it is seen
 };
 
 // A mesh whose vertices are not those of the bind pose in this picture. Parallel to
@@ -71,6 +73,10 @@ struct RenderScene {
   std::span<const SceneOccluder> occluders = {};
   std::span<const SceneHuman> humans = {};
   std::span<const SceneProp> props = {};
+  // Balls that stand for people and props where they keep the sky's light off occluders:
+  // centre, stage axes, and radius, metres. Up to 512 as they are; of more, neighbours are
+  // merged.
+  std::span<const glm::vec4> blockers = {};
 
   // What falls on people and props: radiance, stage axes. What is seen of them is
   // multiplied by exposure and by gain (the image over the map's reference).

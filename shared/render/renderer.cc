@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "shared/geometry/glm_convert.h"
-#include "shared/render/clip_space.h"
 #include "shared/render/linear_target.h"
 #include "shared/render/renderer_state.h"
 #include "shared/render/shader_program.h"
@@ -26,10 +25,6 @@ glm::vec4 Distortion(const geometry::CameraModel& camera) {
           static_cast<float>(camera.p1), static_cast<float>(camera.p2)};
 }
 
-glm::mat4 ClipFromStage(const RenderScene& scene, const geometry::CameraModel& display) {
-  return ClipFromCamera(display, scene.near, scene.far) * geometry::ToGlm(*scene.camera_from_stage);
-}
-
 void ResetState() {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -40,7 +35,7 @@ void ResetState() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  for (GLuint unit = 0; unit < 2; ++unit) {
+  for (GLuint unit = 0; unit < 8; ++unit) {
     glBindSampler(unit, 0);
   }
 }
@@ -56,6 +51,7 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const RendererOptions& option
   LARARIUM_ASSIGN_OR_RETURN(state->occluder_pass,
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->model_pass, ModelPass::Create());
+  LARARIUM_ASSIGN_OR_RETURN(state->catcher_pass, CatcherPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
                             ShaderProgram::Create("full_screen.vert", "composite.frag"));
   state->no_vertices = GlVertexArray::Generate();
@@ -153,10 +149,9 @@ void Renderer::State::DrawOccluders(std::span<const SceneOccluder> occluders,
 }
 
 void Renderer::State::CollectDraw(const ModelDraw& draw,
-                                  const glm::mat4& clip_from_stage,
-                                  const ImageSize& size,
+                                  const PictureView& view,
                                   ScreenBounds& bounds) {
-  const glm::mat4 clip_from_model = clip_from_stage * draw.stage_from_model;
+  const glm::mat4 clip_from_model = view.clip_from_stage * draw.stage_from_model;
   ScreenBounds own;
   for (size_t joint = 0; joint < draw.model->joint_count(); ++joint) {
     if (draw.Shows(joint)) {
@@ -172,21 +167,19 @@ void Renderer::State::CollectDraw(const ModelDraw& draw,
       own.Extend(box, clip_from_model);
     }
   }
-  if (!own.Pixels(size.width, size.height).empty()) {
+  if (!own.Pixels(view.size.width, view.size.height).empty()) {
     bounds.Extend(own);
     draws.push_back(draw);
   }
 }
 
-PixelBounds Renderer::State::CollectDraws(const RenderScene& scene,
-                                          const glm::mat4& clip_from_stage,
-                                          const ImageSize& size) {
+PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const PictureView& view) {
   draws.clear();
   ScreenBounds bounds;
   for (const SceneProp& prop : scene.props) {
     CollectDraw(
         {models.Find(prop.prop), glm::mat4(1.0f), prop.stage_from_part, {}, {}, 0.0f, prop.shown},
-        clip_from_stage, size, bounds);
+        view, bounds);
   }
   for (const SceneHuman& human : scene.humans) {
     CollectDraw({models.Find(human.human),
@@ -196,28 +189,27 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene,
                  human.irradiance,
                  human.detail,
                  {}},
-                clip_from_stage, size, bounds);
+                view, bounds);
   }
-  return bounds.Pixels(size.width, size.height);
+  return bounds.Pixels(view.size.width, view.size.height);
 }
 
 Status Renderer::State::DrawPeople(const RenderScene& scene,
-                                   const glm::mat4& clip_from_stage,
-                                   const PixelBounds& bounds,
-                                   const ImageSize& size) {
-  LARARIUM_RETURN_IF_ERROR(people.Prepare(size.width, size.height, samples));
+                                   const PictureView& view,
+                                   const PixelBounds& bounds) {
+  LARARIUM_RETURN_IF_ERROR(people.Prepare(view.size.width, view.size.height, samples));
   if (bounds.empty()) {
     return Status();
   }
   people.BindAndClear(bounds);
-  DrawOccluders(scene.occluders, clip_from_stage);
-  model_pass.Draw(scene, clip_from_stage, draws);
+  DrawOccluders(scene.occluders, view.clip_from_stage);
+  model_pass.Draw(scene, view.clip_from_stage, draws);
   people.Resolve(bounds);
   return Status();
 }
 
 void Renderer::State::Composite(const RenderScene& scene,
-                                const geometry::CameraModel& display,
+                                const PictureView& view,
                                 const PixelBounds& people_bounds,
                                 const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
@@ -225,7 +217,7 @@ void Renderer::State::Composite(const RenderScene& scene,
   glDisable(GL_DEPTH_TEST);
   composite_pass.Use();
   composite_pass.Set("has_image", scene.background.empty() ? 0 : 1);
-  composite_pass.Set("display_intrinsics", Intrinsics(display));
+  composite_pass.Set("display_intrinsics", Intrinsics(view.display));
   glActiveTexture(GL_TEXTURE0);
   if (!scene.background.empty()) {
     const cv::Mat& image = scene.background;
@@ -241,6 +233,7 @@ void Renderer::State::Composite(const RenderScene& scene,
   composite_pass.Set("people", 1);
   composite_pass.Set("people_bounds", glm::vec4(people_bounds.left, people_bounds.bottom,
                                                 people_bounds.right, people_bounds.top));
+  catcher_pass.BindFor(composite_pass, view, 2);
   glBindVertexArray(no_vertices.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
@@ -259,15 +252,15 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   State& state = *state_;
   LARARIUM_RETURN_IF_ERROR(state.Validate(scene));
   ResetState();
-  const ImageSize size = {target.width(), target.height()};
-  const geometry::CameraModel display = scene.display.Resized(size.width, size.height);
+  const PictureView view = ViewOf(scene, {target.width(), target.height()});
   PixelBounds people_bounds;
+  state.catcher_pass.Skip();
   if (scene.camera_from_stage) {
-    const glm::mat4 clip_from_stage = ClipFromStage(scene, display);
-    people_bounds = state.CollectDraws(scene, clip_from_stage, size);
-    LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, clip_from_stage, people_bounds, size));
+    people_bounds = state.CollectDraws(scene, view);
+    LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, view, people_bounds));
+    LARARIUM_RETURN_IF_ERROR(state.catcher_pass.Draw(scene, state.meshes, view));
   }
-  state.Composite(scene, display, people_bounds, target);
+  state.Composite(scene, view, people_bounds, target);
   return State::CheckDriver();
 }
 
@@ -282,10 +275,9 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   linear.exposure = 1.0f;
   linear.gain = glm::vec3(1.0f);
   linear.knee = 65504.0f;  // the largest that the target holds
-  const ImageSize size = {scene.display.width, scene.display.height};
-  const glm::mat4 clip_from_stage = ClipFromStage(scene, scene.display);
-  const PixelBounds bounds = state.CollectDraws(linear, clip_from_stage, size);
-  LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, clip_from_stage, bounds, size));
+  const PictureView view = ViewOf(linear, {scene.display.width, scene.display.height});
+  const PixelBounds bounds = state.CollectDraws(linear, view);
+  LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, view, bounds));
   state.people.ReadPixels(bounds, rgba);
   return State::CheckDriver();
 }

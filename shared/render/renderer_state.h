@@ -7,10 +7,12 @@
 
 #include "shared/core/id.h"
 #include "shared/geometry/camera_model.h"
+#include "shared/render/catcher_pass.h"
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_mesh.h"
 #include "shared/render/linear_target.h"
 #include "shared/render/model_pass.h"
+#include "shared/render/picture_view.h"
 #include "shared/render/renderer.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
@@ -18,15 +20,11 @@
 
 namespace lararium::render {
 
-struct ImageSize {
-  int width = 0;
-  int height = 0;
-};
-
 struct Renderer::State {
   int samples = 1;
   ShaderProgram occluder_pass;
   ModelPass model_pass;
+  CatcherPass catcher_pass;
   ShaderProgram composite_pass;
   GlVertexArray no_vertices;  // of the full-screen pass
   Texture background_image{Texture::Encoding::kLinear};
@@ -39,22 +37,14 @@ struct Renderer::State {
   Status ValidateModels(const RenderScene& scene) const;
   Result<ModelHandle> AddModel(Result<GpuModel> model);
   // Fills draws. Says where they may be seen.
-  PixelBounds CollectDraws(const RenderScene& scene,
-                           const glm::mat4& clip_from_stage,
-                           const ImageSize& size);
+  PixelBounds CollectDraws(const RenderScene& scene, const PictureView& view);
   // Unless it lies outside the picture.
-  void CollectDraw(const ModelDraw& draw,
-                   const glm::mat4& clip_from_stage,
-                   const ImageSize& size,
-                   ScreenBounds& bounds);
-  Status DrawPeople(const RenderScene& scene,
-                    const glm::mat4& clip_from_stage,
-                    const PixelBounds& bounds,
-                    const ImageSize& size);
+  void CollectDraw(const ModelDraw& draw, const PictureView& view, ScreenBounds& bounds);
+  Status DrawPeople(const RenderScene& scene, const PictureView& view, const PixelBounds& bounds);
   void DrawOccluders(std::span<const SceneOccluder> occluders,
                      const glm::mat4& clip_from_stage) const;
   void Composite(const RenderScene& scene,
-                 const geometry::CameraModel& display,
+                 const PictureView& view,
                  const PixelBounds& people_bounds,
                  const RenderTarget& target);
   static Status CheckDriver();

@@ -10,6 +10,11 @@
 
 namespace lararium::render {
 
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+};
+
 // Columns [left, right) and rows [bottom, top) in OpenGL's window coordinates.
 struct PixelBounds {
   int left = 0;

@@ -100,6 +100,9 @@ void ShaderProgram::Set(const char* name, const glm::mat4& value) const {
 void ShaderProgram::Set(const char* name, std::span<const glm::vec3> values) const {
   glUniform3fv(Location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values[0]));
 }
+void ShaderProgram::Set(const char* name, std::span<const glm::vec4> values) const {
+  glUniform4fv(Location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values[0]));
+}
 
 void ShaderProgram::BindUniformBlock(const char* name, uint32_t binding) const {
   glUniformBlockBinding(program_.id(), glGetUniformBlockIndex(program_.id(), name), binding);

@@ -33,6 +33,7 @@ class ShaderProgram {
   void Set(const char* name, const glm::vec4& value) const;
   void Set(const char* name, const glm::mat4& value) const;
   void Set(const char* name, std::span<const glm::vec3> values) const;
+  void Set(const char* name, std::span<const glm::vec4> values) const;
   void BindUniformBlock(const char* name, uint32_t binding) const;
 
  private:

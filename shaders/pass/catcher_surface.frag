@@ -1,0 +1,15 @@
+// Which way real surfaces face, and whether they receive shadows.
+
+uniform float receives;
+uniform vec3 eye_in_stage;
+
+in vec3 position_in_stage;
+
+layout(location = 0) out vec4 surface;
+
+void main() {
+  vec3 normal = normalize(cross(dFdx(position_in_stage), dFdy(position_in_stage)));
+  // Only the side that is seen matters, whichever way its triangles turn.
+  normal = dot(normal, eye_in_stage - position_in_stage) < 0.0 ? -normal : normal;
+  surface = vec4(0.5 * normal + 0.5, receives);
+}

@@ -1,0 +1,136 @@
+// How much of the sky's light real surfaces keep where people stand before it, for each
+// channel: the ratio of differential rendering (Debevec, SIGGRAPH 1998). The light is that
+// of cones about the normal; what a ball hides of a cone is the overlap of two caps (Oat &
+// Sander, "Ambient Aperture Lighting", I3D 2007), in cosines instead of angles.
+
+#include "catcher.glsl"
+
+const int kGroups = 6;  // of four cones each
+
+uniform vec4 cones[4 * kGroups];  // direction about cone_axis, cosine of half the opening
+uniform vec3 cone_axis;
+uniform sampler2D sky;  // radiance of cones, octahedral
+uniform float least_share;
+uniform int cluster_count;
+
+struct Cluster {
+  vec4 merged;  // centre, radius
+  vec4 extent;  // radius that holds all, first ball, end of balls
+};
+layout(std140) uniform Blockers {
+  Cluster clusters[128];
+  vec4 balls[512];
+};
+
+layout(location = 0) out vec4 ratio;  // alpha: depth, 0: nothing there
+
+// Four cones in each register.
+vec4 cone_x[kGroups];
+vec4 cone_y[kGroups];
+vec4 cone_z[kGroups];
+vec4 cone_cosine[kGroups];
+vec4 by_sine[kGroups];
+vec4 by_cap[kGroups];
+vec4 visible[kGroups];
+
+vec3 SkyRadiance(vec3 direction) {
+  vec3 d = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));
+  vec2 side = vec2(d.x < 0.0 ? -1.0 : 1.0, d.z < 0.0 ? -1.0 : 1.0);
+  vec2 at = d.y < 0.0 ? (1.0 - abs(d.zx)) * side : d.xz;
+  return textureLod(sky, 0.5 * at + 0.5, 0.0).rgb;
+}
+
+// Mirrors the cones onto a normal (Householder).
+void PlaceCones(vec3 normal) {
+  vec3 mirror = normal - cone_axis;
+  mirror *= inversesqrt(max(dot(mirror, mirror), 1e-8));
+  for (int i = 0; i < 4 * kGroups; ++i) {
+    int group = i / 4;
+    int lane = i - 4 * group;
+    vec3 direction = cones[i].xyz - 2.0 * dot(mirror, cones[i].xyz) * mirror;
+    cone_x[group][lane] = direction.x;
+    cone_y[group][lane] = direction.y;
+    cone_z[group][lane] = direction.z;
+    cone_cosine[group][lane] = cones[i].w;
+  }
+  for (int group = 0; group < kGroups; ++group) {
+    vec4 cosine = cone_cosine[group];
+    by_sine[group] = inversesqrt(1.0 - cosine * cosine);
+    by_cap[group] = 1.0 / (1.0 - cosine);
+    visible[group] = vec4(1.0);
+  }
+}
+
+// A ball about a place seen from the surface. Within it, what is hidden grows beyond half
+// of all directions, to all at the centre.
+void Hide(vec3 to_centre, float radius) {
+  float by_distance = inversesqrt(max(dot(to_centre, to_centre), 1e-12));
+  float apparent = radius * by_distance;
+  float fade = clamp((apparent * apparent - least_share) / least_share, 0.0, 1.0);
+  if (fade <= 0.0) {
+    return;
+  }
+  float sine = max(apparent < 1.0 ? apparent : 1.0 / apparent, 1e-3);
+  float cosine = sqrt(max(1.0 - sine * sine, 0.0)) * (apparent < 1.0 ? 1.0 : -1.0);
+  vec3 direction = to_centre * by_distance;
+  float cap = 1.0 - cosine;
+  for (int group = 0; group < kGroups; ++group) {
+    vec4 between =
+        cone_x[group] * direction.x + cone_y[group] * direction.y + cone_z[group] * direction.z;
+    // Grows from 0 to 1 while the caps go from touching to one within the other; a cubic
+    // where they are alike, steeper where they are not, so that over all directions it adds
+    // up to the smaller cap.
+    vec4 ratio_of_sines = sine * by_sine[group];
+    vec4 t = clamp((between - cosine * cone_cosine[group]) * (0.5 * by_sine[group] / sine) + 0.5,
+                   0.0, 1.0);
+    vec4 alike = min(ratio_of_sines, 1.0 / ratio_of_sines);
+    vec4 overlap = t * t * mix(3.0 - 2.0 * t, t, alike);
+    visible[group] *= 1.0 - fade * overlap * min(cap * by_cap[group], 1.0);
+  }
+}
+
+// A cluster that looks smaller than this is one ball.
+const float kMergedRadius = 0.3;
+
+void HideCluster(Cluster cluster, vec3 point) {
+  vec3 to_centre = cluster.merged.xyz - point;
+  float near = cluster.extent.x / kMergedRadius;
+  if (dot(to_centre, to_centre) > near * near) {
+    Hide(to_centre, cluster.merged.w);
+    return;
+  }
+  int end = int(cluster.extent.z);
+  for (int i = int(cluster.extent.y); i < end; ++i) {
+    Hide(balls[i].xyz - point, balls[i].w);
+  }
+}
+
+vec3 VisibleShare() {
+  vec3 all = vec3(0.0);
+  vec3 left = vec3(0.0);
+  for (int i = 0; i < 4 * kGroups; ++i) {
+    int group = i / 4;
+    int lane = i - 4 * group;
+    vec3 radiance =
+        SkyRadiance(vec3(cone_x[group][lane], cone_y[group][lane], cone_z[group][lane]));
+    all += radiance;
+    left += radiance * visible[group][lane];
+  }
+  return mix(vec3(1.0), left / max(all, 1e-12), greaterThan(all, vec3(1e-9)));
+}
+
+void main() {
+  ivec2 cell = CoarseSource(ivec2(gl_FragCoord.xy));
+  vec4 surface = texelFetch(surface_normal, cell, 0);
+  if (surface.a < 0.5) {
+    ratio = vec4(1.0, 1.0, 1.0, 0.0);
+    return;
+  }
+  float depth = SurfaceDepth(cell);
+  vec3 point = SurfacePoint(cell, depth);
+  PlaceCones(SurfaceNormal(surface));
+  for (int i = 0; i < cluster_count; ++i) {
+    HideCluster(clusters[i], point);
+  }
+  ratio = vec4(VisibleShare(), depth);
+}

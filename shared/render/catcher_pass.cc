@@ -1,0 +1,221 @@
+#include "shared/render/catcher_pass.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+#include "shared/render/sky_cones.h"
+
+namespace lararium::render {
+namespace {
+
+constexpr int kCoarse = 4;  // as shaders/include/catcher.glsl has it
+constexpr uint32_t kBlockerBinding = 1;
+
+void AllocateImage(
+    GlTexture& texture, GLint internal, const ImageSize& size, GLenum format, GLenum type) {
+  texture = GlTexture::Generate();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, internal, size.width, size.height, 0, format, type, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+Status CheckFramebuffer() {
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    return Status::Error("graphics", "the driver cannot draw shadows into images of this size",
+                         "try a smaller size, or update the driver");
+  }
+  return Status();
+}
+
+ImageSize Coarse(const ImageSize& size) {
+  return {(size.width + kCoarse - 1) / kCoarse, (size.height + kCoarse - 1) / kCoarse};
+}
+
+PixelBounds Coarse(const PixelBounds& b) {
+  return {b.left / kCoarse, b.bottom / kCoarse, (b.right + kCoarse - 1) / kCoarse,
+          (b.top + kCoarse - 1) / kCoarse};
+}
+
+void Limit(const PixelBounds& bounds) {
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(bounds.left, bounds.bottom, bounds.width(), bounds.height());
+}
+
+Box Transformed(const Box& box, const glm::mat4& to) {
+  Box moved;
+  for (int corner = 0; corner < 8; ++corner) {
+    moved.Extend(glm::vec3(to * glm::vec4((corner & 1) != 0 ? box.high.x : box.low.x,
+                                          (corner & 2) != 0 ? box.high.y : box.low.y,
+                                          (corner & 4) != 0 ? box.high.z : box.low.z, 1.0f)));
+  }
+  return moved;
+}
+
+Box Intersection(const Box& a, const Box& b) {
+  const Box both = {glm::max(a.low, b.low), glm::min(a.high, b.high)};
+  const bool meet =
+      both.low.x <= both.high.x && both.low.y <= both.high.y && both.low.z <= both.high.z;
+  return meet ? both : Box();
+}
+
+}  // namespace
+
+Result<CatcherPass> CatcherPass::Create() {
+  CatcherPass pass;
+  LARARIUM_ASSIGN_OR_RETURN(pass.surface_shaders_,
+                            ShaderProgram::Create("catcher_surface.vert", "catcher_surface.frag"));
+  LARARIUM_ASSIGN_OR_RETURN(pass.ratio_shaders_,
+                            ShaderProgram::Create("full_screen.vert", "sky_ratio.frag"));
+  pass.ratio_shaders_.BindUniformBlock("Blockers", kBlockerBinding);
+  pass.ratio_shaders_.Use();
+  pass.ratio_shaders_.Set("cones", SkyCones());
+  pass.ratio_shaders_.Set("cone_axis", SkyConeAxis());
+  pass.ratio_shaders_.Set("least_share", kLeastBlockedShare);
+  pass.no_vertices_ = GlVertexArray::Generate();
+  pass.blockers_ = GlBuffer::Generate();
+  glBindBuffer(GL_UNIFORM_BUFFER, pass.blockers_.id());
+  glBufferData(GL_UNIFORM_BUFFER, sizeof(BlockerBlock), nullptr, GL_STREAM_DRAW);
+  pass.UploadSky({});
+  return pass;
+}
+
+Status CatcherPass::Prepare(const ImageSize& size) {
+  if (size.width == size_.width && size.height == size_.height) {
+    return Status();
+  }
+  size_ = size;
+  AllocateImage(normal_, GL_RGB10_A2, size, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
+  AllocateImage(depth_, GL_DEPTH_COMPONENT24, size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
+  surface_framebuffer_ = GlFramebuffer::Generate();
+  glBindFramebuffer(GL_FRAMEBUFFER, surface_framebuffer_.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, normal_.id(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);
+  LARARIUM_RETURN_IF_ERROR(CheckFramebuffer());
+  AllocateImage(ratio_, GL_RGBA16F, Coarse(size), GL_RGBA, GL_HALF_FLOAT);
+  ratio_framebuffer_ = GlFramebuffer::Generate();
+  glBindFramebuffer(GL_FRAMEBUFFER, ratio_framebuffer_.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ratio_.id(), 0);
+  return CheckFramebuffer();
+}
+
+void CatcherPass::UploadSky(const light::ShRgb& light) {
+  if (sky_.id() != 0 && light == uploaded_light_) {
+    return;
+  }
+  if (sky_.id() == 0) {
+    AllocateImage(sky_, GL_RGBA16F, {kSkyMapSize, kSkyMapSize}, GL_RGBA, GL_FLOAT);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  }
+  uploaded_light_ = light;
+  FillSkyMap(light, sky_map_);
+  glBindTexture(GL_TEXTURE_2D, sky_.id());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSkyMapSize, kSkyMapSize, GL_RGBA, GL_FLOAT,
+                  sky_map_.data());
+}
+
+void CatcherPass::UploadBlockers() {
+  glBindBuffer(GL_UNIFORM_BUFFER, blockers_.id());
+  glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof(BlockerBlock), &clusters_.block());
+}
+
+PixelBounds CatcherPass::FindBounds(const RenderScene& scene,
+                                    const SlotMap<GpuMesh>& meshes,
+                                    const PictureView& view) const {
+  ScreenBounds bounds;
+  for (const SceneOccluder& occluder : scene.occluders) {
+    if (occluder.receives_shadow) {
+      const Box box = Transformed(meshes.Find(occluder.mesh)->box, occluder.stage_from_mesh);
+      bounds.Extend(Intersection(box, clusters_.reach()), view.clip_from_stage);
+    }
+  }
+  return bounds.Pixels(view.size.width, view.size.height);
+}
+
+void CatcherPass::DrawSurfaces(const RenderScene& scene,
+                               const SlotMap<GpuMesh>& meshes,
+                               const PictureView& view) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, surface_framebuffer_.id());
+  glViewport(0, 0, view.size.width, view.size.height);
+  Limit(bounds_);
+  glClearColor(0.5f, 0.5f, 0.5f, 0.0f);
+  glClearDepthf(1.0f);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  surface_shaders_.Use();
+  surface_shaders_.Set("clip_from_stage", view.clip_from_stage);
+  surface_shaders_.Set("eye_in_stage", view.eye_in_stage);
+  for (const SceneOccluder& occluder : scene.occluders) {
+    surface_shaders_.Set("stage_from_mesh", occluder.stage_from_mesh);
+    surface_shaders_.Set("receives", occluder.receives_shadow ? 1.0f : 0.0f);
+    meshes.Find(occluder.mesh)->Draw();
+  }
+  glDisable(GL_DEPTH_TEST);
+}
+
+void CatcherPass::BindSurfaces(const ShaderProgram& shaders,
+                               const PictureView& view,
+                               uint32_t first_unit) const {
+  glActiveTexture(GL_TEXTURE0 + first_unit);
+  glBindTexture(GL_TEXTURE_2D, normal_.id());
+  glActiveTexture(GL_TEXTURE0 + first_unit + 1);
+  glBindTexture(GL_TEXTURE_2D, depth_.id());
+  shaders.Set("surface_normal", static_cast<int>(first_unit));
+  shaders.Set("surface_depth", static_cast<int>(first_unit + 1));
+  shaders.Set("catcher_bounds",
+              glm::vec4(bounds_.left, bounds_.bottom, bounds_.right, bounds_.top));
+  shaders.Set("eye_in_stage", view.eye_in_stage);
+  shaders.Set("ray_at_corner", view.ray_at_corner);
+  shaders.Set("ray_per_column", view.ray_per_column);
+  shaders.Set("ray_per_row", view.ray_per_row);
+  shaders.Set("near_far", glm::vec2(view.near, view.far));
+}
+
+void CatcherPass::DrawRatio(const PictureView& view) const {
+  const ImageSize coarse = Coarse(view.size);
+  glBindFramebuffer(GL_FRAMEBUFFER, ratio_framebuffer_.id());
+  glViewport(0, 0, coarse.width, coarse.height);
+  Limit(Coarse(bounds_));
+  ratio_shaders_.Use();
+  BindSurfaces(ratio_shaders_, view, 0);
+  glActiveTexture(GL_TEXTURE2);
+  glBindTexture(GL_TEXTURE_2D, sky_.id());
+  ratio_shaders_.Set("sky", 2);
+  ratio_shaders_.Set("cluster_count", clusters_.cluster_count());
+  glBindBufferBase(GL_UNIFORM_BUFFER, kBlockerBinding, blockers_.id());
+  glBindVertexArray(no_vertices_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+Status CatcherPass::Draw(const RenderScene& scene,
+                         const SlotMap<GpuMesh>& meshes,
+                         const PictureView& view) {
+  clusters_.Build(scene.blockers);
+  bounds_ = FindBounds(scene, meshes, view);
+  if (bounds_.empty()) {
+    return Status();
+  }
+  LARARIUM_RETURN_IF_ERROR(Prepare(view.size));
+  UploadSky(scene.light);
+  UploadBlockers();
+  DrawSurfaces(scene, meshes, view);
+  DrawRatio(view);
+  return Status();
+}
+
+void CatcherPass::BindFor(const ShaderProgram& shaders,
+                          const PictureView& view,
+                          uint32_t first_unit) const {
+  BindSurfaces(shaders, view, first_unit);
+  glActiveTexture(GL_TEXTURE0 + first_unit + 2);
+  glBindTexture(GL_TEXTURE_2D, ratio_.id());
+  shaders.Set("sky_ratio", static_cast<int>(first_unit + 2));
+}
+
+}  // namespace lararium::render

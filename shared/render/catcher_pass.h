@@ -1,0 +1,70 @@
+#pragma once
+
+// Shadows of people and props on real surfaces: how much light those keep where somebody
+// stands before it. Private to render.
+//
+// The nearest real surfaces are drawn with normal and depth; the ratio of the sky's light
+// is worked out for every fourth pixel in both directions; the composite brings it to all
+// pixels, each from neighbours on its own plane.
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "shared/core/id.h"
+#include "shared/core/status.h"
+#include "shared/render/blocker_clusters.h"
+#include "shared/render/gl_object.h"
+#include "shared/render/gpu_mesh.h"
+#include "shared/render/picture_view.h"
+#include "shared/render/render_scene.h"
+#include "shared/render/screen_bounds.h"
+#include "shared/render/shader_program.h"
+
+namespace lararium::render {
+
+class CatcherPass {
+ public:
+  static Result<CatcherPass> Create();
+
+  // Fills the images within bounds(), which are empty where no shadow can be seen.
+  Status Draw(const RenderScene& scene, const SlotMap<GpuMesh>& meshes, const PictureView& view);
+  void Skip() { bounds_ = {}; }
+
+  const PixelBounds& bounds() const { return bounds_; }
+  // For shaders/include/catcher.glsl and the composite: three units from first on.
+  void BindFor(const ShaderProgram& shaders, const PictureView& view, uint32_t first_unit) const;
+
+ private:
+  Status Prepare(const ImageSize& size);
+  PixelBounds FindBounds(const RenderScene& scene,
+                         const SlotMap<GpuMesh>& meshes,
+                         const PictureView& view) const;
+  void DrawSurfaces(const RenderScene& scene,
+                    const SlotMap<GpuMesh>& meshes,
+                    const PictureView& view) const;
+  void DrawRatio(const PictureView& view) const;
+  void UploadSky(const light::ShRgb& light);
+  void UploadBlockers();
+  void BindSurfaces(const ShaderProgram& shaders,
+                    const PictureView& view,
+                    uint32_t first_unit) const;
+
+  ShaderProgram surface_shaders_;
+  ShaderProgram ratio_shaders_;
+  GlVertexArray no_vertices_;
+  GlBuffer blockers_;
+  GlTexture sky_;
+  ImageSize size_;
+  GlTexture normal_;
+  GlTexture depth_;
+  GlFramebuffer surface_framebuffer_;
+  GlTexture ratio_;
+  GlFramebuffer ratio_framebuffer_;
+  PixelBounds bounds_;
+  BlockerClusters clusters_;
+  light::ShRgb uploaded_light_ = {};
+  std::vector<glm::vec4> sky_map_;
+};
+
+}  // namespace lararium::render
