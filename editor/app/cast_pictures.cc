@@ -74,10 +74,11 @@ class CastPictures::Painter {
       LARARIUM_ASSIGN_OR_RETURN(studio_, Studio::Create());
     }
     seated_.clear();
-    LARARIUM_ASSIGN_OR_RETURN(const human::Human human, human::LoadHuman(file));
-    LARARIUM_RETURN_IF_ERROR(studio_->Seat(human, CalmPose(human)));
-    joints_ = human.skeleton.names;
-    parents_ = human.skeleton.parents;
+    LARARIUM_ASSIGN_OR_RETURN(human::Human loaded, human::LoadHuman(file));
+    const auto human = std::make_shared<const human::Human>(std::move(loaded));
+    LARARIUM_RETURN_IF_ERROR(studio_->Seat(human, CalmPose(*human)));
+    joints_ = human->skeleton.names;
+    parents_ = human->skeleton.parents;
     seated_ = key;
     return Status();
   }

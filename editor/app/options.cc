@@ -153,14 +153,18 @@ void AddPortrait(CLI::App& app, PortraitOptions& portrait, std::string& size) {
       ->check(CLI::ExistingFile);
   command->add_option("--out", portrait.out, "The picture (.png, .jpg)")->required();
   command->add_option("--view", portrait.view, "From where")
-      ->check(CLI::IsMember({"front", "side", "back", "face", "three-quarter"}))
+      ->check(CLI::IsMember({"front", "side", "back", "bust", "face", "three-quarter"}))
       ->capture_default_str();
   command->add_option("--shape", portrait.shapes, "NAME=weight of the face; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--clip", portrait.clip, "The clip to pose by; the rest pose otherwise");
+  CLI::Option* clip =
+      command->add_option("--clip", portrait.clip, "The clip to pose by; standing otherwise");
   command->add_option("--time", portrait.time, "Seconds into the clip")
       ->check(CLI::Range(0.0, 3600.0));
+  command->add_option("--walk", portrait.walk, "Seconds of walking, seen at their end")
+      ->check(CLI::Range(0.0, 60.0))
+      ->excludes(clip);
   command->add_option("--size", size, "WxH in pixels, of each person");
   command->add_flag("--sheet", portrait.sheet, "A contact sheet: all views, faces and shapes");
 }

@@ -96,10 +96,11 @@ struct RenderOptions {
 struct PortraitOptions {
   std::vector<std::filesystem::path> humans;  // .larhuman, at least one
   std::filesystem::path out;                  // .png or .jpg
-  std::string view = "front";                 // front, side, back, face, three-quarter
+  std::string view = "front";                 // front, side, back, bust, face, three-quarter
   std::vector<std::string> shapes;            // NAME or NAME=weight, of the face
-  std::string clip;                           // empty: the rest pose
+  std::string clip;                           // empty: standing about
   double time = 0.0;                          // seconds into the clip
+  double walk = 0.0;                          // seconds of walking; the picture shows their end
   int width = 720;                            // pixels, of each person
   int height = 1080;
   bool sheet = false;  // everyone from several sides, and each shape of the first face

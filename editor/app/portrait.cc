@@ -68,6 +68,7 @@ Result<StudioPose::Shape> ParseShape(const std::string& text, const human::Human
 Result<StudioPose> ParsePose(const PortraitOptions& options, const human::Human& human) {
   StudioPose pose;
   pose.time = options.time;
+  pose.walk = options.walk;
   if (!options.clip.empty()) {
     const std::optional<size_t> clip = FindByName(human.clips, options.clip);
     if (!clip) {
@@ -75,7 +76,7 @@ Result<StudioPose> ParsePose(const PortraitOptions& options, const human::Human&
                            Names(human.clips));
     }
     pose.clip = static_cast<int>(*clip);
-  } else if (options.sheet) {
+  } else if (options.walk == 0.0) {
     pose.clip = CalmPose(human).clip;
   }
   for (const std::string& text : options.shapes) {
@@ -121,69 +122,99 @@ class Sheet {
   int width_ = 0;
 };
 
-// Each person from head to foot and their face.
-Status AddPeople(const std::vector<human::Human>& people,
-                 const std::vector<StudioPose>& poses,
-                 Studio& studio,
-                 Sheet& sheet) {
+struct Sitter {
+  std::shared_ptr<const human::Human> human;
+  StudioPose pose;
+};
+
+// What a sheet shows of each person.
+struct SheetCell {
+  StudioView view;
+  cv::Size size;
+};
+
+std::vector<SheetCell> SheetCells() {
+  std::vector<SheetCell> cells;
   for (const char* name : kSheetViews) {
-    LARARIUM_ASSIGN_OR_RETURN(const StudioView view, ParseStudioView(name));
-    for (size_t i = 0; i < people.size(); ++i) {
-      LARARIUM_ASSIGN_OR_RETURN(cv::Mat picture,
-                                studio.Shoot(people[i], poses[i], view, kFigureCell));
-      Caption(people[i].name, picture);
-      sheet.Add(picture);
-    }
-    sheet.EndRow();
+    cells.push_back({*ParseStudioView(name), kFigureCell});
   }
   for (const float azimuth : {0.0f, 0.9f}) {
-    for (size_t i = 0; i < people.size(); ++i) {
-      const StudioView view = {.azimuth = azimuth, .frame = StudioFrame::kFace};
-      LARARIUM_ASSIGN_OR_RETURN(const cv::Mat picture,
-                                studio.Shoot(people[i], poses[i], view, kHeadCell));
-      sheet.Add(picture);
-    }
-    sheet.EndRow();
+    cells.push_back({{.azimuth = azimuth, .frame = StudioFrame::kFace}, kHeadCell});
   }
-  return Status();
+  return cells;
+}
+
+// A column of pictures.
+Result<cv::Mat> ShootColumn(const Sitter& sitter, Studio& studio) {
+  LARARIUM_RETURN_IF_ERROR(studio.Seat(sitter.human, sitter.pose));
+  std::vector<cv::Mat> pictures;
+  for (const SheetCell& cell : SheetCells()) {
+    LARARIUM_ASSIGN_OR_RETURN(StudioShot shot, studio.Shoot(cell.view, cell.size));
+    if (pictures.empty()) {
+      Caption(sitter.human->name, shot.picture);
+    }
+    pictures.push_back(shot.picture);
+  }
+  cv::Mat column;
+  cv::vconcat(pictures, column);
+  return column;
 }
 
 // One face at rest, and with each shape in turn.
-Status AddShapes(const human::Human& human, const StudioPose& pose, Studio& studio, Sheet& sheet) {
-  const StudioView view = {.frame = StudioFrame::kFace};
+Status AddShapes(const Sitter& sitter, Studio& studio, Sheet& sheet) {
+  LARARIUM_RETURN_IF_ERROR(studio.Seat(sitter.human, sitter.pose));
   int count = 0;
-  const auto add = [&](const StudioPose& shown, const std::string& caption) -> Status {
-    LARARIUM_ASSIGN_OR_RETURN(cv::Mat picture, studio.Shoot(human, shown, view, kShapeCell));
-    Caption(caption, picture);
-    sheet.Add(picture);
+  const auto add = [&](std::span<const StudioPose::Shape> shapes, const char* caption) -> Status {
+    studio.SetShapes(shapes);
+    LARARIUM_ASSIGN_OR_RETURN(StudioShot shot,
+                              studio.Shoot({.frame = StudioFrame::kFace}, kShapeCell));
+    Caption(caption, shot.picture);
+    sheet.Add(shot.picture);
     if (++count % kShapesPerRow == 0) {
       sheet.EndRow();
     }
     return Status();
   };
-  LARARIUM_RETURN_IF_ERROR(add(pose, "neutral"));
+  LARARIUM_RETURN_IF_ERROR(add(sitter.pose.shapes, "neutral"));
   for (const char* name : kSheetShapes) {
-    if (const std::optional<size_t> shape = FindByName(human.face, name)) {
-      StudioPose shown = pose;
-      shown.shapes.push_back({*shape, 1.0f});
-      LARARIUM_RETURN_IF_ERROR(add(shown, name));
+    if (const std::optional<size_t> shape = FindByName(sitter.human->face, name)) {
+      std::vector<StudioPose::Shape> shapes = sitter.pose.shapes;
+      shapes.push_back({*shape, 1.0f});
+      LARARIUM_RETURN_IF_ERROR(add(shapes, name));
     }
   }
   return Status();
 }
 
-Result<cv::Mat> ShootSheet(const std::vector<human::Human>& people,
-                           const std::vector<StudioPose>& poses,
-                           Studio& studio) {
+Result<cv::Mat> ShootSheet(std::span<const Sitter> sitters, Studio& studio) {
   Sheet sheet;
-  LARARIUM_RETURN_IF_ERROR(AddPeople(people, poses, studio, sheet));
-  for (size_t i = 0; i < people.size(); ++i) {
-    if (!people[i].face.empty()) {
-      LARARIUM_RETURN_IF_ERROR(AddShapes(people[i], poses[i], studio, sheet));
-      break;
-    }
+  for (const Sitter& sitter : sitters) {
+    LARARIUM_ASSIGN_OR_RETURN(const cv::Mat column, ShootColumn(sitter, studio));
+    sheet.Add(column);
+  }
+  sheet.EndRow();
+  const auto talker = std::find_if(sitters.begin(), sitters.end(), [](const Sitter& sitter) {
+    return !sitter.human->face.empty();
+  });
+  if (talker != sitters.end()) {
+    LARARIUM_RETURN_IF_ERROR(AddShapes(*talker, studio, sheet));
   }
   return sheet.Finish();
+}
+
+Result<cv::Mat> ShootSideBySide(std::span<const Sitter> sitters,
+                                const StudioView& view,
+                                cv::Size size,
+                                Studio& studio) {
+  std::vector<cv::Mat> pictures;
+  for (const Sitter& sitter : sitters) {
+    LARARIUM_RETURN_IF_ERROR(studio.Seat(sitter.human, sitter.pose));
+    LARARIUM_ASSIGN_OR_RETURN(const StudioShot shot, studio.Shoot(view, size));
+    pictures.push_back(shot.picture);
+  }
+  cv::Mat picture;
+  cv::hconcat(pictures, picture);
+  return picture;
 }
 
 Status WritePicture(const std::filesystem::path& file, const cv::Mat& picture) {
@@ -202,28 +233,20 @@ Status WritePicture(const std::filesystem::path& file, const cv::Mat& picture) {
 }  // namespace
 
 Result<CommandResult> RunPortrait(const PortraitOptions& options) {
-  std::vector<human::Human> people;
-  std::vector<StudioPose> poses;
+  std::vector<Sitter> sitters;
   for (const std::filesystem::path& file : options.humans) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::LoadHuman(file));
     LARARIUM_ASSIGN_OR_RETURN(StudioPose pose, ParsePose(options, human));
-    people.push_back(std::move(human));
-    poses.push_back(std::move(pose));
+    sitters.push_back({std::make_shared<const human::Human>(std::move(human)), std::move(pose)});
   }
   LARARIUM_ASSIGN_OR_RETURN(const StudioView view, ParseStudioView(options.view));
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<Studio> studio, Studio::Create());
   cv::Mat picture;
   if (options.sheet) {
-    LARARIUM_ASSIGN_OR_RETURN(picture, ShootSheet(people, poses, *studio));
+    LARARIUM_ASSIGN_OR_RETURN(picture, ShootSheet(sitters, *studio));
   } else {
-    std::vector<cv::Mat> pictures;
-    for (size_t i = 0; i < people.size(); ++i) {
-      LARARIUM_ASSIGN_OR_RETURN(
-          const cv::Mat shot,
-          studio->Shoot(people[i], poses[i], view, cv::Size(options.width, options.height)));
-      pictures.push_back(shot);
-    }
-    cv::hconcat(pictures, picture);
+    const cv::Size size(options.width, options.height);
+    LARARIUM_ASSIGN_OR_RETURN(picture, ShootSideBySide(sitters, view, size, *studio));
   }
   LARARIUM_RETURN_IF_ERROR(WritePicture(options.out, picture));
   return CommandResult{

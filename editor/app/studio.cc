@@ -9,8 +9,6 @@
 #include <utility>
 
 #include "shared/core/check.h"
-#include "shared/human/morph.h"
-#include "shared/human/skinning.h"
 #include "shared/light/spherical_harmonics.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/render_target.h"
@@ -22,63 +20,19 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr double kFieldOfView = 20.0 * std::numbers::pi / 180.0;  // a portrait lens
 constexpr float kMargin = 1.06f;                                  // around what is shown
 
-struct PosedPerson {
-  human::Human morphed;
-  std::optional<size_t> skull;  // joint
-  std::vector<glm::mat4> actor_from_joint;
-  std::vector<glm::mat4> skin;
-  std::vector<std::vector<glm::vec3>> positions;  // of each mesh, posed
+// What of a person decides what is looked at.
+struct Figure {
+  const human::Human& human;
+  std::span<const glm::mat4> actor_from_joint;
+  std::vector<std::vector<glm::vec3>> positions;  // of each mesh, as drawn
+  std::optional<size_t> skull;                    // joint
+
+  explicit Figure(const PosedPerson& person)
+      : human(person.human()),
+        actor_from_joint(person.actor_from_joint()),
+        positions(person.ComputePositions()),
+        skull(human.skeleton.Find("skullbase")) {}
 };
-
-std::vector<float> MorphWeights(const human::Human& human, const StudioPose& pose) {
-  std::vector<float> weights(human.morphs.size(), 0.0f);
-  for (const StudioPose::Shape& shape : pose.shapes) {
-    for (const human::FaceShape::Morph& morph : human.face[shape.shape].morphs) {
-      weights[morph.morph] += shape.weight * morph.weight;
-    }
-  }
-  return weights;
-}
-
-void ApplyMorphs(const human::Human& human, std::span<const float> weights, human::Human& morphed) {
-  for (const human::MeshMorphs& morphs : human::FindMeshMorphs(human)) {
-    human::SkinnedMesh& mesh = morphed.meshes[morphs.mesh];
-    human::MorphJob{human.meshes[morphs.mesh], morphs, weights, mesh.positions, mesh.normals}.Run();
-  }
-}
-
-std::vector<human::JointTransform> PoseJoints(const human::Human& human, const StudioPose& pose) {
-  std::vector<human::JointTransform> joints = human.skeleton.rest;
-  if (pose.clip >= 0) {
-    human::SampleClip(human.clips[static_cast<size_t>(pose.clip)], pose.time, joints);
-  }
-  for (const StudioPose::Shape& shape : pose.shapes) {
-    for (const human::FaceShape::Turn& turn : human.face[shape.shape].turns) {
-      glm::quat& rotation = joints[turn.joint].rotation;
-      const glm::quat none(1.0f, 0.0f, 0.0f, 0.0f);
-      rotation = rotation * glm::slerp(none, turn.rotation, shape.weight);
-    }
-  }
-  return joints;
-}
-
-PosedPerson PosePerson(const human::Human& human, const StudioPose& pose) {
-  PosedPerson person;
-  person.morphed = human;
-  person.skull = human.skeleton.Find("skullbase");
-  ApplyMorphs(human, MorphWeights(human, pose), person.morphed);
-  const std::vector<human::JointTransform> joints = PoseJoints(human, pose);
-  person.actor_from_joint.resize(human.skeleton.size());
-  person.skin.resize(human.skeleton.size());
-  human::ComputeActorFromJoint(human.skeleton, joints, person.actor_from_joint);
-  human::ComputeSkinMatrices(human.skeleton, person.actor_from_joint, person.skin);
-  for (const human::SkinnedMesh& mesh : person.morphed.meshes) {
-    person.positions.emplace_back(mesh.positions.size());
-    std::vector<glm::vec3> normals(mesh.positions.size());
-    human::SkinMesh(mesh, person.skin, person.positions.back(), normals, human.skinning);
-  }
-  return person;
-}
 
 // What the picture must hold, actor frame, metres.
 struct Subject {
@@ -88,13 +42,13 @@ struct Subject {
 };
 
 // All that is drawn of a person, about the person's own axis.
-Subject WholeFigure(const PosedPerson& person, float azimuth) {
+Subject WholeFigure(const Figure& person, float azimuth) {
   const glm::vec3 right(std::cos(azimuth), 0.0f, -std::sin(azimuth));
   float bottom = 1e9f;
   float top = -1e9f;
   float width = 0.0f;
   for (size_t i = 0; i < person.positions.size(); ++i) {
-    for (const uint32_t vertex : person.morphed.meshes[i].indices) {
+    for (const uint32_t vertex : person.human.meshes[i].indices) {
       const glm::vec3& position = person.positions[i][vertex];
       bottom = std::min(bottom, position.y);
       top = std::max(top, position.y);
@@ -116,7 +70,7 @@ std::vector<bool> HeadJoints(const human::Skeleton& skeleton, size_t skull) {
 }
 
 // From a little below the chin to above the crown, around the head's joint.
-Subject Head(const PosedPerson& person, float azimuth) {
+Subject Head(const Figure& person, float azimuth) {
   const Subject whole = WholeFigure(person, azimuth);
   if (!person.skull) {
     const float top = whole.centre.y + whole.half_height;
@@ -124,13 +78,13 @@ Subject Head(const PosedPerson& person, float azimuth) {
     return {{whole.centre.x, top - half, whole.centre.z}, half, half};
   }
   const glm::vec3 base = person.actor_from_joint[*person.skull][3];
-  const std::vector<bool> head = HeadJoints(person.morphed.skeleton, *person.skull);
+  const std::vector<bool> head = HeadJoints(person.human.skeleton, *person.skull);
   glm::vec3 sum(0.0f);
   float count = 0.0f;
   float top = base.y;
   for (size_t mesh = 0; mesh < person.positions.size(); ++mesh) {
     for (size_t v = 0; v < person.positions[mesh].size(); ++v) {
-      if (head[person.morphed.meshes[mesh].joints[v][0]]) {
+      if (head[person.human.meshes[mesh].joints[v][0]]) {
         sum += person.positions[mesh][v];
         count += 1.0f;
         top = std::max(top, person.positions[mesh][v].y);
@@ -147,7 +101,7 @@ Subject Head(const PosedPerson& person, float azimuth) {
 }
 
 // The head with neck and shoulders below it; of what has no head, all there is.
-Subject Bust(const PosedPerson& person, float azimuth) {
+Subject Bust(const Figure& person, float azimuth) {
   if (!person.skull) {
     return WholeFigure(person, azimuth);
   }
@@ -158,7 +112,7 @@ Subject Bust(const PosedPerson& person, float azimuth) {
   return bust;
 }
 
-Subject Choose(StudioFrame frame, const PosedPerson& person, float azimuth) {
+Subject Choose(StudioFrame frame, const Figure& person, float azimuth) {
   switch (frame) {
     case StudioFrame::kBust:
       return Bust(person, azimuth);
@@ -281,16 +235,19 @@ Studio::Studio(render::OffscreenContext context, std::unique_ptr<render::Rendere
 
 Studio::~Studio() = default;
 
-Status Studio::Seat(const human::Human& human, const StudioPose& pose) {
+Status Studio::Seat(std::shared_ptr<const human::Human> human, const StudioPose& pose) {
   if (sitter_ != nullptr) {
     renderer_->RemoveModel(sitter_->model);
     sitter_ = nullptr;
   }
-  auto sitter = std::make_unique<Sitter>();
-  sitter->person = PosePerson(human, pose);
-  LARARIUM_ASSIGN_OR_RETURN(sitter->model, renderer_->AddHuman(sitter->person.morphed));
-  sitter_ = std::move(sitter);
+  LARARIUM_ASSIGN_OR_RETURN(const render::ModelHandle model, renderer_->AddHuman(*human));
+  sitter_ = std::make_unique<Sitter>(Sitter{PosedPerson(std::move(human), pose), model});
   return Status();
+}
+
+void Studio::SetShapes(std::span<const StudioPose::Shape> shapes) {
+  CHECK(sitter_ != nullptr);
+  sitter_->person.SetShapes(shapes);
 }
 
 Result<StudioShot> Studio::Shoot(const StudioView& view, cv::Size size) {
@@ -300,34 +257,26 @@ Result<StudioShot> Studio::Shoot(const StudioView& view, cv::Size size) {
                             render::RenderTarget::Create(size.width, size.height));
   render::SceneHuman shown;
   shown.human = sitter_->model;
-  shown.skin = person.skin;
+  shown.skin = person.skin();
+  shown.vertices = person.vertices();
   render::RenderScene scene;
   scene.background = Backdrop(size);
   scene.camera = scene.display = Lens(size);
   const geometry::Rigid3 camera_from_actor =
-      PlaceCamera(Choose(view.frame, person, view.azimuth), view, size);
+      PlaceCamera(Choose(view.frame, Figure(person), view.azimuth), view, size);
   scene.camera_from_stage = camera_from_actor;
   scene.humans = {&shown, 1};
   scene.light = StudioLight(view.azimuth);
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
   StudioShot shot;
   target.ReadPixels(shot.picture);
-  for (const glm::mat4& joint : person.actor_from_joint) {
+  for (const glm::mat4& joint : person.actor_from_joint()) {
     const Eigen::Vector3d at =
         camera_from_actor * Eigen::Vector3d(joint[3].x, joint[3].y, joint[3].z);
     const std::optional<Eigen::Vector2d> pixel = scene.display.Project(at);
     shot.joints.push_back(pixel ? glm::vec2(pixel->x(), pixel->y()) : glm::vec2(-1e6f));
   }
   return shot;
-}
-
-Result<cv::Mat> Studio::Shoot(const human::Human& human,
-                              const StudioPose& pose,
-                              const StudioView& view,
-                              cv::Size size) {
-  LARARIUM_RETURN_IF_ERROR(Seat(human, pose));
-  LARARIUM_ASSIGN_OR_RETURN(StudioShot shot, Shoot(view, size));
-  return std::move(shot.picture);
 }
 
 }  // namespace lararium::app

@@ -5,10 +5,12 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "editor/app/posed_person.h"
 #include "shared/core/status.h"
 #include "shared/human/human.h"
 #include "shared/render/graphics_context.h"
@@ -35,18 +37,7 @@ struct StudioView {
 // front, side, back, bust, face, three-quarter.
 Result<StudioView> ParseStudioView(std::string_view name);
 
-// A person as they are to be shown. Shapes are given by index into Human::face.
-struct StudioPose {
-  struct Shape {
-    size_t shape = 0;
-    float weight = 1.0f;
-  };
-  int clip = -1;  // index into Human::clips; none: the rest pose
-  double time = 0.0;
-  std::vector<Shape> shapes;
-};
-
-// As people stand about: at the beginning of their clip "idle" or "stand", at rest without.
+// As people stand about: at the beginning of their clip "idle" or "stand", by themselves without.
 StudioPose CalmPose(const human::Human& human);
 
 struct StudioShot {
@@ -60,18 +51,15 @@ class Studio {
   static Result<std::unique_ptr<Studio>> Create();
   ~Studio();
 
-  // A person takes their place and strikes a pose; whoever sat there leaves. The person
-  // must be valid (Human::Validate).
-  Status Seat(const human::Human& human, const StudioPose& pose);
+  // A person takes their place and strikes a pose (PosedPerson); whoever sat there leaves.
+  // The person must be valid (Human::Validate).
+  Status Seat(std::shared_ptr<const human::Human> human, const StudioPose& pose);
 
-  // Whoever sits there. Somebody must.
+  // Whoever sits there makes another face. Somebody must sit there.
+  void SetShapes(std::span<const StudioPose::Shape> shapes);
+
+  // Likewise.
   Result<StudioShot> Shoot(const StudioView& view, cv::Size size);
-
-  // One picture of one person. bgr, 8 bits.
-  Result<cv::Mat> Shoot(const human::Human& human,
-                        const StudioPose& pose,
-                        const StudioView& view,
-                        cv::Size size);
 
  private:
   struct Sitter;

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Part of every key: raise it when the same person gives another picture.
-constexpr std::string_view kVersion = "thumbnail 1 ";
+constexpr std::string_view kVersion = "thumbnail 2 ";
 constexpr size_t kMaxKeyBytes = 1024;
 constexpr size_t kMaxPictureBytes = size_t{1} << 20;
 
@@ -81,7 +81,8 @@ Status LeaveThumbnail(const fs::path& file, const human::Human& human) {
     return Status();
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<Studio> studio, Studio::Create());
-  LARARIUM_RETURN_IF_ERROR(studio->Seat(human, CalmPose(human)));
+  LARARIUM_RETURN_IF_ERROR(
+      studio->Seat(std::make_shared<const human::Human>(human), CalmPose(human)));
   return MakeThumbnail(file, *studio).status();
 }
 
