@@ -7,7 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include "editor/bake/probe.h"
+#include "editor/bake/sun_split.h"
+#include "editor/bake/transfer.h"
 #include "editor/import/cast_builder.h"
 #include "editor/import/cast_library.h"
 #include "editor/import/clip_import.h"
@@ -91,6 +92,49 @@ std::vector<std::byte> BytesOf(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
+std::string FormatLight(const light::ProbeLight& light) {
+  const auto triple = [](const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); };
+  Json json = {{"radiance", Json::array()}};
+  for (const glm::vec3& coefficient : light.sky) {
+    json["radiance"].push_back(triple(coefficient));
+  }
+  if (light.sun) {
+    json["sun"] = {{"direction", triple(light.sun->direction)},
+                   {"irradiance", triple(light.sun->irradiance)},
+                   {"angular_radius", light.sun->angular_radius}};
+  }
+  return json.dump(1) + "\n";
+}
+
+Result<glm::vec3> ParseTriple(const JsonView& view, std::string_view key) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> v, view.Numbers(key, 3));
+  return glm::vec3(v[0], v[1], v[2]);
+}
+
+// Our own product, which may be old: then it has no sun, or fewer coefficients.
+Result<light::ProbeLight> ParseLight(const JsonView& view) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("radiance"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(light::kShCount));
+  if (list.size() != light::kShCount && list.size() != light::kPlainShCount) {
+    return field.Problem("must have 36 coefficients, or 9 if it is old", "bake the project again");
+  }
+  light::ProbeLight light;
+  for (size_t i = 0; i < list.size(); ++i) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> rgb, list[i].Numbers(3));
+    light.sky[i] = glm::vec3(rgb[0], rgb[1], rgb[2]);
+  }
+  if (view.Has("sun")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView sun, view.Field("sun"));
+    light.sun.emplace();
+    LARARIUM_ASSIGN_OR_RETURN(light.sun->direction, ParseTriple(sun, "direction"));
+    LARARIUM_ASSIGN_OR_RETURN(light.sun->irradiance, ParseTriple(sun, "irradiance"));
+    LARARIUM_ASSIGN_OR_RETURN(const double radius,
+                              sun.Number("angular_radius", 0.0, light::kMaxSunRadius));
+    light.sun->angular_radius = static_cast<float>(radius);
+  }
+  return light;
+}
+
 Result<std::vector<std::byte>> MakeLight(const std::filesystem::path& file,
                                          const ProbeDocument& probe,
                                          std::vector<std::string>& warnings) {
@@ -98,24 +142,20 @@ Result<std::vector<std::byte>> MakeLight(const std::filesystem::path& file,
   for (const std::string& warning : image.warnings) {
     warnings.push_back(file.string() + ": " + warning);
   }
-  const light::ShRgb light = bake::ProjectProbe(
-      image, {geometry::ToGlm(probe.stage_from_probe), static_cast<float>(probe.scale)});
-  Json coefficients = Json::array();
-  for (const glm::vec3& c : light) {
-    coefficients.push_back(Json::array({c.x, c.y, c.z}));
-  }
-  return BytesOf(Json{{"radiance", coefficients}}.dump(1) + "\n");
+  return BytesOf(FormatLight(bake::ProjectProbeLight(
+      image, {geometry::ToGlm(probe.stage_from_probe), static_cast<float>(probe.scale)})));
 }
 
 BakeStep LightStep(const ProjectPaths& paths, const PlaceDocument& place) {
   const ProbeDocument probe = *place.probe;
   const std::filesystem::path file = paths.Resolve(probe.file);
   const Eigen::Vector4d q = probe.stage_from_probe.coeffs();
-  return {"light of " + place.name,
-          LightFile(paths, place),
-          {file},
-          Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale, light::kShCount}).dump(),
-          [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); }};
+  return {
+      "light of " + place.name,
+      LightFile(paths, place),
+      {file},
+      Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale, light::kShCount, "sun apart"}).dump(),
+      [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); }};
 }
 
 BakeStep MeshStep(const ProjectPaths& paths,
@@ -311,11 +351,11 @@ Status NotBaked(const std::filesystem::path& product) {
 }
 
 // What a place without a probe is lit by: the same white from everywhere.
-light::ShRgb EvenLight() {
+light::ProbeLight EvenLight() {
   constexpr float kRadiance = 0.5f;
-  light::ShRgb light = {};
+  light::ProbeLight light;
   const float y00 = light::EvaluateShBasis(glm::vec3(0.0f, 1.0f, 0.0f))[0];
-  light[0] = glm::vec3(kRadiance / y00);
+  light.sky[0] = glm::vec3(kRadiance / y00);
   return light;
 }
 
@@ -361,7 +401,7 @@ Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& me
   return LoadBakedHuman(paths, member);
 }
 
-Result<light::ShRgb> LoadBakedLight(const ProjectPaths& paths, const PlaceDocument& place) {
+Result<light::ProbeLight> LoadBakedLight(const ProjectPaths& paths, const PlaceDocument& place) {
   if (!place.probe) {
     return EvenLight();
   }
@@ -370,17 +410,7 @@ Result<light::ShRgb> LoadBakedLight(const ProjectPaths& paths, const PlaceDocume
     return NotBaked(file);
   }
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, JsonView(json, file.string()).Field("radiance"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(light::kShCount));
-  if (list.size() != light::kShCount && list.size() != light::kPlainShCount) {
-    return field.Problem("must have 36 coefficients, or 9 if it is old", "bake the project again");
-  }
-  light::ShRgb light = {};
-  for (size_t i = 0; i < list.size(); ++i) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> rgb, list[i].Numbers(3));
-    light[i] = glm::vec3(rgb[0], rgb[1], rgb[2]);
-  }
-  return light;
+  return ParseLight(JsonView(json, file.string()));
 }
 
 Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <set>
 
@@ -19,6 +20,7 @@ constexpr size_t kMaxCast = 256;
 constexpr size_t kMaxObjects = 1024;
 constexpr size_t kMaxSpeech = 4096;
 constexpr size_t kMaxOccluders = 256;
+constexpr double kMaxIrradiance = 1e6;
 constexpr size_t kMaxCredits = 1 << 20;
 
 // The field key of a list, element by element through parse.
@@ -81,6 +83,33 @@ Json FormatSimilarity(const geometry::Similarity3& a_from_b) {
           {"translation", {t.x(), t.y(), t.z()}}};
 }
 
+Result<light::Sun> ParseSun(const JsonView& json) {
+  light::Sun sun;
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> direction, json.Numbers("direction", 3));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> irradiance, json.Numbers("irradiance", 3));
+  LARARIUM_ASSIGN_OR_RETURN(const double radius,
+                            json.Number("angular_radius", 0.0, light::kMaxSunRadius));
+  const glm::dvec3 towards(direction[0], direction[1], direction[2]);
+  if (!(std::abs(glm::length(towards) - 1.0) < 1e-3)) {
+    return json.Problem("the direction of the sun is not a unit vector");
+  }
+  for (const double channel : irradiance) {
+    if (!(channel >= 0.0 && channel < kMaxIrradiance)) {
+      return json.Problem("the irradiance of the sun must be between 0 and a million");
+    }
+  }
+  sun.direction = glm::vec3(towards);
+  sun.irradiance = {irradiance[0], irradiance[1], irradiance[2]};
+  sun.angular_radius = static_cast<float>(radius);
+  return sun;
+}
+
+Json FormatSun(const light::Sun& sun) {
+  return {{"direction", {sun.direction.x, sun.direction.y, sun.direction.z}},
+          {"irradiance", {sun.irradiance.r, sun.irradiance.g, sun.irradiance.b}},
+          {"angular_radius", sun.angular_radius}};
+}
+
 Result<light::ShRgb> ParseLight(const JsonView& json) {
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("light"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(3 * light::kShCount));
@@ -127,7 +156,11 @@ Result<PlaceEntry> ParsePlace(const JsonView& json) {
   place.camera_nudge = {nudge[0], nudge[1], nudge[2]};
   LARARIUM_ASSIGN_OR_RETURN(place.occluders,
                             ParseList(json, "occluders", kMaxOccluders, ParseOccluder));
-  LARARIUM_ASSIGN_OR_RETURN(place.light, ParseLight(json));
+  LARARIUM_ASSIGN_OR_RETURN(place.light.sky, ParseLight(json));
+  if (json.Has("sun")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView sun, json.Field("sun"));
+    LARARIUM_ASSIGN_OR_RETURN(place.light.sun, ParseSun(sun));
+  }
   return place;
 }
 
@@ -252,7 +285,10 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
                               {"map_from_stage", FormatSimilarity(place.map_from_stage)},
                               {"camera_nudge", {nudge.x(), nudge.y(), nudge.z()}},
                               {"occluders", std::move(occluders)},
-                              {"light", FormatLight(place.light)}});
+                              {"light", FormatLight(place.light.sky)}});
+    if (place.light.sun) {
+      json["places"].back()["sun"] = FormatSun(*place.light.sun);
+    }
   }
   for (const CastEntry& cast : manifest.cast) {
     json["cast"].push_back({{"name", cast.name}, {"human", cast.human}});

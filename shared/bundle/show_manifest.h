@@ -11,7 +11,7 @@
 #include "shared/bundle/sha256.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
-#include "shared/light/spherical_harmonics.h"
+#include "shared/light/probe_light.h"
 
 namespace lararium::bundle {
 
@@ -34,7 +34,7 @@ struct PlaceEntry {
   geometry::Similarity3 map_from_stage;
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres along camera axes
   std::vector<OccluderEntry> occluders;
-  light::ShRgb light = {};  // radiance, stage axes
+  light::ProbeLight light;  // stage axes
 };
 
 struct CastEntry {

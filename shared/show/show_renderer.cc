@@ -115,7 +115,7 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.occluders = place.occluders;
   scene.humans = humans_;
   scene.props = props_;
-  scene.light = place.light;
+  scene.light = place.light.Whole();
   scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
   return renderer_->Draw(scene, target);
 }

@@ -30,7 +30,7 @@ class ShowRenderer {
  private:
   struct PlaceScene {
     std::vector<render::SceneOccluder> occluders;
-    light::ShRgb light = {};
+    light::ProbeLight light;
   };
 
   explicit ShowRenderer(std::unique_ptr<render::Renderer> renderer)

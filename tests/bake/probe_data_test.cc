@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <numbers>
 
 #include "editor/bake/probe.h"
+#include "editor/bake/sun_split.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::bake {
@@ -77,6 +79,37 @@ TEST(LightingProbes, AreRead) {
     EXPECT_EQ(image->width, 512);
     EXPECT_TRUE(image->warnings.empty());
   }
+}
+
+// What is found at the brightest place, for the record of the tests.
+SplitProbe Found(const std::filesystem::path& file) {
+  const auto image = ReadProbeImage(file);
+  EXPECT_TRUE(image.ok()) << image.message();
+  SplitProbe split = SplitSun(*image);
+  const light::Sun& b = split.brightest;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::printf(
+      "%s: %s; azimuth %.1f, elevation %.1f, radius %.2f degrees, irradiance %.3f %.3f "
+      "%.3f, %.1f %% of what falls on a surface facing it\n",
+      file.filename().c_str(), split.sun ? "a sun" : "no sun",
+      std::atan2(b.direction.x, -b.direction.z) * kDegrees, std::asin(b.direction.y) * kDegrees,
+      b.angular_radius * kDegrees, b.irradiance.r, b.irradiance.g, b.irradiance.b,
+      100.0 * split.share);
+  return split;
+}
+
+TEST(MaquetteProbe, ItsSunIsSplitOffAsItsNotesSay) {
+  LARARIUM_REQUIRE_DATA(folder, "maquette");
+  const SplitProbe split = Found(folder / "probe.exr");
+  ASSERT_TRUE(split.sun);
+  EXPECT_LT(glm::distance(split.sun->direction, glm::vec3(-0.502f, 0.602f, 0.622f)), 0.01f);
+  EXPECT_LT(glm::distance(split.sun->irradiance, glm::vec3(5.92f, 5.39f, 4.62f)), 0.12f);
+}
+
+TEST(LightingProbes, HoldNoSunWorthAShadow) {
+  LARARIUM_REQUIRE_DATA(folder, "lighting");
+  EXPECT_FALSE(Found(folder / "courtyard.exr").sun);  // a wide bright opening
+  EXPECT_FALSE(Found(folder / "sunset.exr").sun);     // clipped when it was photographed
 }
 
 }  // namespace

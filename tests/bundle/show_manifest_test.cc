@@ -31,7 +31,11 @@ TEST(ShowManifest, RoundTrips) {
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   EXPECT_EQ(FormatShowManifest(*parsed), text);
   EXPECT_EQ(parsed->title, manifest.title);
-  EXPECT_EQ(parsed->places[0].light, manifest.places[0].light);
+  EXPECT_EQ(parsed->places[0].light.sky, manifest.places[0].light.sky);
+  ASSERT_TRUE(parsed->places[0].light.sun);
+  EXPECT_EQ(parsed->places[0].light.sun->direction, manifest.places[0].light.sun->direction);
+  EXPECT_EQ(parsed->places[0].light.sun->irradiance, manifest.places[0].light.sun->irradiance);
+  EXPECT_EQ(parsed->places[0].light.sun->angular_radius, 0.005f);
   EXPECT_EQ(parsed->places[0].map_from_stage.scale, 0.37);
   EXPECT_EQ(parsed->places[0].map_from_stage.rotation.coeffs(),
             manifest.places[0].map_from_stage.rotation.coeffs());
@@ -39,6 +43,14 @@ TEST(ShowManifest, RoundTrips) {
   EXPECT_EQ(parsed->places[0].occluders[0].mesh, "places/0/occluder0.larmesh");
   EXPECT_EQ(parsed->cast[0].human, "cast/0.larhuman");
   EXPECT_EQ(parsed->members[3].size, 4u);
+}
+
+TEST(ShowManifest, OlderBundlesHaveNoSun) {
+  Json json = Json::parse(FormatShowManifest(Listed()));
+  json["places"][0].erase("sun");
+  const auto parsed = Parse(json);
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_FALSE(parsed->places[0].light.sun);
 }
 
 TEST(ShowManifest, OldLightOfNineCoefficientsKeepsThemAndHasNoMore) {
@@ -50,9 +62,9 @@ TEST(ShowManifest, OldLightOfNineCoefficientsKeepsThemAndHasNoMore) {
   }
   const auto parsed = Parse(json);
   ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_EQ(parsed->places[0].light[8], glm::vec3(24.0f, 25.0f, 26.0f));
+  EXPECT_EQ(parsed->places[0].light.sky[8], glm::vec3(24.0f, 25.0f, 26.0f));
   for (size_t k = 9; k < light::kShCount; ++k) {
-    EXPECT_EQ(parsed->places[0].light[k], glm::vec3(0.0f));
+    EXPECT_EQ(parsed->places[0].light.sky[k], glm::vec3(0.0f));
   }
 }
 
@@ -132,6 +144,9 @@ TEST(ShowManifest, RefusesWhatCannotBe) {
       {"/places/0/map_from_stage/rotation", {1, 1, 0, 0}, "unit quaternion"},
       {"/places/0/light/4", 1e300, "too large"},
       {"/places/0/light", Json::array({1}), "108 numbers"},
+      {"/places/0/sun/direction", {1, 1, 0}, "unit vector"},
+      {"/places/0/sun/irradiance", {1, -1, 0}, "irradiance of the sun"},
+      {"/places/0/sun/angular_radius", 0.2, "angular_radius"},
       {"/places/0/scene", "../x", "member name"},
       {"/places/0/scene", "other", "not listed"},
       {"/places", Json::array(), "no place"},

@@ -30,7 +30,7 @@ uint8_t SrgbFromLinear(double c) {
 // whichever side.
 stage::Place UniformPlace(const glm::vec3& radiance) {
   stage::Place place;
-  place.light[0] = radiance * 2.0f * std::sqrt(std::numbers::pi_v<float>);
+  place.light.sky[0] = radiance * 2.0f * std::sqrt(std::numbers::pi_v<float>);
   return place;
 }
 
