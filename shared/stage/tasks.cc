@@ -18,10 +18,10 @@ namespace {
 constexpr float kWaitBeforeLine = 0.4f;  // seconds
 constexpr float kLineStep = 0.35f;       // metres: who stands this near stands in line
 constexpr float kBehindPlaces = 0.9f;    // metres, of the default queue
-constexpr float kReachNearest = 0.42f;   // metres from what hands reach for
-constexpr float kReachFurthest = 0.75f;
-constexpr float kTwistAllowed = 0.5f;  // radians that hands may twist
-constexpr float kGiveNearest = 0.75f;  // metres between two people
+constexpr float kReachNearest = 0.42f;   // metres from what hands reach for, of 1.7 m people
+constexpr float kReachFurthest = 0.85f;  // leaning over a counter
+constexpr float kTwistAllowed = 0.5f;    // radians that hands may twist
+constexpr float kGiveNearest = 0.75f;    // metres between two people
 constexpr float kGiveFurthest = 1.05f;
 constexpr float kBeforeSeat = 0.8f;     // radians aside, of who gives to somebody who sits
 constexpr float kMakeWayWithin = 0.5f;  // metres
@@ -521,14 +521,20 @@ bool Tasks::ApproachNear(Task& task, const glm::vec3& point, std::optional<float
   const Actor& actor = world_.actor(task.actor);
   const glm::vec2 on_floor = OnFloor(point);
   const float distance = glm::distance(actor.place(), on_floor);
+  const float scale = ScaledTo(actor, {{1.0f, 0.0f, 0.0f}}).position.x;
+  StandWish wish = {on_floor, scale * kReachNearest, scale * kReachFurthest, facing};
   std::optional<glm::vec2> stand;
   const bool is_well_turned =
       !facing ||
       std::abs(TurnBetween(*facing, HeadingOf(on_floor - actor.place()))) < kTwistAllowed;
-  if (distance >= 0.8f * kReachNearest && distance <= kReachFurthest && is_well_turned) {
+  if (distance >= 0.8f * wish.nearest && distance <= wish.furthest && is_well_turned) {
     stand = actor.place();  // in reach from here
   } else {
-    stand = FindStand(world_, task.actor, on_floor, kReachNearest, kReachFurthest, facing);
+    stand = FindStand(world_, task.actor, wish);
+  }
+  if (!stand) {
+    wish.among_others = true;  // they make way, or go on
+    stand = FindStand(world_, task.actor, wish);
   }
   if (!stand) {
     Fail(task, Quoted(actor.name) + " cannot get near enough to " +
@@ -780,7 +786,7 @@ bool Tasks::GrantGive(Task& task) {
   if (distance >= 0.8f * kGiveNearest && distance <= kGiveFurthest && is_before) {
     stand = actor.place();
   } else {
-    stand = FindStand(world_, task.actor, to, kGiveNearest, kGiveFurthest, facing);
+    stand = FindStand(world_, task.actor, {to, kGiveNearest, kGiveFurthest, facing});
   }
   if (!stand) {
     Fail(task, what() + ", who is out of reach");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 namespace lararium::stage {
@@ -122,6 +123,19 @@ WalkResult AdvanceDock(Actor& actor, float seconds) {
     walk.pace = 0.0f;
   }
   return WalkResult::kGoing;
+}
+
+// Where one stands who steps as close to something as one does to reach over it, not
+// only as one walks past it; none: too far from where people walk.
+std::optional<glm::vec2> CloseTo(const Navigation& navigation, glm::vec2 place) {
+  constexpr float kCloser = 0.12f;  // metres off the mesh
+  constexpr float kPulled = 0.2f;   // likewise, of places that are moved towards it
+  const auto on_mesh = navigation.Nearest(place, kCloser + kPulled);
+  if (!on_mesh) {
+    return std::nullopt;
+  }
+  const float off = glm::distance(*on_mesh, place);
+  return off <= kCloser ? place : *on_mesh + kCloser / off * (place - *on_mesh);
 }
 
 ActorId IdOf(const World& world, const Actor& actor) {
@@ -266,51 +280,49 @@ bool IsFree(const World& world, ActorId except, glm::vec2 place, float within) {
   });
 }
 
-std::optional<glm::vec2> FindStand(const World& world,
-                                   ActorId actor,
-                                   glm::vec2 point,
-                                   float nearest,
-                                   float furthest,
-                                   std::optional<float> facing) {
-  constexpr int kDirections = 16;
-  constexpr int kRings = 4;
-  constexpr int kMaxWays = 12;  // that are looked for
+std::optional<glm::vec2> FindStand(const World& world, ActorId actor, const StandWish& wish) {
+  constexpr int kDirections = 24;
+  constexpr int kRings = 5;
   struct Candidate {
     glm::vec2 place;
-    float distance;
-    size_t order;
+    float cost;    // without the way there
+    float bound;   // with the shortest way that there could be
+    size_t order;  // of what is equal, so that every platform finds the same
   };
   std::array<Candidate, static_cast<size_t>(kDirections * kRings)> candidates;
   size_t count = 0;
   const glm::vec2 from = world.actors.Find(actor)->place();
   for (int ring = 0; ring < kRings; ++ring) {
-    const float radius =
-        glm::mix(nearest, furthest, static_cast<float>(ring) / static_cast<float>(kRings - 1));
+    const float radius = glm::mix(wish.nearest, wish.furthest,
+                                  static_cast<float>(ring) / static_cast<float>(kRings - 1));
     for (int i = 0; i < kDirections; ++i) {
       const float angle = 2.0f * kPi * static_cast<float>(i) / kDirections;
-      const glm::vec2 place = point + radius * Direction(angle);
-      if (world.navigation->Nearest(place, 0.05f) && IsFree(world, actor, place, kRoomAtGoal)) {
-        // Nearer to the point is better than a shorter way.
-        const float twist = facing ? std::abs(TurnBetween(*facing, angle + kPi)) : 0.0f;
-        candidates[count] = {place, glm::distance(from, place) + 2.0f * radius + kTwistCost * twist,
-                             count};
-        ++count;
+      const auto place = CloseTo(*world.navigation, wish.point + radius * Direction(angle));
+      if (!place || (!wish.among_others && !IsFree(world, actor, *place, kRoomAtGoal))) {
+        continue;
       }
+      const glm::vec2 way = wish.point - *place;
+      const float distance = glm::length(way);
+      if (distance < wish.nearest - kNearer || distance > wish.furthest + kNearer) {
+        continue;
+      }
+      // Nearer to the point is better than a shorter way.
+      const float twist = wish.facing ? std::abs(TurnBetween(*wish.facing, HeadingOf(way))) : 0.0f;
+      const float cost = 2.0f * distance + kTwistCost * twist;
+      candidates[count] = {*place, cost, cost + glm::distance(from, *place), count};
+      ++count;
     }
   }
-  // The order of what is equal decides, so that every platform finds the same.
   std::sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
             [](const Candidate& a, const Candidate& b) {
-              return a.distance < b.distance || (a.distance == b.distance && a.order < b.order);
+              return a.bound < b.bound || (a.bound == b.bound && a.order < b.order);
             });
   std::optional<glm::vec2> best;
-  float shortest = 1e9f;
-  for (size_t i = 0; i < std::min<size_t>(count, kMaxWays); ++i) {
+  float least = std::numeric_limits<float>::max();
+  for (size_t i = 0; i < count && candidates[i].bound < least; ++i) {
     const auto way = world.navigation->FindWay(from, candidates[i].place);
-    const float cost = candidates[i].distance - glm::distance(from, candidates[i].place) +
-                       (way ? way->length : 0.0f);
-    if (way && way->complete && cost < shortest) {
-      shortest = cost;
+    if (way && way->complete && candidates[i].cost + way->length < least) {
+      least = candidates[i].cost + way->length;
       best = candidates[i].place;
     }
   }
@@ -318,7 +330,7 @@ std::optional<glm::vec2> FindStand(const World& world,
 }
 
 std::optional<glm::vec2> FindAside(const World& world, ActorId actor, glm::vec2 place) {
-  return FindStand(world, actor, place, 0.8f, 1.6f);
+  return FindStand(world, actor, {.point = place, .nearest = 0.8f, .furthest = 1.6f});
 }
 
 }  // namespace lararium::stage

@@ -30,14 +30,17 @@ bool TurnTowards(Actor& actor, float heading, float seconds, float speed = 0.0f)
 // Whether nobody else stands, or is about to stand, within so many metres of a place.
 bool IsFree(const World& world, ActorId except, glm::vec2 place, float within);
 
-// Where to stand, in reach of a point, with a free way there; none: nowhere. facing: the
-// heading in which one would like to look at it.
-std::optional<glm::vec2> FindStand(const World& world,
-                                   ActorId actor,
-                                   glm::vec2 point,
-                                   float nearest,
-                                   float furthest,
-                                   std::optional<float> facing = std::nullopt);
+// Where somebody would like to stand: in reach of a point.
+struct StandWish {
+  glm::vec2 point = glm::vec2(0.0f);  // (x, z)
+  float nearest = 0.0f;               // metres from it
+  float furthest = 0.0f;
+  std::optional<float> facing = std::nullopt;  // the heading in which to look at the point
+  bool among_others = false;                   // also where others stand
+};
+
+// The best place to which there is a way; none: nowhere.
+std::optional<glm::vec2> FindStand(const World& world, ActorId actor, const StandWish& wish);
 
 // Somewhere near to step aside to, so that a place becomes free.
 std::optional<glm::vec2> FindAside(const World& world, ActorId actor, glm::vec2 place);
