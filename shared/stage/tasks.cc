@@ -25,9 +25,8 @@ constexpr float kGiveNearest = 0.75f;    // metres between two people
 constexpr float kGiveFurthest = 1.05f;
 constexpr float kBeforeSeat = 0.8f;     // radians aside, of who gives to somebody who sits
 constexpr float kMakeWayWithin = 0.5f;  // metres
-constexpr float kMakeWayStuck = 0.75f;
-constexpr float kStuckAfter = 1.5f;   // seconds
-constexpr float kMakeWayFrom = 1.6f;  // metres, of who comes
+constexpr float kStuckAfter = 1.5f;     // seconds
+constexpr float kMakeWayFrom = 1.6f;    // metres, of who comes
 constexpr size_t kKeptReports = 1024;
 constexpr float kMaxSeconds = 24.0f * 3600.0f;
 
