@@ -9,6 +9,7 @@
 
 #include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
+#include "editor/bake/transfer.h"
 #include "editor/import/cast_builder.h"
 #include "editor/import/cast_library.h"
 #include "editor/import/clip_import.h"
@@ -285,6 +286,42 @@ Result<BakeStep> HumanStep(const ProjectPaths& paths, const CastDocument& member
   return step;
 }
 
+// Hands on that work is to end, and keeps its reports to itself.
+class OnlyCancels : public Progress {
+ public:
+  explicit OnlyCancels(const Progress& progress) : progress_(progress) {}
+  void Report(std::string_view, double) override {}
+  bool Cancelled() const override { return progress_.Cancelled(); }
+
+ private:
+  const Progress& progress_;
+};
+
+std::string TransferSettings() {
+  const bake::TransferOptions options;
+  std::ostringstream settings;
+  settings << "light transfer " << options.count << " " << options.rays << " " << options.bounces
+           << " " << options.key_poses << " " << options.blockers << " " << options.receivers;
+  return settings.str();
+}
+
+// From the human that the step before made.
+BakeStep TransferStep(const ProjectPaths& paths,
+                      const CastDocument& member,
+                      const Progress& progress) {
+  const std::filesystem::path file = paths.Human(member.name);
+  return {"light transfer of " + member.name,
+          paths.LitHuman(member.name),
+          {file},
+          TransferSettings(),
+          [file, &progress](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+            LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::LoadHuman(file));
+            OnlyCancels quiet(progress);
+            LARARIUM_ASSIGN_OR_RETURN(human.light, bake::BakeTransfer(human, {}, quiet));
+            return human::SerializeHuman(human);
+          }};
+}
+
 BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
   const std::filesystem::path file = paths.Resolve(object.file);
   BakeStep step{"object " + object.name, paths.Prop(object.name), {file}, "object file", {}};
@@ -315,7 +352,9 @@ BakeStep ObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
           }};
 }
 
-Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths, const ProjectDocument& document) {
+Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
+                                    const ProjectDocument& document,
+                                    const Progress& progress) {
   std::vector<BakeStep> steps;
   for (const PlaceDocument& place : document.places) {
     if (place.probe) {
@@ -328,6 +367,7 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths, const ProjectDocu
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(BakeStep step, HumanStep(paths, member));
     steps.push_back(std::move(step));
+    steps.push_back(TransferStep(paths, member, progress));
   }
   for (const ObjectDocument& object : document.objects) {
     steps.push_back(ObjectStep(paths, object));
@@ -381,7 +421,7 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
                         const ProjectDocument& document,
                         Progress& progress) {
   BakeReport report;
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<BakeStep> steps, Steps(paths, document));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<BakeStep> steps, Steps(paths, document, progress));
   for (size_t i = 0; i < steps.size(); ++i) {
     progress.Report("baking", static_cast<double>(i) / static_cast<double>(steps.size()));
     if (progress.Cancelled()) {
@@ -424,8 +464,15 @@ Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
   return stage::ParseMesh(bytes, file.string());
 }
 
+std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocument& member) {
+  const std::filesystem::path plain = paths.Human(member.name);
+  const std::filesystem::path lit = paths.LitHuman(member.name);
+  const Result<std::string> hash = HashOf(TransferSettings(), {plain});
+  return hash.ok() && UpToDate(lit, *hash) ? lit : plain;
+}
+
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member) {
-  const std::filesystem::path file = paths.Human(member.name);
+  const std::filesystem::path file = BakedHumanFile(paths, member);
   if (!Exists(file)) {
     return NotBaked(file);
   }

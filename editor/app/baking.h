@@ -35,7 +35,7 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
                         const ProjectDocument& document,
                         Progress& progress);
 
-// One human alone, made where it is missing or stale.
+// One human alone, made where it is missing or stale, without light transfer.
 Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member);
 
 // The products. An error where they were never baked says so.
@@ -43,7 +43,10 @@ Result<light::ProbeLight> LoadBakedLight(const ProjectPaths& paths, const PlaceD
 Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const PlaceDocument& place,
                                              const OccluderDocument& occluder);
+// With its light transfer, where that is up to date.
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member);
+// The file that it is loaded from.
+std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocument& member);
 Result<stage::Prop> LoadBakedProp(const ProjectPaths& paths, const ObjectDocument& object);
 
 }  // namespace lararium::app

@@ -105,6 +105,10 @@ struct ProjectPaths {
   std::filesystem::path Human(const std::string& cast_name) const {
     return Cast() / (cast_name + ".larhuman");
   }
+  // The same with its light transfer, which takes longer to bake.
+  std::filesystem::path LitHuman(const std::string& cast_name) const {
+    return Cast() / (cast_name + ".lit.larhuman");
+  }
   std::filesystem::path Prop(const std::string& object) const {
     return folder / "props" / (object + ".larprop");
   }
