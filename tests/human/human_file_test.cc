@@ -6,6 +6,7 @@
 
 #include "shared/core/file.h"
 #include "shared/core/random.h"
+#include "tests/human/rich_human.h"
 #include "tests/human/two_joint_human.h"
 #include "tests/support/test_files.h"
 
@@ -40,41 +41,6 @@ TEST(HumanFile, RoundTripKeepsEverything) {
     EXPECT_EQ(parsed->clips[0].keys[i].rotation, human.clips[0].keys[i].rotation);
     EXPECT_EQ(parsed->clips[0].keys[i].translation, human.clips[0].keys[i].translation);
   }
-}
-
-// The two-joint human with one of everything that a person can have.
-Human RichHuman() {
-  Human human = TwoJointHuman();
-  human.skinning = Skinning::kDualQuaternion;
-  const std::string png = "\x89PNG and so on";
-  human.textures.resize(1);
-  human.textures[0].name = "wool";
-  for (const char c : png) {
-    human.textures[0].encoded.push_back(static_cast<std::byte>(c));
-  }
-  human.materials = {
-      {"wool", Surface::kCloth, 0, Material::kNone, {0.5f, 0.25f, 1.0f}, 0.75f, 0.5f, true}};
-  SkinnedMesh& mesh = human.meshes[0];
-  mesh.material = 0;
-  mesh.uvs = {{0.0f, 0.0f}, {0.5f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}};
-  mesh.coarser = {{0.01f, {0, 1, 3}}, {0.5f, {}}};
-  human.morphs = {{"jaw", {{0, {1, 3}, {{0, -1, 0}, {0, 0, 1}}, {{0, 0, 0}, {0, 1, 0}}}}}};
-  human.face = {{"aa", {{0, 0.75f}}, {{1, glm::quat(0.6f, 0.8f, 0.0f, 0.0f)}}}};
-  Cloth cloth;
-  cloth.name = "hem";
-  cloth.positions = {{0, 1, 0}, {1, 1, 0}, {0, 0, 0}};
-  cloth.joints.assign(3, {0, 1, 0, 0});
-  cloth.weights.assign(3, glm::vec4(0.25f, 0.75f, 0.0f, 0.0f));
-  cloth.reach = {0.0f, 0.0f, 0.5f};
-  cloth.triangles = {0, 1, 2};
-  cloth.vertex_triangle = {0, 0, Cloth::kUnbound, 0};
-  cloth.vertex_weights.assign(4, glm::vec3(0.5f, 0.25f, 0.01f));
-  cloth.density = 0.3f;
-  cloth.friction = 0.2f;
-  human.cloths = {cloth};
-  human.springs = {{"plait", {0, 1}, 5.0f, 2.0f, 0.5f, 0.01f}};
-  human.capsules = {{1, {0, 0, 0}, {1, 0, 0}, 0.06f, 0.04f}};
-  return human;
 }
 
 TEST(HumanFile, RoundTripKeepsSurfacesAndTheirDetail) {
@@ -140,6 +106,43 @@ TEST(HumanFile, RoundTripKeepsWhatMovesByItself) {
   ASSERT_EQ(parsed->capsules.size(), 1u);
   EXPECT_EQ(parsed->capsules[0].b, human.capsules[0].b);
   EXPECT_EQ(parsed->capsules[0].radius_b, 0.04f);
+}
+
+TEST(HumanFile, RoundTripKeepsTheLightTransfer) {
+  const Human human = RichHuman();
+  const auto parsed = ParseHuman(SerializeHuman(human), "here");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  const LightTransfer& light = parsed->light;
+  EXPECT_EQ(light.count, 9);
+  EXPECT_EQ(light.bounces, 2);
+  ASSERT_EQ(light.key_poses.size(), 2u);
+  for (size_t pose = 0; pose < 2; ++pose) {
+    ASSERT_EQ(light.key_poses[pose].size(), 2u);
+    for (size_t joint = 0; joint < 2; ++joint) {
+      const JointTransform& expected = human.light.key_poses[pose][joint];
+      EXPECT_EQ(light.key_poses[pose][joint].rotation, expected.rotation);
+      EXPECT_EQ(light.key_poses[pose][joint].translation, expected.translation);
+      EXPECT_EQ(light.key_poses[pose][joint].scale, expected.scale);
+    }
+  }
+  ASSERT_EQ(light.blockers.size(), 2u);
+  EXPECT_EQ(light.blockers[1].joint, 1u);
+  EXPECT_EQ(light.blockers[1].centre, human.light.blockers[1].centre);
+  EXPECT_EQ(light.blockers[1].radius, human.light.blockers[1].radius);
+  ASSERT_EQ(light.receivers.size(), 3u);
+  EXPECT_EQ(light.receivers[2].joint, 1u);
+  EXPECT_EQ(light.receivers[2].position, human.light.receivers[2].position);
+  ASSERT_EQ(light.meshes.size(), 1u);
+  EXPECT_EQ(light.meshes[0].receivers, human.light.meshes[0].receivers);
+  EXPECT_EQ(light.meshes[0].weights, human.light.meshes[0].weights);
+  EXPECT_EQ(light.meshes[0].coefficients, human.light.meshes[0].coefficients);
+  EXPECT_EQ(light.meshes[0].scale, human.light.meshes[0].scale);
+}
+
+TEST(HumanFile, AHumanWithoutLightTransferHasNone) {
+  const auto parsed = ParseHuman(SerializeHuman(TwoJointHuman()), "here");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_TRUE(parsed->light.empty());
 }
 
 TEST(HumanFile, TheSameHumanGivesTheSameBytes) {
@@ -233,6 +236,40 @@ TEST(HumanFile, RefusesFacesAndSoftPartsThatCannotBe) {
   EXPECT_TRUE(refuses([](Human& h) { h.springs[0].drag = -1.0f; }));
   EXPECT_TRUE(refuses([](Human& h) { h.capsules[0].joint = 2; }));
   EXPECT_TRUE(refuses([](Human& h) { h.capsules[0].radius_a = std::nanf(""); }));
+}
+
+TEST(HumanFile, RefusesLightTransferThatCannotBe) {
+  const auto refuses = [](auto&& change) {
+    Human human = RichHuman();
+    change(human.light);
+    const auto parsed = ParseHuman(SerializeHuman(human), "here");
+    return !parsed.ok() && parsed.message().find("light") != std::string::npos;
+  };
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.count = 10; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.count = 16; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.key_poses.clear(); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.key_poses.pop_back(); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.key_poses.resize(9, l.key_poses[0]); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.key_poses[1].pop_back(); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.key_poses[1][0].translation.y = NAN; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.key_poses[0][1].rotation.w = 3.0f; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.blockers[0].joint = 2; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.blockers[0].radius = -0.1f; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.blockers[0].centre.z = INFINITY; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.blockers.resize(257); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.receivers.clear(); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.receivers.resize(1025); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.receivers[1].joint = 0x80000000u; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.receivers[1].position.x = NAN; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes.push_back(l.meshes[0]); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].receivers[3][3] = 3; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].receivers.pop_back(); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].weights[0] = {254, 0, 0, 0}; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].weights[0] = {55, 200, 0, 0}; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].coefficients.pop_back(); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].scale[7] = -1.0f; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].scale[0] = NAN; }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].scale.push_back(0.0f); }));
 }
 
 TEST(HumanFile, RefusesEveryTruncation) {

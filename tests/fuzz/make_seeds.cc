@@ -1,0 +1,56 @@
+// make_seeds FOLDER: writes one good file of each binary kind that a harness starts from,
+// with a little of everything in it.
+
+#include <cstdio>
+#include <filesystem>
+
+#include "shared/core/check.h"
+#include "shared/core/file.h"
+#include "shared/stage/mesh_file.h"
+#include "shared/stage/prop.h"
+#include "tests/human/rich_human.h"
+#include "tests/stage/test_props.h"
+
+namespace lararium {
+namespace {
+
+stage::Prop RichProp(const human::Human& human) {
+  stage::Prop prop = test::MakeChest();
+  prop.textures = human.textures;
+  prop.materials = human.materials;
+  stage::PropMesh& lid = prop.parts[1].meshes[0];
+  lid.material = 0;
+  lid.uvs.assign(lid.positions.size(), {0.5f, 0.25f});
+  prop.parts[0].meshes[0].emission = {2.0f, 1.0f, 0.5f};
+  CHECK(prop.Validate("seed").ok());
+  return prop;
+}
+
+Status WriteSeeds(const std::filesystem::path& folder) {
+  const human::Human human = human::RichHuman();
+  CHECK(human.Validate("seed").ok());
+  LARARIUM_RETURN_IF_ERROR(
+      WriteFileAtomically(folder / "human.larhuman", human::SerializeHuman(human)));
+  LARARIUM_RETURN_IF_ERROR(
+      WriteFileAtomically(folder / "prop.larprop", stage::SerializeProp(RichProp(human))));
+  geometry::TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.normals.assign(3, {0, 0, 1});
+  mesh.indices = {0, 1, 2};
+  return WriteFileAtomically(folder / "mesh.larmesh", stage::SerializeMesh(mesh));
+}
+
+}  // namespace
+}  // namespace lararium
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: make_seeds FOLDER\n");
+    return 2;
+  }
+  const lararium::Status status = lararium::WriteSeeds(argv[1]);
+  if (!status.ok()) {
+    std::fprintf(stderr, "%s\n", status.message().c_str());
+  }
+  return status.ok() ? 0 : 1;
+}
