@@ -5,9 +5,12 @@
 
 #include "catcher.glsl"
 
-const int kGroups = 6;  // of four cones each
+const int kGroups = 6;  // of four cones each, one in each lane
 
-uniform vec4 cones[4 * kGroups];  // direction about cone_axis, cosine of half the opening
+uniform vec4 cones_x[kGroups];  // directions about cone_axis
+uniform vec4 cones_y[kGroups];
+uniform vec4 cones_z[kGroups];
+uniform vec4 cones_cosine[kGroups];  // of half the opening
 uniform vec3 cone_axis;
 uniform sampler2D sky;  // radiance of cones, octahedral
 uniform float least_share;
@@ -24,11 +27,10 @@ layout(std140) uniform Blockers {
 
 layout(location = 0) out vec4 ratio;  // alpha: depth, 0: nothing there
 
-// Four cones in each register.
+// Of the surface at hand.
 vec4 cone_x[kGroups];
 vec4 cone_y[kGroups];
 vec4 cone_z[kGroups];
-vec4 cone_cosine[kGroups];
 vec4 by_sine[kGroups];
 vec4 by_cap[kGroups];
 vec4 visible[kGroups];
@@ -44,17 +46,13 @@ vec3 SkyRadiance(vec3 direction) {
 void PlaceCones(vec3 normal) {
   vec3 mirror = normal - cone_axis;
   mirror *= inversesqrt(max(dot(mirror, mirror), 1e-8));
-  for (int i = 0; i < 4 * kGroups; ++i) {
-    int group = i / 4;
-    int lane = i - 4 * group;
-    vec3 direction = cones[i].xyz - 2.0 * dot(mirror, cones[i].xyz) * mirror;
-    cone_x[group][lane] = direction.x;
-    cone_y[group][lane] = direction.y;
-    cone_z[group][lane] = direction.z;
-    cone_cosine[group][lane] = cones[i].w;
-  }
   for (int group = 0; group < kGroups; ++group) {
-    vec4 cosine = cone_cosine[group];
+    vec4 along = 2.0 * (cones_x[group] * mirror.x + cones_y[group] * mirror.y +
+                        cones_z[group] * mirror.z);
+    cone_x[group] = cones_x[group] - along * mirror.x;
+    cone_y[group] = cones_y[group] - along * mirror.y;
+    cone_z[group] = cones_z[group] - along * mirror.z;
+    vec4 cosine = cones_cosine[group];
     by_sine[group] = inversesqrt(1.0 - cosine * cosine);
     by_cap[group] = 1.0 / (1.0 - cosine);
     visible[group] = vec4(1.0);
@@ -81,7 +79,7 @@ void Hide(vec3 to_centre, float radius) {
     // where they are alike, steeper where they are not, so that over all directions it adds
     // up to the smaller cap.
     vec4 ratio_of_sines = sine * by_sine[group];
-    vec4 t = clamp((between - cosine * cone_cosine[group]) * (0.5 * by_sine[group] / sine) + 0.5,
+    vec4 t = clamp((between - cosine * cones_cosine[group]) * (0.5 * by_sine[group] / sine) + 0.5,
                    0.0, 1.0);
     vec4 alike = min(ratio_of_sines, 1.0 / ratio_of_sines);
     vec4 overlap = t * t * mix(3.0 - 2.0 * t, t, alike);
@@ -105,16 +103,24 @@ void HideCluster(Cluster cluster, vec3 point) {
   }
 }
 
+void AddCone(vec3 direction, float share, inout vec3 all, inout vec3 left) {
+  vec3 radiance = SkyRadiance(direction);
+  all += radiance;
+  left += radiance * share;
+}
+
 vec3 VisibleShare() {
   vec3 all = vec3(0.0);
   vec3 left = vec3(0.0);
-  for (int i = 0; i < 4 * kGroups; ++i) {
-    int group = i / 4;
-    int lane = i - 4 * group;
-    vec3 radiance =
-        SkyRadiance(vec3(cone_x[group][lane], cone_y[group][lane], cone_z[group][lane]));
-    all += radiance;
-    left += radiance * visible[group][lane];
+  for (int group = 0; group < kGroups; ++group) {
+    vec4 x = cone_x[group];
+    vec4 y = cone_y[group];
+    vec4 z = cone_z[group];
+    vec4 share = visible[group];
+    AddCone(vec3(x.x, y.x, z.x), share.x, all, left);
+    AddCone(vec3(x.y, y.y, z.y), share.y, all, left);
+    AddCone(vec3(x.z, y.z, z.z), share.z, all, left);
+    AddCone(vec3(x.w, y.w, z.w), share.w, all, left);
   }
   return mix(vec3(1.0), left / max(all, 1e-12), greaterThan(all, vec3(1e-9)));
 }

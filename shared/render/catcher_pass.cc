@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 
 #include "shared/render/sky_cones.h"
 
@@ -45,6 +46,18 @@ void Limit(const PixelBounds& bounds) {
   glScissor(bounds.left, bounds.bottom, bounds.width(), bounds.height());
 }
 
+// Four cones to a lane each.
+void SetCones(const ShaderProgram& shaders) {
+  const char* const names[] = {"cones_x", "cones_y", "cones_z", "cones_cosine"};
+  for (int part = 0; part < 4; ++part) {
+    std::array<glm::vec4, kSkyConeCount / 4> lanes;
+    for (int i = 0; i < kSkyConeCount; ++i) {
+      lanes[static_cast<size_t>(i / 4)][i % 4] = SkyCones()[static_cast<size_t>(i)][part];
+    }
+    shaders.Set(names[part], lanes);
+  }
+}
+
 Box Transformed(const Box& box, const glm::mat4& to) {
   Box moved;
   for (int corner = 0; corner < 8; ++corner) {
@@ -72,7 +85,7 @@ Result<CatcherPass> CatcherPass::Create() {
                             ShaderProgram::Create("full_screen.vert", "sky_ratio.frag"));
   pass.ratio_shaders_.BindUniformBlock("Blockers", kBlockerBinding);
   pass.ratio_shaders_.Use();
-  pass.ratio_shaders_.Set("cones", SkyCones());
+  SetCones(pass.ratio_shaders_);
   pass.ratio_shaders_.Set("cone_axis", SkyConeAxis());
   pass.ratio_shaders_.Set("least_share", kLeastBlockedShare);
   pass.no_vertices_ = GlVertexArray::Generate();
