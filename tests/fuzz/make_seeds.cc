@@ -8,6 +8,7 @@
 #include "shared/core/file.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/prop.h"
+#include "tests/human/full_body.h"
 #include "tests/human/rich_human.h"
 #include "tests/stage/test_props.h"
 
@@ -31,6 +32,8 @@ Status WriteSeeds(const std::filesystem::path& folder) {
   CHECK(human.Validate("seed").ok());
   LARARIUM_RETURN_IF_ERROR(
       WriteFileAtomically(folder / "human.larhuman", human::SerializeHuman(human)));
+  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(folder / "body.larhuman",
+                                               human::SerializeHuman(human::FullBody(0.4f, 0))));
   LARARIUM_RETURN_IF_ERROR(
       WriteFileAtomically(folder / "prop.larprop", stage::SerializeProp(RichProp(human))));
   geometry::TriangleMesh mesh;
