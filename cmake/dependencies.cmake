@@ -33,7 +33,7 @@ find_program(FLATC flatc REQUIRED)
 # OpenCV's own CMake files come only with the package of all its modules, which
 # pulls in VTK; the modules that we use are found one by one.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-foreach(module core imgproc imgcodecs videoio video features2d calib3d)
+foreach(module core imgproc imgcodecs videoio video features2d calib3d photo)
   find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
   add_library(opencv_${module} INTERFACE)
   target_include_directories(opencv_${module} SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})

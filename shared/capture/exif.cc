@@ -6,15 +6,17 @@
 #include "shared/core/file.h"
 
 // Exchangeable image file format for digital still cameras (JEITA CP-3451):
-// FocalLengthIn35mmFilm, a SHORT in the Exif directory of the TIFF structure in
-// a JPEG's APP1 segment.
+// fields of the Exif directory of the TIFF structure in a JPEG's APP1 segment.
 
 namespace lararium::capture {
 namespace {
 
 constexpr uint16_t kExifDirectory = 0x8769;
-constexpr uint16_t kFocalLengthIn35mmFilm = 0xa405;
-constexpr double kFilmDiagonal = 43.2666153;  // millimetres, of 36 x 24
+constexpr uint16_t kFocalLengthIn35mmFilm = 0xa405;  // SHORT
+constexpr uint16_t kExposureTime = 0x829a;           // RATIONAL, seconds
+constexpr uint16_t kFNumber = 0x829d;                // RATIONAL
+constexpr uint16_t kIsoSpeed = 0x8827;               // SHORT
+constexpr double kFilmDiagonal = 43.2666153;         // millimetres, of 36 x 24
 
 using Bytes = std::span<const std::byte>;
 
@@ -71,16 +73,41 @@ class Tiff {
   bool little_endian_;
 };
 
-std::optional<uint32_t> FocalLengthIn35mmFilm(Bytes exif) {
-  const std::optional<Tiff> tiff = Tiff::Open(exif);
-  if (!tiff) {
-    return std::nullopt;
+// The Exif directory of a TIFF structure.
+class ExifDirectory {
+ public:
+  static std::optional<ExifDirectory> Open(Bytes exif) {
+    const std::optional<Tiff> tiff = Tiff::Open(exif);
+    if (!tiff) {
+      return std::nullopt;
+    }
+    const auto pointer = tiff->FindValue(tiff->U32(4).value_or(0), kExifDirectory);
+    const auto offset = pointer ? tiff->U32(*pointer) : std::nullopt;
+    return offset ? std::optional(ExifDirectory(*tiff, *offset)) : std::nullopt;
   }
-  const auto pointer = tiff->FindValue(tiff->U32(4).value_or(0), kExifDirectory);
-  const auto directory = pointer ? tiff->U32(*pointer) : std::nullopt;
-  const auto value = directory ? tiff->FindValue(*directory, kFocalLengthIn35mmFilm) : std::nullopt;
-  return value ? tiff->U16(*value) : std::nullopt;
-}
+
+  std::optional<uint32_t> Short(uint16_t tag) const {
+    const auto value = tiff_.FindValue(offset_, tag);
+    return value ? tiff_.U16(*value) : std::nullopt;
+  }
+  // Above 0.
+  std::optional<double> Rational(uint16_t tag) const {
+    const auto value = tiff_.FindValue(offset_, tag);
+    const auto at = value ? tiff_.U32(*value) : std::nullopt;
+    const auto above = at ? tiff_.U32(*at) : std::nullopt;
+    const auto below = at ? tiff_.U32(size_t{*at} + 4) : std::nullopt;
+    if (above.value_or(0) == 0 || below.value_or(0) == 0) {
+      return std::nullopt;
+    }
+    return static_cast<double>(*above) / *below;
+  }
+
+ private:
+  ExifDirectory(const Tiff& tiff, uint32_t offset) : tiff_(tiff), offset_(offset) {}
+
+  Tiff tiff_;
+  uint32_t offset_;
+};
 
 // The TIFF structure in the segments before the image data; empty where none.
 Bytes FindExif(Bytes jpeg) {
@@ -111,11 +138,27 @@ std::optional<double> ExifFocalPixels(const std::filesystem::path& file, int wid
   if (!mapped.ok()) {
     return std::nullopt;
   }
-  const uint32_t focal = FocalLengthIn35mmFilm(FindExif(mapped->bytes())).value_or(0);
+  const auto exif = ExifDirectory::Open(FindExif(mapped->bytes()));
+  const uint32_t focal = exif ? exif->Short(kFocalLengthIn35mmFilm).value_or(0) : 0;
   if (focal == 0) {
     return std::nullopt;
   }
   return focal * std::hypot(width, height) / kFilmDiagonal;
+}
+
+std::optional<double> ExifExposure(const std::filesystem::path& file) {
+  const Result<MappedFile> mapped = MappedFile::Open(file);
+  if (!mapped.ok()) {
+    return std::nullopt;
+  }
+  const auto exif = ExifDirectory::Open(FindExif(mapped->bytes()));
+  const auto seconds = exif ? exif->Rational(kExposureTime) : std::nullopt;
+  if (!seconds) {
+    return std::nullopt;
+  }
+  const double aperture = exif->Rational(kFNumber).value_or(1.0);
+  const uint32_t iso = exif->Short(kIsoSpeed).value_or(0);
+  return *seconds / (aperture * aperture) * (iso > 0 ? iso / 100.0 : 1.0);
 }
 
 }  // namespace lararium::capture

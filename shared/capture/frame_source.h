@@ -59,4 +59,9 @@ Result<std::unique_ptr<FrameSource>> OpenCamera(int number);
 // 35 mm equivalent (of equal diagonal); nullopt where there is none. Reads JPEG.
 std::optional<double> ExifFocalPixels(const std::filesystem::path& file, int width, int height);
 
+// How much light the EXIF data of an image file say it got: exposure time in seconds, over
+// the square of the f-number and times ISO / 100 where those are known. nullopt where there is
+// no exposure time. Reads JPEG.
+std::optional<double> ExifExposure(const std::filesystem::path& file);
+
 }  // namespace lararium::capture
