@@ -58,8 +58,8 @@ struct Object {
   Pose initial_pose;  // stage_from_object
   ObjectState state;
 
-  // While it is held: where it is in the frame of its holder's upper body, on its way from one pose to
-  // another (minimum jerk).
+  // While it is held: where it is in the frame of its holder's upper body, on its way from one pose
+  // to another (minimum jerk).
   struct Held {
     Pose from;
     Pose to;

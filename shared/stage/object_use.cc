@@ -554,6 +554,17 @@ class UseReader {
   bool has_footprint_ = false;
 };
 
+PartBounds BoundsOf(const PropPart& part) {
+  PartBounds bounds;
+  for (const PropMesh& mesh : part.meshes) {
+    for (const glm::vec3& position : mesh.positions) {
+      bounds.lower = glm::min(bounds.lower, position);
+      bounds.upper = glm::max(bounds.upper, position);
+    }
+  }
+  return bounds;
+}
+
 // Of every part at rest; the parts' places in the object go to object_from_part.
 void ComputeBounds(const Prop& prop, glm::vec3& lower, glm::vec3& upper) {
   lower = glm::vec3(std::numeric_limits<float>::max());
@@ -619,6 +630,9 @@ Result<std::shared_ptr<const ObjectModel>> ObjectModel::Create(Prop prop,
   LARARIUM_RETURN_IF_ERROR(prop.Validate(place));
   std::shared_ptr<ObjectModel> model(new ObjectModel);
   ComputeBounds(prop, model->lower_, model->upper_);
+  for (const PropPart& part : prop.parts) {
+    model->part_bounds_.push_back(BoundsOf(part));
+  }
   if (prop.use.empty()) {
     AddDefaultFootprint(model->lower_, model->upper_, model->use_);
   } else {

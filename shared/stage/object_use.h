@@ -150,6 +150,12 @@ struct ObjectUse {
 // place: what errors call the text; they name the field.
 Result<ObjectUse> ParseObjectUse(std::string_view text, const Prop& prop, const std::string& place);
 
+// Of one part's meshes, part frame; lower is above upper where it has none.
+struct PartBounds {
+  glm::vec3 lower = glm::vec3(1e9f);
+  glm::vec3 upper = glm::vec3(-1e9f);
+};
+
 // A prop with its use: what all objects of one kind share. Immutable.
 class ObjectModel {
  public:
@@ -158,6 +164,7 @@ class ObjectModel {
 
   const Prop& prop() const { return prop_; }
   const ObjectUse& use() const { return use_; }
+  const PartBounds& bounds(int part) const { return part_bounds_[static_cast<size_t>(part)]; }
   // Of all parts at rest, object frame.
   glm::vec3 lower() const { return lower_; }
   glm::vec3 upper() const { return upper_; }
@@ -168,6 +175,7 @@ class ObjectModel {
 
   Prop prop_;
   ObjectUse use_;
+  std::vector<PartBounds> part_bounds_;  // parallel to Prop::parts
   glm::vec3 lower_ = glm::vec3(0.0f);
   glm::vec3 upper_ = glm::vec3(0.0f);
 };

@@ -54,24 +54,10 @@ Pose BelowTheOther(const HandGrips& giving, const HandGrips& receiving) {
   return {};
 }
 
-// Bounds of one part's meshes, part frame.
-struct Box {
-  glm::vec3 low = glm::vec3(1e9f);
-  glm::vec3 high = glm::vec3(-1e9f);
-
-  explicit Box(const PropPart& part) {
-    for (const PropMesh& mesh : part.meshes) {
-      for (const glm::vec3& position : mesh.positions) {
-        low = glm::min(low, position);
-        high = glm::max(high, position);
-      }
-    }
-  }
-  bool Holds(const glm::vec3& point, float around) const {
-    return glm::all(glm::greaterThan(point, low - around)) &&
-           glm::all(glm::lessThan(point, high + around));
-  }
-};
+bool Holds(const PartBounds& box, const glm::vec3& point, float around) {
+  return glm::all(glm::greaterThan(point, box.lower - around)) &&
+         glm::all(glm::lessThan(point, box.upper + around));
+}
 
 // Whether a part that goes from its present value to another comes through somebody.
 bool SweepsThrough(const Object& object, const ObjectAction::Move& move, const Actor& actor) {
@@ -80,7 +66,7 @@ bool SweepsThrough(const Object& object, const ObjectAction::Move& move, const A
   constexpr float kHeights[] = {0.3f, 0.8f, 1.3f};  // shares of the eyes' height below
   const auto joint = static_cast<size_t>(move.joint);
   const int part = object.use().joints[joint].part;
-  const Box box(object.model->prop().parts[static_cast<size_t>(part)]);
+  const PartBounds& box = object.model->bounds(part);
   std::array<float, ObjectUse::kMaxJoints> joints = object.state.joints;
   for (int i = 0; i <= kSamples; ++i) {
     joints[joint] = glm::mix(object.state.joints[joint], move.to,
@@ -89,7 +75,7 @@ bool SweepsThrough(const Object& object, const ObjectAction::Move& move, const A
         (object.state.stage_from_object * ObjectFromPart(*object.model, joints, part)).Inverse();
     for (const float height : kHeights) {
       const glm::vec3 at(0.0f, height * actor.eye_height() / 1.58f, 0.0f);
-      if (box.Holds(part_from_stage * (actor.state.position + at), kBody)) {
+      if (Holds(box, part_from_stage * (actor.state.position + at), kBody)) {
         return true;
       }
     }
@@ -223,7 +209,7 @@ void Tasks::Step(Task& task, float seconds) {
     case Kind::kWalk:
       return;
     case Kind::kUse:
-      return StepAct(task);
+      return StepAct(task, seconds);
     case Kind::kTake:
       return StepReach(task);
     case Kind::kPut:
@@ -364,6 +350,9 @@ const Actor* Tasks::InTheWay(const Task& task) {
   const Object& object = world_.object(task.object);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   for (const ObjectAction::Move& move : action.moves) {
+    if (task.phase == Phase::kAct && task.time >= move.end) {
+      continue;  // done
+    }
     for (const ActorId id : world_.actor_ids) {
       Actor& other = world_.actor(id);
       if (id == task.actor || !other.state.visible || !SweepsThrough(object, move, other)) {
@@ -380,7 +369,49 @@ const Actor* Tasks::InTheWay(const Task& task) {
   return nullptr;
 }
 
-void Tasks::StepAct(Task& task) {
+// Whether parts may go on moving. While somebody is in their way they stop, hands on
+// their grips; after a while whoever moves them gives up, and the task has failed.
+bool Tasks::MayMove(Task& task, float seconds) {
+  const Actor* other = InTheWay(task);
+  if (other == nullptr) {
+    return true;
+  }
+  task.held_up += seconds;
+  if (task.held_up > kWaitForRoom) {
+    const Object& object = world_.object(task.object);
+    const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+    Actor& actor = world_.actor(task.actor);
+    if (task.phase == Phase::kAct) {
+      EndAction(task);
+    }
+    LetGo(actor, action.held ? kNoHands : task.hands);
+    Fail(task, "'" + actor.name + "' cannot '" + action.name + "' '" + object.name + "': '" +
+                   other->name + "' stands in its way");
+  }
+  return false;
+}
+
+void Tasks::BeginAct(Task& task) {
+  Object& object = world_.object(task.object);
+  Actor& actor = world_.actor(task.actor);
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  task.joints = object.state.joints;
+  task.held_up = 0.0f;
+  object.state.action = static_cast<int8_t>(task.action);
+  if (action.held && !object.use().carry->holder_from_object && !action.path.empty()) {
+    ReachFor(actor, object, task.hands);
+    object.held.rests = false;
+  }
+  if (!action.clip.empty()) {
+    task.clip_before = actor.state.performance.animation.clip;
+    if (const int clip = FindClip(actor.human(), action.clip); clip >= 0) {
+      PlayClip(actor, clip);
+    }
+  }
+  Enter(task, Phase::kAct);
+}
+
+void Tasks::StepAct(Task& task, float seconds) {
   if (task.phase == Phase::kBackUp || task.phase == Phase::kSit || task.phase == Phase::kRise) {
     StepSeat(task);
     return;
@@ -401,30 +432,17 @@ void Tasks::StepAct(Task& task) {
                        object.use().states[static_cast<size_t>(object.state.state)] + "'");
         return;
       }
-      if (const Actor* other = InTheWay(task)) {
-        // The hand rests on its grip until they have gone.
-        if (task.time > task.reach_seconds + kWaitForRoom) {
-          LetGo(actor, action.held ? kNoHands : task.hands);
-          Fail(task, "'" + actor.name + "' cannot '" + action.name + "' '" + object.name + "': '" +
-                         other->name + "' stands in its way");
-        }
-        return;
+      if (MayMove(task, seconds)) {
+        BeginAct(task);
       }
-      task.joints = object.state.joints;
-      object.state.action = static_cast<int8_t>(task.action);
-      if (action.held && !object.use().carry->holder_from_object && !action.path.empty()) {
-        ReachFor(actor, object, task.hands);
-        object.held.rests = false;
-      }
-      if (!action.clip.empty()) {
-        task.clip_before = actor.state.performance.animation.clip;
-        if (const int clip = FindClip(actor.human(), action.clip); clip >= 0) {
-          PlayClip(actor, clip);
-        }
-      }
-      Enter(task, Phase::kAct);
       return;
     case Phase::kAct: {
+      if (!MayMove(task, seconds)) {
+        task.time -= seconds;  // goes on from here
+        if (task.is_over) {
+          return;
+        }
+      }
       object.state.action_time = task.time;
       MoveJoints(task, object);
       FollowPath(task, object);

@@ -20,6 +20,7 @@ constexpr float kLineStep = 0.35f;       // metres: who stands this near stands 
 constexpr float kBehindPlaces = 0.9f;    // metres, of the default queue
 constexpr float kReachNearest = 0.42f;   // metres from what hands reach for, of 1.7 m people
 constexpr float kReachFurthest = 0.85f;  // leaning over a counter
+constexpr float kNearerByArms = 0.25f;   // metres, for each 1.7 m of height that is missing
 constexpr float kTwistAllowed = 0.5f;    // radians that hands may twist
 constexpr float kGiveNearest = 0.75f;    // metres between two people
 constexpr float kGiveFurthest = 1.05f;
@@ -555,7 +556,10 @@ bool Tasks::ApproachPlaceOf(Task& task, ObjectId id, int place) {
   task.place = place;
   const Object& object = world_.object(id);
   const ApproachPlace& at = object.use().places[static_cast<size_t>(place)];
-  return Approach(task, InStage(object, at.position), HeadingInStage(object, at.heading));
+  // Places are those of somebody 1.7 m tall: who has shorter arms stands nearer.
+  const float scale = ScaledTo(world_.actor(task.actor), {{1.0f, 0.0f, 0.0f}}).position.x;
+  const glm::vec2 nearer = kNearerByArms * std::max(0.0f, 1.0f - scale) * Direction(at.heading);
+  return Approach(task, InStage(object, at.position + nearer), HeadingInStage(object, at.heading));
 }
 
 int Tasks::UsersOf(ObjectId object, const Task& except) const {

@@ -131,6 +131,7 @@ class Tasks {
     HandGrips hands = kNoHands;
     HandGrips partner_hands = kNoHands;
     float reach_seconds = 0.0f;
+    float held_up = 0.0f;  // seconds that a moving part has waited for room
     std::array<float, ObjectUse::kMaxJoints> joints = {};  // when the action began
     Pose begin;                                            // of whatever moves in the phase
     Pose seat;                                             // stage frame, on its surface
@@ -174,7 +175,9 @@ class Tasks {
   void Step(Task& task, float seconds);
   void Enter(Task& task, Phase phase);
   void Arrive(Task& task);
-  void StepAct(Task& task);
+  void StepAct(Task& task, float seconds);
+  void BeginAct(Task& task);
+  bool MayMove(Task& task, float seconds);
   void MoveJoints(const Task& task, Object& object) const;
   void FollowPath(const Task& task, Object& object);
   const Actor* InTheWay(const Task& task);

@@ -186,10 +186,7 @@ TEST_P(PeopleInMotion, KeepTheirFeetHandsEyesAndSeats) {
     EXPECT_GT(one.held(), 30) << "ticks in which a hand was at its grip";
     const float missed = one.Missed();
     report(model, missed, "mm");
-    // An open chest's lid is beyond a child's arms.
-    const bool is_too_far =
-        model == std::string("chest") && human::MakeBody(human->skeleton).leg_length() < 0.7f;
-    EXPECT_LT(missed, is_too_far ? 40.0f : 5.0f) << model;
+    EXPECT_LT(missed, 5.0f) << model;
   }
   for (const char* model : {"basket", "plate", "cup"}) {
     Watched one(human);

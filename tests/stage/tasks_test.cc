@@ -64,7 +64,8 @@ class TasksTest : public ::testing::Test {
   Stage stage_;
 };
 
-TEST_F(TasksTest, ALeafWaitsForWhoStandsWhereItSwings) {
+// A leaf, hinged at the origin, that opens towards +z.
+stage::Prop MakeGate() {
   stage::Prop gate;
   gate.name = "gate";
   gate.parts.resize(1);
@@ -77,22 +78,54 @@ TEST_F(TasksTest, ALeafWaitsForWhoStandsWhereItSwings) {
     "places": {"front": {"at": [0.2, -0.7], "heading": 180}},
     "actions": {"open": {"to": "open", "duration": 2, "moves": [{"part": "leaf", "to": -90}]}},
     "footprint": {"outline": []}})";
-  const ObjectId leaf = AddObject("gate", std::move(gate), 0, 0);
+  return gate;
+}
+
+// Metres from somebody to a leaf that has begun to open.
+float ToLeaf(float angle, glm::vec2 place) {
+  const glm::vec2 along(std::cos(angle), -std::sin(angle));
+  const float on = std::clamp(glm::dot(place, along), 0.0f, 1.0f);
+  return angle < 0.0f ? glm::distance(place, on * along) : 9.0f;
+}
+
+TEST_F(TasksTest, ALeafWaitsForWhoStandsWhereItSwings) {
+  const ObjectId leaf = AddObject("gate", MakeGate(), 0, 0);
   const ActorId porter = AddActor("porter", 0.2f, -2);
   const ActorId guest = AddActor("guest", 0.5f, 0.5f);
   const Result<TaskId> task = stage_.tasks().Use(porter, leaf, "open", 0.0f);
   float hit = 9.0f;
   while (!stage_.tasks().report(*task).over()) {
     Tick();
-    const float angle = At(leaf).state.joints[0];
-    const glm::vec2 along(std::cos(angle), -std::sin(angle));
-    const float on = std::clamp(glm::dot(At(guest).place(), along), 0.0f, 1.0f);
-    hit = std::min(hit, angle < 0.0f ? glm::distance(At(guest).place(), on * along) : 9.0f);
+    hit = std::min(hit, ToLeaf(At(leaf).state.joints[0], At(guest).place()));
   }
   EXPECT_EQ(stage_.tasks().report(*task).state, State::kDone);
   EXPECT_LT(At(leaf).state.joints[0], -1.5f) << "it opened";
   EXPECT_GT(hit, 0.2f) << "and hit nobody";
   EXPECT_GT(glm::distance(At(guest).place(), glm::vec2(0.5f, 0.5f)), 0.3f) << "who stepped aside";
+}
+
+TEST_F(TasksTest, ALeafStopsForWhoWalksIntoItsSwing) {
+  const ObjectId leaf = AddObject("gate", MakeGate(), 0, 0);
+  const ActorId porter = AddActor("porter", 0.2f, -2);
+  const ActorId guest = AddActor("guest", 0.6f, 1.9f);
+  const Result<TaskId> task = stage_.tasks().Use(porter, leaf, "open", 0.0f);
+  while (At(leaf).state.joints[0] == 0.0f) {
+    Tick();
+  }
+  ASSERT_TRUE(stage_.tasks().Walk(guest, {0.5f, 0.95f}, {}, 0.0f).ok());  // into the swing
+  float hit = 9.0f;
+  int stood = 0;
+  while (!stage_.tasks().report(*task).over()) {
+    const float before = At(leaf).state.joints[0];
+    Tick();
+    const float angle = At(leaf).state.joints[0];
+    stood += At(leaf).state.action >= 0 && angle == before && angle > -1.5f;
+    hit = std::min(hit, ToLeaf(angle, At(guest).place()));
+  }
+  EXPECT_EQ(stage_.tasks().report(*task).state, State::kDone);
+  EXPECT_LT(At(leaf).state.joints[0], -1.5f) << "it opened";
+  EXPECT_GT(stood, 30) << "ticks in which it stood still";
+  EXPECT_GT(hit, 0.15f);
 }
 
 TEST_F(TasksTest, TwoHandsOnOneGripKeepApart) {
