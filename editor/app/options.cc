@@ -170,7 +170,8 @@ void AddPortrait(CLI::App& app, PortraitOptions& portrait, std::string& size) {
 }
 
 void AddReference(CLI::App& app, ReferenceOptions& reference) {
-  CLI::App* command = app.add_subcommand("reference", "Path-trace a person in a probe's light");
+  CLI::App* command =
+      app.add_subcommand("reference", "Draw a person in a probe's light, in linear radiance");
   command->fallthrough();
   command->add_option("FILE", reference.human, "The person (.larhuman)")
       ->required()
@@ -193,6 +194,12 @@ void AddReference(CLI::App& app, ReferenceOptions& reference) {
   command->add_option("--ground", reference.ground, "Albedo of a floor")
       ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--without-person", reference.without_person, "The floor alone");
+  command
+      ->add_option("--method", reference.method,
+                   "path: path tracing; prt: as the player lights people; sh: without shadows; "
+                   "phong: one lamp and ambient light")
+      ->check(CLI::IsMember({"path", "prt", "sh", "phong"}))
+      ->capture_default_str();
   command->add_option("--samples", reference.samples, "Paths for each pixel")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();

@@ -118,7 +118,8 @@ struct ReferenceOptions {
   double time = 0.0;             // seconds into the clip
   std::optional<double> ground;  // albedo of a floor of 4 x 4 m, if there is one
   bool without_person = false;   // the floor alone
-  int samples = 256;             // of each pixel
+  std::string method = "path";   // path, prt, sh, phong
+  int samples = 256;             // of each pixel, by path
   int bounces = 4;
   uint64_t seed = 1;
   std::filesystem::path out;  // .exr

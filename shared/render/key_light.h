@@ -1,6 +1,6 @@
 #pragma once
 
-// The one direction that most light comes from, for highlights. Private to render.
+// The one direction that most light comes from, for highlights.
 
 #include <glm/vec3.hpp>
 #include <optional>
