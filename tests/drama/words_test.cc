@@ -189,6 +189,42 @@ TEST_F(WordsTest, AStoppedTaskEndsWithItsLoser) {
   EXPECT_FALSE(State("keeper").visible);
 }
 
+TEST_F(WordsTest, EveryTaskIsToldWithItsEnd) {
+  const auto drama = Make(R"(
+    local keeper = actor("keeper")
+    function main()
+      keeper:place{}
+      pcall(keeper.use, keeper, "chest", "shut")
+      start(function() attempt(function() wait(1) actor("guest"):take("cup") end) end)
+      pcall(function()
+        keeper:give("cup", "guest")
+      end)
+      keeper:take("cup")
+      local done, why = attempt(function() keeper:use(object("chest"), "shut") end)
+      wait(done and 1000 or 0)
+      error(why)
+    end)");
+  PlayTo(*drama, 30.0);
+  const auto tasks = drama->tasks();
+  ASSERT_EQ(tasks.size(), 5u);
+  EXPECT_EQ(tasks[0].action, "use shut");
+  EXPECT_EQ(tasks[0].object, "chest");
+  EXPECT_TRUE(tasks[0].failed && !tasks[0].expected);
+  EXPECT_EQ(tasks[1].action, "give");
+  EXPECT_EQ(tasks[1].where, "drama.lua:8");
+  EXPECT_TRUE(tasks[1].failed && !tasks[1].expected) << "of another coroutine than attempt()";
+  EXPECT_THAT(tasks[1].message, HasSubstr("does not hold it"));
+  for (const size_t i : {size_t{2}, size_t{3}, size_t{4}}) {
+    EXPECT_EQ(tasks[i].failed, tasks[i].expected) << tasks[i].action;
+    EXPECT_EQ(tasks[i].failed, tasks[i].action != "take" || tasks[i].actor == "guest")
+        << tasks[i].message;
+    EXPECT_GE(tasks[i].ended, tasks[i].began);
+  }
+  EXPECT_THAT(FirstError(*drama), HasSubstr("it is 'shut'")) << "attempt() tells why";
+  ASSERT_TRUE(drama->Seek(0.0).ok());
+  EXPECT_LE(drama->tasks().size(), 2u) << "those until then";
+}
+
 TEST_F(WordsTest, AGestureIsPlayedOnceOverWhatTheBodyDoes) {
   const auto drama = Make(R"(
     local keeper = actor("keeper")

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
 
 #include "shared/human/performance.h"
 #include "shared/stage/stage.h"
@@ -84,6 +87,62 @@ TEST_F(BodyTest, TheHandStaysOnTheGripOfAMovingPart) {
   }
   EXPECT_GT(ticks, 100);
   EXPECT_LT(worst, 0.005f);
+}
+
+// A place that has something solid, axis-aligned, in it.
+stage::Place PlaceWith(const stage::PropMesh& solid) {
+  stage::Place place;
+  Occluder& occluder = place.occluders.emplace_back();
+  occluder.name = "solid";
+  occluder.mesh.positions = solid.positions;
+  occluder.mesh.indices = solid.indices;
+  return place;
+}
+
+TEST_F(BodyTest, PeopleReachOverACounterFromEitherSide) {
+  // 0.6 m deep, 1 m high, with a wall at one end and the other one free.
+  NavigationOptions floor;
+  floor.floor = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}};
+  const std::array places = {
+      PlaceWith(test::MakeBox({-1.5f, 0.0f, -0.3f}, {1.0f, 1.0f, 0.3f})),
+      PlaceWith(test::MakeBox({-3.5f, 0.0f, -3.0f}, {-1.5f, 2.5f, 3.0f})),
+  };
+  std::vector<ObjectId> things;
+  for (const glm::vec2 at : {glm::vec2(0.3f, 0.0f), glm::vec2(0.0f, 0.2f), glm::vec2(-0.3f, -0.2f),
+                             glm::vec2(-1.2f, 0.0f)}) {
+    things.push_back(*stage_.AddObject("thing" + std::to_string(things.size()),
+                                       test::Model(test::MakeCup()), {{at.x, 1.0f, at.y}}));
+  }
+  ASSERT_TRUE(stage_.SetFloor(floor, places).ok());
+  for (const float side : {1.5f, -1.5f}) {
+    for (const ObjectId thing : things) {
+      Place(0.0f, side);
+      // Turned as somebody on that side takes it.
+      const glm::vec3 lies = stage_.Find(thing)->state.stage_from_object.position;
+      const float turn = side > 0.0f ? 0.0f : std::numbers::pi_v<float>;
+      stage_.Place(thing, {lies, glm::angleAxis(turn, glm::vec3(0.0f, 1.0f, 0.0f))});
+      const auto task = stage_.tasks().Take(keeper_, thing);
+      float missed = 1.0f;
+      bool held = false;
+      while (!stage_.tasks().report(*task).over()) {
+        Tick();
+        const ObjectState& state = stage_.Find(thing)->state;
+        if (state.holder && !held) {  // the moment in which it is taken
+          held = true;
+          const Pose grip = state.stage_from_object * ObjectFromGrip(*stage_.Find(thing)->model,
+                                                                     state.joints, state.hands[0]);
+          missed = glm::distance(StageFromPalm(human::kRight).position, grip.position);
+        }
+        const glm::vec3& at = State().position;
+        EXPECT_FALSE(at.x > -1.5f && at.x < 1.0f && std::abs(at.z) < 0.42f) << "in the counter";
+      }
+      EXPECT_EQ(stage_.tasks().report(*task).state, TaskReport::State::kDone)
+          << stage_.tasks().report(*task).message;
+      EXPECT_GT(State().position.z * side, 0.0f) << "on the side where it came from";
+      EXPECT_LT(missed, 0.005f);
+      stage_.Place(thing, {lies});
+    }
+  }
 }
 
 TEST_F(BodyTest, WhatIsCarriedStaysInTheHandAndUpright) {
