@@ -1,8 +1,12 @@
-// What a real surface's pixel keeps of its light, from the coarse image of ratios.
+// What a real surface's pixel keeps of its light: of the sky's from the coarse image of
+// ratios, of the sun's where it is not in the shadow of real things already.
 
 #include "catcher.glsl"
+#include "octahedral.glsl"
+#include "sun.glsl"
 
-uniform sampler2D sky_ratio;  // shaders/pass/sky_ratio.frag
+uniform sampler2D sky_ratio;       // shaders/pass/sky_ratio.frag
+uniform sampler2D sky_irradiance;  // without anybody, by normal
 
 // How much a coarse cell says about a point: it must lie in the same plane (joint bilateral
 // upsampling, Kopf et al., SIGGRAPH 2007, with plane and normal for guides).
@@ -47,11 +51,27 @@ vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
   return sum.a > 0.0 ? sum.rgb / sum.a : vec3(1.0);
 }
 
+// kept: the sky's ratio.
+vec3 WithSun(vec3 kept, vec3 point, vec3 normal) {
+  float cosine = dot(normal, sun_direction);
+  float past_people = cosine > 0.0 ? SunPastPeople(point, 0.005) : 1.0;
+  if (past_people > 0.999 && all(greaterThan(kept, vec3(0.999)))) {
+    return kept;
+  }
+  float past_things = cosine > 0.0 ? SunPastOccluders(point, 0.03) : 0.0;
+  vec3 sun = max(cosine, 0.0) * past_things * sun_irradiance;
+  vec3 sky = textureLod(sky_irradiance, OctahedralPosition(normal), 0.0).rgb;
+  return (sky * kept + sun * past_people + 1e-6) / (sky + sun + 1e-6);
+}
+
 vec3 CaughtShadow(ivec2 cell) {
   vec4 surface = texelFetch(surface_normal, cell, 0);
   if (surface.a < 0.5) {
     return vec3(1.0);
   }
   float depth = SurfaceDepth(cell);
-  return SkyRatio(cell, SurfacePoint(cell, depth), SurfaceNormal(surface), depth);
+  vec3 point = SurfacePoint(cell, depth);
+  vec3 normal = SurfaceNormal(surface);
+  vec3 kept = SkyRatio(cell, point, normal, depth);
+  return has_sun == 1 ? WithSun(kept, point, normal) : kept;
 }

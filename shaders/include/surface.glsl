@@ -3,12 +3,18 @@
 // SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH or SURFACE_EYE chooses the model.
 
 #include "spherical_harmonics.glsl"
+#include "sun.glsl"
 
 uniform vec3 irradiance[9];
 uniform vec3 unscattered[9];  // the same where it is not softened by skin
 uniform int matte_only;
 uniform vec3 key_direction;   // towards the light, unit, stage axes
-uniform vec3 key_irradiance;  // of a surface that faces it
+uniform vec3 key_irradiance;  // of a surface that faces it; of the sun where there is one
+
+// Of the surface at hand: what arrives of the key light, and how much of all is not in
+// somebody's shadow.
+vec3 key_light;
+float open_share;
 
 const float kPi = 3.14159265358979;
 
@@ -35,17 +41,19 @@ vec3 KeyHighlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
   float distribution = alpha * alpha / (kPi * spread * spread);
   float visibility = 0.5 / max(mix(2.0 * n_l * n_v, n_l + n_v, alpha), 1e-3);
   float fresnel = Fresnel(f0, max(dot(to_eye, half_way), 0.0));
-  return key_irradiance * (distribution * visibility * fresnel * n_l);
+  return key_light * (distribution * visibility * fresnel * n_l);
 }
 
 // All highlights of a rough dielectric. What comes from around is as blurred as
 // irradiance is; the key light is left out of it.
 vec3 Highlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
   vec3 mirrored = reflect(-to_eye, normal);
-  vec3 around = Irradiance(irradiance, mirrored) -
-                key_irradiance * max(dot(mirrored, key_direction), 0.0);
+  vec3 around = Irradiance(irradiance, mirrored);
+  if (has_sun == 0) {  // which is not in the harmonics
+    around -= key_irradiance * max(dot(mirrored, key_direction), 0.0);
+  }
   float share = ReflectedShare(f0, roughness, max(dot(normal, to_eye), 0.0));
-  return share * max(around, 0.0) / kPi + KeyHighlight(normal, to_eye, f0, roughness);
+  return open_share * share * max(around, 0.0) / kPi + KeyHighlight(normal, to_eye, f0, roughness);
 }
 
 // One lobe of light along strands (Kajiya & Kay, SIGGRAPH 1989), moved towards root
@@ -63,7 +71,7 @@ vec3 HairHighlight(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float rou
   float white = StrandLobe(strand, normal, half_way, -0.1, sharpness);
   float coloured = StrandLobe(strand, normal, half_way, 0.15, 0.25 * sharpness);
   float facing = clamp(0.3 + 0.7 * dot(normal, key_direction), 0.0, 1.0);
-  return key_irradiance * facing * (0.02 * white + 0.08 * sqrt(albedo) * coloured);
+  return key_light * facing * (0.02 * white + 0.08 * sqrt(albedo) * coloured);
 }
 
 // Light caught by fibres that stand off the cloth: strongest at grazing sight, and
@@ -77,10 +85,11 @@ vec3 Fuzz(vec3 albedo, vec3 normal, vec3 to_eye, vec3 even) {
 // Light that transfer left of what falls on a surface, and how much of it that is.
 struct Arriving {
   vec3 irradiance;
-  float open;  // 1: nothing is in its way
+  float open;      // 1: nothing is in its way
+  float sun_seen;  // share of the sun's disc
 };
 
-Arriving Unshadowed(vec3 normal) { return Arriving(Irradiance(irradiance, normal), 1.0); }
+Arriving Unshadowed(vec3 normal) { return Arriving(Irradiance(irradiance, normal), 1.0, 0.0); }
 
 // Transfer was worked out for a vertex and its normal; what the normal at hand would see
 // without shadows, over what that one would, carries it over.
@@ -90,14 +99,19 @@ Arriving Transferred(vec3 transferred, vec3 transfer_normal, vec3 normal) {
   vec3 here = Irradiance(irradiance, normal) + kLeast;
   vec3 weight = vec3(0.2126, 0.7152, 0.0722);
   float open = clamp(dot(transferred, weight) / dot(there, weight), 0.0, 1.0);
-  return Arriving(transferred * min(here / there, 4.0), open);
+  return Arriving(transferred * min(here / there, 4.0), open, 0.0);
 }
 
 // strand: unit, along hair from root to tip. Highlights apart, so that they can stay
 // where the surface is hardly there.
 void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness,
              Arriving arriving, out vec3 matte, out vec3 highlight) {
+  open_share = arriving.open;
+  key_light = key_irradiance * (has_sun == 1 ? arriving.sun_seen : arriving.open);
   vec3 even = arriving.irradiance;
+  if (has_sun == 1) {
+    even += key_light * max(dot(normal, key_direction), 0.0);
+  }
   matte = albedo / kPi * even;
   highlight = vec3(0.0);
   if (matte_only == 1) {
@@ -119,5 +133,4 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
   vec3 glint = KeyHighlight(normal, to_eye, 0.025, 0.2);
   highlight = glint + 0.25 * max(Highlight(normal, to_eye, 0.025, 0.2) - glint, 0.0);
 #endif
-  highlight *= arriving.open;
 }

@@ -57,8 +57,16 @@ vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
 uniform int has_transfer;
 
 Arriving LightOn(vec3 normal) {
-  return has_transfer == 1 ? Transferred(transferred, normalize(transfer_normal), normal)
-                           : Unshadowed(normal);
+  Arriving arriving = has_transfer == 1
+                          ? Transferred(transferred, normalize(transfer_normal), normal)
+                          : Unshadowed(normal);
+  vec3 outward = gl_FrontFacing ? normal_in_stage : -normal_in_stage;
+  if (has_sun == 1 && dot(outward, sun_direction) > 0.0) {
+    // A little off the surface, which is not as fine in the sun's map.
+    vec3 point = position_in_stage + 0.005 * normalize(outward);
+    arriving.sun_seen = SunPastPeople(point, 0.015) * SunPastOccluders(point, 0.03);
+  }
+  return arriving;
 }
 
 void main() {

@@ -4,6 +4,7 @@
 // Sander, "Ambient Aperture Lighting", I3D 2007), in cosines instead of angles.
 
 #include "catcher.glsl"
+#include "octahedral.glsl"
 
 const int kGroups = 6;  // of four cones each, one in each lane
 
@@ -36,10 +37,7 @@ vec4 by_cap[kGroups];
 vec4 visible[kGroups];
 
 vec3 SkyRadiance(vec3 direction) {
-  vec3 d = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));
-  vec2 side = vec2(d.x < 0.0 ? -1.0 : 1.0, d.z < 0.0 ? -1.0 : 1.0);
-  vec2 at = d.y < 0.0 ? (1.0 - abs(d.zx)) * side : d.xz;
-  return textureLod(sky, 0.5 * at + 0.5, 0.0).rgb;
+  return textureLod(sky, OctahedralPosition(direction), 0.0).rgb;
 }
 
 // Mirrors the cones onto a normal (Householder).

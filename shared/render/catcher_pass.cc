@@ -46,6 +46,12 @@ void Limit(const PixelBounds& bounds) {
   glScissor(bounds.left, bounds.bottom, bounds.width(), bounds.height());
 }
 
+void AllocateSky(GlTexture& texture) {
+  AllocateImage(texture, GL_RGBA16F, {kSkyMapSize, kSkyMapSize}, GL_RGBA, GL_FLOAT);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
 // Four cones to a lane each.
 void SetCones(const ShaderProgram& shaders) {
   const char* const names[] = {"cones_x", "cones_y", "cones_z", "cones_cosine"};
@@ -56,23 +62,6 @@ void SetCones(const ShaderProgram& shaders) {
     }
     shaders.Set(names[part], lanes);
   }
-}
-
-Box Transformed(const Box& box, const glm::mat4& to) {
-  Box moved;
-  for (int corner = 0; corner < 8; ++corner) {
-    moved.Extend(glm::vec3(to * glm::vec4((corner & 1) != 0 ? box.high.x : box.low.x,
-                                          (corner & 2) != 0 ? box.high.y : box.low.y,
-                                          (corner & 4) != 0 ? box.high.z : box.low.z, 1.0f)));
-  }
-  return moved;
-}
-
-Box Intersection(const Box& a, const Box& b) {
-  const Box both = {glm::max(a.low, b.low), glm::min(a.high, b.high)};
-  const bool meet =
-      both.low.x <= both.high.x && both.low.y <= both.high.y && both.low.z <= both.high.z;
-  return meet ? both : Box();
 }
 
 }  // namespace
@@ -92,6 +81,8 @@ Result<CatcherPass> CatcherPass::Create() {
   pass.blockers_ = GlBuffer::Generate();
   glBindBuffer(GL_UNIFORM_BUFFER, pass.blockers_.id());
   glBufferData(GL_UNIFORM_BUFFER, sizeof(BlockerBlock), nullptr, GL_STREAM_DRAW);
+  AllocateSky(pass.sky_);
+  AllocateSky(pass.sky_irradiance_);
   pass.UploadSky({});
   return pass;
 }
@@ -116,19 +107,20 @@ Status CatcherPass::Prepare(const ImageSize& size) {
 }
 
 void CatcherPass::UploadSky(const light::ShRgb& light) {
-  if (sky_.id() != 0 && light == uploaded_light_) {
+  if (sky_is_there_ && light == uploaded_light_) {
     return;
   }
-  if (sky_.id() == 0) {
-    AllocateImage(sky_, GL_RGBA16F, {kSkyMapSize, kSkyMapSize}, GL_RGBA, GL_FLOAT);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  }
-  uploaded_light_ = light;
+  const auto upload = [this](const GlTexture& texture) {
+    glBindTexture(GL_TEXTURE_2D, texture.id());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSkyMapSize, kSkyMapSize, GL_RGBA, GL_FLOAT,
+                    sky_map_.data());
+  };
   FillSkyMap(light, sky_map_);
-  glBindTexture(GL_TEXTURE_2D, sky_.id());
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSkyMapSize, kSkyMapSize, GL_RGBA, GL_FLOAT,
-                  sky_map_.data());
+  upload(sky_);
+  FillIrradianceMap(light, sky_map_);
+  upload(sky_irradiance_);
+  uploaded_light_ = light;
+  sky_is_there_ = true;
 }
 
 void CatcherPass::UploadBlockers() {
@@ -138,12 +130,14 @@ void CatcherPass::UploadBlockers() {
 
 PixelBounds CatcherPass::FindBounds(const RenderScene& scene,
                                     const SlotMap<GpuMesh>& meshes,
+                                    const SunPass& sun,
                                     const PictureView& view) const {
   ScreenBounds bounds;
   for (const SceneOccluder& occluder : scene.occluders) {
     if (occluder.receives_shadow) {
       const Box box = Transformed(meshes.Find(occluder.mesh)->box, occluder.stage_from_mesh);
       bounds.Extend(Intersection(box, clusters_.reach()), view.clip_from_stage);
+      bounds.Extend(Intersection(box, sun.shadows()), view.clip_from_stage);
     }
   }
   return bounds.Pixels(view.size.width, view.size.height);
@@ -208,9 +202,9 @@ void CatcherPass::DrawRatio(const PictureView& view) const {
 
 Status CatcherPass::Draw(const RenderScene& scene,
                          const SlotMap<GpuMesh>& meshes,
+                         const SunPass& sun,
                          const PictureView& view) {
-  clusters_.Build(scene.blockers);
-  bounds_ = FindBounds(scene, meshes, view);
+  bounds_ = FindBounds(scene, meshes, sun, view);
   if (bounds_.empty()) {
     return Status();
   }
@@ -229,6 +223,9 @@ void CatcherPass::BindFor(const ShaderProgram& shaders,
   glActiveTexture(GL_TEXTURE0 + first_unit + 2);
   glBindTexture(GL_TEXTURE_2D, ratio_.id());
   shaders.Set("sky_ratio", static_cast<int>(first_unit + 2));
+  glActiveTexture(GL_TEXTURE0 + first_unit + 3);
+  glBindTexture(GL_TEXTURE_2D, sky_irradiance_.id());
+  shaders.Set("sky_irradiance", static_cast<int>(first_unit + 3));
 }
 
 }  // namespace lararium::render

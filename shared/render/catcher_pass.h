@@ -9,6 +9,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "shared/core/id.h"
@@ -20,6 +21,7 @@
 #include "shared/render/render_scene.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
+#include "shared/render/sun_pass.h"
 
 namespace lararium::render {
 
@@ -27,18 +29,27 @@ class CatcherPass {
  public:
   static Result<CatcherPass> Create();
 
+  // The picture's blockers; first.
+  void SetBlockers(std::span<const glm::vec4> blockers) { clusters_.Build(blockers); }
+  // A box of the stage that holds all that the blockers darken.
+  const Box& reach() const { return clusters_.reach(); }
+
   // Fills the images within bounds(), which are empty where no shadow can be seen.
-  Status Draw(const RenderScene& scene, const SlotMap<GpuMesh>& meshes, const PictureView& view);
+  Status Draw(const RenderScene& scene,
+              const SlotMap<GpuMesh>& meshes,
+              const SunPass& sun,
+              const PictureView& view);
   void Skip() { bounds_ = {}; }
 
   const PixelBounds& bounds() const { return bounds_; }
-  // For shaders/include/catcher.glsl and the composite: three units from first on.
+  // For shaders/include/catcher.glsl and the composite: four units from first on.
   void BindFor(const ShaderProgram& shaders, const PictureView& view, uint32_t first_unit) const;
 
  private:
   Status Prepare(const ImageSize& size);
   PixelBounds FindBounds(const RenderScene& scene,
                          const SlotMap<GpuMesh>& meshes,
+                         const SunPass& sun,
                          const PictureView& view) const;
   void DrawSurfaces(const RenderScene& scene,
                     const SlotMap<GpuMesh>& meshes,
@@ -54,7 +65,9 @@ class CatcherPass {
   ShaderProgram ratio_shaders_;
   GlVertexArray no_vertices_;
   GlBuffer blockers_;
-  GlTexture sky_;
+  GlTexture sky_;             // radiance of cones
+  GlTexture sky_irradiance_;  // by normal
+  bool sky_is_there_ = false;
   ImageSize size_;
   GlTexture normal_;
   GlTexture depth_;

@@ -22,6 +22,9 @@ uint32_t GenerateGlObject(GlKind kind) {
     case GlKind::kRenderbuffer:
       glGenRenderbuffers(1, &id);
       break;
+    case GlKind::kSampler:
+      glGenSamplers(1, &id);
+      break;
     case GlKind::kProgram:
       id = glCreateProgram();
       break;
@@ -45,6 +48,9 @@ void DeleteGlObject(GlKind kind, uint32_t id) {
       break;
     case GlKind::kRenderbuffer:
       glDeleteRenderbuffers(1, &id);
+      break;
+    case GlKind::kSampler:
+      glDeleteSamplers(1, &id);
       break;
     case GlKind::kProgram:
       glDeleteProgram(id);

@@ -8,7 +8,15 @@
 
 namespace lararium::render {
 
-enum class GlKind { kBuffer, kTexture, kVertexArray, kFramebuffer, kRenderbuffer, kProgram };
+enum class GlKind {
+  kBuffer,
+  kTexture,
+  kVertexArray,
+  kFramebuffer,
+  kRenderbuffer,
+  kSampler,
+  kProgram
+};
 
 uint32_t GenerateGlObject(GlKind kind);
 void DeleteGlObject(GlKind kind, uint32_t id);
@@ -44,6 +52,7 @@ using GlTexture = GlObject<GlKind::kTexture>;
 using GlVertexArray = GlObject<GlKind::kVertexArray>;
 using GlFramebuffer = GlObject<GlKind::kFramebuffer>;
 using GlRenderbuffer = GlObject<GlKind::kRenderbuffer>;
+using GlSampler = GlObject<GlKind::kSampler>;
 using GlProgram = GlObject<GlKind::kProgram>;
 
 }  // namespace lararium::render

@@ -11,6 +11,7 @@
 
 #include "shared/human/skinning.h"
 #include "shared/render/key_light.h"
+#include "shared/render/sun_pass.h"
 #include "shared/render/surface_texture.h"
 
 namespace lararium::render {
@@ -80,6 +81,14 @@ Result<ModelPass> ModelPass::Create() {
   ModelPass pass;
   pass.skin_ = GlBuffer::Generate();
   pass.white_ = CreateWhiteTexture();
+  for (size_t covered = 0; covered < 2; ++covered) {
+    LARARIUM_ASSIGN_OR_RETURN(pass.casters_[covered],
+                              ShaderProgram::Create("model.vert", "caster.frag",
+                                                    covered == 1 ? "#define COVERED\n" : ""));
+    pass.casters_[covered].BindUniformBlock("Skin", kSkinBinding);
+    pass.casters_[covered].Use();
+    pass.casters_[covered].Set("colour_texture", 0);
+  }
   return pass;
 }
 
@@ -121,11 +130,11 @@ void ModelPass::UploadSkins(std::span<const ModelDraw> draws) {
   }
 }
 
-void ModelPass::SetLight(const RenderScene& scene) const {
+void ModelPass::SetLight(const RenderScene& scene, const SunPass& sun) const {
   const std::array irradiance = IrradianceCoefficients(scene.light);
   std::array scattered = irradiance;
   ScatterInSkin(scattered);
-  const KeyLight key = EstimateKeyLight(scene.light);
+  const KeyLight key = ChooseKeyLight(scene.light, scene.sun);
   const Eigen::Vector3d eye = scene.camera_from_stage->Inverse().translation;
   for (size_t i = 0; i < kPrograms; ++i) {
     if (!programs_[i].ready) {
@@ -144,6 +153,7 @@ void ModelPass::SetLight(const RenderScene& scene) const {
     shaders.Set("knee", std::max(scene.knee, 0.0f));
     shaders.Set("colour_texture", 0);
     shaders.Set("normal_texture", 1);
+    sun.BindFor(shaders);
   }
 }
 
@@ -167,11 +177,12 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   if (vertices != nullptr) {
     draw.model->Stream(index, vertices->positions, vertices->normals);
   }
-  if (!draw.irradiance.empty()) {
+  if (!draw.irradiance.empty() && phase != Phase::kCaster) {
     draw.model->StreamIrradiance(index,
                                  draw.irradiance.subspan(part.first_vertex, part.vertex_count));
   }
-  const ShaderProgram& shaders = programs_[ProgramIndex(part)].shaders;
+  const ShaderProgram& shaders = phase == Phase::kCaster ? casters_[part.covered() ? 1 : 0]
+                                                         : programs_[ProgramIndex(part)].shaders;
   shaders.Use();
   shaders.Set("has_transfer", draw.irradiance.empty() ? 0 : 1);
   shaders.Set("stage_from_model", draw.stage_from_model);
@@ -185,7 +196,7 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   shaders.Set("has_normal_texture", part.normal_texture == GpuModel::kNoTexture ? 0 : 1);
   shaders.Set("fringe", phase == Phase::kFringe ? 1 : 0);
   BindTextures(*draw.model, part);
-  if (part.culls_back_faces) {
+  if (part.culls_back_faces && phase != Phase::kCaster) {
     glEnable(GL_CULL_FACE);
   } else {
     glDisable(GL_CULL_FACE);
@@ -201,7 +212,8 @@ void ModelPass::DrawPhase(Phase phase,
                       static_cast<GLintptr>(i * kSkinStride), kSkinStride);
     for (size_t part = 0; part < draws[i].model->parts.size(); ++part) {
       const GpuModel::Part& drawn = draws[i].model->parts[part];
-      if (drawn.covered() == (phase != Phase::kOpaque) && draws[i].Shows(drawn.prop_part)) {
+      const bool of_phase = phase == Phase::kCaster || drawn.covered() == (phase != Phase::kOpaque);
+      if (of_phase && draws[i].Shows(drawn.prop_part)) {
         DrawPart(draws[i], part, phase, clip_from_stage);
       }
     }
@@ -210,10 +222,11 @@ void ModelPass::DrawPhase(Phase phase,
 
 void ModelPass::Draw(const RenderScene& scene,
                      const glm::mat4& clip_from_stage,
-                     std::span<const ModelDraw> draws) {
+                     std::span<const ModelDraw> draws,
+                     const SunPass& sun) {
   glEnable(GL_DEPTH_TEST);
   UploadSkins(draws);
-  SetLight(scene);
+  SetLight(scene, sun);
   DrawPhase(Phase::kOpaque, clip_from_stage, draws);
   DrawPhase(Phase::kCore, clip_from_stage, draws);
   glDepthMask(GL_FALSE);
@@ -222,6 +235,12 @@ void ModelPass::Draw(const RenderScene& scene,
   DrawPhase(Phase::kFringe, clip_from_stage, draws);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+}
+
+void ModelPass::DrawCasters(const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws) {
+  UploadSkins(draws);
+  DrawPhase(Phase::kCaster, clip_from_stage, draws);
   glDisable(GL_CULL_FACE);
 }
 

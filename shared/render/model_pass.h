@@ -22,6 +22,8 @@
 
 namespace lararium::render {
 
+class SunPass;
+
 // One model in the picture.
 struct ModelDraw {
   GpuModel* model = nullptr;
@@ -45,10 +47,13 @@ class ModelPass {
   // scene's.
   void Draw(const RenderScene& scene,
             const glm::mat4& clip_from_stage,
-            std::span<const ModelDraw> draws);
+            std::span<const ModelDraw> draws,
+            const SunPass& sun);
+  // Depth alone, as of what is wholly there.
+  void DrawCasters(const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
 
  private:
-  enum class Phase { kOpaque, kCore, kFringe };
+  enum class Phase { kOpaque, kCore, kFringe, kCaster };
   struct Program {
     ShaderProgram shaders;
     bool ready = false;
@@ -57,12 +62,13 @@ class ModelPass {
   static size_t ProgramIndex(const GpuModel::Part& part);
 
   void UploadSkins(std::span<const ModelDraw> draws);
-  void SetLight(const RenderScene& scene) const;
+  void SetLight(const RenderScene& scene, const SunPass& sun) const;
   void DrawPhase(Phase phase, const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
   void DrawPart(const ModelDraw& draw, size_t part, Phase phase, const glm::mat4& clip_from_stage);
   void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;
 
   std::array<Program, kPrograms> programs_;
+  std::array<ShaderProgram, 2> casters_;  // the second of partly covered surfaces
   GlBuffer skin_;  // matrices or dual quaternions of all models in the picture
   GlTexture white_;
   std::vector<glm::mat4> packed_;  // dual quaternions of one model, as the shader takes them

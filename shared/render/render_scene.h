@@ -14,6 +14,7 @@
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
 #include "shared/light/spherical_harmonics.h"
+#include "shared/light/sun.h"
 
 namespace lararium::render {
 
@@ -81,6 +82,9 @@ struct RenderScene {
   // What falls on people and props: radiance, stage axes. What is seen of them is
   // multiplied by exposure and by gain (the image over the map's reference).
   light::ShRgb light = {};
+  // Apart from light: casts shadows with edges, from people and props on each other and on
+  // occluders that receive shadows, and from occluders on people.
+  std::optional<light::Sun> sun = std::nullopt;
   float exposure = 1.0f;
   glm::vec3 gain = glm::vec3(1.0f);
   // How the camera renders highlights (the background has it already): linear up

@@ -35,7 +35,7 @@ void ResetState() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  for (GLuint unit = 0; unit < 8; ++unit) {
+  for (GLuint unit = 0; unit < SunPass::kFirstUnit + SunPass::kUnits; ++unit) {
     glBindSampler(unit, 0);
   }
 }
@@ -52,6 +52,7 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const RendererOptions& option
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->model_pass, ModelPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->catcher_pass, CatcherPass::Create());
+  LARARIUM_ASSIGN_OR_RETURN(state->sun_pass, SunPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
                             ShaderProgram::Create("full_screen.vert", "composite.frag"));
   state->no_vertices = GlVertexArray::Generate();
@@ -151,6 +152,7 @@ void Renderer::State::DrawOccluders(std::span<const SceneOccluder> occluders,
 void Renderer::State::CollectDraw(const ModelDraw& draw,
                                   const PictureView& view,
                                   ScreenBounds& bounds) {
+  all_draws.push_back(draw);
   const glm::mat4 clip_from_model = view.clip_from_stage * draw.stage_from_model;
   ScreenBounds own;
   for (size_t joint = 0; joint < draw.model->joint_count(); ++joint) {
@@ -175,6 +177,7 @@ void Renderer::State::CollectDraw(const ModelDraw& draw,
 
 PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const PictureView& view) {
   draws.clear();
+  all_draws.clear();
   ScreenBounds bounds;
   for (const SceneProp& prop : scene.props) {
     CollectDraw(
@@ -203,7 +206,7 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
   }
   people.BindAndClear(bounds);
   DrawOccluders(scene.occluders, view.clip_from_stage);
-  model_pass.Draw(scene, view.clip_from_stage, draws);
+  model_pass.Draw(scene, view.clip_from_stage, draws, sun_pass);
   people.Resolve(bounds);
   return Status();
 }
@@ -234,6 +237,7 @@ void Renderer::State::Composite(const RenderScene& scene,
   composite_pass.Set("people_bounds", glm::vec4(people_bounds.left, people_bounds.bottom,
                                                 people_bounds.right, people_bounds.top));
   catcher_pass.BindFor(composite_pass, view, 2);
+  sun_pass.BindFor(composite_pass);
   glBindVertexArray(no_vertices.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
@@ -255,10 +259,14 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   const PictureView view = ViewOf(scene, {target.width(), target.height()});
   PixelBounds people_bounds;
   state.catcher_pass.Skip();
+  state.sun_pass.Skip();
   if (scene.camera_from_stage) {
     people_bounds = state.CollectDraws(scene, view);
+    state.catcher_pass.SetBlockers(scene.blockers);
+    state.sun_pass.Draw(scene, state.meshes, state.model_pass, state.all_draws,
+                        state.catcher_pass.reach());
     LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, view, people_bounds));
-    LARARIUM_RETURN_IF_ERROR(state.catcher_pass.Draw(scene, state.meshes, view));
+    LARARIUM_RETURN_IF_ERROR(state.catcher_pass.Draw(scene, state.meshes, state.sun_pass, view));
   }
   state.Composite(scene, view, people_bounds, target);
   return State::CheckDriver();
@@ -277,6 +285,7 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   linear.knee = 65504.0f;  // the largest that the target holds
   const PictureView view = ViewOf(linear, {scene.display.width, scene.display.height});
   const PixelBounds bounds = state.CollectDraws(linear, view);
+  state.sun_pass.Draw(linear, state.meshes, state.model_pass, state.all_draws, {});
   LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, view, bounds));
   state.people.ReadPixels(bounds, rgba);
   return State::CheckDriver();

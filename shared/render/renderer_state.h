@@ -16,6 +16,7 @@
 #include "shared/render/renderer.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
+#include "shared/render/sun_pass.h"
 #include "shared/render/texture.h"
 
 namespace lararium::render {
@@ -25,18 +26,20 @@ struct Renderer::State {
   ShaderProgram occluder_pass;
   ModelPass model_pass;
   CatcherPass catcher_pass;
+  SunPass sun_pass;
   ShaderProgram composite_pass;
   GlVertexArray no_vertices;  // of the full-screen pass
   Texture background_image{Texture::Encoding::kLinear};
   LinearTarget people;
   SlotMap<GpuMesh> meshes;
   SlotMap<GpuModel> models;
-  std::vector<ModelDraw> draws;  // of the picture at hand: what may be seen in it
+  std::vector<ModelDraw> draws;      // of the picture at hand: what may be seen in it
+  std::vector<ModelDraw> all_draws;  // likewise: all
 
   Status Validate(const RenderScene& scene) const;
   Status ValidateModels(const RenderScene& scene) const;
   Result<ModelHandle> AddModel(Result<GpuModel> model);
-  // Fills draws. Says where they may be seen.
+  // Fills draws and all_draws. Says where they may be seen.
   PixelBounds CollectDraws(const RenderScene& scene, const PictureView& view);
   // Unless it lies outside the picture.
   void CollectDraw(const ModelDraw& draw, const PictureView& view, ScreenBounds& bounds);

@@ -3,8 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace lararium::render {
+
+Box Transformed(const Box& box, const glm::mat4& target_from_box) {
+  Box moved;
+  if (box.empty()) {
+    return moved;
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec4 point((corner & 1) != 0 ? box.high.x : box.low.x,
+                          (corner & 2) != 0 ? box.high.y : box.low.y,
+                          (corner & 4) != 0 ? box.high.z : box.low.z, 1.0f);
+    moved.Extend(glm::vec3(target_from_box * point));
+  }
+  return moved;
+}
+
+Box Intersection(const Box& a, const Box& b) {
+  const Box both = {glm::max(a.low, b.low), glm::min(a.high, b.high)};
+  const bool meet = glm::all(glm::lessThanEqual(both.low, both.high));
+  return meet ? both : Box();
+}
+
+Box Union(const Box& a, const Box& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
 
 void ScreenBounds::Extend(const Box& box, const glm::mat4& clip_from_box) {
   if (box.empty()) {

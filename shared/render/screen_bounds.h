@@ -39,6 +39,12 @@ struct Box {
   bool empty() const { return low.x > high.x; }
 };
 
+// The box of a box that an affine transform moved.
+Box Transformed(const Box& box, const glm::mat4& target_from_box);
+Box Intersection(const Box& a, const Box& b);
+// A box that holds both.
+Box Union(const Box& a, const Box& b);
+
 // Grows over what it is given; never too small.
 class ScreenBounds {
  public:

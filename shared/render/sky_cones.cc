@@ -36,6 +36,20 @@ glm::vec3 OctahedralDirection(float x, float y) {
   return glm::normalize(glm::vec3(x, height, y));
 }
 
+template <typename ValueAt>
+void FillMap(std::vector<glm::vec4>& map, const ValueAt& value) {
+  map.resize(size_t{kSkyMapSize} * kSkyMapSize);
+  for (int row = 0; row < kSkyMapSize; ++row) {
+    for (int column = 0; column < kSkyMapSize; ++column) {
+      const auto at = [](int i) {
+        return (2.0f * static_cast<float>(i) + 1.0f) / kSkyMapSize - 1.0f;
+      };
+      map[static_cast<size_t>(row * kSkyMapSize + column)] =
+          glm::vec4(value(OctahedralDirection(at(column), at(row))), 1.0f);
+    }
+  }
+}
+
 }  // namespace
 
 glm::vec3 SkyConeAxis() { return glm::normalize(glm::vec3(-0.53f, -0.61f, 0.59f)); }
@@ -68,18 +82,14 @@ void FillSkyMap(const light::ShRgb& light, std::vector<glm::vec4>& radiance) {
   for (int k = 0; k < light::kShCount; ++k) {
     blurred[static_cast<size_t>(k)] *= CapFactor(light::ShBandOf(k), kCosine);
   }
-  radiance.resize(size_t{kSkyMapSize} * kSkyMapSize);
-  for (int row = 0; row < kSkyMapSize; ++row) {
-    for (int column = 0; column < kSkyMapSize; ++column) {
-      const auto at = [](int i) {
-        return (2.0f * static_cast<float>(i) + 1.0f) / kSkyMapSize - 1.0f;
-      };
-      const glm::vec3 seen =
-          light::EvaluateRadiance(blurred, OctahedralDirection(at(column), at(row)));
-      radiance[static_cast<size_t>(row * kSkyMapSize + column)] =
-          glm::vec4(glm::max(seen, glm::vec3(0.0f)), 1.0f);
-    }
-  }
+  FillMap(radiance, [&](const glm::vec3& direction) {
+    return glm::max(light::EvaluateRadiance(blurred, direction), glm::vec3(0.0f));
+  });
+}
+
+void FillIrradianceMap(const light::ShRgb& light, std::vector<glm::vec4>& irradiance) {
+  FillMap(irradiance,
+          [&](const glm::vec3& normal) { return light::EvaluateIrradiance(light, normal); });
 }
 
 }  // namespace lararium::render

@@ -29,5 +29,7 @@ const std::array<glm::vec4, kSkyConeCount>& SkyCones();
 // radiance: [row][column] of kSkyMapSize, alpha 1.
 inline constexpr int kSkyMapSize = 24;
 void FillSkyMap(const light::ShRgb& light, std::vector<glm::vec4>& radiance);
+// The same of irradiance, by normal.
+void FillIrradianceMap(const light::ShRgb& light, std::vector<glm::vec4>& irradiance);
 
 }  // namespace lararium::render

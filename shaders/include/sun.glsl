@@ -1,0 +1,72 @@
+// How much of the sun is seen past people, and past real things. Percentage-closer soft
+// shadows (Fernando, SIGGRAPH 2005 sketches): what is in the way on average says how far
+// away it is and so how wide the penumbra.
+
+uniform int has_sun;
+uniform vec3 sun_direction;   // towards it, unit, stage axes
+uniform vec3 sun_irradiance;  // of a surface that faces it
+uniform float sun_slope;      // tangent of its angular radius
+
+// Seen from the sun: maps of depth, which grows away from it.
+uniform highp sampler2DShadow people_map;
+uniform sampler2D people_map_depth;  // the same image
+uniform mat4 people_map_from_stage;  // to 0..1
+uniform vec3 people_map_size;        // metres
+uniform highp sampler2DShadow occluder_map;
+uniform sampler2D occluder_map_depth;
+uniform mat4 occluder_map_from_stage;
+uniform vec3 occluder_map_size;
+
+// Points that cover the unit disc evenly (Vogel 1979).
+vec2 DiscPoint(int index, int count) {
+  float turn = 2.3999632 * float(index);
+  return sqrt((float(index) + 0.5) / float(count)) * vec2(cos(turn), sin(turn));
+}
+
+const int kSearches = 12;
+const int kTaps = 24;
+
+// What is in the way of a point on average; as deep as the point where nothing is.
+float BlockerDepth(sampler2D map, vec3 at, vec2 radius) {
+  float sum = 0.0;
+  float count = 0.0;
+  for (int i = 0; i < kSearches; ++i) {
+    float depth = textureLod(map, at.xy + radius * DiscPoint(i, kSearches), 0.0).r;
+    if (depth < min(at.z, 1.0)) {
+      sum += depth;
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? sum / count : at.z;
+}
+
+float SeenPast(highp sampler2DShadow map, sampler2D map_depth, vec3 at, vec3 size) {
+  if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0))) || at.z <= 0.0) {
+    return 1.0;
+  }
+  vec2 texel = 1.0 / vec2(textureSize(map, 0));
+  vec2 widest = max(min(sun_slope * at.z * size.z, 0.5) / size.xy, texel);
+  float blocker = BlockerDepth(map_depth, at, widest);
+  if (blocker >= at.z) {
+    return 1.0;
+  }
+  vec2 radius = max(sun_slope * (at.z - blocker) * size.z / size.xy, 0.5 * texel);
+  float seen = 0.0;
+  for (int i = 0; i < kTaps; ++i) {
+    vec2 tap = at.xy + radius * DiscPoint(i, kTaps);
+    seen += texture(map, vec3(tap, min(at.z, 1.0)));
+  }
+  return seen / float(kTaps);
+}
+
+// clearance: metres by which the point is moved towards the sun, so that surfaces do not
+// shade themselves where the map is coarse.
+float SunPastPeople(vec3 point, float clearance) {
+  vec4 at = people_map_from_stage * vec4(point + clearance * sun_direction, 1.0);
+  return SeenPast(people_map, people_map_depth, at.xyz, people_map_size);
+}
+
+float SunPastOccluders(vec3 point, float clearance) {
+  vec4 at = occluder_map_from_stage * vec4(point + clearance * sun_direction, 1.0);
+  return SeenPast(occluder_map, occluder_map_depth, at.xyz, occluder_map_size);
+}

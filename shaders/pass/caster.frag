@@ -1,0 +1,14 @@
+// Depth of people and props seen from the sun, where they are there at all.
+
+uniform sampler2D colour_texture;
+uniform float alpha_cutoff;
+
+in vec2 surface_uv;
+
+void main() {
+#ifdef COVERED
+  if (texture(colour_texture, surface_uv).a < max(alpha_cutoff, 0.5)) {
+    discard;
+  }
+#endif
+}

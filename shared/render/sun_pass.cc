@@ -1,0 +1,220 @@
+#include "shared/render/sun_pass.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace lararium::render {
+namespace {
+
+constexpr int kMapSize = 1024;
+// Shadows of a low sun end somewhere.
+constexpr float kLongestShadow = 15.0f;  // metres
+
+// Turns the stage so that Z points away from the sun.
+glm::mat4 SunFromStage(const glm::vec3& direction) {
+  const glm::vec3 away = -glm::normalize(direction);
+  const glm::vec3 aside =
+      std::abs(away.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
+  const glm::vec3 x = glm::normalize(glm::cross(aside, away));
+  return glm::mat4(glm::transpose(glm::mat3(x, glm::cross(away, x), away)));
+}
+
+void ExtendBy(const ModelDraw& draw, const glm::mat4& target_from_stage, Box& box) {
+  const glm::mat4 target_from_model = target_from_stage * draw.stage_from_model;
+  for (size_t joint = 0; joint < draw.model->joint_count(); ++joint) {
+    if (draw.Shows(joint)) {
+      box = Union(
+          box, Transformed(draw.model->joint_boxes[joint], target_from_model * draw.skin[joint]));
+    }
+  }
+  for (const SceneVertices& moved : draw.vertices) {
+    if (moved.posed) {
+      Box own;
+      for (const glm::vec3& position : moved.positions) {
+        own.Extend(position);
+      }
+      box = Union(box, Transformed(own, target_from_model));
+    }
+  }
+}
+
+Box BoxOf(std::span<const ModelDraw> draws, const glm::mat4& target_from_stage) {
+  Box box;
+  for (const ModelDraw& draw : draws) {
+    ExtendBy(draw, target_from_stage, box);
+  }
+  return box;
+}
+
+Box BoxOf(const RenderScene& scene,
+          const SlotMap<GpuMesh>& meshes,
+          const glm::mat4& target_from_stage) {
+  Box box;
+  for (const SceneOccluder& occluder : scene.occluders) {
+    box = Union(box, Transformed(meshes.Find(occluder.mesh)->box,
+                                 target_from_stage * occluder.stage_from_mesh));
+  }
+  return box;
+}
+
+// Where the shadows of what is in a box fall, down to the lowest that may catch them.
+Box Swept(const Box& box, const glm::vec3& towards_sun, float lowest) {
+  const float depth = std::max(box.high.y - lowest, 0.0f);
+  const float length = std::min(depth / std::max(towards_sun.y, 1e-3f), kLongestShadow);
+  return Union(box, {box.low - length * towards_sun, box.high - length * towards_sun});
+}
+
+Box Widened(const Box& box, float metres) { return {box.low - metres, box.high + metres}; }
+
+}  // namespace
+
+Result<SunPass> SunPass::Create() {
+  SunPass pass;
+  LARARIUM_ASSIGN_OR_RETURN(pass.occluder_shaders_,
+                            ShaderProgram::Create("occluder.vert", "occluder.frag"));
+  LARARIUM_RETURN_IF_ERROR(Allocate(pass.people_));
+  LARARIUM_RETURN_IF_ERROR(Allocate(pass.occluders_));
+  pass.plain_depth_ = GlSampler::Generate();
+  glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  return pass;
+}
+
+Status SunPass::Allocate(Map& map) {
+  map.depth = GlTexture::Generate();
+  glBindTexture(GL_TEXTURE_2D, map.depth.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kMapSize, kMapSize, 0, GL_DEPTH_COMPONENT,
+               GL_UNSIGNED_INT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  map.framebuffer = GlFramebuffer::Generate();
+  glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, map.depth.id(), 0);
+  const GLenum none = GL_NONE;
+  glDrawBuffers(1, &none);
+  glReadBuffer(GL_NONE);
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    return Status::Error("graphics", "the driver cannot draw maps of shadows", "update the driver");
+  }
+  return Status();
+}
+
+void SunPass::Fit(const Box& box, const glm::mat4& sun_from_stage, Map& map) {
+  map.size = glm::max(box.high - box.low, glm::vec3(0.01f));
+  glm::mat4 map_from_sun(1.0f);
+  for (int axis = 0; axis < 3; ++axis) {
+    map_from_sun[axis][axis] = 1.0f / map.size[axis];
+    map_from_sun[3][axis] = -box.low[axis] / map.size[axis];
+  }
+  map.map_from_stage = map_from_sun * sun_from_stage;
+}
+
+namespace {
+
+// Draws go there from now on. Says clip_from_stage.
+glm::mat4 BeginMap(uint32_t framebuffer, const glm::mat4& map_from_stage) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, kMapSize, kMapSize);
+  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glClearDepthf(1.0f);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  // Slanting surfaces would shade themselves within a texel.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(2.0f, 4.0f);
+  glm::mat4 clip_from_map(2.0f);
+  clip_from_map[3] = glm::vec4(-1.0f, -1.0f, -1.0f, 1.0f);
+  return clip_from_map * map_from_stage;
+}
+
+}  // namespace
+
+void SunPass::DrawOccluders(const RenderScene& scene, const SlotMap<GpuMesh>& meshes) const {
+  const glm::mat4 clip_from_stage =
+      BeginMap(occluders_.framebuffer.id(), occluders_.map_from_stage);
+  occluder_shaders_.Use();
+  for (const SceneOccluder& occluder : scene.occluders) {
+    occluder_shaders_.Set("clip_from_mesh", clip_from_stage * occluder.stage_from_mesh);
+    meshes.Find(occluder.mesh)->Draw();
+  }
+}
+
+void SunPass::Draw(const RenderScene& scene,
+                   const SlotMap<GpuMesh>& meshes,
+                   ModelPass& models,
+                   std::span<const ModelDraw> casters,
+                   const Box& around) {
+  Skip();
+  if (!scene.sun) {
+    return;
+  }
+  sun_ = *scene.sun;
+  sun_.direction = glm::normalize(sun_.direction);
+  shines_ = true;
+  const glm::mat4 sun_from_stage = SunFromStage(sun_.direction);
+  const Box people = BoxOf(casters, glm::mat4(1.0f));
+  const Box things = BoxOf(scene, meshes, glm::mat4(1.0f));
+  if (!people.empty() && !things.empty()) {
+    shadows_ = Widened(Swept(people, sun_.direction, things.low.y),
+                       kLongestShadow * std::tan(sun_.angular_radius));
+  }
+  // Penumbras and filters reach a little beyond.
+  Box fitted = people.empty() ? Widened({glm::vec3(0.0f), glm::vec3(0.0f)}, 1.0f)
+                              : BoxOf(casters, sun_from_stage);
+  fitted = Widened(fitted, 0.05f);
+  Fit(fitted, sun_from_stage, people_);
+  models.DrawCasters(BeginMap(people_.framebuffer.id(), people_.map_from_stage), casters);
+
+  Box asked = Union(Union(people, shadows_), around);
+  Box covered = asked.empty() ? fitted : Transformed(asked, sun_from_stage);
+  const Box depths = BoxOf(scene, meshes, sun_from_stage);
+  if (!depths.empty()) {
+    covered.low.z = depths.low.z;
+    covered.high.z = depths.high.z;
+  }
+  Fit(Widened(covered, 0.05f), sun_from_stage, occluders_);
+  DrawOccluders(scene, meshes);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_DEPTH_TEST);
+}
+
+void SunPass::Skip() {
+  shines_ = false;
+  shadows_ = {};
+}
+
+void SunPass::BindFor(const ShaderProgram& shaders) const {
+  shaders.Set("has_sun", shines_ ? 1 : 0);
+  shaders.Set("sun_direction", sun_.direction);
+  shaders.Set("sun_irradiance", sun_.irradiance);
+  shaders.Set("sun_slope", std::tan(sun_.angular_radius));
+  const auto bind = [&](const Map& map, uint32_t unit, const std::array<const char*, 4>& names) {
+    for (const uint32_t of_map : {unit, unit + 1}) {
+      glActiveTexture(GL_TEXTURE0 + of_map);
+      glBindTexture(GL_TEXTURE_2D, map.depth.id());
+    }
+    glBindSampler(unit + 1, plain_depth_.id());
+    shaders.Set(names[0], static_cast<int>(unit));
+    shaders.Set(names[1], static_cast<int>(unit + 1));
+    shaders.Set(names[2], map.map_from_stage);
+    shaders.Set(names[3], map.size);
+  };
+  bind(people_, kFirstUnit,
+       {"people_map", "people_map_depth", "people_map_from_stage", "people_map_size"});
+  bind(occluders_, kFirstUnit + 2,
+       {"occluder_map", "occluder_map_depth", "occluder_map_from_stage", "occluder_map_size"});
+  glActiveTexture(GL_TEXTURE0);
+}
+
+}  // namespace lararium::render

@@ -1,0 +1,70 @@
+#pragma once
+
+// What the sun sees of people and of real things, so that others know whether they stand
+// in their shadow. Private to render.
+//
+// Two maps: people and props, fitted to them; and occluders, over all that people may
+// darken. Real things cast their shadows in the camera's image already: there people's
+// shadows must not fall again, and people must not be lit.
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "shared/core/id.h"
+#include "shared/core/status.h"
+#include "shared/light/sun.h"
+#include "shared/render/gl_object.h"
+#include "shared/render/gpu_mesh.h"
+#include "shared/render/model_pass.h"
+#include "shared/render/render_scene.h"
+#include "shared/render/screen_bounds.h"
+#include "shared/render/shader_program.h"
+
+namespace lararium::render {
+
+class SunPass {
+ public:
+  static Result<SunPass> Create();
+
+  // casters: all people and props, whether seen or not. around: a box of the stage in
+  // which the sun past occluders will be asked for as well.
+  void Draw(const RenderScene& scene,
+            const SlotMap<GpuMesh>& meshes,
+            ModelPass& models,
+            std::span<const ModelDraw> casters,
+            const Box& around);
+  // There is no sun.
+  void Skip();
+
+  // A box of the stage that holds all shadows of people as far as they matter; empty
+  // without a sun.
+  const Box& shadows() const { return shadows_; }
+  // For shaders/include/sun.glsl: the units from kFirstUnit on.
+  void BindFor(const ShaderProgram& shaders) const;
+  static constexpr uint32_t kFirstUnit = 6;
+  static constexpr uint32_t kUnits = 4;
+
+ private:
+  struct Map {
+    GlTexture depth;
+    GlFramebuffer framebuffer;
+    glm::mat4 map_from_stage = glm::mat4(1.0f);  // to 0..1
+    glm::vec3 size = glm::vec3(1.0f);            // metres
+  };
+
+  static Status Allocate(Map& map);
+  // box: in the axes of sun_from_stage.
+  static void Fit(const Box& box, const glm::mat4& sun_from_stage, Map& map);
+  void DrawOccluders(const RenderScene& scene, const SlotMap<GpuMesh>& meshes) const;
+
+  Map people_;
+  Map occluders_;
+  GlSampler plain_depth_;  // without comparison
+  ShaderProgram occluder_shaders_;
+  bool shines_ = false;
+  light::Sun sun_;
+  Box shadows_;
+};
+
+}  // namespace lararium::render

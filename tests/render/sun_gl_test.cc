@@ -1,0 +1,204 @@
+// Shadows of the sun: where they fall, how soft their edges are, and what shades what.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "shared/geometry/glm_convert.h"
+#include "shared/render/clip_space.h"
+#include "shared/render/renderer.h"
+#include "tests/render/gl_fixture.h"
+#include "tests/render/test_people.h"
+
+namespace lararium::render {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr int kWidth = 640;
+constexpr int kHeight = 480;
+constexpr int kGrey = 190;
+constexpr double kPixelsPerMetre = 200.0;  // of the floor
+
+double LinearFromSrgb(double c) {
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+geometry::TriangleMesh Quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
+  return {.positions = {corner, corner + u, corner + u + v, corner + v},
+          .normals = {},
+          .indices = {0, 1, 2, 0, 2, 3}};
+}
+
+light::ShRgb EvenSky(float irradiance) {
+  light::ShRgb light = {};
+  light[0] = glm::vec3(irradiance / kPi / 0.28209479f);
+  return light;
+}
+
+// A floor seen from straight above, so that a pixel is 5 mm of it, and a ball above it.
+class SunTest : public GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    auto renderer = Renderer::Create({.samples = 1});
+    ASSERT_TRUE(renderer.ok()) << renderer.message();
+    renderer_ = std::move(renderer).value();
+    scene_.background = cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(kGrey));
+    scene_.camera = scene_.display = {.width = kWidth,
+                                      .height = kHeight,
+                                      .fx = 8.0 * kPixelsPerMetre,
+                                      .fy = 8.0 * kPixelsPerMetre,
+                                      .cx = 0.5 * (kWidth - 1),
+                                      .cy = 0.5 * (kHeight - 1)};
+    scene_.camera_from_stage =
+        LookAt(Eigen::Vector3d(0.0, 8.0, 0.0), Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ());
+    occluders_ = {{.mesh = renderer_->AddMesh(
+                       Quad({-6.0f, 0.0f, 6.0f}, {12.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -12.0f}))}};
+    scene_.occluders = occluders_;
+    scene_.light = EvenSky(1.0f);
+    human_ = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value(),
+              .skin = {&skin_, 1}};
+    scene_.humans = {&human_, 1};
+  }
+
+  void PlaceBall(const glm::vec3& centre, float radius) {
+    human_.stage_from_actor = glm::mat4(glm::mat3(radius));
+    human_.stage_from_actor[3] = glm::vec4(centre, 1.0f);
+  }
+  cv::Mat Draw() {
+    const RenderTarget target = MakeTarget(kWidth, kHeight);
+    const Status drawn = renderer_->Draw(scene_, target);
+    EXPECT_TRUE(drawn.ok()) << drawn.message();
+    return Read(target);
+  }
+  // How much of its light the floor keeps at a point.
+  static double Kept(const cv::Mat& picture, double x, double z) {
+    const int column = static_cast<int>(std::lround(0.5 * (kWidth - 1) + kPixelsPerMetre * x));
+    const int row = static_cast<int>(std::lround(0.5 * (kHeight - 1) + kPixelsPerMetre * z));
+    return LinearFromSrgb(picture.at<cv::Vec3b>(row, column)[1] / 255.0) /
+           LinearFromSrgb(kGrey / 255.0);
+  }
+  // Where, from x on, the floor first keeps more than a share.
+  static double EdgeAt(const cv::Mat& picture, double x, double end, double share) {
+    for (; x < end; x += 1.0 / kPixelsPerMetre) {
+      if (Kept(picture, x, 0.0) > share) {
+        return x;
+      }
+    }
+    return end;
+  }
+
+  const glm::mat4 skin_ = glm::mat4(1.0f);
+  std::unique_ptr<Renderer> renderer_;
+  std::vector<SceneOccluder> occluders_;
+  SceneHuman human_;
+  RenderScene scene_;
+};
+
+TEST_F(SunTest, ShadowFallsWhereTheSunSaysAndLeavesTheSky) {
+  // At 45 degrees from -x: a ball one metre up throws its shadow one metre to +x.
+  scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)),
+                          glm::vec3(3.0f * std::sqrt(2.0f)), 0.0005f};
+  PlaceBall({-0.1f, 1.0f, 0.0f}, 0.2f);
+  const cv::Mat picture = Draw();
+  // Sky 1, sun 3: three quarters are lost.
+  EXPECT_NEAR(Kept(picture, 0.9, 0.0), 0.25, 0.02);
+  EXPECT_EQ(Kept(picture, 0.4, 0.0), 1.0);
+  EXPECT_EQ(Kept(picture, 1.4, 0.0), 1.0);
+  // An ellipse, longer along the light by the root of two.
+  const double far_edge = EdgeAt(picture, 0.9, 1.5, 0.6);
+  EXPECT_NEAR(far_edge, 0.9 + 0.2 * std::sqrt(2.0), 0.01);
+  EXPECT_NEAR(Kept(picture, 0.9, 0.18), 0.25, 0.03);
+  EXPECT_EQ(Kept(picture, 0.9, 0.22), 1.0);
+}
+
+// A disc of angular radius a throws a penumbra 2 d tan(a) wide past an edge at distance d.
+TEST_F(SunTest, PenumbraGrowsWithDistanceByTheAngularRadius) {
+  for (const double height : {0.5, 1.5}) {
+    const float angular_radius = 0.03f;
+    scene_.sun = light::Sun{glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(3.0f), angular_radius};
+    // The silhouette, seen from beside the ball, is half a metre off its middle. It hides
+    // from the camera what lies under it: looked at from aside.
+    PlaceBall({0.0f, static_cast<float>(height), 0.0f}, 0.5f);
+    scene_.camera_from_stage = LookAt(Eigen::Vector3d(6.0, 5.0, 0.0),
+                                      Eigen::Vector3d(0.6, 0.0, 0.0), Eigen::Vector3d::UnitY());
+    const cv::Mat picture = Draw();
+    const auto edge = [&](double share) {
+      for (double x = 0.2; x < 1.2; x += 0.001) {
+        const Eigen::Vector2d pixel =
+            *scene_.display.Project(*scene_.camera_from_stage * Eigen::Vector3d(x, 0.0, 0.0));
+        const cv::Vec3b colour = picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y())),
+                                                       static_cast<int>(std::lround(pixel.x())));
+        const double kept = LinearFromSrgb(colour[1] / 255.0) / LinearFromSrgb(kGrey / 255.0);
+        if (colour[0] == colour[2] && kept > 0.25 + 0.75 * share && kept <= 1.0) {
+          return x;
+        }
+      }
+      return 0.0;
+    };
+    // Of a straight edge before a disc, a tenth is seen at -0.687 of the radius, nine
+    // tenths at 0.687.
+    const double width = edge(0.9) - edge(0.1);
+    EXPECT_NEAR(edge(0.5), 0.5, 0.03) << height;
+    EXPECT_NEAR(width, 2.0 * 0.687 * height * std::tan(angular_radius), 0.3 * height * 0.03)
+        << height;
+  }
+}
+
+TEST_F(SunTest, WhereRealThingsShadeAlreadyPeopleDoNotAgain) {
+  scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)),
+                          glm::vec3(3.0f * std::sqrt(2.0f)), 0.0005f};
+  PlaceBall({-0.1f, 1.0f, 0.0f}, 0.2f);
+  // A roof out of the picture, towards the sun, over half of the floor.
+  occluders_.push_back({.mesh = renderer_->AddMesh(
+                            Quad({-6.0f, 4.0f, -2.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
+  scene_.occluders = occluders_;
+  const cv::Mat picture = Draw();
+  // The roof's shadow ends at x = 2: all that is in the picture lies in it.
+  EXPECT_EQ(Kept(picture, 0.9, 0.0), 1.0);
+}
+
+TEST_F(SunTest, PeopleAreLitByTheSunAndNotInTheShadowOfThings) {
+  scene_.light = EvenSky(0.5f);
+  scene_.sun = light::Sun{glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(1.0f), 0.005f};
+  PlaceBall({0.0f, 1.0f, 0.0f}, 0.3f);
+  scene_.matte = true;
+  cv::Mat rgba;
+  ASSERT_TRUE(renderer_->DrawLinear(scene_, rgba).ok());
+  // The top of the ball: white 0.5 under sky and sun.
+  EXPECT_NEAR(rgba.at<cv::Vec4f>(kHeight / 2, kWidth / 2)[0], 0.5f / kPi * 1.5f, 0.003f);
+  occluders_.push_back({.mesh = renderer_->AddMesh(
+                            Quad({-2.0f, 9.0f, -2.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
+  scene_.occluders = occluders_;
+  ASSERT_TRUE(renderer_->DrawLinear(scene_, rgba).ok());
+  EXPECT_NEAR(rgba.at<cv::Vec4f>(kHeight / 2, kWidth / 2)[0], 0.5f / kPi * 0.5f, 0.003f);
+}
+
+TEST_F(SunTest, PeopleShadeEachOther) {
+  scene_.sun = light::Sun{glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(1.0f), 0.002f};
+  scene_.light = EvenSky(0.5f);
+  scene_.matte = true;
+  std::vector<SceneHuman> two = {human_, human_};
+  two[0].stage_from_actor = glm::mat4(glm::mat3(0.4f));
+  two[0].stage_from_actor[3] = glm::vec4(0.0f, 0.5f, 0.0f, 1.0f);
+  two[1].stage_from_actor = glm::mat4(glm::mat3(0.2f));
+  // Above the camera, so that it hides nothing from it.
+  two[1].stage_from_actor[3] = glm::vec4(0.0f, 9.0f, 0.0f, 1.0f);
+  scene_.humans = two;
+  cv::Mat rgba;
+  ASSERT_TRUE(renderer_->DrawLinear(scene_, rgba).ok());
+  EXPECT_NEAR(rgba.at<cv::Vec4f>(kHeight / 2, kWidth / 2)[0], 0.5f / kPi * 0.5f, 0.003f);
+  // Beside that shadow the sun is seen.
+  const float sine = 0.3f / 0.4f;
+  const float cosine = std::sqrt(1.0f - sine * sine);
+  const int aside = static_cast<int>(0.3 * 8.0 * kPixelsPerMetre /
+                                     (8.0 - 0.5 - 0.4 * static_cast<double>(cosine)));
+  EXPECT_NEAR(rgba.at<cv::Vec4f>(kHeight / 2, kWidth / 2 + aside)[0], 0.5f / kPi * (0.5f + cosine),
+              0.01f);
+}
+
+}  // namespace
+}  // namespace lararium::render
