@@ -25,6 +25,13 @@ constexpr double kMaxRinging = 0.05;
 constexpr double kLowDynamicRange = 4.0;
 
 Status CheckSize(const std::string& place, int64_t width, int64_t height) {
+  if (width >= 8 && width < 2 * height && 2 * width > height) {
+    return Status::Error(place,
+                         "the probe is " + std::to_string(width) + " x " + std::to_string(height) +
+                             ", not twice as wide as high",
+                         "if it is a photograph of a mirror ball, unwrap it: lararium-editor probe "
+                         "ball");
+  }
   if (width < 8 || width > kMaxWidth || width != 2 * height) {
     return Status::Error(place,
                          "the probe is " + std::to_string(width) + " x " + std::to_string(height),
@@ -99,15 +106,80 @@ std::string PixelName(const ProbeImage& image, size_t index) {
 
 float Smallest(const glm::vec3& v) { return std::min({v.r, v.g, v.b}); }
 
-// The mean of the finite texels, over pixels and channels.
-Result<double> MeanRadiance(const ProbeImage& image, const std::string& place) {
-  double sum = 0.0;
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    const glm::vec3& texel = image.pixels[i];
-    if (!std::isfinite(texel.r) || !std::isfinite(texel.g) || !std::isfinite(texel.b)) {
-      return Status::Error(place, PixelName(image, i) + " is not a finite number",
-                           "repair the image where it was made");
+bool IsFinite(const glm::vec3& texel) {
+  return std::isfinite(texel.r) && std::isfinite(texel.g) && std::isfinite(texel.b);
+}
+
+// The mean of the eight neighbours that are finite; 0 where none is.
+glm::vec3 MeanOfNeighbours(const ProbeImage& image, size_t index) {
+  const int column = static_cast<int>(index % static_cast<size_t>(image.width));
+  const int row = static_cast<int>(index / static_cast<size_t>(image.width));
+  glm::vec3 sum(0.0f);
+  int count = 0;
+  for (int y = std::max(0, row - 1); y <= std::min(image.height - 1, row + 1); ++y) {
+    for (int x = column - 1; x <= column + 1; ++x) {
+      const int wrapped = (x + image.width) % image.width;
+      const glm::vec3& texel = image.pixels[static_cast<size_t>(y) * image.width + wrapped];
+      if (IsFinite(texel)) {
+        sum += texel;
+        ++count;
+      }
     }
+  }
+  return count > 0 ? sum / static_cast<float>(count) : sum;
+}
+
+// Infinite texels first, so that they are no holes.
+void MendOverflow(ProbeImage& image) {
+  constexpr float kLargestHalf = 65504.0f;
+  size_t count = 0;
+  for (glm::vec3& texel : image.pixels) {
+    for (int c = 0; c < 3; ++c) {
+      if (std::isinf(texel[c]) && texel[c] > 0.0f) {
+        texel[c] = kLargestHalf;
+        ++count;
+      }
+    }
+  }
+  if (count > 0) {
+    image.warnings.push_back(std::to_string(count) +
+                             " infinite values were set to 65504; the sun may be too weak");
+  }
+}
+
+Status MendHoles(ProbeImage& image, const std::string& place) {
+  constexpr size_t kOneIn = 1000;
+  std::vector<size_t> holes;
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    if (!IsFinite(image.pixels[i])) {
+      holes.push_back(i);
+    }
+  }
+  if (holes.empty()) {
+    return Status();
+  }
+  const std::string first = PixelName(image, holes.front()) + " is not a number";
+  if (holes.size() > std::max<size_t>(1, image.pixels.size() / kOneIn)) {
+    return Status::Error(place,
+                         first + ", and " + std::to_string(holes.size() - 1) + " others are not",
+                         "repair the image where it was made");
+  }
+  std::vector<glm::vec3> mended;
+  for (const size_t hole : holes) {
+    mended.push_back(MeanOfNeighbours(image, hole));
+  }
+  for (size_t i = 0; i < holes.size(); ++i) {
+    image.pixels[holes[i]] = mended[i];
+  }
+  image.warnings.push_back(first + "; " + std::to_string(holes.size()) +
+                           " such took the mean of their neighbours");
+  return Status();
+}
+
+// Over pixels and channels.
+double MeanRadiance(const ProbeImage& image) {
+  double sum = 0.0;
+  for (const glm::vec3& texel : image.pixels) {
     sum += (static_cast<double>(texel.r) + texel.g + texel.b) / 3.0;
   }
   return sum / static_cast<double>(image.pixels.size());
@@ -160,6 +232,12 @@ Result<ProbeImage> ReadByExtension(const std::filesystem::path& file) {
   if (extension == ".hdr") {
     return ReadRadiance(file);
   }
+  for (const char* photograph : {".jpg", ".jpeg", ".png", ".tif", ".tiff"}) {
+    if (extension == photograph) {
+      return Status::Error(file.string(), "a photograph has too small a range of brightness",
+                           "merge a bracketed series of them: lararium-editor probe merge");
+    }
+  }
   return Status::Error(file.string(), "not a kind of HDR image that is known here",
                        "use OpenEXR (.exr) or Radiance (.hdr)");
 }
@@ -168,7 +246,9 @@ Result<ProbeImage> ReadByExtension(const std::filesystem::path& file) {
 
 Result<ProbeImage> ReadProbeImage(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ReadByExtension(file));
-  LARARIUM_ASSIGN_OR_RETURN(const double mean, MeanRadiance(image, file.string()));
+  MendOverflow(image);
+  LARARIUM_RETURN_IF_ERROR(MendHoles(image, file.string()));
+  const double mean = MeanRadiance(image);
   if (!(mean > 0.0)) {
     return Status::Error(file.string(), "the probe is black", "use an image that holds light");
   }

@@ -29,9 +29,11 @@ struct ProbeImage {
   std::vector<std::string> warnings;  // what a person should know about the image
 };
 
-// Refuses images that are not 2:1 or hold texels that are not finite; sets
-// slightly negative texels (resampling leaves them) to 0 with a warning and
-// refuses others.
+// Refuses images that are not 2:1, black, or strongly negative, and names the tool for
+// photographs and mirror balls that were taken for probes. Mends with a warning what is
+// plainly damage: infinite texels (half floats that ran over) become the largest half; up to
+// one in a thousand that is no number takes the mean of its neighbours; slightly negative
+// ones (resampling leaves them) become 0.
 Result<ProbeImage> ReadProbeImage(const std::filesystem::path& file);
 
 struct ProbePlacement {

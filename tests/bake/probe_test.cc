@@ -99,13 +99,39 @@ TEST_F(Probe, RefusesAnImageThatIsNotEquirectangular) {
   EXPECT_THAT(image.message(), HasSubstr("square.exr"));
 }
 
-TEST_F(Probe, NamesTheTexelThatIsNotFinite) {
+TEST_F(Probe, MendsATexelThatIsNoNumberAndNamesIt) {
   WriteExr(folder_ / "nan.exr", 32, 16, [](int column, int row) {
     return glm::vec3(column == 5 && row == 3 ? std::numeric_limits<float>::quiet_NaN() : 1.0f);
   });
   const auto image = ReadProbeImage(folder_ / "nan.exr");
-  ASSERT_FALSE(image.ok());
-  EXPECT_THAT(image.message(), HasSubstr("pixel (5, 3)"));
+  ASSERT_TRUE(image.ok()) << image.message();
+  EXPECT_EQ(image->pixels[3 * 32 + 5], glm::vec3(1.0f));
+  ASSERT_FALSE(image->warnings.empty());
+  EXPECT_THAT(image->warnings[0], HasSubstr("pixel (5, 3)"));
+}
+
+TEST_F(Probe, RefusesManyTexelsThatAreNoNumbers) {
+  WriteExr(folder_ / "nan.exr", 32, 16, [](int column, int) {
+    return glm::vec3(column == 5 ? std::numeric_limits<float>::quiet_NaN() : 1.0f);
+  });
+  EXPECT_THAT(ReadProbeImage(folder_ / "nan.exr").message(), HasSubstr("pixel (5, 0)"));
+}
+
+TEST_F(Probe, BringsInfiniteTexelsToTheLargestHalf) {
+  WriteExr(folder_ / "inf.exr", 32, 16, [](int column, int row) {
+    return glm::vec3(column == 5 && row == 3 ? std::numeric_limits<float>::infinity() : 1.0f);
+  });
+  const auto image = ReadProbeImage(folder_ / "inf.exr");
+  ASSERT_TRUE(image.ok()) << image.message();
+  EXPECT_EQ(image->pixels[3 * 32 + 5].g, 65504.0f);
+  ASSERT_FALSE(image->warnings.empty());
+  EXPECT_THAT(image->warnings[0], HasSubstr("infinite"));
+}
+
+TEST_F(Probe, SendsMirrorBallsAndPhotographsToTheirTools) {
+  WriteExr(folder_ / "ball.exr", 48, 32, Lamp(3, 3));
+  EXPECT_THAT(ReadProbeImage(folder_ / "ball.exr").message(), HasSubstr("probe ball"));
+  EXPECT_THAT(ReadProbeImage(folder_ / "sky.JPG").message(), HasSubstr("probe merge"));
 }
 
 TEST_F(Probe, RefusesStronglyNegativeTexels) {
