@@ -43,10 +43,9 @@ vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
     sum += WeightedRatio(first + corner, share.x * share.y + 1e-3, depth, point, normal);
   }
   // Along edges none of the four may fit, but some beyond them.
-  if (sum.a < 1e-2) {
-    for (int i = 0; i < 16; ++i) {
-      sum += WeightedRatio(first - 1 + ivec2(i & 3, i >> 2), 0.1, depth, point, normal);
-    }
+  int more = sum.a < 1e-2 ? 16 : 0;
+  for (int i = 0; i < more; ++i) {
+    sum += WeightedRatio(first - 1 + ivec2(i & 3, i >> 2), 0.1, depth, point, normal);
   }
   return sum.a > 0.0 ? sum.rgb / sum.a : vec3(1.0);
 }
@@ -54,11 +53,10 @@ vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
 // kept: the sky's ratio.
 vec3 WithSun(vec3 kept, vec3 point, vec3 normal) {
   float cosine = dot(normal, sun_direction);
-  float past_people = cosine > 0.0 ? SunPastPeople(point, 0.005) : 1.0;
-  if (past_people > 0.999 && all(greaterThan(kept, vec3(0.999)))) {
-    return kept;
-  }
-  float past_things = cosine > 0.0 ? SunPastOccluders(point, 0.03) : 0.0;
+  int faces = cosine > 0.0 ? 1 : 0;
+  float past_people = SunPastPeople(point, 0.005, faces);
+  bool darkens = past_people < 0.999 || any(lessThan(kept, vec3(0.999)));
+  float past_things = SunPastOccluders(point, 0.03, darkens ? faces : 0);
   vec3 sun = max(cosine, 0.0) * past_things * sun_irradiance;
   vec3 sky = textureLod(sky_irradiance, OctahedralPosition(normal), 0.0).rgb;
   return (sky * kept + sun * past_people + 1e-6) / (sky + sun + 1e-6);
@@ -66,12 +64,17 @@ vec3 WithSun(vec3 kept, vec3 point, vec3 normal) {
 
 vec3 CaughtShadow(ivec2 cell) {
   vec4 surface = texelFetch(surface_normal, cell, 0);
-  if (surface.a < 0.5) {
-    return vec3(1.0);
-  }
   float depth = SurfaceDepth(cell);
   vec3 point = SurfacePoint(cell, depth);
   vec3 normal = SurfaceNormal(surface);
-  vec3 kept = SkyRatio(cell, point, normal, depth);
-  return has_sun == 1 ? WithSun(kept, point, normal) : kept;
+  vec3 kept = vec3(1.0);
+  // Loops instead of ifs: shaders/include/sun.glsl.
+  int receives = surface.a > 0.5 ? 1 : 0;
+  for (int i = 0; i < receives; ++i) {
+    kept = SkyRatio(cell, point, normal, depth);
+    for (int k = 0; k < has_sun; ++k) {
+      kept = WithSun(kept, point, normal);
+    }
+  }
+  return kept;
 }

@@ -23,14 +23,14 @@ vec2 DiscPoint(int index, int count) {
   return sqrt((float(index) + 0.5) / float(count)) * vec2(cos(turn), sin(turn));
 }
 
-const int kSearches = 12;
-const int kTaps = 24;
+const int kSearches = 8;
+const int kTaps = 16;
 
 // What is in the way of a point on average; as deep as the point where nothing is.
-float BlockerDepth(sampler2D map, vec3 at, vec2 radius) {
+float BlockerDepth(sampler2D map, vec3 at, vec2 radius, int searches) {
   float sum = 0.0;
   float count = 0.0;
-  for (int i = 0; i < kSearches; ++i) {
+  for (int i = 0; i < searches; ++i) {
     float depth = textureLod(map, at.xy + radius * DiscPoint(i, kSearches), 0.0).r;
     if (depth < min(at.z, 1.0)) {
       sum += depth;
@@ -40,33 +40,31 @@ float BlockerDepth(sampler2D map, vec3 at, vec2 radius) {
   return count > 0.0 ? sum / count : at.z;
 }
 
-float SeenPast(highp sampler2DShadow map, sampler2D map_depth, vec3 at, vec3 size) {
-  if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0))) || at.z <= 0.0) {
-    return 1.0;
-  }
+// asked: 0 or 1. How often the loops turn depends on it since software (llvmpipe) leaves
+// out work at loops, not at ifs.
+float SeenPast(highp sampler2DShadow map, sampler2D map_depth, vec3 at, vec3 size, int asked) {
+  bool within = all(greaterThan(at, vec3(0.0))) && all(lessThan(at.xy, vec2(1.0)));
   vec2 texel = 1.0 / vec2(textureSize(map, 0));
   vec2 widest = max(min(sun_slope * at.z * size.z, 0.5) / size.xy, texel);
-  float blocker = BlockerDepth(map_depth, at, widest);
-  if (blocker >= at.z) {
-    return 1.0;
-  }
+  float blocker = BlockerDepth(map_depth, at, widest, within ? asked * kSearches : 0);
   vec2 radius = max(sun_slope * (at.z - blocker) * size.z / size.xy, 0.5 * texel);
+  int taps = blocker < at.z ? asked * kTaps : 0;
   float seen = 0.0;
-  for (int i = 0; i < kTaps; ++i) {
+  for (int i = 0; i < taps; ++i) {
     vec2 tap = at.xy + radius * DiscPoint(i, kTaps);
     seen += texture(map, vec3(tap, min(at.z, 1.0)));
   }
-  return seen / float(kTaps);
+  return taps > 0 ? seen / float(taps) : 1.0;
 }
 
 // clearance: metres by which the point is moved towards the sun, so that surfaces do not
-// shade themselves where the map is coarse.
-float SunPastPeople(vec3 point, float clearance) {
+// shade themselves where the map is coarse. asked: 0 for any answer.
+float SunPastPeople(vec3 point, float clearance, int asked) {
   vec4 at = people_map_from_stage * vec4(point + clearance * sun_direction, 1.0);
-  return SeenPast(people_map, people_map_depth, at.xyz, people_map_size);
+  return SeenPast(people_map, people_map_depth, at.xyz, people_map_size, asked);
 }
 
-float SunPastOccluders(vec3 point, float clearance) {
+float SunPastOccluders(vec3 point, float clearance, int asked) {
   vec4 at = occluder_map_from_stage * vec4(point + clearance * sun_direction, 1.0);
-  return SeenPast(occluder_map, occluder_map_depth, at.xyz, occluder_map_size);
+  return SeenPast(occluder_map, occluder_map_depth, at.xyz, occluder_map_size, asked);
 }

@@ -33,7 +33,9 @@ bool Within(vec2 cell, vec4 bounds) {
 void main() {
   vec3 light = Background();
   vec2 cell = vec2(gl_FragCoord.x, float(textureSize(people, 0).y) - gl_FragCoord.y);
-  if (Within(cell, catcher_bounds)) {
+  // A loop instead of an if: shaders/include/sun.glsl.
+  int may_catch = Within(cell, catcher_bounds) ? 1 : 0;
+  for (int i = 0; i < may_catch; ++i) {
     light *= CaughtShadow(ivec2(cell));
   }
   if (Within(cell, people_bounds)) {

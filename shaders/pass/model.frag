@@ -61,10 +61,11 @@ Arriving LightOn(vec3 normal) {
                           ? Transferred(transferred, normalize(transfer_normal), normal)
                           : Unshadowed(normal);
   vec3 outward = gl_FrontFacing ? normal_in_stage : -normal_in_stage;
-  if (has_sun == 1 && dot(outward, sun_direction) > 0.0) {
+  int sunny = dot(outward, sun_direction) > 0.0 ? has_sun : 0;
+  for (int i = 0; i < sunny; ++i) {
     // A little off the surface, which is not as fine in the sun's map.
     vec3 point = position_in_stage + 0.005 * normalize(outward);
-    arriving.sun_seen = SunPastPeople(point, 0.015) * SunPastOccluders(point, 0.03);
+    arriving.sun_seen = SunPastPeople(point, 0.015, 1) * SunPastOccluders(point, 0.03, 1);
   }
   return arriving;
 }

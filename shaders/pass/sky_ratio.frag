@@ -126,15 +126,13 @@ vec3 VisibleShare() {
 void main() {
   ivec2 cell = CoarseSource(ivec2(gl_FragCoord.xy));
   vec4 surface = texelFetch(surface_normal, cell, 0);
-  if (surface.a < 0.5) {
-    ratio = vec4(1.0, 1.0, 1.0, 0.0);
-    return;
-  }
   float depth = SurfaceDepth(cell);
   vec3 point = SurfacePoint(cell, depth);
   PlaceCones(SurfaceNormal(surface));
-  for (int i = 0; i < cluster_count; ++i) {
+  bool receives = surface.a > 0.5;
+  int count = receives ? cluster_count : 0;
+  for (int i = 0; i < count; ++i) {
     HideCluster(clusters[i], point);
   }
-  ratio = vec4(VisibleShare(), depth);
+  ratio = receives ? vec4(VisibleShare(), depth) : vec4(1.0, 1.0, 1.0, 0.0);
 }
