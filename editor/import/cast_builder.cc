@@ -238,6 +238,8 @@ class CastBuilder {
     paint.stubble = recipe_.stubble;
     paint.weathering = recipe_.weathering;
     paint.seed = recipe_.seed;
+    paint.lids = WhereLidsAre(body_, skin);
+    paint.cheeks = WhereCheeksAre(body_, skin);
     if (recipe_.freckles > 0.0f) {
       paint.freckles = WhereFrecklesAre(body_, skin, recipe_.freckles);
     }

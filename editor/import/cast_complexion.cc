@@ -1,5 +1,6 @@
 #include "editor/import/cast_complexion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -36,24 +37,52 @@ class Moved {
   std::vector<bool> by_;
 };
 
-}  // namespace
+// A bell over the front of the face. Places and widths are in distances between the eyes,
+// from the middle between them.
+struct Bell {
+  glm::vec2 middle;
+  glm::vec2 width;
+};
 
-std::vector<float> WhereFrecklesAre(const FittedBody& body, const CastPiece& skin, float amount) {
+std::vector<float> OnFace(const FittedBody& body,
+                          const CastPiece& skin,
+                          std::initializer_list<Bell> bells) {
   const glm::vec3 left = RestPosition(body.skeleton, "l_eyeball_joint");
   const glm::vec3 right = RestPosition(body.skeleton, "r_eyeball_joint");
-  const float eyes = glm::distance(left, right);  // the face's measure
-  const glm::vec3 eye_middle = 0.5f * (left + right);
+  const float eyes = glm::distance(left, right);
   const Moved head(body.skeleton, {"skullbase"});
   std::vector<float> amounts(skin.mesh.positions.size(), 0.0f);
   for (size_t v = 0; v < amounts.size(); ++v) {
-    const glm::vec3 p = (skin.mesh.positions[v] - eye_middle) / eyes;
+    const glm::vec3 p = (skin.mesh.positions[v] - 0.5f * (left + right)) / eyes;
     if (p.z > 0.2f || head.Share(skin.mesh, v) < 0.5f) {
       continue;
     }
-    const glm::vec2 off(p.x / 0.95f, (p.y + 0.45f) / 0.42f);
-    amounts[v] = amount * std::exp(-0.5f * glm::dot(off, off));
+    for (const Bell& bell : bells) {
+      const glm::vec2 off = (glm::vec2(p) - bell.middle) / bell.width;
+      amounts[v] = std::max(amounts[v], std::exp(-0.5f * glm::dot(off, off)));
+    }
   }
   return amounts;
+}
+
+}  // namespace
+
+std::vector<float> WhereFrecklesAre(const FittedBody& body, const CastPiece& skin, float amount) {
+  std::vector<float> amounts = OnFace(body, skin, {{{0.0f, -0.45f}, {0.95f, 0.42f}}});
+  for (float& here : amounts) {
+    here *= amount;
+  }
+  return amounts;
+}
+
+std::vector<float> WhereLidsAre(const FittedBody& body, const CastPiece& skin) {
+  const glm::vec2 width(0.30f, 0.22f);
+  return OnFace(body, skin, {{{-0.5f, 0.04f}, width}, {{0.5f, 0.04f}, width}});
+}
+
+std::vector<float> WhereCheeksAre(const FittedBody& body, const CastPiece& skin) {
+  const glm::vec2 width(0.16f, 0.14f);
+  return OnFace(body, skin, {{{-0.62f, -0.62f}, width}, {{0.62f, -0.62f}, width}});
 }
 
 std::vector<float> WhereTheSunBurns(const FittedBody& body, const CastPiece& skin, float amount) {

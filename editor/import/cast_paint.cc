@@ -255,6 +255,32 @@ void Tint(cv::Mat& skin, const SkinPaint& paint) {
                skin);
 }
 
+// Photographs of faces hold the shade of eye sockets, and some of them eyeshadow: on a
+// closing lid both would be seen. Broad shades go to the colour of the cheeks, fine
+// lines stay.
+void EvenLids(cv::Mat& skin, const SkinPaint& paint) {
+  constexpr double kAgainstCheeks = 0.92;
+  constexpr float kShare = 0.8f;
+  const cv::Mat lids = Spread(paint, paint.lids);
+  const cv::Mat cheeks = Spread(paint, paint.cheeks) > 0.3f;
+  if (cv::countNonZero(cheeks) == 0) {
+    return;
+  }
+  const cv::Scalar wanted = kAgainstCheeks * cv::mean(skin, cheeks);
+  cv::Mat broad;
+  cv::GaussianBlur(skin, broad, {}, 2.5);
+  std::vector<cv::Mat> channels;
+  std::vector<cv::Mat> shades;
+  cv::split(skin, channels);
+  cv::split(broad, shades);
+  for (size_t c = 0; c < 3; ++c) {
+    cv::Mat factor = wanted[static_cast<int>(c)] / cv::max(shades[c], 1e-3);
+    factor = cv::min(cv::max(factor, 0.5), 4.0);
+    channels[c] = channels[c].mul(1.0 + kShare * lids.mul(factor - 1.0));
+  }
+  cv::merge(channels, skin);
+}
+
 // Sun and years: what is dark gets darker, blood shows through in patches.
 void Weather(cv::Mat& skin, float amount, cv::RNG& random) {
   if (amount <= 0.0f) {
@@ -320,13 +346,15 @@ Result<human::Texture> SkinTexture(const std::string& name,
   if (paint.tint) {
     Tint(skin, paint);
   }
+  EvenLids(skin, paint);
   Modulate(skin, BandNoise(random, 0.7, 1.8), cv::Scalar(0.035, 0.03, 0.025));
   Modulate(skin, BandNoise(random, 8.0, 30.0), cv::Scalar(-0.02, -0.015, 0.01));
   Weather(skin, paint.weathering, random);
   Burn(skin, paint, random);
   Freckle(skin, paint, random);
   ShadeScalp(skin, paint, random);
-  PaintHairs(skin, Spread(paint, paint.beard), paint.beard_colour, 0.75f * paint.stubble, random);
+  PaintHairs(skin, Spread(paint, paint.beard), paint.beard_colour,
+             0.95f * std::pow(paint.stubble, 1.3f), random);
   return EncodeJpeg(name, ToBytes(skin));
 }
 

@@ -23,6 +23,8 @@ struct SkinPaint {
   std::span<const uint32_t> indices;  // its triangles
   std::vector<float> scalp;           // where hair grows or lies
   std::vector<float> beard;           // where a beard would grow
+  std::vector<float> lids;            // how far pictured shade and make-up give way
+  std::vector<float> cheeks;          // where the skin has the lids' true colour
   std::vector<float> freckles;        // how many
   std::vector<float> sunburn;         // how red
   glm::vec3 scalp_colour{0.1f};       // sRGB-encoded, as are the next

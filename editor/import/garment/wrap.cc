@@ -284,18 +284,19 @@ class MantleDraper {
     result.covers_left_of = JointPlace(body_, standing_, "l_shoulder").x - 0.005f;
     result.covers_above = JointPlace(body_, standing_, "l_elbow").y - 0.05f;
     result.loose_margin = std::clamp(0.4f * hem_, 0.05f, 0.18f);
-    result.wraps = true;
+    result.wraps = toga_;  // a palla leaves the stola below it to swing
     result.cover_margin = 0.03f;
     if (toga_) {
       result.trims.push_back(RollBalteus());
       result.trims.push_back(PullUmbo());
+      result.trims.push_back(ThrowEnd(result.trims));
     }
     result.sheet = std::move(sheet_);
   }
 
-  // Middle of the balteus: 0 under the right arm, 1 behind the left shoulder.
+  // Middle of the balteus: 0 under the right arm, 1 on the left shoulder.
   glm::vec3 BalteusPlace(float along, float out, float up) const {
-    const float angle = glm::mix(0.12f * kPi, kLeft + 0.30f, along);
+    const float angle = glm::mix(0.12f * kPi, kLeft + 0.15f, along);
     const float top = HeightAt(upper_, angle);
     return outline_.Place(angle, Around(angle, top + 0.01f, top + up) + Layer(angle) + 0.026f + out,
                           top + up);
@@ -358,6 +359,103 @@ class MantleDraper {
     AddPanel(trim.sheet, pouch, 0);
     TakeTrimWeights(trim);
     return trim;
+  }
+
+  // A strip over the left shoulder: where it is seen from, and how far out all that it
+  // has to cover reaches there. across: 0 at the neck, 1 on the upper arm; along: metres from
+  // the breast over the shoulder and down the back.
+  struct Strip {
+    glm::vec3 from = glm::vec3(0.0f);
+    glm::vec3 out = glm::vec3(0.0f);  // unit
+
+    static Strip At(const glm::vec3& joint, float scale, float across, float along) {
+      constexpr float kBreast = 0.22f * kPi;  // above straight ahead
+      const float bend = 0.11f * scale;       // metres, of the way over the shoulder
+      const float angle = std::min(kBreast + along / bend, kPi);
+      const float down = std::max(0.0f, along - (kPi - kBreast) * bend);
+      Strip strip;
+      strip.from = {glm::mix(0.26f, 1.45f, across) * joint.x, joint.y - 0.07f * scale - down,
+                    joint.z};
+      strip.out = {0.0f, std::sin(angle), -std::cos(angle)};
+      return strip;
+    }
+    // Of a place near the strip's line of sight; below 0 elsewhere.
+    float Reach(const glm::vec3& place, float scale) const {
+      const glm::vec3 d = place - from;
+      const float reach = glm::dot(d, out);
+      const glm::vec3 aside = d - reach * out;
+      return glm::dot(aside, aside) < 0.035f * 0.035f * scale * scale ? reach : -1.0f;
+    }
+  };
+
+  // The mantle's last end, thrown over the left shoulder so that it hangs down the back
+  // over all that comes together there.
+  Trim ThrowEnd(std::span<const Trim> trims) const {
+    constexpr size_t kColumns = 25;
+    constexpr size_t kRows = 33;
+    const float length = 0.62f * scale_;
+    const glm::vec3 joint = JointPlace(body_, standing_, "l_shoulder");
+    std::vector<Strip> strips;
+    std::vector<float> reaches;
+    for (size_t row = 0; row < kRows; ++row) {
+      for (size_t column = 0; column < kColumns; ++column) {
+        const float across = float(column) / float(kColumns - 1);
+        const float along = float(row) / float(kRows - 1);
+        strips.push_back(
+            Strip::At(joint, scale_, across, length * along * glm::mix(1.1f, 0.85f, across)));
+        reaches.push_back(0.05f * scale_);
+      }
+    }
+    const auto cover = [&](std::span<const glm::vec3> places) {
+      for (const glm::vec3& place : places) {
+        for (size_t i = 0; place.x < 0.0f && i < strips.size(); ++i) {
+          reaches[i] = std::max(reaches[i], strips[i].Reach(place, scale_));
+        }
+      }
+    };
+    cover(sheet_.positions);
+    for (const Trim& trim : trims) {
+      cover(trim.sheet.positions);
+    }
+    SmoothGrid(kColumns, kRows, reaches);
+    Trim end;
+    end.colour = pattern_.colour;
+    GridPanel grid;
+    grid.columns = kColumns;
+    grid.rows = kRows;
+    grid.flat = [](size_t column, size_t row) { return 0.014f * glm::vec2(column, row); };
+    grid.place = [&](size_t column, size_t row) {
+      const float across = 2.0f * float(column) / float(kColumns - 1) - 1.0f;
+      const float along = float(row) / float(kRows - 1);
+      const size_t i = row * kColumns + column;
+      const float folds = Crests(4.0f * kPi * across + 1.1f * std::sin(4.0f * along)) +
+                          0.4f * Crests(7.0f * kPi * across + 2.0f);
+      // Its edges turn down onto what it covers.
+      const float edge = std::pow(std::abs(across), 6.0f) + std::pow(1.0f - along, 12.0f);
+      const float out = 0.010f + 0.006f * folds - 0.030f * std::min(edge, 1.0f);
+      return strips[i].from + (reaches[i] + scale_ * out) * strips[i].out;
+    };
+    AddPanel(end.sheet, grid, 0);
+    TakeTrimWeights(end);
+    return end;
+  }
+
+  // As cloth spans what it lies on.
+  static void SmoothGrid(size_t columns, size_t rows, std::vector<float>& values) {
+    for (int round = 0; round < 24; ++round) {
+      const std::vector<float> before = values;
+      const auto at = [&](size_t row, size_t column) {
+        return before[std::min(row, rows - 1) * columns + std::min(column, columns - 1)];
+      };
+      for (size_t r = 0; r < rows; ++r) {
+        for (size_t c = 0; c < columns; ++c) {
+          const float around = 0.25f * (at(r == 0 ? 0 : r - 1, c) + at(r + 1, c) +
+                                        at(r, c == 0 ? 0 : c - 1) + at(r, c + 1));
+          // What sticks out sinks slowly, hollows fill at once.
+          values[r * columns + c] = glm::mix(at(r, c), around, around > at(r, c) ? 1.0f : 0.5f);
+        }
+      }
+    }
   }
 
   void TakeTrimWeights(Trim& trim) const {
