@@ -5,6 +5,7 @@
 
 #include "editor/app/options.h"
 #include "editor/app/portrait.h"
+#include "editor/app/probe_commands.h"
 #include "editor/app/reference.h"
 #include "editor/app/subcommands.h"
 #include "editor/app/terminal.h"
@@ -60,6 +61,7 @@ struct Runner {
   Result<CommandResult> operator()(const ReferenceOptions& options) {
     return RunReference(options, progress);
   }
+  Result<CommandResult> operator()(const ProbeOptions& options) { return RunProbe(options); }
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);
   }

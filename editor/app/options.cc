@@ -28,6 +28,7 @@ struct AllOptions {
   PortraitOptions portrait;
   std::string portrait_size;
   ReferenceOptions reference;
+  ProbeOptions probe;
   ExportOptions export_;
 };
 
@@ -210,6 +211,94 @@ void AddReference(CLI::App& app, ReferenceOptions& reference) {
   command->add_option("--out", reference.out, "The image (.exr)")->required();
 }
 
+// A picture that was merged already (.exr, .hdr) or a photograph.
+void AddProbeBall(CLI::App& probe, ProbeOptions& options) {
+  CLI::App* ball = probe.add_subcommand("ball", "Unwrap a picture of a mirror ball");
+  ball->fallthrough();
+  ball->add_option("FILE", options.files, "The picture; several: a bracketed series")
+      ->required()
+      ->check(CLI::ExistingFile);
+  ball->add_option("--out", options.out, "The probe (.exr)")->required();
+  ball->add_option("--circle", options.circle, "x,y,radius of the ball in pixels; found otherwise")
+      ->delimiter(',')
+      ->expected(3);
+  ball->add_option("--distance", options.distance, "From the camera, in radii of the ball; 0: far");
+  ball->add_option("--reflectance", options.reflectance, "Of the ball")
+      ->check(CLI::Range(0.02, 1.0));
+  ball->add_option("--exposures", options.exposures, "Seconds of each photograph; EXIF otherwise")
+      ->delimiter(',');
+  ball->add_option("--response", options.response, "The camera's response (.json)")
+      ->check(CLI::ExistingFile);
+  ball->add_option("--width", options.width, "Of the probe in pixels")->check(CLI::Range(8, 8192));
+}
+
+void AddProbeMerge(CLI::App& probe, ProbeOptions& options) {
+  CLI::App* merge = probe.add_subcommand("merge", "Merge a bracketed series of photographs");
+  merge->fallthrough();
+  merge->add_option("FILE", options.files, "The photographs")->required()->check(CLI::ExistingFile);
+  merge->add_option("--out", options.out, "The merged image (.exr)")->required();
+  merge->add_option("--exposures", options.exposures, "Seconds of each; EXIF otherwise")
+      ->delimiter(',');
+  merge->add_option("--response", options.response, "The camera's response; calibrated otherwise")
+      ->check(CLI::ExistingFile);
+  merge->add_option("--response-out", options.response_out, "Where to keep the response (.json)");
+}
+
+void AddProbeMatches(CLI::App& probe, ProbeOptions& options) {
+  CLI::App* match = probe.add_subcommand("match", "Rotation from directions known on the stage");
+  match->fallthrough();
+  match->add_option("FILE", options.files, "The probe; its sun is the direction if one is missing")
+      ->required()
+      ->check(CLI::ExistingFile);
+  match
+      ->add_option("--to", options.pairs,
+                   "Degrees: azimuth,elevation of its sun on the stage, or of one or two "
+                   "directions in the probe and then on the stage")
+      ->required()
+      ->delimiter(',')
+      ->expected(2, 8);
+  match->add_flag("--level", options.level, "Turn about the vertical only");
+  CLI::App* scale = probe.add_subcommand("scale", "Brightness from a grey surface");
+  scale->fallthrough();
+  scale->add_option("FILE", options.files, "The probe")->required()->check(CLI::ExistingFile);
+  scale->add_option("--pixel", options.pixel, "R,G,B of the surface, 0 to 255")
+      ->required()
+      ->delimiter(',')
+      ->expected(3);
+  scale->add_option("--gain", options.gain, "R,G,B of the camera in that image")
+      ->delimiter(',')
+      ->expected(3);
+  scale->add_option("--albedo", options.albedo, "Of the surface, one number or R,G,B")
+      ->delimiter(',')
+      ->expected(1, 3);
+  scale->add_option("--normal", options.normal, "Of the surface, stage axes")
+      ->delimiter(',')
+      ->expected(3);
+  scale->add_option("--turn", options.turn, "Degrees about the vertical, stage from probe");
+  scale->add_option("--response", options.response, "The camera's response (.json)")
+      ->check(CLI::ExistingFile);
+}
+
+void AddProbe(CLI::App& app, ProbeOptions& options) {
+  CLI::App* probe = app.add_subcommand("probe", "Light probes from photographs");
+  probe->require_subcommand(1);
+  probe->fallthrough();
+  CLI::App* info = probe->add_subcommand("info", "What light and what sun a probe holds");
+  info->fallthrough();
+  info->add_option("FILE", options.files, "The probe (.exr, .hdr)")
+      ->required()
+      ->check(CLI::ExistingFile);
+  AddProbeMerge(*probe, options);
+  AddProbeBall(*probe, options);
+  AddProbeMatches(*probe, options);
+  using Work = ProbeOptions::Work;
+  for (const auto& [name, work] : {std::pair{"info", Work::kInfo}, std::pair{"merge", Work::kMerge},
+                                   std::pair{"ball", Work::kBall}, std::pair{"match", Work::kMatch},
+                                   std::pair{"scale", Work::kScale}}) {
+    probe->get_subcommand(name)->callback([&options, work = work] { options.work = work; });
+  }
+}
+
 void AddOthers(CLI::App& app, AllOptions& options) {
   CLI::App* create = AddSubcommand(app, "new", "Make an empty project", options.create.project);
   create->add_option("--title", options.create.title, "Title; the folder's name otherwise");
@@ -230,6 +319,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   AddRender(app, options.render);
   AddPortrait(app, options.portrait, options.portrait_size);
   AddReference(app, options.reference);
+  AddProbe(app, options.probe);
 
   CLI::App* pack = AddSubcommand(app, "export", "Pack the show", options.export_.project);
   pack->add_option("--out", options.export_.out, "The bundle (.larshow)")->required();
@@ -249,6 +339,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("render")) return options.render;
   if (app.got_subcommand("portrait")) return options.portrait;
   if (app.got_subcommand("reference")) return options.reference;
+  if (app.got_subcommand("probe")) return options.probe;
   if (app.got_subcommand("export")) return options.export_;
   return options.window;
 }

@@ -125,6 +125,28 @@ struct ReferenceOptions {
   std::filesystem::path out;  // .exr
 };
 
+// Light probes from photographs.
+struct ProbeOptions {
+  enum class Work { kInfo, kMerge, kBall, kMatch, kScale };
+  Work work = Work::kInfo;
+  std::vector<std::filesystem::path> files;  // the probe, the picture or the photographs
+  std::filesystem::path out;                 // .exr or, for a response, .json
+  std::filesystem::path response;            // of the camera, .json: read by merge and ball
+  std::filesystem::path response_out;        // written by merge
+  std::vector<double> exposures;             // of each photograph; empty: from EXIF
+  std::vector<double> circle;                // x, y, radius of the ball; empty: found
+  double distance = 0.0;                     // of the ball, in its radii; 0: far
+  double reflectance = 1.0;                  // of the ball
+  int width = 512;                           // of the unwrapped probe
+  std::vector<double> pairs;  // azimuth and elevation in the probe, then on the stage, degrees
+  bool level = false;         // turn about the vertical only
+  double turn = 0.0;          // degrees about the vertical, stage from probe
+  std::vector<double> pixel;  // 8-bit R, G, B of a grey surface
+  std::vector<double> gain = {1.0, 1.0, 1.0};
+  std::vector<double> albedo = {0.18};
+  std::vector<double> normal = {0.0, 1.0, 0.0};
+};
+
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
@@ -143,6 +165,7 @@ using Subcommand = std::variant<WindowOptions,
                                 RenderOptions,
                                 PortraitOptions,
                                 ReferenceOptions,
+                                ProbeOptions,
                                 ExportOptions>;
 
 struct CommandLine {

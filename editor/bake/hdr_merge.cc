@@ -1,15 +1,12 @@
 #include "editor/bake/hdr_merge.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <opencv2/photo.hpp>
 
 #include "shared/capture/frame_source.h"
-#include "shared/core/random.h"
 
 namespace lararium::bake {
 namespace {
@@ -17,6 +14,14 @@ namespace {
 constexpr const char* kPlace = "brackets";
 constexpr int kLeastShown = 16;  // bytes between which a photograph shows a pixel well
 constexpr int kMostShown = 240;
+
+std::vector<cv::Mat> Images(std::span<const Bracket> brackets) {
+  std::vector<cv::Mat> images;
+  for (const Bracket& bracket : brackets) {
+    images.push_back(bracket.bgr);
+  }
+  return images;
+}
 
 cv::Mat Times(std::span<const Bracket> brackets) {
   cv::Mat times(static_cast<int>(brackets.size()), 1, CV_32FC1);
@@ -26,73 +31,20 @@ cv::Mat Times(std::span<const Bracket> brackets) {
   return times;
 }
 
-// The sum of the variances of all photographs about each pixel, in squared grey levels.
-cv::Mat Unevenness(std::span<const Bracket> brackets) {
-  cv::Mat sum = cv::Mat::zeros(brackets[0].bgr.size(), CV_32FC1);
-  for (const Bracket& bracket : brackets) {
-    cv::Mat grey;
-    cv::Mat values;
-    cv::Mat mean;
-    cv::Mat squares;
-    cv::cvtColor(bracket.bgr, grey, cv::COLOR_BGR2GRAY);
-    grey.convertTo(values, CV_32F);
-    cv::boxFilter(values, mean, CV_32F, {5, 5});
-    cv::boxFilter(values.mul(values), squares, CV_32F, {5, 5});
-    sum += squares - mean.mul(mean);
-  }
-  return sum;
-}
-
-// The most even of some pixels of each grey level of a photograph, so that no brightness is
-// without.
-void ChooseOfLevels(const cv::Mat& smooth,
-                    const cv::Mat& uneven,
-                    Random& random,
-                    std::vector<cv::Point>& chosen) {
-  constexpr size_t kOfLevel = 2;
-  constexpr int kTries = 32;
-  constexpr int kStep = 8;  // levels
-  std::array<std::vector<cv::Point>, 256> levels;
-  for (int y = 0; y < smooth.rows; ++y) {
-    for (int x = 0; x < smooth.cols; ++x) {
-      levels[smooth.at<cv::Vec3b>(y, x)[1]].emplace_back(x, y);
+// Pixels that two photographs both show well.
+size_t CountTelling(std::span<const Bracket> brackets) {
+  size_t telling = 0;
+  for (int y = 0; y < brackets[0].bgr.rows; ++y) {
+    for (int x = 0; x < brackets[0].bgr.cols; ++x) {
+      int shown = 0;
+      for (const Bracket& bracket : brackets) {
+        const uchar green = bracket.bgr.at<cv::Vec3b>(y, x)[1];
+        shown += green > kLeastShown && green < kMostShown ? 1 : 0;
+      }
+      telling += shown > 1 ? 1 : 0;
     }
   }
-  for (size_t level = kStep / 2; level < 254; level += kStep) {
-    const std::vector<cv::Point>& all = levels[level];
-    std::vector<cv::Point> tried;
-    for (int i = 0; i < kTries && !all.empty(); ++i) {
-      tried.push_back(all[random.Below(static_cast<uint32_t>(all.size()))]);
-    }
-    std::sort(tried.begin(), tried.end(), [&](const cv::Point& a, const cv::Point& b) {
-      return uneven.at<float>(a) < uneven.at<float>(b);
-    });
-    tried.resize(std::min(tried.size(), kOfLevel));
-    chosen.insert(chosen.end(), tried.begin(), tried.end());
-  }
-}
-
-// Pixels where the photographs change little, a strip of them as one image for each: blur,
-// noise and small motions count little there.
-std::vector<cv::Mat> ChooseSamples(std::span<const Bracket> brackets) {
-  const cv::Mat uneven = Unevenness(brackets);
-  std::vector<cv::Mat> smooth;
-  std::vector<cv::Point> chosen;
-  Random random(1);
-  for (const Bracket& bracket : brackets) {
-    smooth.emplace_back();
-    cv::boxFilter(bracket.bgr, smooth.back(), -1, {3, 3});
-    ChooseOfLevels(smooth.back(), uneven, random, chosen);
-  }
-  std::vector<cv::Mat> strips;
-  for (const cv::Mat& image : smooth) {
-    cv::Mat strip(1, static_cast<int>(chosen.size()), CV_8UC3);
-    for (size_t i = 0; i < chosen.size(); ++i) {
-      strip.at<cv::Vec3b>(static_cast<int>(i)) = image.at<cv::Vec3b>(chosen[i]);
-    }
-    strips.push_back(strip);
-  }
-  return strips;
+  return telling;
 }
 
 double Residual(std::span<const Bracket> brackets, const light::CameraResponse& response) {
@@ -211,29 +163,18 @@ Result<std::vector<Bracket>> ReadBrackets(std::span<const std::filesystem::path>
 
 Result<CalibratedResponse> CalibrateResponse(std::span<const Bracket> brackets) {
   LARARIUM_RETURN_IF_ERROR(Validate(brackets));
-  constexpr int kLeastSamples = 64;
-  constexpr float kSmoothness = 30.0f;
-  const std::vector<cv::Mat> strips = ChooseSamples(brackets);
-  const int count = strips[0].cols;
-  if (count < kLeastSamples) {
-    return Status::Error(
-        kPlace, "too few even places to calibrate the camera from",
-        "photograph something with plain bright and dark surfaces, without moving");
+  // On a grid over the photographs; the solver is dense in the number of samples.
+  constexpr int kSamples = 300;
+  constexpr float kSmoothness = 20.0f;
+  if (CountTelling(brackets) < kSamples) {
+    return Status::Error(kPlace, "too few places that two exposures both show well",
+                         "take them one to three stops apart");
   }
   CalibratedResponse calibrated;
   try {
-    // The solver is dense in the number of samples.
-    const int used = std::min(count, 300);
-    std::vector<cv::Mat> thinned;
-    for (const cv::Mat& strip : strips) {
-      cv::Mat thin(1, used, CV_8UC3);
-      for (int i = 0; i < used; ++i) {
-        thin.at<cv::Vec3b>(i) = strip.at<cv::Vec3b>(static_cast<int>(int64_t{i} * count / used));
-      }
-      thinned.push_back(thin);
-    }
     cv::Mat curve;
-    cv::createCalibrateDebevec(used, kSmoothness, false)->process(thinned, curve, Times(brackets));
+    cv::createCalibrateDebevec(kSamples, kSmoothness, false)
+        ->process(Images(brackets), curve, Times(brackets));
     if (curve.total() != 256 || curve.type() != CV_32FC3 || !cv::checkRange(curve)) {
       return Status::Error(kPlace, "give no response of the camera",
                            "check that the exposures are those of the photographs");

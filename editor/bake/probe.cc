@@ -24,7 +24,13 @@ constexpr double kMaxRinging = 0.05;
 // Outdoors or by a window the brightest texel exceeds the mean many times over.
 constexpr double kLowDynamicRange = 4.0;
 
-Status CheckSize(const std::string& place, int64_t width, int64_t height) {
+enum class Shape { kProbe, kAny };
+
+Status CheckSize(const std::string& place, Shape shape, int64_t width, int64_t height) {
+  if (shape == Shape::kAny && std::min(width, height) >= 8 &&
+      std::max(width, height) <= kMaxWidth) {
+    return Status();
+  }
   if (width >= 8 && width < 2 * height && 2 * width > height) {
     return Status::Error(place,
                          "the probe is " + std::to_string(width) + " x " + std::to_string(height) +
@@ -42,13 +48,13 @@ Status CheckSize(const std::string& place, int64_t width, int64_t height) {
 }
 
 // The RGB channels of an OpenEXR file's data window.
-Result<ProbeImage> ReadExr(const std::filesystem::path& file) {
+Result<ProbeImage> ReadExr(const std::filesystem::path& file, Shape shape) {
   try {
     Imf::InputFile input(file.c_str());
     const Imath::Box2i window = input.header().dataWindow();
     const int64_t width = int64_t{window.max.x} - window.min.x + 1;
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-    LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), width, height));
+    LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), shape, width, height));
     ProbeImage image{static_cast<int>(width), static_cast<int>(height), {}, {}};
     image.pixels.resize(static_cast<size_t>(width * height));
     Imf::FrameBuffer buffer;
@@ -70,7 +76,7 @@ Result<ProbeImage> ReadExr(const std::filesystem::path& file) {
   }
 }
 
-Result<ProbeImage> ReadRadiance(const std::filesystem::path& file) {
+Result<ProbeImage> ReadRadiance(const std::filesystem::path& file, Shape shape) {
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
   const std::string_view magic(reinterpret_cast<const char*>(bytes.data()),
                                std::min<size_t>(bytes.size(), 2));
@@ -84,7 +90,7 @@ Result<ProbeImage> ReadRadiance(const std::filesystem::path& file) {
     if (bgr.empty() || bgr.type() != CV_32FC3) {
       return Status::Error(file.string(), "cannot be read as a Radiance .hdr image");
     }
-    LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), bgr.cols, bgr.rows));
+    LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), shape, bgr.cols, bgr.rows));
     ProbeImage image{bgr.cols, bgr.rows, {}, {}};
     image.pixels.reserve(bgr.total());
     for (int row = 0; row < bgr.rows; ++row) {
@@ -224,13 +230,13 @@ std::string LowerExtension(const std::filesystem::path& file) {
   return extension;
 }
 
-Result<ProbeImage> ReadByExtension(const std::filesystem::path& file) {
+Result<ProbeImage> ReadByExtension(const std::filesystem::path& file, Shape shape) {
   const std::string extension = LowerExtension(file);
   if (extension == ".exr") {
-    return ReadExr(file);
+    return ReadExr(file, shape);
   }
   if (extension == ".hdr") {
-    return ReadRadiance(file);
+    return ReadRadiance(file, shape);
   }
   for (const char* photograph : {".jpg", ".jpeg", ".png", ".tif", ".tiff"}) {
     if (extension == photograph) {
@@ -242,10 +248,8 @@ Result<ProbeImage> ReadByExtension(const std::filesystem::path& file) {
                        "use OpenEXR (.exr) or Radiance (.hdr)");
 }
 
-}  // namespace
-
-Result<ProbeImage> ReadProbeImage(const std::filesystem::path& file) {
-  LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ReadByExtension(file));
+Result<ProbeImage> Read(const std::filesystem::path& file, Shape shape) {
+  LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ReadByExtension(file, shape));
   MendOverflow(image);
   LARARIUM_RETURN_IF_ERROR(MendHoles(image, file.string()));
   const double mean = MeanRadiance(image);
@@ -255,6 +259,16 @@ Result<ProbeImage> ReadProbeImage(const std::filesystem::path& file) {
   LARARIUM_RETURN_IF_ERROR(ClampNegatives(image, mean, file.string()));
   WarnOfLowRange(image, mean);
   return image;
+}
+
+}  // namespace
+
+Result<ProbeImage> ReadProbeImage(const std::filesystem::path& file) {
+  return Read(file, Shape::kProbe);
+}
+
+Result<ProbeImage> ReadHdrPicture(const std::filesystem::path& file) {
+  return Read(file, Shape::kAny);
 }
 
 light::ShRgb ProjectProbe(const ProbeImage& image, const ProbePlacement& placement) {

@@ -36,6 +36,10 @@ struct ProbeImage {
 // ones (resampling leaves them) become 0.
 Result<ProbeImage> ReadProbeImage(const std::filesystem::path& file);
 
+// Any HDR picture, of a mirror ball for example: 8 to 16384 pixels wide and high, mended and
+// refused as above.
+Result<ProbeImage> ReadHdrPicture(const std::filesystem::path& file);
+
 struct ProbePlacement {
   glm::quat stage_from_probe = glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
   float radiance_scale = 1.0f;  // stage radiance for each unit in the file

@@ -131,6 +131,9 @@ TEST_F(Probe, BringsInfiniteTexelsToTheLargestHalf) {
 TEST_F(Probe, SendsMirrorBallsAndPhotographsToTheirTools) {
   WriteExr(folder_ / "ball.exr", 48, 32, Lamp(3, 3));
   EXPECT_THAT(ReadProbeImage(folder_ / "ball.exr").message(), HasSubstr("probe ball"));
+  const auto picture = ReadHdrPicture(folder_ / "ball.exr");
+  ASSERT_TRUE(picture.ok()) << picture.message();
+  EXPECT_EQ(picture->width, 48);
   EXPECT_THAT(ReadProbeImage(folder_ / "sky.JPG").message(), HasSubstr("probe merge"));
 }
 
