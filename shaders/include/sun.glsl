@@ -23,8 +23,8 @@ vec2 DiscPoint(int index, int count) {
   return sqrt((float(index) + 0.5) / float(count)) * vec2(cos(turn), sin(turn));
 }
 
-const int kSearches = 8;
-const int kTaps = 16;
+const int kSearches = 12;
+const int kTaps = 24;
 
 // What is in the way of a point on average; as deep as the point where nothing is.
 float BlockerDepth(sampler2D map, vec3 at, vec2 radius, int searches) {

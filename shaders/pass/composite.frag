@@ -4,6 +4,7 @@
 // target's top row comes first.
 
 #include "camera.glsl"
+#include "camera_look.glsl"
 #include "caught_shadow.glsl"
 #include "colour.glsl"
 
@@ -12,9 +13,6 @@ uniform sampler2D image;  // raw, decoded to linear light
 uniform vec4 display_intrinsics;
 uniform vec4 camera_intrinsics;
 uniform vec4 camera_distortion;
-
-uniform sampler2D people;    // linear light times coverage, coverage; bottom row first
-uniform vec4 people_bounds;  // left, bottom, right, top: nothing is drawn outside
 
 layout(location = 0) out vec4 colour;
 
@@ -38,9 +36,16 @@ void main() {
   for (int i = 0; i < may_catch; ++i) {
     light *= CaughtShadow(ivec2(cell));
   }
-  if (Within(cell, people_bounds)) {
-    vec4 person = texelFetch(people, ivec2(cell), 0);
+  vec4 person = vec4(0.0);
+  int may_show = Within(cell, smeared_bounds) ? 1 : 0;
+  for (int i = 0; i < may_show; ++i) {
+    person = SmearedPeople(cell);
     light = light * (1.0 - person.a) + person.rgb;
   }
-  colour = vec4(SrgbFromLinear(clamp(light, 0.0, 1.0)), 1.0);
+  vec3 encoded = SrgbFromLinear(clamp(light, 0.0, 1.0));
+  int noisy = person.a > 0.0 ? noise_is_on : 0;
+  for (int i = 0; i < noisy; ++i) {
+    encoded += sqrt(person.a) * CameraNoise(encoded, ivec2(cell));
+  }
+  colour = vec4(encoded, 1.0);
 }

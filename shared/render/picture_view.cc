@@ -31,4 +31,29 @@ PictureView ViewOf(const RenderScene& scene, const ImageSize& size) {
   return view;
 }
 
+glm::mat3 PreviousFromPixel(const RenderScene& scene, const PictureView& view, float depth) {
+  if (!scene.look.previous_camera_from_stage || !scene.camera_from_stage) {
+    return glm::mat3(1.0f);
+  }
+  const geometry::CameraModel& display = view.display;
+  Eigen::Matrix3d image_from_ray = Eigen::Matrix3d::Identity();
+  image_from_ray(0, 0) = display.fx;
+  image_from_ray(0, 2) = display.cx + 0.5;
+  image_from_ray(1, 1) = -display.fy;
+  image_from_ray(1, 2) = view.size.height - 0.5 - display.cy;
+  const geometry::Rigid3 previous_from_now =
+      *scene.look.previous_camera_from_stage * scene.camera_from_stage->Inverse();
+  // Of a plane z = depth: R + t (0, 0, 1 / depth).
+  Eigen::Matrix3d moved = previous_from_now.rotation.toRotationMatrix();
+  moved.col(2) += previous_from_now.translation / static_cast<double>(depth);
+  const Eigen::Matrix3d homography = image_from_ray * moved * image_from_ray.inverse();
+  glm::mat3 result;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      result[column][row] = static_cast<float>(homography(row, column));
+    }
+  }
+  return result;
+}
+
 }  // namespace lararium::render

@@ -2,6 +2,7 @@
 
 // From where and how a picture is seen. Private to render.
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -27,5 +28,9 @@ struct PictureView {
 
 // Without a pose only size and display are set.
 PictureView ViewOf(const RenderScene& scene, const ImageSize& size);
+
+// For CameraLook: where a plane across the view, so far away, was seen one frame ago.
+// Maps this picture's pixels to that one's, both from the corner of the bottom row.
+glm::mat3 PreviousFromPixel(const RenderScene& scene, const PictureView& view, float depth);
 
 }  // namespace lararium::render

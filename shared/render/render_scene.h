@@ -59,6 +59,21 @@ struct SceneProp {
   std::span<const uint8_t> shown = {};              // likewise: 0 hides it; empty: all are there
 };
 
+// What the camera does to its image and people would lack: all off unless set.
+struct CameraLook {
+  // Gaussian noise of the encoded picture, 0..1: variance = floor^2 + slope * value, as
+  // vision::EstimateNoise measures it. Repeatable: frame alone seeds it.
+  float noise_floor = 0.0f;
+  float noise_slope = 0.0f;
+  uint32_t frame = 0;
+  // The point spread of the lens, a Gaussian: standard deviation, pixels of the picture.
+  float blur_px = 0.0f;
+  // The pose one frame ago; people are smeared by what the camera moved since, times the
+  // share of the time between frames that the shutter is open.
+  std::optional<geometry::Rigid3> previous_camera_from_stage = std::nullopt;
+  float shutter = 0.0f;
+};
+
 struct RenderScene {
   // The camera's image, CV_8UC3, sRGB-encoded, raw; empty draws black instead.
   cv::Mat background = {};
@@ -91,6 +106,7 @@ struct RenderScene {
   // to here, above in an exponential shoulder towards white; 1 clips. Far above
   // 1, what is drawn stays linear.
   float knee = 0.6f;
+  CameraLook look = {};
   // Only Lambert's reflection, as path-traced references have it.
   bool matte = false;
 };

@@ -211,6 +211,36 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
   return Status();
 }
 
+void Renderer::State::SetLook(const RenderScene& scene,
+                              const PictureView& view,
+                              const PixelBounds& people_bounds) const {
+  const CameraLook& look = scene.look;
+  const bool moves = look.previous_camera_from_stage && look.shutter > 0.0f;
+  const float lens = std::clamp(look.blur_px, 0.0f, 4.0f);
+  constexpr float kSpread = 24.0f;  // as the shader limits smears
+  const float beyond = people_bounds.empty() ? 0.0f : (moves ? kSpread : 0.0f) + 3.0f * lens;
+  const glm::vec4 bounds(people_bounds.left, people_bounds.bottom, people_bounds.right,
+                         people_bounds.top);
+  composite_pass.Set("people_bounds", bounds);
+  composite_pass.Set("smeared_bounds", bounds + glm::vec4(-beyond, -beyond, beyond, beyond));
+  composite_pass.Set("lens_variance", lens * lens);
+  composite_pass.Set("shutter", moves ? std::clamp(look.shutter, 0.0f, 1.0f) : 0.0f);
+  composite_pass.Set("previous_from_pixel", PreviousFromPixel(scene, view, PeopleDepth(view)));
+  const bool noisy = look.noise_floor > 0.0f || look.noise_slope > 0.0f;
+  composite_pass.Set("noise_is_on", noisy ? 1 : 0);
+  composite_pass.Set("noise", glm::vec2(look.noise_floor * look.noise_floor, look.noise_slope));
+  composite_pass.Set("noise_frame", static_cast<int>(look.frame));
+}
+
+float Renderer::State::PeopleDepth(const PictureView& view) const {
+  float sum = 0.0f;
+  for (const ModelDraw& draw : draws) {
+    const glm::mat4 stage_from_joint = draw.stage_from_model * draw.skin[0];
+    sum += (view.clip_from_stage * stage_from_joint * glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)).w;
+  }
+  return draws.empty() ? view.far : std::max(sum / static_cast<float>(draws.size()), view.near);
+}
+
 void Renderer::State::Composite(const RenderScene& scene,
                                 const PictureView& view,
                                 const PixelBounds& people_bounds,
@@ -234,8 +264,7 @@ void Renderer::State::Composite(const RenderScene& scene,
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, people.texture());
   composite_pass.Set("people", 1);
-  composite_pass.Set("people_bounds", glm::vec4(people_bounds.left, people_bounds.bottom,
-                                                people_bounds.right, people_bounds.top));
+  SetLook(scene, view, people_bounds);
   catcher_pass.BindFor(composite_pass, view, 2);
   sun_pass.BindFor(composite_pass);
   glBindVertexArray(no_vertices.id());

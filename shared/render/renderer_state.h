@@ -50,6 +50,11 @@ struct Renderer::State {
                  const PictureView& view,
                  const PixelBounds& people_bounds,
                  const RenderTarget& target);
+  // How far away the people in the picture are on average, along the view; of those who
+  // consist of a root joint and others, by the root.
+  float PeopleDepth(const PictureView& view) const;
+  // The composite's share of scene.look.
+  void SetLook(const RenderScene& scene, const PictureView& view, const PixelBounds& people) const;
   static Status CheckDriver();
 };
 

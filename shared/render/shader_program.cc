@@ -94,6 +94,9 @@ void ShaderProgram::Set(const char* name, const glm::vec3& value) const {
 void ShaderProgram::Set(const char* name, const glm::vec4& value) const {
   glUniform4fv(Location(name), 1, glm::value_ptr(value));
 }
+void ShaderProgram::Set(const char* name, const glm::mat3& value) const {
+  glUniformMatrix3fv(Location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
 void ShaderProgram::Set(const char* name, const glm::mat4& value) const {
   glUniformMatrix4fv(Location(name), 1, GL_FALSE, glm::value_ptr(value));
 }

@@ -2,6 +2,7 @@
 
 // A linked pair of shaders. Private to render.
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -31,6 +32,7 @@ class ShaderProgram {
   void Set(const char* name, const glm::vec2& value) const;
   void Set(const char* name, const glm::vec3& value) const;
   void Set(const char* name, const glm::vec4& value) const;
+  void Set(const char* name, const glm::mat3& value) const;
   void Set(const char* name, const glm::mat4& value) const;
   void Set(const char* name, std::span<const glm::vec3> values) const;
   void Set(const char* name, std::span<const glm::vec4> values) const;

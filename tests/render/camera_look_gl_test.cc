@@ -1,0 +1,147 @@
+// People as soft, smeared and noisy as the camera's image, against known input.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "shared/geometry/glm_convert.h"
+#include "shared/render/clip_space.h"
+#include "shared/render/renderer.h"
+#include "tests/render/gl_fixture.h"
+#include "tests/render/test_people.h"
+
+namespace lararium::render {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr int kSize = 240;
+
+// A grey disc (a ball under even light) of 60 pixels' radius on black.
+class CameraLookTest : public GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    auto renderer = Renderer::Create({.samples = 4});
+    ASSERT_TRUE(renderer.ok()) << renderer.message();
+    renderer_ = std::move(renderer).value();
+    human_ = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.6f)), 1)).value(),
+              .skin = {&skin_, 1}};
+    human_.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -20.0f, 1.0f);
+    scene_.humans = {&human_, 1};
+    scene_.display = {.width = kSize,
+                      .height = kSize,
+                      .fx = 1200.0,
+                      .fy = 1200.0,
+                      .cx = 0.5 * (kSize - 1),
+                      .cy = 0.5 * (kSize - 1)};
+    scene_.camera_from_stage =
+        LookAt(Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());
+    scene_.light[0] = glm::vec3(1.0f / 0.28209479f);
+    scene_.matte = true;
+    scene_.knee = 1.0f;
+  }
+  cv::Mat Draw() {
+    const RenderTarget target = MakeTarget(kSize, kSize);
+    const Status drawn = renderer_->Draw(scene_, target);
+    EXPECT_TRUE(drawn.ok()) << drawn.message();
+    return Read(target);
+  }
+  static double Linear(uchar value) {
+    const double c = value / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  }
+  // The variance of the edge's slope along a row or column through the middle: that of
+  // what blurs it.
+  static double EdgeVariance(const cv::Mat& picture, bool along_row) {
+    double sum = 0.0, first = 0.0, second = 0.0;
+    for (int i = kSize / 2; i + 1 < kSize; ++i) {
+      const auto at = [&](int k) {
+        return Linear(along_row ? picture.at<cv::Vec3b>(kSize / 2, k)[1]
+                                : picture.at<cv::Vec3b>(k, kSize / 2)[1]);
+      };
+      const double slope = at(i) - at(i + 1);
+      sum += slope;
+      first += slope * i;
+      second += slope * i * i;
+    }
+    const double mean = first / sum;
+    return second / sum - mean * mean;
+  }
+
+  const glm::mat4 skin_ = glm::mat4(1.0f);
+  std::unique_ptr<Renderer> renderer_;
+  SceneHuman human_;
+  RenderScene scene_;
+};
+
+TEST_F(CameraLookTest, LensSoftensEdgesByItsVariance) {
+  const cv::Mat sharp = Draw();
+  const double before = EdgeVariance(sharp, true);
+  EXPECT_LT(before, 0.4);
+  for (const float blur : {0.8f, 1.5f}) {
+    scene_.look.blur_px = blur;
+    const cv::Mat soft = Draw();
+    // Taps end at 2.2 deviations, and bilinear taps add up to a quarter of a pixel.
+    EXPECT_NEAR(EdgeVariance(soft, true) - before, blur * blur, 0.2 * blur * blur + 0.25) << blur;
+    EXPECT_NEAR(EdgeVariance(soft, false) - before, blur * blur, 0.2 * blur * blur + 0.25) << blur;
+    EXPECT_EQ(soft.at<cv::Vec3b>(kSize / 2, kSize / 2), sharp.at<cv::Vec3b>(kSize / 2, kSize / 2));
+  }
+}
+
+TEST_F(CameraLookTest, OwnMotionSmearsAlongItAlone) {
+  const double before_row = EdgeVariance(Draw(), true);
+  // The camera turned by so many pixels about its vertical axis since.
+  const double pixels = 12.0;
+  geometry::Rigid3 turned = *scene_.camera_from_stage;
+  turned = geometry::Rigid3{geometry::RotationFromVector({0.0, pixels / 1200.0, 0.0}),
+                            Eigen::Vector3d::Zero()} *
+           turned;
+  scene_.look.previous_camera_from_stage = turned;
+  EXPECT_NEAR(EdgeVariance(Draw(), true), before_row, 1e-9) << "a closed shutter";
+  for (const float shutter : {0.5f, 1.0f}) {
+    scene_.look.shutter = shutter;
+    const cv::Mat smeared = Draw();
+    const double box = std::pow(shutter * pixels, 2) / 12.0;
+    EXPECT_NEAR(EdgeVariance(smeared, true) - before_row, box, 0.2 * box + 0.25) << shutter;
+    EXPECT_LT(EdgeVariance(smeared, false) - before_row, 0.4) << shutter;
+  }
+}
+
+// Moving sideways smears by distance: the same in pixels as the turn above.
+TEST_F(CameraLookTest, MotionSidewaysSmearsByTheDistanceOfPeople) {
+  const double before = EdgeVariance(Draw(), true);
+  const double pixels = 12.0;
+  geometry::Rigid3 moved = *scene_.camera_from_stage;
+  moved.translation += Eigen::Vector3d(pixels * 20.0 / 1200.0, 0.0, 0.0);
+  scene_.look.previous_camera_from_stage = moved;
+  scene_.look.shutter = 1.0f;
+  EXPECT_NEAR(EdgeVariance(Draw(), true) - before, pixels * pixels / 12.0, 2.7);
+}
+
+TEST_F(CameraLookTest, NoiseHasTheGivenVarianceAndIsRepeatable) {
+  const cv::Mat clean = Draw();
+  scene_.look.noise_floor = 0.02f;
+  scene_.look.noise_slope = 0.0008f;
+  scene_.look.frame = 7;
+  const cv::Mat noisy = Draw();
+  const cv::Rect inside(90, 90, 60, 60);
+  cv::Mat difference;
+  cv::subtract(noisy(inside), clean(inside), difference, cv::noArray(), CV_64F);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(difference / 255.0, mean, deviation);
+  const double value = clean.at<cv::Vec3b>(kSize / 2, kSize / 2)[0] / 255.0;
+  for (int channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(mean[channel], 0.0, 0.002);
+    EXPECT_NEAR(deviation[channel], std::sqrt(0.02 * 0.02 + 0.0008 * value), 0.0015);
+  }
+  EXPECT_EQ(noisy.at<cv::Vec3b>(5, 5), clean.at<cv::Vec3b>(5, 5)) << "nobody is there";
+  EXPECT_EQ(cv::norm(noisy, Draw(), cv::NORM_INF), 0.0);
+  scene_.look.frame = 8;
+  EXPECT_GT(cv::norm(noisy, Draw(), cv::NORM_INF), 5.0);
+}
+
+}  // namespace
+}  // namespace lararium::render
