@@ -129,6 +129,37 @@ def track(sample: Sample, report: Report) -> None:
                 not any(t for t, c, i in zip(tracked, covered, truth) if c and i["visible_fraction"] == 0.0))
 
 
+def steadied(gains: np.ndarray, step: float) -> np.ndarray:
+    """Logarithms of gains as people get them: the filter of shared/show/gain_filter.h."""
+    left = np.exp(-step / 0.06)
+    at, rate = gains[0].copy(), np.zeros(3)
+    followed = [at.copy()]
+    for measured in gains[1:]:
+        predicted = at + rate * step
+        off = measured - predicted
+        at = predicted + (1.0 - left * left) * off
+        rate = rate + (1.0 - left) ** 2 / step * off
+        followed.append(at.copy())
+    return np.array(followed)
+
+
+def gain(sample: Sample, report: Report) -> None:
+    """The camera's gain while it hunts for its exposure; after frame 44 the sun itself changes."""
+    poses = sample.work / "lighting_poses.json"
+    sample.play("--video", sample.data / "lighting" / "video.mp4", "--poses-out", poses)
+    truth = json.loads((sample.data / "lighting" / "ground_truth.json").read_text())["images"]
+    stops = np.array([i["gain_ev"] for i in truth])[:, None]
+    measured = np.log2([i["gain"] for i in json.loads(poses.read_text())["images"]])
+    followed = steadied(measured * np.log(2.0), 1.0 / 30.0) / np.log(2.0)
+    # Green: the white balance of red and blue drifts besides, which gain_ev leaves out.
+    for what, found in (("measured", measured), ("as people get it", followed)):
+        error = found - stops
+        report.figure(f"lighting: gain {what}, frames 0-44, stops rms", np.sqrt(np.mean(error[:45, 1] ** 2)), 0.15,
+                      False)
+        print(f"     red and blue {np.sqrt(np.mean(error[:45, [0, 2]] ** 2)):.3f}, green afterwards "
+              f"{np.sqrt(np.mean(error[45:, 1] ** 2)):.3f}")
+
+
 def rotation(q: list[float]) -> np.ndarray:
     """Rotation matrix of a unit quaternion w, x, y, z."""
     w, x, y, z = q
@@ -245,7 +276,7 @@ def main() -> int:
     report = Report()
     try:
         sample = Sample(args)
-        for step in (make_show, track, stage_registration, look, determinism, damaged_bundles, hostile_scripts):
+        for step in (make_show, track, gain, stage_registration, look, determinism, damaged_bundles, hostile_scripts):
             step(sample, report)
     except Failure as failure:
         print(failure, file=sys.stderr)
