@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/support/test_files.h"
 
 namespace lararium::app {
@@ -146,6 +148,19 @@ TEST(EditorOptions, ColmapModelsAreWrittenToAnyFolderAsBinaryUnlessAsked) {
 TEST(EditorOptions, PruneOnlyMeasuresUnlessPointsAreNamed) {
   EXPECT_FALSE(Parsed<PruneOptions>({"prune", "p"}).points.has_value());
   EXPECT_EQ(Parsed<PruneOptions>({"prune", "p", "--place", "yard"}).place, "yard");
+}
+
+TEST(EditorOptions, PortraitsShowPeopleStandingWalkingOrInAClip) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder.path() / "somebody.larhuman").string();
+  std::ofstream(file) << "anything that is there";
+  const auto portrait = Parsed<PortraitOptions>(
+      {"portrait", file, "--out", "p.png", "--view", "bust", "--walk", "2.5"});
+  EXPECT_EQ(portrait.view, "bust");
+  EXPECT_EQ(portrait.walk, 2.5);
+  EXPECT_THAT(Refusal({"portrait", file, "--out", "p.png", "--walk", "1", "--clip", "wave"}),
+              HasSubstr("--clip"));
+  EXPECT_THAT(Refusal({"portrait", file, "--out", "p.png", "--view", "top"}), HasSubstr("--view"));
 }
 
 TEST(EditorOptions, JsonIsAskedForBeforeOrAfterTheSubcommand) {
