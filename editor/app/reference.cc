@@ -16,6 +16,7 @@
 #include "editor/bake/path_tracer.h"
 #include "editor/bake/posed_surface.h"
 #include "editor/bake/probe.h"
+#include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
 #include "shared/human/human.h"
 #include "shared/human/skinning.h"
@@ -125,7 +126,7 @@ Result<std::vector<glm::vec3>> TransferIrradiance(const ReferenceOptions& option
   show::StageLight stage({&lit, 1});
   std::vector<glm::vec3> irradiance(stage.vertex_count(0));
   const show::LitActor actor = {0, skin, glm::mat4(1.0f), irradiance};
-  stage.Light(light, {&actor, 1});
+  stage.Light(light, {}, {&actor, 1});
   return irradiance;
 }
 
@@ -157,14 +158,14 @@ Result<bake::RadianceImage> DrawImage(const ReferenceOptions& options,
                                       const View& view,
                                       Progress& progress) {
   LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage probe, bake::ReadProbeImage(options.probe));
-  const light::ShRgb light = bake::ProjectProbe(probe, Placement(options));
+  const light::ProbeLight light = bake::ProjectProbeLight(probe, Placement(options));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<glm::mat4> skin, PoseSkin(*human, options));
   std::vector<glm::vec3> irradiance;
   if (options.method == "prt") {
     LARARIUM_ASSIGN_OR_RETURN(irradiance,
-                              TransferIrradiance(options, human, skin, light, progress));
+                              TransferIrradiance(options, human, skin, light.sky, progress));
   } else if (options.method == "phong") {
-    irradiance = PhongIrradiance(*human, skin, light);
+    irradiance = PhongIrradiance(*human, skin, light.Whole());
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(const auto renderer, render::Renderer::Create());
@@ -176,7 +177,9 @@ Result<bake::RadianceImage> DrawImage(const ReferenceOptions& options,
   scene.display = view.pinhole;
   scene.camera_from_stage = view.camera_from_stage;
   scene.humans = {&person, 1};
-  scene.light = light;
+  const bool shadowed = options.method == "prt";
+  scene.light = shadowed ? light.sky : light.Whole();
+  scene.sun = shadowed ? light.sun : std::nullopt;
   scene.matte = true;
   cv::Mat rgba;
   LARARIUM_RETURN_IF_ERROR(renderer->DrawLinear(scene, rgba));

@@ -87,6 +87,13 @@ void SphereSet::Clear() {
   }
 }
 
+void SphereSet::Add(const glm::vec3& centre, float ball_radius) {
+  x.push_back(centre.x);
+  y.push_back(centre.y);
+  z.push_back(centre.z);
+  radius.push_back(ball_radius);
+}
+
 void SphereSet::Append(const SphereSet& more) {
   x.insert(x.end(), more.x.begin(), more.x.end());
   y.insert(y.end(), more.y.begin(), more.y.end());

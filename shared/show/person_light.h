@@ -31,6 +31,7 @@ struct SphereSet {
   void Resize(size_t count);
   void Set(size_t index, const glm::vec3& centre, float ball_radius);
   void Clear();
+  void Add(const glm::vec3& centre, float ball_radius);
   void Append(const SphereSet& more);
   light::Spheres spheres() const { return {x, y, z, radius}; }
 };

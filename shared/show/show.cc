@@ -53,6 +53,7 @@ Status Show::FillStage() {
     LARARIUM_ASSIGN_OR_RETURN(const stage::ObjectId id, stage_.AddObject(object.name, object.model,
                                                                          object.stage_from_object));
     object_ids_.push_back(id);
+    object_blockers_.push_back(FindBlockers(object.model->prop()));
   }
   for (Speech& speech : content_.speech) {
     LARARIUM_RETURN_IF_ERROR(stage_.AddSpeech(speech.name, speech.visemes));
@@ -179,7 +180,19 @@ void Show::StageActors(double time, StagedFrame& staged) {
   });
 }
 
-// Who is not seen still shades.
+void Show::CollectThings(const StagedFrame& staged) {
+  thing_blockers_.Clear();
+  for (const StagedObject& object : staged.objects) {
+    for (const PropBlocker& blocker : object_blockers_[object.object]) {
+      if (staged.part_shown[object.part_begin + blocker.part] != 0) {
+        const glm::mat4& stage_from_part = staged.stage_from_part[object.part_begin + blocker.part];
+        thing_blockers_.Add(stage_from_part * glm::vec4(blocker.centre, 1.0f), blocker.radius);
+      }
+    }
+  }
+}
+
+// Who is not seen still shades. The sun has shadows of its own (render/sun_pass.h).
 void Show::LightActors(StagedFrame& staged) {
   uint32_t vertices = 0;
   for (StagedActor& actor : staged.actors) {
@@ -195,7 +208,9 @@ void Show::LightActors(StagedFrame& staged) {
                     actor.stage_from_actor,
                     std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count)});
   }
-  staged.helpers_cpu_ms += light_->Light(content_.places[staged.place].stage.light.Whole(), lit_);
+  CollectThings(staged);
+  staged.helpers_cpu_ms +=
+      light_->Light(content_.places[staged.place].stage.light.sky, thing_blockers_, lit_);
   staged.blockers.assign(light_->blockers().begin(), light_->blockers().end());
 }
 
@@ -248,8 +263,8 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
   staged.stage_from_part.clear();
   staged.part_shown.clear();
   StageActors(time, staged);
-  LightActors(staged);
   StageObjects(staged);
+  LightActors(staged);
 }
 
 }  // namespace lararium::show

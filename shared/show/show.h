@@ -17,6 +17,7 @@
 #include "shared/human/performance.h"
 #include "shared/show/body.h"
 #include "shared/show/gain_filter.h"
+#include "shared/show/prop_blockers.h"
 #include "shared/show/show_content.h"
 #include "shared/show/stage_light.h"
 #include "shared/stage/stage.h"
@@ -114,6 +115,7 @@ class Show {
   // Bodies step, then write what moves; people are spread over the cores.
   void StageActors(double time, StagedFrame& staged);
   void LayOutActors(StagedFrame& staged);
+  void CollectThings(const StagedFrame& staged);
   void LightActors(StagedFrame& staged);
   void StageObjects(StagedFrame& staged);
   stage::Pose DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const;
@@ -138,6 +140,8 @@ class Show {
   };
   std::vector<Visible> visible_;
   std::optional<StageLight> light_;
+  std::vector<std::vector<PropBlocker>> object_blockers_;  // of each object
+  SphereSet thing_blockers_;                               // of the frame, stage axes
   std::vector<LitActor> lit_;
 };
 

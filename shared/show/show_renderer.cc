@@ -115,7 +115,9 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.occluders = place.occluders;
   scene.humans = humans_;
   scene.props = props_;
-  scene.light = place.light.Whole();
+  scene.light = place.light.sky;
+  scene.sun = place.light.sun;
+  scene.blockers = staged.blockers;
   scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
   return renderer_->Draw(scene, target);
 }

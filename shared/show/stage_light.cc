@@ -33,29 +33,32 @@ void StageLight::PoseActor(const LitActor& actor) {
   }
 }
 
-// What is not the actor's own, for each.
-void StageLight::CollectBlockers(std::span<const LitActor> actors) {
+// What is not the actor's own, for each; and all there is.
+void StageLight::CollectBlockers(const SphereSet& things, std::span<const LitActor> actors) {
   all_blockers_.clear();
+  const auto add = [this](const SphereSet& set) {
+    for (size_t k = 0; k < set.size(); ++k) {
+      all_blockers_.emplace_back(set.x[k], set.y[k], set.z[k], set.radius[k]);
+    }
+  };
+  add(things);
   for (size_t i = 0; i < actors.size(); ++i) {
-    SphereSet& others = others_[i];
-    others.Clear();
-    for (const LitActor& other : actors) {
-      if (Lights(other.cast)) {
-        const SphereSet& blockers = people_[other.cast]->blockers();
-        if (&other == &actors[i]) {
-          for (size_t k = 0; k < blockers.size(); ++k) {
-            all_blockers_.emplace_back(blockers.x[k], blockers.y[k], blockers.z[k],
-                                       blockers.radius[k]);
-          }
-        } else {
-          others.Append(blockers);
-        }
+    others_[i].Clear();
+    others_[i].Append(things);
+    if (Lights(actors[i].cast)) {
+      add(people_[actors[i].cast]->blockers());
+    }
+    for (size_t k = 0; k < actors.size(); ++k) {
+      if (k != i && Lights(actors[k].cast)) {
+        others_[i].Append(people_[actors[k].cast]->blockers());
       }
     }
   }
 }
 
-double StageLight::Light(const light::ShRgb& light, std::span<const LitActor> actors) {
+double StageLight::Light(const light::ShRgb& light,
+                         const SphereSet& things,
+                         std::span<const LitActor> actors) {
   if (!light_ || *light_ != light) {
     light_ = light;
     matrices_.clear();
@@ -64,7 +67,7 @@ double StageLight::Light(const light::ShRgb& light, std::span<const LitActor> ac
     }
   }
   double helpers = ParallelForTimed(actors.size(), [&](size_t i) { PoseActor(actors[i]); });
-  CollectBlockers(actors);
+  CollectBlockers(things, actors);
   helpers += ParallelForTimed(actors.size(), [&](size_t i) { LightActor(actors[i], i); });
   return helpers;
 }

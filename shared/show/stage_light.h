@@ -30,17 +30,19 @@ class StageLight {
   // Vertices of all meshes of a member.
   size_t vertex_count(uint32_t cast) const { return vertex_counts_[cast]; }
 
-  // Lights the actors, who cast shade on each other. Spread over the cores; returns the
-  // processor milliseconds of other threads. After the first frame nothing is allocated
-  // while as many people are there.
-  double Light(const light::ShRgb& light, std::span<const LitActor> actors);
+  // Lights the actors, who cast shade on each other and have shade cast on them by things. Spread
+  // over the cores; returns the processor milliseconds of other threads. After the first frame
+  // nothing is allocated while as many people are there.
+  double Light(const light::ShRgb& light,
+               const SphereSet& things,
+               std::span<const LitActor> actors);
 
-  // Blockers of the actors of the last call, stage axes: centre and radius.
+  // Blockers of the last call's actors and things, stage axes: centre and radius.
   std::span<const glm::vec4> blockers() const { return all_blockers_; }
 
  private:
   void PoseActor(const LitActor& actor);
-  void CollectBlockers(std::span<const LitActor> actors);
+  void CollectBlockers(const SphereSet& things, std::span<const LitActor> actors);
   void LightActor(const LitActor& actor, size_t index);
 
   const light::LightMatrix& MatrixFor(int count) const;
