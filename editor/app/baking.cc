@@ -9,7 +9,6 @@
 
 #include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
-#include "editor/bake/transfer.h"
 #include "editor/import/cast_builder.h"
 #include "editor/import/cast_library.h"
 #include "editor/import/clip_import.h"
@@ -29,7 +28,7 @@ namespace lararium::app {
 namespace {
 
 // Part of every hash: raise it when the same sources give another product.
-constexpr std::string_view kBakerVersion = "2";
+constexpr std::string_view kBakerVersion = "3";
 
 std::filesystem::path LightFile(const ProjectPaths& paths, const PlaceDocument& place) {
   return paths.Place(place.name) / "baked" / "light.json";
