@@ -1,13 +1,15 @@
-// make_seeds FOLDER: writes one good file of each binary kind that a harness starts from,
-// with a little of everything in it.
+// make_seeds FOLDER: writes one good file of each kind that changes with its format and
+// that a harness starts from, with a little of everything in it.
 
 #include <cstdio>
 #include <filesystem>
 
+#include "shared/bundle/show_manifest.h"
 #include "shared/core/check.h"
 #include "shared/core/file.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/prop.h"
+#include "tests/bundle/example_show.h"
 #include "tests/human/full_body.h"
 #include "tests/human/rich_human.h"
 #include "tests/stage/test_props.h"
@@ -27,6 +29,17 @@ stage::Prop RichProp(const human::Human& human) {
   return prop;
 }
 
+std::string Manifest() {
+  bundle::ShowManifest manifest = test::ExampleManifest();
+  for (const char* name :
+       {"drama.lua", "places/0/scene.larscene", "places/0/occluder0.larmesh", "cast/0.larhuman"}) {
+    manifest.members.push_back({name, 1, bundle::ComputeSha256({})});
+  }
+  std::string text = bundle::FormatShowManifest(manifest);
+  CHECK(bundle::ParseShowManifest(text, "seed").ok());
+  return text;
+}
+
 Status WriteSeeds(const std::filesystem::path& folder) {
   const human::Human human = human::RichHuman();
   CHECK(human.Validate("seed").ok());
@@ -36,6 +49,7 @@ Status WriteSeeds(const std::filesystem::path& folder) {
                                                human::SerializeHuman(human::FullBody(0.4f, 0))));
   LARARIUM_RETURN_IF_ERROR(
       WriteFileAtomically(folder / "prop.larprop", stage::SerializeProp(RichProp(human))));
+  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", Manifest()));
   geometry::TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.normals.assign(3, {0, 0, 1});
