@@ -17,21 +17,24 @@ uniform sampler2D occluder_map_depth;
 uniform mat4 occluder_map_from_stage;
 uniform vec3 occluder_map_size;
 
-// Points that cover the unit disc evenly (Vogel 1979).
-vec2 DiscPoint(int index, int count) {
-  float turn = 2.3999632 * float(index);
-  return sqrt((float(index) + 0.5) / float(count)) * vec2(cos(turn), sin(turn));
-}
+// Points that cover the unit disc evenly (Vogel 1979): directions turn by the golden
+// angle from one to the next, with no sine in the loop.
+const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
-const int kSearches = 12;
-const int kTaps = 24;
+float DiscRadius(int index, int count) { return sqrt((float(index) + 0.5) / float(count)); }
+
+const int kSearches = 8;
+const int kTaps = 14;
 
 // What is in the way of a point on average; as deep as the point where nothing is.
 float BlockerDepth(sampler2D map, vec3 at, vec2 radius, int searches) {
   float sum = 0.0;
   float count = 0.0;
+  vec2 direction = vec2(1.0, 0.0);
   for (int i = 0; i < searches; ++i) {
-    float depth = textureLod(map, at.xy + radius * DiscPoint(i, kSearches), 0.0).r;
+    vec2 tap = at.xy + radius * DiscRadius(i, kSearches) * direction;
+    direction = kGoldenTurn * direction;
+    float depth = textureLod(map, tap, 0.0).r;
     if (depth < min(at.z, 1.0)) {
       sum += depth;
       count += 1.0;
@@ -50,8 +53,10 @@ float SeenPast(highp sampler2DShadow map, sampler2D map_depth, vec3 at, vec3 siz
   vec2 radius = max(sun_slope * (at.z - blocker) * size.z / size.xy, 0.5 * texel);
   int taps = blocker < at.z ? asked * kTaps : 0;
   float seen = 0.0;
+  vec2 direction = vec2(1.0, 0.0);
   for (int i = 0; i < taps; ++i) {
-    vec2 tap = at.xy + radius * DiscPoint(i, kTaps);
+    vec2 tap = at.xy + radius * DiscRadius(i, kTaps) * direction;
+    direction = kGoldenTurn * direction;
     seen += texture(map, vec3(tap, min(at.z, 1.0)));
   }
   return taps > 0 ? seen / float(taps) : 1.0;

@@ -22,6 +22,10 @@ constexpr uint32_t kSkinBinding = 0;
 // multiple of every driver's offset alignment.
 constexpr size_t kSkinStride = human::Skeleton::kMaxJoints * sizeof(glm::mat4);
 
+// Metres by which what casts shadows may differ from the finest level of detail: less
+// than a texel of the sun's map.
+constexpr float kCasterDetail = 0.005f;
+
 constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
                                                                          "CLOTH", "EYE"};
 
@@ -201,7 +205,8 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   } else {
     glDisable(GL_CULL_FACE);
   }
-  draw.model->Draw(index, draw.detail, vertices != nullptr);
+  const float coarsest = phase == Phase::kCaster ? kCasterDetail : 0.0f;
+  draw.model->Draw(index, std::max(draw.detail, coarsest), vertices != nullptr);
 }
 
 void ModelPass::DrawPhase(Phase phase,
