@@ -55,11 +55,20 @@ vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
 }
 
 uniform int has_transfer;
+// Share of unshadowed light on the back of a sheet.
+const float kSeenFromBehind = 0.5;
 
 Arriving LightOn(vec3 normal) {
-  Arriving arriving = has_transfer == 1
-                          ? Transferred(transferred, normalize(transfer_normal), normal)
-                          : Unshadowed(normal);
+  Arriving arriving = Unshadowed(normal);
+  if (has_transfer == 1) {
+    if (gl_FrontFacing) {
+      arriving = Transferred(transferred, normalize(transfer_normal), normal);
+    } else {
+      // Transfer knows fronts only; the back of a sheet is mostly turned to something near.
+      arriving.irradiance *= kSeenFromBehind;
+      arriving.open = kSeenFromBehind;
+    }
+  }
   vec3 outward = gl_FrontFacing ? normal_in_stage : -normal_in_stage;
   int sunny = dot(outward, sun_direction) > 0.0 ? has_sun : 0;
   for (int i = 0; i < sunny; ++i) {
