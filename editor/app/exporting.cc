@@ -49,7 +49,8 @@ Status ExportProject(const ProjectPaths& paths,
     content.places.push_back(std::move(packed));
   }
   for (const CastDocument& member : document.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> human, ReadBytes(BakedHumanFile(paths, member)));
+    LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> human,
+                              ReadBytes(BakedHumanFile(paths, member)));
     content.cast.push_back({member.name, std::move(human)});
   }
   for (const ObjectDocument& object : document.objects) {
