@@ -5,7 +5,7 @@
                 [--samples 256] [--document docs/illumination.md]
 
 The figure is imported and baked, each reference is drawn by every method from the same camera, and the
-references' own evaluate_lighting.py compares.  Skips (status 77) where the references are absent.
+references' own evaluate_lighting.py compares.  Fails where the player's light (prt) misses a bar.  Skips (status 77) where the references are absent.
 """
 from __future__ import annotations
 
@@ -153,9 +153,12 @@ def main() -> int:
     methods = args.methods.split(",")
     lines = [f"| relative RMSE | bar | aim | {' | '.join(methods)} |", "|---|---|---|" + "---|" * len(methods)]
     print("\n".join(lines), flush=True)
+    missed = 0
     for case in CASES:
-        figures = [f"{bench.compare(case, method)['relative_rmse']:.3f}" for method in methods]
-        lines.append(f"| {case.reference} | {case.bar} | {case.aim} | {' | '.join(figures)} |")
+        errors = {method: bench.compare(case, method)["relative_rmse"] for method in methods}
+        missed += errors.get("prt", 0.0) > case.bar
+        figures = " | ".join(f"{errors[method]:.3f}" for method in methods)
+        lines.append(f"| {case.reference} | {case.bar} | {case.aim} | {figures} |")
         print(lines[-1], flush=True)
     for variant in ("direct", "global"):
         # The others draw no floor: tests/render measures the player's shadows on real surfaces.
@@ -166,7 +169,7 @@ def main() -> int:
         text = args.document.read_text()
         begin, end = text.index(BEGIN) + len(BEGIN), text.index(END)
         args.document.write_text(text[:begin] + "\n" + "\n".join(lines) + "\n" + text[end:])
-    return 0
+    return 1 if missed else 0
 
 
 if __name__ == "__main__":
