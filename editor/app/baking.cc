@@ -304,14 +304,14 @@ std::string TransferSettings() {
   return settings.str();
 }
 
-// From the human that the step before made.
+// From the human that the step before made; what that was made from says all about it.
 BakeStep TransferStep(const ProjectPaths& paths,
                       const CastDocument& member,
                       const Progress& progress) {
   const std::filesystem::path file = paths.Human(member.name);
   return {"light transfer of " + member.name,
           paths.LitHuman(member.name),
-          {file},
+          {HashFile(file)},
           TransferSettings(),
           [file, &progress](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
             LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::LoadHuman(file));
@@ -466,7 +466,7 @@ Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
 std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocument& member) {
   const std::filesystem::path plain = paths.Human(member.name);
   const std::filesystem::path lit = paths.LitHuman(member.name);
-  const Result<std::string> hash = HashOf(TransferSettings(), {plain});
+  const Result<std::string> hash = HashOf(TransferSettings(), {HashFile(plain)});
   return hash.ok() && UpToDate(lit, *hash) ? lit : plain;
 }
 

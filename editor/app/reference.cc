@@ -64,11 +64,7 @@ Result<std::vector<glm::mat4>> PoseSkin(const human::Human& human,
     }
     human::SampleClip(*clip, options.time, pose);
   }
-  std::vector<glm::mat4> actor_from_joint(human.skeleton.size());
-  std::vector<glm::mat4> skin(human.skeleton.size());
-  human::ComputeActorFromJoint(human.skeleton, pose, actor_from_joint);
-  human::ComputeSkinMatrices(human.skeleton, actor_from_joint, skin);
-  return skin;
+  return human::SkinOfPose(human.skeleton, pose);
 }
 
 bake::SurfaceMesh Ground(float albedo) {

@@ -205,11 +205,7 @@ VertexJoints StrongestJoints(const human::Human& human) {
 Result<std::vector<Blocker>> FitBlockers(std::span<const SurfaceMesh> rest,
                                          const VertexJoints& joints,
                                          size_t count) {
-  std::vector<RayMesh> ray_meshes;
-  for (const SurfaceMesh& mesh : rest) {
-    ray_meshes.push_back(mesh.ray_mesh());
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RayScene::Create(ray_meshes));
+  LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RaysAt(rest));
   const auto [inside, volume] = FindInside(rays, rest, joints);
   std::vector<Cluster> clusters = ClusterByJoint(inside);
   while (clusters.size() < count) {

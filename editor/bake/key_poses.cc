@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shared/human/performance.h"
+#include "shared/human/skinning.h"
 
 namespace lararium::bake {
 namespace {
@@ -61,10 +62,7 @@ std::vector<glm::vec3> BlockerPlaces(const human::Skeleton& skeleton,
                                      std::span<const human::LightTransfer::Blocker> blockers,
                                      const Pose& pose,
                                      size_t pelvis) {
-  std::vector<glm::mat4> actor_from_joint(skeleton.size());
-  std::vector<glm::mat4> skin(skeleton.size());
-  human::ComputeActorFromJoint(skeleton, pose, actor_from_joint);
-  human::ComputeSkinMatrices(skeleton, actor_from_joint, skin);
+  const std::vector<glm::mat4> skin = human::SkinOfPose(skeleton, pose);
   const glm::mat4 pelvis_from_actor = glm::inverse(skin[pelvis]);
   std::vector<glm::vec3> places;
   for (const human::LightTransfer::Blocker& blocker : blockers) {

@@ -197,11 +197,7 @@ Result<RadianceImage> TracePaths(std::span<const SurfaceMesh> meshes,
                                  const geometry::Rigid3& camera_from_stage,
                                  const PathTracing& tracing,
                                  Progress& progress) {
-  std::vector<RayMesh> ray_meshes;
-  for (const SurfaceMesh& mesh : meshes) {
-    ray_meshes.push_back(mesh.ray_mesh());
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RayScene::Create(ray_meshes));
+  LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RaysAt(meshes));
   const Tracer tracer(meshes, rays, environment);
   const Lens lens(pinhole, camera_from_stage);
   RadianceImage image{pinhole.width, pinhole.height, {}};

@@ -51,11 +51,7 @@ cv::Mat LinearColour(const cv::Mat& bgra) {
 }
 
 glm::vec3 Lookup(const cv::Mat& texture, const glm::vec2& uv) {
-  const auto texel = [](float coordinate, int size) {
-    const float wrapped = coordinate - std::floor(coordinate);
-    return std::clamp(static_cast<int>(wrapped * static_cast<float>(size)), 0, size - 1);
-  };
-  const cv::Vec3f& c = texture.at<cv::Vec3f>(texel(uv.y, texture.rows), texel(uv.x, texture.cols));
+  const cv::Vec3f& c = texture.at<cv::Vec3f>(WrappedTexel(uv, texture.size()));
   return {c[0], c[1], c[2]};
 }
 
@@ -140,6 +136,14 @@ glm::vec3 SurfaceMesh::NormalAt(uint32_t triangle, const glm::vec3& barycentric)
   }
   const float length = glm::length(sum);
   return length > 1e-6f ? sum / length : normals[indices[3 * triangle]];
+}
+
+Result<RayScene> RaysAt(std::span<const SurfaceMesh> meshes) {
+  std::vector<RayMesh> ray_meshes;
+  for (const SurfaceMesh& mesh : meshes) {
+    ray_meshes.push_back(mesh.ray_mesh());
+  }
+  return RayScene::Create(ray_meshes);
 }
 
 Result<PosableSurface> PosableSurface::Create(const human::Human& human) {

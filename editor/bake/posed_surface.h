@@ -34,6 +34,9 @@ struct SurfaceMesh {
   glm::vec3 NormalAt(uint32_t triangle, const glm::vec3& barycentric) const;
 };
 
+// What rays meet of these meshes; RayHit::mesh is the index.
+Result<RayScene> RaysAt(std::span<const SurfaceMesh> meshes);
+
 // Textures are decoded once and shared by the poses of a person.
 class PosableSurface {
  public:

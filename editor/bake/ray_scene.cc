@@ -25,11 +25,7 @@ struct Coverage {
     const glm::vec2& b = uvs[indices[3 * triangle + 1]];
     const glm::vec2& c = uvs[indices[3 * triangle + 2]];
     const glm::vec2 uv = (1.0f - u - v) * a + u * b + v * c;
-    const auto texel = [](float coordinate, int size) {
-      const float wrapped = coordinate - std::floor(coordinate);
-      return std::clamp(static_cast<int>(wrapped * static_cast<float>(size)), 0, size - 1);
-    };
-    return image.at<uint8_t>(texel(uv.y, image.rows), texel(uv.x, image.cols)) >= kSolid;
+    return image.at<uint8_t>(WrappedTexel(uv, image.size())) >= kSolid;
   }
 };
 
@@ -57,6 +53,14 @@ RTCRay MakeRay(const glm::vec3& origin, const glm::vec3& direction, float near) 
 }
 
 }  // namespace
+
+cv::Point WrappedTexel(const glm::vec2& uv, const cv::Size& size) {
+  const auto texel = [](float coordinate, int count) {
+    const float wrapped = coordinate - std::floor(coordinate);
+    return std::clamp(static_cast<int>(wrapped * static_cast<float>(count)), 0, count - 1);
+  };
+  return {texel(uv.x, size.width), texel(uv.y, size.height)};
+}
 
 struct RayScene::State {
   State() = default;

@@ -14,6 +14,9 @@
 
 namespace lararium::bake {
 
+// The texel at texture coordinates that wrap, (0, 0) being the image's top left.
+cv::Point WrappedTexel(const glm::vec2& uv, const cv::Size& size);
+
 // Borrowed only while the scene is made, except for the coverage, which is shared.
 struct RayMesh {
   std::span<const glm::vec3> positions;

@@ -20,6 +20,7 @@
 #include "editor/bake/receivers.h"
 #include "shared/core/parallel.h"
 #include "shared/core/random.h"
+#include "shared/human/skinning.h"
 #include "shared/light/spherical_harmonics.h"
 #include "shared/light/transfer.h"
 
@@ -78,15 +79,6 @@ std::vector<glm::mat3> VertexRotations(const human::Human& human, std::span<cons
     }
   }
   return rotations;
-}
-
-std::vector<glm::mat4> SkinOf(const human::Skeleton& skeleton,
-                              std::span<const human::JointTransform> pose) {
-  std::vector<glm::mat4> actor_from_joint(skeleton.size());
-  std::vector<glm::mat4> skin(skeleton.size());
-  human::ComputeActorFromJoint(skeleton, pose, actor_from_joint);
-  human::ComputeSkinMatrices(skeleton, actor_from_joint, skin);
-  return skin;
 }
 
 // Transfer of one key pose, in the pose's own axes until it is turned back.
@@ -215,14 +207,6 @@ class PoseBaker {
   std::vector<std::vector<Meeting>> meetings_;
 };
 
-Result<RayScene> RaysOf(std::span<const SurfaceMesh> meshes) {
-  std::vector<RayMesh> ray_meshes;
-  for (const SurfaceMesh& mesh : meshes) {
-    ray_meshes.push_back(mesh.ray_mesh());
-  }
-  return RayScene::Create(ray_meshes);
-}
-
 // Vectors of one mesh: [key pose][vertex][channel][coefficient].
 using MeshVectors = std::vector<float>;
 
@@ -279,10 +263,10 @@ Result<human::LightTransfer> BakeTransfer(const human::Human& human,
     if (progress.Cancelled()) {
       return Status::Error(human.name, "baking was cancelled");
     }
-    const std::vector<glm::mat4> skin = SkinOf(human.skeleton, transfer.key_poses[k]);
+    const std::vector<glm::mat4> skin = human::SkinOfPose(human.skeleton, transfer.key_poses[k]);
     Posed posed(posable.Pose(skin));
     posed.pose_from_bind = VertexRotations(human, skin);
-    LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RaysOf(posed.meshes));
+    LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RaysAt(posed.meshes));
     PoseBaker baker(posed, rays, options);
     baker.Run();
     Append(posed, baker.result(), static_cast<size_t>(options.count), vectors);

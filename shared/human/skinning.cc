@@ -127,6 +127,14 @@ void SkinByDualQuaternions(const SkinningJob& job) {
 
 }  // namespace
 
+std::vector<glm::mat4> SkinOfPose(const Skeleton& skeleton, std::span<const JointTransform> pose) {
+  std::vector<glm::mat4> actor_from_joint(skeleton.size());
+  std::vector<glm::mat4> skin(skeleton.size());
+  ComputeActorFromJoint(skeleton, pose, actor_from_joint);
+  ComputeSkinMatrices(skeleton, actor_from_joint, skin);
+  return skin;
+}
+
 DualQuaternion ToDualQuaternion(const glm::mat4& matrix) {
   DualQuaternion q;
   const glm::mat3 linear(matrix);

@@ -10,10 +10,14 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
+#include <vector>
 
 #include "shared/human/human.h"
 
 namespace lararium::human {
+
+// The skin matrices of a pose; for baking and tests, which may allocate.
+std::vector<glm::mat4> SkinOfPose(const Skeleton& skeleton, std::span<const JointTransform> pose);
 
 // A rigid motion after one scale: x -> rotation * (scale * x) + translation, as the
 // unit dual quaternion real + e dual, dual = translation * real / 2.

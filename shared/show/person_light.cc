@@ -157,11 +157,9 @@ void PersonLight::MakeMeshes() {
 
 void PersonLight::FindKeyLogs() {
   const human::Skeleton& skeleton = human_->skeleton;
-  std::vector<glm::mat4> actor_from_joint(skeleton.size());
   for (const std::vector<human::JointTransform>& pose : human_->light.key_poses) {
-    human::ComputeActorFromJoint(skeleton, pose, actor_from_joint);
-    human::ComputeSkinMatrices(skeleton, actor_from_joint, skin_);
-    OwnLog(skin_, key_logs_.emplace_back(own_log_.count(), own_log_.receivers()));
+    OwnLog(human::SkinOfPose(skeleton, pose),
+           key_logs_.emplace_back(own_log_.count(), own_log_.receivers()));
   }
 }
 
