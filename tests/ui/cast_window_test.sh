@@ -9,48 +9,17 @@ editor=$1
 out=$2
 model=/usr/share/assimp/models/X/Testwuson.X
 
-for tool in xvfb-run Xvfb xdotool import; do
-  if ! command -v $tool > /dev/null; then
-    echo "skipped: $tool is not installed"
-    exit 77
-  fi
-done
+. "$(dirname "$0")/window.sh"
+need xvfb-run Xvfb xdotool import
 if [ ! -e $model ]; then
   echo "skipped: the Debian package assimp-testmodels is not installed"
   exit 77
 fi
-if [ -z "${LARARIUM_UI_TEST_DISPLAY:-}" ]; then
-  export LARARIUM_UI_TEST_DISPLAY=1
-  exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$@"
-fi
-
-export LIBGL_ALWAYS_SOFTWARE=1
-export XDG_STATE_HOME=$out/state
+on_a_display "$0" "$@"
+start_clean
 export XDG_CACHE_HOME=$out/cache
 project=$out/cast.lararium
 json=$project/project.json
-rm -rf "$out"
-mkdir -p "$out"
-pid=0
-
-fail() {
-  echo "FAILED: $*"
-  import -window root "$out/failure.png"
-  cat "$out/editor.log"
-  [ $pid -ne 0 ] && kill $pid
-  exit 1
-}
-
-# wait_for SECONDS COMMAND...: until the command succeeds.
-wait_for() {
-  local tries=$(($1 * 10))
-  shift
-  for ((i = 0; i < tries; ++i)); do
-    "$@" > /dev/null 2>&1 && return 0
-    sleep 0.1
-  done
-  return 1
-}
 
 click() { xdotool mousemove $1 $2 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5; }
 press() { xdotool key --delay 60 "$1" && sleep 0.6; }

@@ -9,43 +9,12 @@ editor=$1
 out=$2
 make_room_map=$3
 
-for tool in xvfb-run Xvfb xdotool import identify; do
-  if ! command -v $tool > /dev/null; then
-    echo "skipped: $tool is not installed"
-    exit 77
-  fi
-done
-if [ -z "${LARARIUM_UI_TEST_DISPLAY:-}" ]; then
-  export LARARIUM_UI_TEST_DISPLAY=1
-  exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$@"
-fi
-
-export LIBGL_ALWAYS_SOFTWARE=1
-export XDG_STATE_HOME=$out/state
+. "$(dirname "$0")/window.sh"
+need xvfb-run Xvfb xdotool import identify
+on_a_display "$0" "$@"
+start_clean
 project=$out/ui.lararium
 json=$project/project.json
-rm -rf "$out"
-mkdir -p "$out"
-pid=0
-
-fail() {
-  echo "FAILED: $*"
-  import -window root "$out/failure.png"
-  cat "$out/editor.log"
-  [ $pid -ne 0 ] && kill $pid
-  exit 1
-}
-
-# wait_for SECONDS COMMAND...: until the command succeeds.
-wait_for() {
-  local tries=$(($1 * 10))
-  shift
-  for ((i = 0; i < tries; ++i)); do
-    "$@" > /dev/null 2>&1 && return 0
-    sleep 0.1
-  done
-  return 1
-}
 
 # The numbers of "adjust.translation" in a project file, on one line.
 translation() {
