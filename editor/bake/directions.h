@@ -53,4 +53,42 @@ inline glm::vec2 SobolPoint(uint32_t i, uint32_t mask_x, uint32_t mask_y) {
           static_cast<float>((y ^ mask_y) >> 8) * 0x1p-24f};
 }
 
+// Scrambles bits so that each depends only on those below it: a random nested permutation
+// of intervals when the bits are read in reverse (Laine & Karras, "Stratified Sampling for
+// Stochastic Transparency", EGSR 2011).
+inline uint32_t ScrambleUpwards(uint32_t bits, uint32_t seed) {
+  bits += seed;
+  bits ^= bits * 0x6c50b47cu;
+  bits ^= bits * 0xb82f1e52u;
+  bits ^= bits * 0xc7afe638u;
+  bits ^= bits * 0x8d22f6e6u;
+  return bits;
+}
+
+// Owen's scrambling of a fraction in 32 bits.
+inline uint32_t OwenScramble(uint32_t fraction, uint32_t seed) {
+  return ReverseBits(ScrambleUpwards(ReverseBits(fraction), seed));
+}
+
+struct SobolSeeds {
+  uint32_t order = 0;
+  uint32_t x = 0;
+  uint32_t y = 0;
+};
+
+// Point i of the sequence in another order and with Owen's scrambling (Burley, "Practical
+// Hash-based Owen Scrambling", JCGT 9(4), 2020). As well stratified as SobolPoint; points of
+// different seeds are independent, which those of different masks are not: the sequence is
+// linear, so that masks only shift it.
+inline glm::vec2 ShuffledSobolPoint(uint32_t i, const SobolSeeds& seeds) {
+  const uint32_t shuffled = OwenScramble(i, seeds.order);
+  uint32_t y = 0;
+  for (uint32_t direction = 1u << 31, rest = shuffled; rest != 0;
+       rest >>= 1, direction ^= direction >> 1) {
+    y ^= (rest & 1u) != 0 ? direction : 0u;
+  }
+  return {static_cast<float>(OwenScramble(ReverseBits(shuffled), seeds.x) >> 8) * 0x1p-24f,
+          static_cast<float>(OwenScramble(y, seeds.y) >> 8) * 0x1p-24f};
+}
+
 }  // namespace lararium::bake

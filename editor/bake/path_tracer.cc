@@ -29,8 +29,8 @@ struct SurfacePoint {
 class PathRandom {
  public:
   PathRandom(const PathTracing& tracing, uint64_t pixel) : random_(tracing.seed, pixel) {
-    for (Masks& pair : masks_) {
-      pair = {random_.Next(), random_.Next(), random_.Next()};
+    for (SobolSeeds& seeds : seeds_) {
+      seeds = {random_.Next(), random_.Next(), random_.Next()};
     }
   }
 
@@ -39,10 +39,8 @@ class PathRandom {
     pair_ = 0;
   }
   glm::vec2 DrawPair() {
-    if (pair_ < masks_.size()) {
-      // Another order of the same points for each pair.
-      const Masks& masks = masks_[pair_++];
-      return SobolPoint(sample_ ^ (masks.order & kOrderMask), masks.x, masks.y);
+    if (pair_ < seeds_.size()) {
+      return ShuffledSobolPoint(sample_, seeds_[pair_++]);
     }
     const uint32_t x = random_.Next();
     return {static_cast<float>(x >> 8) * 0x1p-24f,
@@ -50,15 +48,8 @@ class PathRandom {
   }
 
  private:
-  static constexpr uint32_t kOrderMask = 15;
-  struct Masks {
-    uint32_t order = 0;
-    uint32_t x = 0;
-    uint32_t y = 0;
-  };
-
   Random random_;
-  std::array<Masks, 3> masks_;
+  std::array<SobolSeeds, 3> seeds_;
   uint32_t sample_ = 0;
   size_t pair_ = 0;
 };
