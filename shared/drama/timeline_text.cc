@@ -1,0 +1,756 @@
+#include "shared/drama/timeline_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "shared/drama/lua_tokens.h"
+
+namespace lararium::drama {
+namespace {
+
+constexpr int kMaxDepth = 16;  // of tables in tables
+constexpr size_t kMaxProblems = 100;
+constexpr std::string_view kRemedy = "write it out, or leave it to the script";
+
+using Kind = LuaToken::Kind;
+
+bool IsName(std::string_view text) {
+  LuaTokens tokens(text);
+  const LuaToken token = tokens.Next();
+  constexpr std::string_view kKeywords[] = {
+      "and",      "break",  "do",   "else", "elseif", "end",  "false", "for",
+      "function", "goto",   "if",   "in",   "local",  "nil",  "not",   "or",
+      "repeat",   "return", "then", "true", "until",  "while"};
+  return token.kind == Kind::kName && token.begin == 0 && token.end == text.size() &&
+         std::find(std::begin(kKeywords), std::end(kKeywords), text) == std::end(kKeywords);
+}
+
+struct Problem {
+  size_t offset = 0;
+  std::string text;
+};
+
+// One entry of a table.
+struct Entry {
+  std::string key;   // empty: counted
+  size_t begin = 0;  // of the whole entry
+  size_t value_begin = 0;
+  size_t value_end = 0;
+  size_t separator = 0;  // where its comma is; 0: none
+  Json value;            // null: not kept, or a table where they are not wanted
+};
+
+// Reads values that are written out.
+class Literals {
+ public:
+  explicit Literals(std::string_view text, size_t offset) : tokens_(text, offset), text_(text) {
+    Step();
+  }
+
+  const LuaToken& token() const { return token_; }
+  void Step() { token_ = tokens_.Next(); }
+  const Problem& problem() const { return problem_; }
+  std::string_view Text(const LuaToken& token) const {
+    return text_.substr(token.begin, token.end - token.begin);
+  }
+
+  bool Fail(const LuaToken& token, std::string problem) {
+    problem_ = {token.begin, token.kind == Kind::kBad ? token.problem : std::move(problem)};
+    return false;
+  }
+
+  // A value; Step()s behind it. `end`: behind its last byte.
+  bool Value(int depth, Json& value, size_t& end) {
+    const LuaToken first = token_;
+    end = first.end;
+    if (first.Is('{')) {
+      return Table(depth, value, end);
+    }
+    if (first.Is('-')) {
+      Step();
+      if (token_.kind != Kind::kNumber) {
+        return Fail(first, "only numbers, texts, true, false and tables can stand here");
+      }
+      value = -*NumberOf(Text(token_));
+      end = token_.end;
+    } else if (first.kind == Kind::kNumber) {
+      value = *NumberOf(Text(first));
+    } else if (first.kind == Kind::kText) {
+      const auto text = TextOf(Text(first));
+      if (!text) {
+        return Fail(first, "this text has an escape that Lua does not know");
+      }
+      value = *text;
+    } else if (first.kind == Kind::kName && (Text(first) == "true" || Text(first) == "false")) {
+      value = Text(first) == "true";
+    } else {
+      return Fail(first, "only numbers, texts, true, false and tables can stand here");
+    }
+    Step();
+    return true;
+  }
+
+  // Calls visit(entry) for each entry of the table that begins here, after its key was
+  // read and before its value: visit reads that, by Value() or itself, and says whether
+  // all was well.
+  template <typename Visit>
+  bool Entries(size_t& end, Visit visit) {
+    const LuaToken open = token_;
+    Step();
+    while (!token_.Is('}')) {
+      Entry entry;
+      entry.begin = token_.begin;
+      if (token_.Is('[')) {
+        Step();
+        if (token_.kind != Kind::kText) {
+          return Fail(token_, "only texts can be keys");
+        }
+        entry.key = TextOf(Text(token_)).value_or("");
+        Step();
+        if (!token_.Is(']')) {
+          return Fail(token_, "a ']' is missing");
+        }
+        Step();
+        if (!token_.Is('=')) {
+          return Fail(token_, "a '=' is missing");
+        }
+        Step();
+      } else if (token_.kind == Kind::kName) {
+        const LuaToken name = token_;
+        const LuaTokens before = tokens_;
+        Step();
+        if (token_.Is('=')) {
+          entry.key = std::string(Text(name));
+          Step();
+        } else {
+          tokens_ = before;
+          token_ = name;
+        }
+      }
+      entry.value_begin = token_.begin;
+      if (!visit(entry)) {
+        return false;
+      }
+      if (token_.Is(',') || token_.Is(';')) {
+        Step();
+      } else if (!token_.Is('}')) {
+        return Fail(token_.kind == Kind::kEnd ? open : token_,
+                    token_.kind == Kind::kEnd ? "this brace never closes"
+                                              : "only numbers, texts, true, false and tables "
+                                                "can stand here");
+      }
+    }
+    end = token_.end;
+    Step();
+    return true;
+  }
+
+ private:
+  bool Table(int depth, Json& value, size_t& end) {
+    if (depth >= kMaxDepth) {
+      return Fail(token_, "tables lie too deep in one another");
+    }
+    const LuaToken open = token_;
+    Json list = Json::array();
+    Json fields = Json::object();
+    const bool read = Entries(end, [&](Entry& entry) {
+      Json inner;
+      if (!Value(depth + 1, inner, entry.value_end)) {
+        return false;
+      }
+      if (entry.key.empty()) {
+        list.push_back(std::move(inner));
+      } else {
+        fields[entry.key] = std::move(inner);
+      }
+      return true;
+    });
+    if (read && !list.empty() && !fields.empty()) {
+      return Fail(open, "a table has either names or not");
+    }
+    value = list.empty() ? std::move(fields) : std::move(list);
+    return read;
+  }
+
+  LuaTokens tokens_;
+  std::string_view text_;
+  LuaToken token_;
+  Problem problem_;
+};
+
+// The entries of the table at an offset, with their separators.
+std::vector<Entry> EntriesOf(std::string_view text, size_t offset, bool with_values) {
+  std::vector<Entry> entries;
+  Literals literals(text, offset);
+  size_t end = 0;
+  literals.Entries(end, [&](Entry& entry) {
+    Json value;
+    if (!literals.Value(0, value, entry.value_end)) {
+      return false;
+    }
+    if (with_values) {
+      entry.value = std::move(value);
+    }
+    const LuaToken& next = literals.token();
+    entry.separator = next.Is(',') || next.Is(';') ? next.begin : 0;
+    entries.push_back(std::move(entry));
+    return true;
+  });
+  return entries;
+}
+
+// Behind blanks, but not line ends.
+size_t SkipSpaces(std::string_view text, size_t at) {
+  while (at < text.size() && (text[at] == ' ' || text[at] == '\t' || text[at] == '\r')) {
+    ++at;
+  }
+  return at;
+}
+
+// Where the line ends if but blanks and a short comment follow; else at.
+size_t RestOfLine(std::string_view text, size_t at) {
+  const size_t next = SkipSpaces(text, at);
+  if (next >= text.size() || text[next] == '\n') {
+    return next;
+  }
+  const bool short_comment =
+      text.substr(next).starts_with("--") && !text.substr(next).starts_with("--[");
+  return short_comment ? std::min(text.find('\n', next), text.size()) : at;
+}
+
+size_t LineBegin(std::string_view text, size_t at) {
+  const size_t newline = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
+  return newline == std::string_view::npos ? 0 : newline + 1;
+}
+
+bool BeginsLine(std::string_view text, size_t at) {
+  return SkipSpaces(text, LineBegin(text, at)) == at;
+}
+
+std::string ItemLiteral(const Json& fields) {
+  // What says when and what comes first, as one would write it.
+  std::string out = "{";
+  const auto add = [&](const std::string& key, const Json& value) {
+    out += (out.size() > 1 ? ", " : "") + (IsName(key) ? key : "[" + LuaLiteral(key) + "]") +
+           " = " + LuaLiteral(value);
+  };
+  constexpr const char* kFirst[] = {"id", "at", "length"};
+  for (const char* key : kFirst) {
+    if (fields.contains(key)) {
+      add(key, fields[key]);
+    }
+  }
+  for (const auto& [key, value] : fields.items()) {
+    if (std::find(std::begin(kFirst), std::end(kFirst), key) == std::end(kFirst)) {
+      add(key, value);
+    }
+  }
+  return out + "}";
+}
+
+// Whether a value can be written and read back: finite, not null, not too deep.
+bool IsWritable(const Json& value, int depth = 1) {
+  if (value.is_number()) {
+    return std::isfinite(value.get<double>());
+  }
+  if (value.is_structured()) {
+    return depth < kMaxDepth && std::all_of(value.begin(), value.end(), [depth](const Json& inner) {
+             return IsWritable(inner, depth + 1);
+           });
+  }
+  return value.is_string() || value.is_boolean();
+}
+
+}  // namespace
+
+// Finds the calls of track in a text.
+class TimelineReader {
+ public:
+  explicit TimelineReader(TimelineText& out) : out_(out) {}
+
+  Status Read() {
+    LuaTokens tokens(out_.text_);
+    LuaToken before;
+    LuaToken last;
+    for (LuaToken token = tokens.Next(); token.kind != Kind::kEnd; token = tokens.Next()) {
+      if (token.kind == Kind::kBad) {
+        return Status::Error(At(token.begin), token.problem);
+      }
+      const bool is_behind =
+          last.kind == Kind::kName && Text(last) == "track" && !before.Is('.') && !before.Is(':');
+      if (is_behind && token.Is('(')) {
+        continue;  // track({...}) is the same call
+      }
+      if (is_behind && token.Is('{')) {
+        LARARIUM_RETURN_IF_ERROR(ReadCall(token.begin));
+      }
+      before = last;
+      last = token;
+    }
+    return Status();
+  }
+
+ private:
+  std::string_view Text(const LuaToken& token) const {
+    return std::string_view(out_.text_).substr(token.begin, token.end - token.begin);
+  }
+  std::string At(size_t offset) const {
+    const LuaPosition position = PositionOf(out_.text_, offset);
+    return out_.place_ + ":" + std::to_string(position.line) + ":" +
+           std::to_string(position.column);
+  }
+  void Report(size_t offset, const std::string& problem, std::string_view remedy) {
+    if (out_.problems_.size() < kMaxProblems) {
+      out_.problems_.push_back(Status::Error(At(offset), problem, remedy).message());
+    }
+  }
+
+  struct Lane {
+    TimelineLane lane;
+    uint32_t open = 0;
+    uint32_t close = 0;
+  };
+
+  // The call whose table opens at an offset.
+  Status ReadCall(size_t open) {
+    Literals literals(out_.text_, open);
+    std::vector<Lane> lanes;
+    std::string actor;
+    size_t end = 0;
+    const bool read = literals.Entries(end, [&](Entry& entry) {
+      if (entry.key == "actor") {
+        Json name;
+        const LuaToken token = literals.token();
+        if (!literals.Value(0, name, entry.value_end)) {
+          return false;
+        }
+        actor = name.is_string() ? name.get<std::string>() : "";
+        return !actor.empty() || literals.Fail(token, "the actor's name is no text");
+      }
+      const auto kind = LaneNamed(entry.key);
+      if (!kind) {
+        return literals.Fail(literals.token(), "track knows no '" + entry.key + "'");
+      }
+      lanes.emplace_back().lane.kind = *kind;
+      return ReadLane(literals, lanes.back());
+    });
+    if (!read) {
+      if (literals.token().kind == Kind::kBad || literals.token().kind == Kind::kEnd) {
+        return Status::Error(At(literals.problem().offset), literals.problem().text);
+      }
+      Report(literals.problem().offset, literals.problem().text, kRemedy);
+      return Status();
+    }
+    for (Lane& lane : lanes) {
+      if (IsOfActor(lane.lane.kind)) {
+        if (actor.empty()) {
+          Report(open, "'" + std::string(NameOf(lane.lane.kind)) + "' need an actor",
+                 "add actor = \"name\"");
+          continue;
+        }
+        lane.lane.actor = actor;
+      }
+      out_.lanes_.push_back(std::move(lane.lane));
+      out_.open_.push_back(lane.open);
+      out_.close_.push_back(lane.close);
+    }
+    return Status();
+  }
+
+  static bool ReadLane(Literals& literals, Lane& lane) {
+    const LuaToken open = literals.token();
+    if (!open.Is('{')) {
+      return literals.Fail(open, "a list of items {...} belongs here");
+    }
+    lane.open = static_cast<uint32_t>(open.begin);
+    size_t end = 0;
+    const bool read = literals.Entries(end, [&](Entry& entry) {
+      if (!entry.key.empty() || !literals.token().Is('{')) {
+        return literals.Fail(literals.token(), "an item {at = 0, ...} belongs here");
+      }
+      return ReadItem(literals, lane.lane);
+    });
+    lane.close = static_cast<uint32_t>(end - 1);
+    return read;
+  }
+
+  static bool ReadItem(Literals& literals, TimelineLane& lane) {
+    const LuaToken open = literals.token();
+    double at = -1.0;
+    double length = 0.0;
+    size_t end = 0;
+    const bool read = literals.Entries(end, [&](Entry& entry) {
+      const LuaToken token = literals.token();
+      if (entry.key.empty()) {
+        return literals.Fail(token, "what an item says needs a name");
+      }
+      Json value;
+      if (!literals.Value(1, value, entry.value_end)) {
+        return false;
+      }
+      if (entry.key == "at" || entry.key == "length") {
+        double& number = entry.key == "at" ? at : length;
+        number = value.is_number() ? value.get<double>() : -1.0;
+        return (number >= 0.0 && number <= 1e6) ||
+               literals.Fail(token, entry.key + " must be a number from 0 to 1000000");
+      }
+      if (entry.key == "ease" && !(value.is_string() && EaseNamed(value.get<std::string>()))) {
+        return literals.Fail(token, "ease is \"linear\", \"in\", \"out\" or \"smooth\"");
+      }
+      return true;
+    });
+    if (!read) {
+      return false;
+    }
+    if (at < 0.0) {
+      return literals.Fail(open, "this item does not say `at` what time it begins");
+    }
+    lane.at.push_back(at);
+    lane.length.push_back(length);
+    lane.begin.push_back(static_cast<uint32_t>(open.begin));
+    lane.end.push_back(static_cast<uint32_t>(end));
+    return true;
+  }
+
+  TimelineText& out_;
+};
+
+Result<TimelineText> TimelineText::Read(std::string text, std::string place) {
+  if (text.size() > kMaxBytes) {
+    return Status::Error(place, "the script is longer than 64 MiB");
+  }
+  TimelineText timeline;
+  timeline.text_ = std::move(text);
+  timeline.place_ = std::move(place);
+  LARARIUM_RETURN_IF_ERROR(TimelineReader(timeline).Read());
+  timeline.indexes_.resize(timeline.lanes_.size());
+  timeline.indexed_.assign(timeline.lanes_.size(), 0);
+  return timeline;
+}
+
+std::vector<TimelineField> TimelineText::Fields(TimelineItem item) const {
+  std::vector<TimelineField> fields;
+  if (!Check(item).ok()) {
+    return fields;
+  }
+  for (Entry& entry : EntriesOf(text_, lanes_[item.lane].begin[item.item], true)) {
+    fields.push_back({std::move(entry.key), std::move(entry.value),
+                      static_cast<uint32_t>(entry.value_begin),
+                      static_cast<uint32_t>(entry.value_end)});
+  }
+  return fields;
+}
+
+std::optional<Json> TimelineText::Field(TimelineItem item, std::string_view key) const {
+  for (TimelineField& field : Fields(item)) {
+    if (field.key == key) {
+      return std::move(field.value);
+    }
+  }
+  return std::nullopt;
+}
+
+size_t TimelineText::LineOf(TimelineItem item) const {
+  return Check(item).ok() ? PositionOf(text_, lanes_[item.lane].begin[item.item]).line : 0;
+}
+
+void TimelineText::Query(size_t lane, double from, double to, std::vector<uint32_t>& found) const {
+  CHECK(lane < lanes_.size());
+  if (indexed_[lane] == 0) {
+    indexes_[lane].Build(lanes_[lane].at, lanes_[lane].length);
+    indexed_[lane] = 1;
+  }
+  indexes_[lane].Query(from, to, found);
+}
+
+double TimelineText::Duration() const {
+  double duration = 0.0;
+  for (const TimelineLane& lane : lanes_) {
+    for (size_t i = 0; i < lane.size(); ++i) {
+      duration = std::max(duration, lane.at[i] + lane.length[i]);
+    }
+  }
+  return duration;
+}
+
+// ---- edits ----
+
+Status TimelineText::Check(TimelineItem item) const {
+  return item.lane < lanes_.size() && item.item < lanes_[item.lane].size()
+             ? Status()
+             : Status::Error(place_, "there is no such item on the timeline");
+}
+
+// Everything that begins at `behind` or later has moved.
+void TimelineText::Shift(size_t behind, int64_t by) {
+  const auto shift = [behind, by](uint32_t& offset) {
+    if (offset >= behind) {
+      offset = static_cast<uint32_t>(static_cast<int64_t>(offset) + by);
+    }
+  };
+  for (size_t i = 0; i < lanes_.size(); ++i) {
+    if (close_[i] < behind) {
+      continue;
+    }
+    shift(open_[i]);
+    shift(close_[i]);
+    std::for_each(lanes_[i].begin.begin(), lanes_[i].begin.end(), shift);
+    std::for_each(lanes_[i].end.begin(), lanes_[i].end.end(), shift);
+  }
+}
+
+Result<TextEdit> TimelineText::Replace(size_t begin,
+                                       size_t end,
+                                       std::string_view with,
+                                       size_t lanes) {
+  TextEdit edit = {begin, text_.substr(begin, end - begin), std::string(with)};
+  std::string changed = text_;
+  changed.replace(begin, end - begin, with);
+  LARARIUM_ASSIGN_OR_RETURN(TimelineText again, Read(std::move(changed), place_));
+  if (again.lanes_.size() != lanes) {
+    return Status::Error(place_, "the timeline cannot be changed in that way");
+  }
+  *this = std::move(again);
+  return edit;
+}
+
+// Only this item is read again: what surrounds it moves.
+Result<TextEdit> TimelineText::ReplaceWithin(TimelineItem item,
+                                             size_t begin,
+                                             size_t end,
+                                             std::string_view with) {
+  TimelineLane& lane = lanes_[item.lane];
+  if (text_.size() + with.size() > kMaxBytes) {
+    return Status::Error(place_, "the script would be longer than 64 MiB");
+  }
+  TextEdit edit = {begin, text_.substr(begin, end - begin), std::string(with)};
+  text_.replace(begin, end - begin, with);
+  Shift(end, static_cast<int64_t>(with.size()) - static_cast<int64_t>(end - begin));
+  lane.length[item.item] = 0.0;
+  for (const TimelineField& field : Fields(item)) {
+    if (field.key == "at") {
+      lane.at[item.item] = field.value.get<double>();
+    } else if (field.key == "length") {
+      lane.length[item.item] = field.value.get<double>();
+    }
+  }
+  indexed_[item.lane] = 0;
+  return edit;
+}
+
+namespace {
+
+Status CheckField(const std::string& place, std::string_view key, const Json& value) {
+  if (key.empty() || key.size() > 100) {
+    return Status::Error(place, "a field needs a name of up to 100 characters");
+  }
+  if (!IsWritable(value)) {
+    return Status::Error(place, "'" + std::string(key) +
+                                    "' must be a finite number, a text, true, false or a table");
+  }
+  if (key == "at" || key == "length") {
+    const double number = value.is_number() ? value.get<double>() : -1.0;
+    if (!(number >= 0.0 && number <= 1e6)) {
+      return Status::Error(place, std::string(key) + " must be a number from 0 to 1000000");
+    }
+  }
+  if (key == "ease" && !(value.is_string() && EaseNamed(value.get<std::string>()))) {
+    return Status::Error(place, "ease is \"linear\", \"in\", \"out\" or \"smooth\"");
+  }
+  return Status();
+}
+
+}  // namespace
+
+Result<TextEdit> TimelineText::Set(TimelineItem item, std::string_view key, const Json& value) {
+  LARARIUM_RETURN_IF_ERROR(Check(item));
+  LARARIUM_RETURN_IF_ERROR(CheckField(place_, key, value));
+  const std::vector<Entry> entries = EntriesOf(text_, lanes_[item.lane].begin[item.item], false);
+  // The last of several of one name is the one that counts.
+  const auto known = std::find_if(entries.rbegin(), entries.rend(),
+                                  [key](const Entry& entry) { return entry.key == key; });
+  if (known != entries.rend()) {
+    return ReplaceWithin(item, known->value_begin, known->value_end, LuaLiteral(value));
+  }
+  const std::string name(key);
+  const std::string field =
+      (IsName(name) ? name : "[" + LuaLiteral(name) + "]") + " = " + LuaLiteral(value);
+  const size_t last = entries.back().value_end;
+  return ReplaceWithin(item, last, last, ", " + field);
+}
+
+Result<TextEdit> TimelineText::Unset(TimelineItem item, std::string_view key) {
+  LARARIUM_RETURN_IF_ERROR(Check(item));
+  const std::vector<Entry> entries = EntriesOf(text_, lanes_[item.lane].begin[item.item], false);
+  const auto known = std::find_if(entries.begin(), entries.end(),
+                                  [key](const Entry& entry) { return entry.key == key; });
+  if (known == entries.end()) {
+    return Status::Error(place_, "the item has no '" + std::string(key) + "'");
+  }
+  if (key == "at") {
+    return Status::Error(place_, "an item must say `at` what time it begins");
+  }
+  // With its comma, but not with a comment before that.
+  std::string kept;
+  size_t end = known->value_end;
+  if (known->separator != 0) {
+    kept = text_.substr(end, known->separator - end);
+    end = known->separator + 1;
+    if (kept.find_first_not_of(" \t") == std::string::npos) {
+      kept.clear();
+      end = SkipSpaces(text_, end);
+    }
+  }
+  return ReplaceWithin(item, known->begin, end, kept);
+}
+
+// What the line begins with.
+std::string TimelineText::IndentOf(size_t offset) const {
+  const size_t line = LineBegin(text_, offset);
+  return text_.substr(line, SkipSpaces(text_, line) - line);
+}
+
+Result<TextEdit> TimelineText::Insert(size_t lane, const Json& fields) {
+  if (lane >= lanes_.size()) {
+    return Status::Error(place_, "there is no such lane on the timeline");
+  }
+  if (!fields.is_object() || !fields.contains("at")) {
+    return Status::Error(place_, "a new item must say `at` what time it begins");
+  }
+  for (const auto& [key, value] : fields.items()) {
+    LARARIUM_RETURN_IF_ERROR(CheckField(place_, key, value));
+  }
+  const std::string item = ItemLiteral(fields);
+  const TimelineLane& in = lanes_[lane];
+  size_t before = in.size();  // the item behind which it comes; size(): none
+  for (size_t i = 0; i < in.size(); ++i) {
+    before = in.at[i] <= fields["at"].get<double>() ? i : before;
+  }
+  if (in.size() == 0) {
+    // Alone, on a line of its own.
+    const size_t close = close_[lane];
+    const std::string outer = IndentOf(open_[lane]);
+    if (BeginsLine(text_, close)) {
+      const size_t line = LineBegin(text_, close);
+      return Replace(line, line, outer + "  " + item + ",\n", lanes_.size());
+    }
+    return Replace(close, close, "\n" + outer + "  " + item + ",\n" + outer, lanes_.size());
+  }
+  if (before == in.size()) {
+    const size_t first = in.begin[0];
+    const bool lines = BeginsLine(text_, first);
+    const std::string behind = lines ? ",\n" + IndentOf(first) : ", ";
+    return Replace(first, first, item + behind, lanes_.size());
+  }
+  const size_t begin = in.begin[before];
+  const size_t end = in.end[before];
+  const std::string lead = BeginsLine(text_, begin) ? "\n" + IndentOf(begin) : " ";
+  LuaTokens tokens(text_, end);
+  const LuaToken next = tokens.Next();
+  const bool has_comma = next.Is(',') || next.Is(';');
+  const size_t from = has_comma ? next.end : end;
+  // A comment behind an item belongs to it.
+  const size_t to = lead == " " ? from : RestOfLine(text_, from);
+  const std::string comment = text_.substr(from, to - from);
+  return Replace(from, to, (has_comma ? "" : ",") + comment + lead + item + (has_comma ? "," : ""),
+                 lanes_.size());
+}
+
+Result<TextEdit> TimelineText::Remove(TimelineItem item) {
+  LARARIUM_RETURN_IF_ERROR(Check(item));
+  const TimelineLane& lane = lanes_[item.lane];
+  size_t begin = lane.begin[item.item];
+  size_t end = lane.end[item.item];
+  LuaTokens tokens(text_, end);
+  const LuaToken next = tokens.Next();
+  std::string kept;
+  if (next.Is(',') || next.Is(';')) {
+    kept = text_.substr(end, next.begin - end);
+    end = next.end;
+  }
+  if (kept.find_first_not_of(" \t\r\n") == std::string::npos) {
+    kept.clear();
+    // An empty line of its own goes with it.
+    const size_t rest = SkipSpaces(text_, end);
+    if (BeginsLine(text_, begin) && rest < text_.size() && text_[rest] == '\n') {
+      begin = LineBegin(text_, begin);
+      end = rest + 1;
+    } else {
+      end = rest;
+    }
+  }
+  return Replace(begin, end, kept, lanes_.size());
+}
+
+Result<TextEdit> TimelineText::AddLane(LaneKind kind, const std::string& actor) {
+  if (IsOfActor(kind) == actor.empty()) {
+    return Status::Error(place_, actor.empty() ? "such a lane is an actor's; name one"
+                                               : "such a lane is the stage's, not an actor's");
+  }
+  for (const TimelineLane& lane : lanes_) {
+    if (lane.kind == kind && lane.actor == actor) {
+      return Status::Error(place_, "the timeline has that lane already");
+    }
+  }
+  const std::string who = actor.empty() ? "" : "actor = " + LuaLiteral(actor) + ", ";
+  const std::string call = (text_.empty() || text_.ends_with('\n') ? "" : "\n") +
+                           std::string("\ntrack{") + who + std::string(NameOf(kind)) + " = {\n}}\n";
+  return Replace(text_.size(), text_.size(), call, lanes_.size() + 1);
+}
+
+Status TimelineText::Apply(const TextEdit& edit) {
+  if (edit.offset > text_.size() || edit.removed.size() > text_.size() - edit.offset ||
+      text_.compare(edit.offset, edit.removed.size(), edit.removed) != 0) {
+    return Status::Error(place_, "the script has been changed elsewhere", "open it again");
+  }
+  std::string changed = text_;
+  changed.replace(edit.offset, edit.removed.size(), edit.inserted);
+  LARARIUM_ASSIGN_OR_RETURN(*this, Read(std::move(changed), place_));
+  return Status();
+}
+
+std::string LuaLiteral(const Json& value) {
+  if (value.is_number()) {
+    char digits[32];
+    const double number = value.get<double>();
+    const auto [end, error] = std::to_chars(digits, digits + sizeof(digits), number);
+    CHECK(error == std::errc());
+    return std::string(digits, end);
+  }
+  if (value.is_boolean()) {
+    return value.get<bool>() ? "true" : "false";
+  }
+  if (value.is_string()) {
+    std::string out = "\"";
+    for (const char c : value.get_ref<const std::string&>()) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (c == '"' || c == '\\') {
+        out += '\\';
+        out += c;
+      } else if (c == '\n') {
+        out += "\\n";
+      } else if (byte < 0x20 || byte == 0x7f) {
+        const std::string code = std::to_string(byte);
+        out += "\\" + std::string(3 - code.size(), '0') + code;
+      } else {
+        out += c;
+      }
+    }
+    return out + "\"";
+  }
+  std::string out;
+  if (value.is_array()) {
+    for (const Json& inner : value) {
+      out += (out.empty() ? "" : ", ") + LuaLiteral(inner);
+    }
+  } else if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) {
+      out += (out.empty() ? "" : ", ") + (IsName(key) ? key : "[" + LuaLiteral(key) + "]") + " = " +
+             LuaLiteral(inner);
+    }
+  }
+  return "{" + out + "}";
+}
+
+}  // namespace lararium::drama

@@ -1,0 +1,8 @@
+-- A seed: lanes of all manners of writing.
+track{ actor = "keeper", -- who
+  speech = { {id = "a", at = 2, length = 1.5, line = "salvete"}; {at = 0x10, line = [[vale]]} },
+  gaze = {
+    {at = 3, target = {x = -1, y = 2, z = .5}, ["with head"] = true}, --[[ later ]]
+  },
+}
+track({ markers = {{at = 1, name = 'no\u{6f}n', ease = "in"}} })
