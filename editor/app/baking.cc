@@ -30,8 +30,10 @@ namespace {
 // Part of every hash: raise it when the same sources give another product.
 constexpr std::string_view kBakerVersion = "3";
 
-std::filesystem::path LightFile(const ProjectPaths& paths, const PlaceDocument& place) {
-  return paths.Place(place.name) / "baked" / "light.json";
+std::filesystem::path LightFile(const ProjectPaths& paths,
+                                const PlaceDocument& place,
+                                const ProbeDocument& probe) {
+  return paths.Place(place.name) / "baked" / (probe.name + ".light.json");
 }
 
 std::filesystem::path MeshFile(const ProjectPaths& paths,
@@ -146,13 +148,14 @@ Result<std::vector<std::byte>> MakeLight(const std::filesystem::path& file,
       image, {geometry::ToGlm(probe.stage_from_probe), static_cast<float>(probe.scale)})));
 }
 
-BakeStep LightStep(const ProjectPaths& paths, const PlaceDocument& place) {
-  const ProbeDocument probe = *place.probe;
+BakeStep LightStep(const ProjectPaths& paths,
+                   const PlaceDocument& place,
+                   const ProbeDocument& probe) {
   const std::filesystem::path file = paths.Resolve(probe.file);
   const Eigen::Vector4d q = probe.stage_from_probe.coeffs();
   return {
-      "light of " + place.name,
-      LightFile(paths, place),
+      "light of " + place.name + ", " + probe.name,
+      LightFile(paths, place, probe),
       {file},
       Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale, light::kShCount, "sun apart"}).dump(),
       [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); }};
@@ -356,8 +359,8 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
                                     const Progress& progress) {
   std::vector<BakeStep> steps;
   for (const PlaceDocument& place : document.places) {
-    if (place.probe) {
-      steps.push_back(LightStep(paths, place));
+    for (const ProbeDocument& probe : place.probes) {
+      steps.push_back(LightStep(paths, place, probe));
     }
     for (const OccluderDocument& occluder : place.occluders) {
       steps.push_back(MeshStep(paths, place, occluder));
@@ -440,16 +443,23 @@ Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& me
   return LoadBakedHuman(paths, member);
 }
 
-Result<light::ProbeLight> LoadBakedLight(const ProjectPaths& paths, const PlaceDocument& place) {
-  if (!place.probe) {
-    return EvenLight();
+Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& paths,
+                                                        const PlaceDocument& place) {
+  if (place.probes.empty()) {
+    return std::vector<light::PlacedProbe>{{{}, light::kNoon, EvenLight()}};
   }
-  const std::filesystem::path file = LightFile(paths, place);
-  if (!Exists(file)) {
-    return NotBaked(file);
+  std::vector<light::PlacedProbe> probes;
+  for (const ProbeDocument& probe : place.probes) {
+    const std::filesystem::path file = LightFile(paths, place, probe);
+    if (!Exists(file)) {
+      return NotBaked(file);
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
+    LARARIUM_ASSIGN_OR_RETURN(const light::ProbeLight light,
+                              ParseLight(JsonView(json, file.string())));
+    probes.push_back({geometry::ToGlm(probe.position), probe.hour, light});
   }
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  return ParseLight(JsonView(json, file.string()));
+  return probes;
 }
 
 Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,

@@ -14,7 +14,7 @@
 #include "shared/core/status.h"
 #include "shared/geometry/triangle_mesh.h"
 #include "shared/human/human.h"
-#include "shared/light/probe_light.h"
+#include "shared/light/probe_blend.h"
 #include "shared/stage/prop.h"
 
 namespace lararium::app {
@@ -39,7 +39,9 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
 Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member);
 
 // The products. An error where they were never baked says so.
-Result<light::ProbeLight> LoadBakedLight(const ProjectPaths& paths, const PlaceDocument& place);
+// The light of each of the place's probes; even light where it has none.
+Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& paths,
+                                                        const PlaceDocument& place);
 Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const PlaceDocument& place,
                                              const OccluderDocument& occluder);

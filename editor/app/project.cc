@@ -19,6 +19,7 @@ using geometry::CameraModel;
 using geometry::Similarity3;
 
 constexpr size_t kMaxEntries = 10'000;  // of any list in the file
+constexpr size_t kMaxProbes = 64;       // of a place, as bundles have it
 constexpr double kMaxPixel = 1e6;
 
 Result<SourceDocument> ParseSource(const JsonView& view) {
@@ -133,13 +134,62 @@ Result<OccluderDocument> ParseOccluder(const JsonView& view) {
   return occluder;
 }
 
-Result<ProbeDocument> ParseProbe(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"file", "rotation", "scale"}));
-  ProbeDocument probe;
+template <typename Entry>
+Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& place) {
+  std::set<std::string_view> names;
+  for (const Entry& entry : entries) {
+    if (!names.insert(entry.name).second) {
+      return Status::Error(place, "the name \"" + entry.name + "\" is there twice", "rename one");
+    }
+  }
+  return Status();
+}
+
+Status ParseProbeImage(const JsonView& view, ProbeDocument& probe) {
   LARARIUM_ASSIGN_OR_RETURN(probe.file, view.Text("file"));
   LARARIUM_ASSIGN_OR_RETURN(probe.stage_from_probe, ParseRotation(view));
   LARARIUM_ASSIGN_OR_RETURN(probe.scale, view.Number("scale", 0.0, 1e9));
+  return Status();
+}
+
+Result<ProbeDocument> ParseProbe(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(
+      CheckFields(view, {"name", "file", "position", "hour", "rotation", "scale"}));
+  ProbeDocument probe;
+  LARARIUM_ASSIGN_OR_RETURN(probe.name, ParsePlainName(view, "name"));
+  LARARIUM_ASSIGN_OR_RETURN(probe.position, ParseVector(view, "position"));
+  LARARIUM_ASSIGN_OR_RETURN(probe.hour, view.Number("hour", 0.0, 24.0));
+  LARARIUM_RETURN_IF_ERROR(ParseProbeImage(view, probe));
   return probe;
+}
+
+// What places had when they had one probe alone.
+Result<ProbeDocument> ParseOnlyProbe(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"file", "rotation", "scale"}));
+  ProbeDocument probe;
+  probe.name = "probe";
+  LARARIUM_RETURN_IF_ERROR(ParseProbeImage(view, probe));
+  return probe;
+}
+
+// Places with one probe alone had the field "probe".
+Status ParseProbes(const JsonView& view, std::vector<ProbeDocument>& probes) {
+  if (view.Has("probe")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("probe"));
+    if (view.Has("probes")) {
+      return field.Problem("stands beside \"probes\"", "move it into the list");
+    }
+    LARARIUM_ASSIGN_OR_RETURN(probes.emplace_back(), ParseOnlyProbe(field));
+  }
+  if (view.Has("probes")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("probes"));
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(kMaxProbes));
+    for (const JsonView& entry : list) {
+      LARARIUM_ASSIGN_OR_RETURN(probes.emplace_back(), ParseProbe(entry));
+    }
+    return CheckUniqueNames(probes, field.place());
+  }
+  return Status();
 }
 
 // Fills place from the fields that may be missing.
@@ -167,17 +217,13 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("tags"));
     LARARIUM_ASSIGN_OR_RETURN(place.tags, ParseTags(field));
   }
-  if (view.Has("probe")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("probe"));
-    LARARIUM_ASSIGN_OR_RETURN(place.probe, ParseProbe(field));
-  }
-  return Status();
+  return ParseProbes(view, place.probes);
 }
 
 Result<PlaceDocument> ParsePlace(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(
       CheckFields(view, {"name", "training", "preview", "intrinsics", "added", "tags", "picks",
-                         "adjust", "camera_nudge", "occluders", "probe"}));
+                         "adjust", "camera_nudge", "occluders", "probe", "probes"}));
   PlaceDocument place;
   LARARIUM_ASSIGN_OR_RETURN(place.name, ParsePlainName(view, "name"));
   LARARIUM_RETURN_IF_ERROR(ParseOptionalFields(view, place));
@@ -194,17 +240,6 @@ Result<PlaceDocument> ParsePlace(const JsonView& view) {
     place.occluders.push_back(std::move(occluder));
   }
   return place;
-}
-
-template <typename Entry>
-Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& place) {
-  std::set<std::string_view> names;
-  for (const Entry& entry : entries) {
-    if (!names.insert(entry.name).second) {
-      return Status::Error(place, "the name \"" + entry.name + "\" is there twice", "rename one");
-    }
-  }
-  return Status();
 }
 
 Json FormatSource(const SourceDocument& source) {
@@ -247,10 +282,13 @@ Json FormatPlace(const PlaceDocument& place) {
     FormatSimilarity(occluder.stage_from_mesh, entry);
     json["occluders"].push_back(std::move(entry));
   }
-  if (place.probe) {
-    json["probe"] = {{"file", place.probe->file},
-                     {"rotation", FormatRotation(place.probe->stage_from_probe)},
-                     {"scale", place.probe->scale}};
+  for (const ProbeDocument& probe : place.probes) {
+    json["probes"].push_back({{"name", probe.name},
+                              {"file", probe.file},
+                              {"position", FormatVector(probe.position)},
+                              {"hour", probe.hour},
+                              {"rotation", FormatRotation(probe.stage_from_probe)},
+                              {"scale", probe.scale}});
   }
   return json;
 }
@@ -453,8 +491,8 @@ std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDoc
     for (const OccluderDocument& occluder : place.occluders) {
       expect(paths.Resolve(occluder.file), "put it back, or remove the occluder");
     }
-    if (place.probe) {
-      expect(paths.Resolve(place.probe->file), "put it back, or choose another probe");
+    for (const ProbeDocument& probe : place.probes) {
+      expect(paths.Resolve(probe.file), "put it back, or remove the light probe");
     }
   }
   for (const CastDocument& member : document.cast) {

@@ -17,6 +17,7 @@
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
+#include "shared/light/probe_blend.h"
 #include "shared/stage/picks.h"
 
 namespace lararium::app {
@@ -51,9 +52,12 @@ struct TagsDocument {
   double size_m = 0.0;              // see train::TagOptions
 };
 
-// An equirectangular image of the light on the stage.
+// An equirectangular image of the light at a point of the stage and a time of day.
 struct ProbeDocument {
+  std::string name;  // unique in its place
   std::string file;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, stage axes
+  double hour = light::kNoon;                          // of the day, 0 to 24
   Eigen::Quaterniond stage_from_probe = Eigen::Quaterniond::Identity();
   double scale = 1.0;  // radiance of the stage over radiance of the file
 };
@@ -78,7 +82,7 @@ struct PlaceDocument {
   geometry::Similarity3 picked_from_stage;
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres, camera axes
   std::vector<OccluderDocument> occluders;
-  std::optional<ProbeDocument> probe;
+  std::vector<ProbeDocument> probes;  // none: even light
 };
 
 // All that a curator edits, but the drama, which is a file of its own.

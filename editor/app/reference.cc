@@ -121,8 +121,8 @@ Result<std::vector<glm::vec3>> TransferIrradiance(const ReferenceOptions& option
   const std::shared_ptr<const human::Human> lit = human;
   show::StageLight stage({&lit, 1});
   std::vector<glm::vec3> irradiance(stage.vertex_count(0));
-  const show::LitActor actor = {0, skin, glm::mat4(1.0f), irradiance};
-  stage.Light(light, {}, {&actor, 1});
+  const show::LitActor actor = {0, &light, skin, glm::mat4(1.0f), irradiance};
+  stage.Light({}, {}, {&actor, 1});
   return irradiance;
 }
 

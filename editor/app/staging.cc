@@ -140,7 +140,7 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh mesh, LoadBakedMesh(paths, place, occluder));
     staged.occluders.push_back({occluder.name, std::move(mesh), occluder.stage_from_mesh});
   }
-  LARARIUM_ASSIGN_OR_RETURN(staged.light, LoadBakedLight(paths, place));
+  LARARIUM_ASSIGN_OR_RETURN(staged.probes, LoadBakedProbes(paths, place));
   return staged;
 }
 

@@ -263,9 +263,11 @@ std::string Workspace::PreviewKey() const {
   for (const OccluderDocument& occluder : at.occluders) {
     key["occluders"].push_back({occluder.name, occluder.file});
   }
-  if (at.probe) {
-    const Eigen::Vector4d q = at.probe->stage_from_probe.coeffs();
-    key["probe"] = {at.probe->file, at.probe->scale, q.x(), q.y(), q.z(), q.w()};
+  for (const ProbeDocument& probe : at.probes) {
+    const Eigen::Vector3d& p = probe.position;
+    const Eigen::Vector4d q = probe.stage_from_probe.coeffs();
+    key["probes"].push_back({probe.name, probe.file, probe.hour, p.x(), p.y(), p.z(), probe.scale,
+                             q.x(), q.y(), q.z(), q.w()});
   }
   for (const CastDocument& member : document().cast) {
     key["cast"].push_back(FormatCastMember(member));

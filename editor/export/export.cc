@@ -41,8 +41,8 @@ Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
   const stage::Place& place = content.place;
   const std::string folder = "places/" + std::to_string(index) + "/";
   bundle::PlaceEntry entry{
-      place.name, folder + "scene.larscene", place.map_from_stage, place.camera_nudge, {},
-      place.light};
+      place.name,  folder + "scene.larscene", place.map_from_stage, place.camera_nudge, {},
+      place.probes};
   const auto scene = vision::ParseSceneDatabase(content.scene, "place '" + place.name + "'");
   LARARIUM_RETURN_IF_ERROR(scene.status());
   packing.members.push_back({entry.scene, content.scene});

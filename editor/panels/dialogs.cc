@@ -388,21 +388,29 @@ void ObjectDialog(app::Workspace& workspace, EditorState& state) {
 void ProbeDialog(app::Workspace& workspace, EditorState& state) {
   Hint(
       "An equirectangular HDR photograph, twice as wide as high, its centre looking along the "
-      "stage's -Z.");
+      "stage's -Z. Where and when it was taken is said afterwards.");
   DialogFields& fields = state.fields;
   if (BeginProperties("probe")) {
+    PropertyLabel("Name");
+    ImGui::InputText("##name", &fields.name);
     PropertyLabel("File");
     PathField("file", fields.file, workspace.paths().folder, kProbes);
     EndProperties();
   }
-  const bool exists = Exists(workspace, fields.file);
-  if (DialogButtons(state, "Choose", exists ? "" : "Choose a file that exists.")) {
-    workspace.EditPlace("choose a probe", [&](app::PlaceDocument& place) {
-      app::ProbeDocument probe = place.probe.value_or(app::ProbeDocument());
-      probe.file = DocumentPath(workspace, fields.file);
-      place.probe = probe;
-    });
-    state.selection = {Selection::Kind::kProbe, ""};
+  std::string problem = NameProblem(fields.name);
+  if (problem.empty() && Taken(workspace.place()->probes, fields.name)) {
+    problem = "That name is taken.";
+  }
+  if (problem.empty() && !Exists(workspace, fields.file)) {
+    problem = "Choose a file that exists.";
+  }
+  if (DialogButtons(state, "Add", problem)) {
+    app::ProbeDocument probe;
+    probe.name = fields.name;
+    probe.file = DocumentPath(workspace, fields.file);
+    workspace.EditPlace("add " + probe.name,
+                        [&](app::PlaceDocument& place) { place.probes.push_back(probe); });
+    state.selection = {Selection::Kind::kProbe, probe.name};
   }
 }
 

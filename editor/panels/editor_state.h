@@ -20,7 +20,7 @@ enum class ViewKind { kCamera, kAround, kPicks };
 struct Selection {
   enum class Kind { kProject, kPlace, kStage, kPicks, kNudge, kOccluder, kProbe, kActor, kObject };
   Kind kind = Kind::kStage;
-  std::string name;  // of an occluder, actor or object
+  std::string name;  // of a probe, occluder, actor or object
 
   friend bool operator==(const Selection&, const Selection&) = default;
 };

@@ -385,32 +385,37 @@ void ShowOccluder(app::Workspace& workspace,
   }
 }
 
-void ShowProbe(app::Workspace& workspace, EditorState& state, const app::PlaceDocument& place) {
-  Heading("Light probe");
-  if (!place.probe) {
-    Hint(
-        "No probe: people are lit evenly from everywhere. An equirectangular HDR photograph of the "
-        "place gives them its light.");
-    if (ImGui::Button("Choose a probe\xe2\x80\xa6", ImVec2(-FLT_MIN, 0))) {
-      state.dialog = Dialog::kProbe;
-      state.fields = {};
-    }
-    return;
-  }
-  app::ProbeDocument probe = *place.probe;
+void ShowProbe(app::Workspace& workspace, EditorState& state, app::ProbeDocument probe) {
+  Heading(probe.name.c_str());
+  Hint(
+      "The light at a point of the stage and a time of day. Between probes it is blended, by where "
+      "somebody stands and by the drama's time of day.");
   bool changed = false;
   if (BeginProperties("probe")) {
     PropertyText("File", probe.file);
-    changed = RotationProperty(workspace, "Rotation", probe.stage_from_probe);
+    changed = VectorProperty(workspace, "Position", probe.position, 0.01, "%.2f");
+    changed |= NumberProperty(workspace, "Time of day", probe.hour, 0.05, 0.0, 24.0, "%.2f h");
+    changed |= RotationProperty(workspace, "Rotation", probe.stage_from_probe);
     changed |= NumberProperty(workspace, "Brightness", probe.scale, 0.01, 0.0, 1e4, "%.3f");
     EndProperties();
   }
   if (changed) {
     workspace.EditPlace(
-        "light probe", [&](app::PlaceDocument& p) { p.probe = probe; }, "probe");
+        "light probe",
+        [&](app::PlaceDocument& p) {
+          for (app::ProbeDocument& other : p.probes) {
+            if (other.name == probe.name) {
+              other = probe;
+            }
+          }
+        },
+        "probe " + probe.name);
   }
   if (ImGui::Button("Remove", ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace("remove the probe", [](app::PlaceDocument& p) { p.probe.reset(); });
+    workspace.EditPlace("remove " + probe.name, [&](app::PlaceDocument& p) {
+      std::erase_if(p.probes, [&](const auto& other) { return other.name == probe.name; });
+    });
+    state.selection = {};
   }
 }
 
@@ -466,7 +471,9 @@ void ShowInspector(app::Workspace& workspace, EditorState& state) {
       ShowNudge(workspace, *place);
       break;
     case Kind::kProbe:
-      ShowProbe(workspace, state, *place);
+      if (const auto* probe = FindByName(place->probes, name)) {
+        ShowProbe(workspace, state, *probe);
+      }
       break;
     case Kind::kOccluder:
       if (const auto* occluder = FindByName(place->occluders, name)) {

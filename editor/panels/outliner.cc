@@ -81,7 +81,10 @@ void ShowOutliner(app::Workspace& workspace, EditorState& state) {
     Row(state, "Stage", {Kind::kStage, ""});
     Row(state, "Picks", {Kind::kPicks, ""});
     Row(state, "Camera nudge", {Kind::kNudge, ""});
-    Row(state, "Light probe", {Kind::kProbe, ""});
+    Section("Light probes", &state, Dialog::kProbe);
+    for (const app::ProbeDocument& probe : place->probes) {
+      Row(state, probe.name.c_str(), {Kind::kProbe, probe.name});
+    }
     Section("Occluders", &state, Dialog::kOccluder);
     for (const app::OccluderDocument& occluder : place->occluders) {
       Row(state, occluder.name.c_str(), {Kind::kOccluder, occluder.name});

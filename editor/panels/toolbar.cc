@@ -93,7 +93,7 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   if (ImGui::MenuItem("Add an occluder\xe2\x80\xa6", nullptr, false, any)) {
     OpenDialog(state, Dialog::kOccluder);
   }
-  if (ImGui::MenuItem("Choose a light probe\xe2\x80\xa6", nullptr, false, any)) {
+  if (ImGui::MenuItem("Add a light probe\xe2\x80\xa6", nullptr, false, any)) {
     OpenDialog(state, Dialog::kProbe);
   }
   if (ImGui::MenuItem("Add a person\xe2\x80\xa6")) {

@@ -20,7 +20,9 @@ constexpr size_t kMaxCast = 256;
 constexpr size_t kMaxObjects = 1024;
 constexpr size_t kMaxSpeech = 4096;
 constexpr size_t kMaxOccluders = 256;
+constexpr size_t kMaxProbes = 64;
 constexpr double kMaxIrradiance = 1e6;
+constexpr double kMaxProbeDistance = 1e5;  // metres
 constexpr size_t kMaxCredits = 1 << 20;
 
 // The field key of a list, element by element through parse.
@@ -110,7 +112,7 @@ Json FormatSun(const light::Sun& sun) {
           {"angular_radius", sun.angular_radius}};
 }
 
-Result<light::ShRgb> ParseLight(const JsonView& json) {
+Result<light::ShRgb> ParseSky(const JsonView& json) {
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("light"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(3 * light::kShCount));
   // Older bundles hold degree 2 only.
@@ -131,12 +133,61 @@ Result<light::ShRgb> ParseLight(const JsonView& json) {
   return light;
 }
 
-Json FormatLight(const light::ShRgb& light) {
+Json FormatSky(const light::ShRgb& light) {
   Json numbers = Json::array();
   for (const glm::vec3& coefficient : light) {
     numbers.insert(numbers.end(), {coefficient.r, coefficient.g, coefficient.b});
   }
   return numbers;
+}
+
+Result<light::ProbeLight> ParseLight(const JsonView& json) {
+  light::ProbeLight light;
+  LARARIUM_ASSIGN_OR_RETURN(light.sky, ParseSky(json));
+  if (json.Has("sun")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView sun, json.Field("sun"));
+    LARARIUM_ASSIGN_OR_RETURN(light.sun, ParseSun(sun));
+  }
+  return light;
+}
+
+Result<light::PlacedProbe> ParseProbe(const JsonView& json) {
+  light::PlacedProbe probe;
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> at, json.Numbers("position", 3));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(at[static_cast<size_t>(axis)]) < kMaxProbeDistance)) {
+      return json.Problem("the probe is too far away");
+    }
+    probe.position[axis] = static_cast<float>(at[static_cast<size_t>(axis)]);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(probe.hour, json.Number("hour", 0.0, 24.0));
+  LARARIUM_ASSIGN_OR_RETURN(probe.light, ParseLight(json));
+  return probe;
+}
+
+// Bundles of schema 1 have one light in the place itself.
+Result<std::vector<light::PlacedProbe>> ParseProbes(const JsonView& json) {
+  if (!json.Has("probes")) {
+    LARARIUM_ASSIGN_OR_RETURN(const light::ProbeLight light, ParseLight(json));
+    return std::vector<light::PlacedProbe>{{{}, light::kNoon, light}};
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("probes"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> items, field.Array(kMaxProbes));
+  std::vector<light::PlacedProbe> probes;
+  for (const JsonView& item : items) {
+    LARARIUM_ASSIGN_OR_RETURN(probes.emplace_back(), ParseProbe(item));
+  }
+  return probes;
+}
+
+Json FormatProbe(const light::PlacedProbe& probe) {
+  Json json = {{"position", {probe.position.x, probe.position.y, probe.position.z}},
+               {"hour", probe.hour},
+               {"light", FormatSky(probe.light.sky)}};
+  if (probe.light.sun) {
+    json["sun"] = FormatSun(*probe.light.sun);
+  }
+  return json;
 }
 
 Result<OccluderEntry> ParseOccluder(const JsonView& json) {
@@ -156,11 +207,7 @@ Result<PlaceEntry> ParsePlace(const JsonView& json) {
   place.camera_nudge = {nudge[0], nudge[1], nudge[2]};
   LARARIUM_ASSIGN_OR_RETURN(place.occluders,
                             ParseList(json, "occluders", kMaxOccluders, ParseOccluder));
-  LARARIUM_ASSIGN_OR_RETURN(place.light.sky, ParseLight(json));
-  if (json.Has("sun")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView sun, json.Field("sun"));
-    LARARIUM_ASSIGN_OR_RETURN(place.light.sun, ParseSun(sun));
-  }
+  LARARIUM_ASSIGN_OR_RETURN(place.probes, ParseProbes(json));
   return place;
 }
 
@@ -285,9 +332,9 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
                               {"map_from_stage", FormatSimilarity(place.map_from_stage)},
                               {"camera_nudge", {nudge.x(), nudge.y(), nudge.z()}},
                               {"occluders", std::move(occluders)},
-                              {"light", FormatLight(place.light.sky)}});
-    if (place.light.sun) {
-      json["places"].back()["sun"] = FormatSun(*place.light.sun);
+                              {"probes", Json::array()}});
+    for (const light::PlacedProbe& probe : place.probes) {
+      json["places"].back()["probes"].push_back(FormatProbe(probe));
     }
   }
   for (const CastEntry& cast : manifest.cast) {

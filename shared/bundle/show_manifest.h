@@ -11,7 +11,7 @@
 #include "shared/bundle/sha256.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
-#include "shared/light/probe_light.h"
+#include "shared/light/probe_blend.h"
 
 namespace lararium::bundle {
 
@@ -34,7 +34,7 @@ struct PlaceEntry {
   geometry::Similarity3 map_from_stage;
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres along camera axes
   std::vector<OccluderEntry> occluders;
-  light::ProbeLight light;  // stage axes
+  std::vector<light::PlacedProbe> probes;  // light in stage axes
 };
 
 struct CastEntry {
@@ -56,7 +56,8 @@ struct SpeechEntry {
 };
 
 struct ShowManifest {
-  static constexpr int kSchema = 1;
+  // 1: a place has one light, without position and time of day.
+  static constexpr int kSchema = 2;
 
   std::string title;
   std::string credits;

@@ -146,6 +146,13 @@ void Run::PushHost(lua_State* lua) {
                                      {"object_state", Call<&Run::PushObjectState>},
                                      {"set_object_state", Call<&Run::SetObjectState>},
                                      {"holder", Call<&Run::PushHolder>},
+                                     {"set_hour", Call<&Run::SetHour>},
+                                     {"hour", Call<&Run::PushHour>},
+                                     {"has_light", Call<&Run::PushHasLight>},
+                                     {"light_level", Call<&Run::PushLightLevel>},
+                                     {"set_light_level", Call<&Run::SetLightLevel>},
+                                     {"set_light_colour", Call<&Run::SetLightColour>},
+                                     {"set_light_temperature", Call<&Run::SetLightTemperature>},
                                      {nullptr, nullptr}};
   lua_newtable(lua);
   lua_pushlightuserdata(lua, this);

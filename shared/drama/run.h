@@ -104,6 +104,15 @@ class Run {
   int SetObjectState(lua_State* lua);
   int PushHolder(lua_State* lua);
 
+  // words_light.cc: time of day and lamps
+  int SetHour(lua_State* lua);
+  int PushHour(lua_State* lua);
+  int PushHasLight(lua_State* lua);
+  int PushLightLevel(lua_State* lua);
+  int SetLightLevel(lua_State* lua);
+  int SetLightColour(lua_State* lua);
+  int SetLightTemperature(lua_State* lua);
+
   std::vector<TrackSegment>& SegmentsOf(stage::ActorId id);
 
   std::unique_ptr<Sandbox> sandbox_;

@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <vector>
 
 namespace lararium::light {
 namespace {
@@ -38,21 +37,34 @@ std::optional<Sun> MixSuns(const std::optional<Sun>& a, const std::optional<Sun>
              std::lerp(a->angular_radius, b->angular_radius, share)};
 }
 
-// Probes of one position: between the hour before and the hour after.
-ProbeLight AtHour(std::span<const PlacedProbe* const> probes, double hour) {
-  const PlacedProbe* before = probes[0];
-  const PlacedProbe* after = probes[0];
-  for (const PlacedProbe* probe : probes) {
-    if (HoursUntil(probe->hour, hour) < HoursUntil(before->hour, hour)) {
-      before = probe;
+bool SamePosition(const PlacedProbe& a, const PlacedProbe& b) {
+  return glm::distance(a.position, b.position) < kSamePosition;
+}
+
+// The probes at the position of one of them: between the hour before and the hour after.
+ProbeLight AtHour(std::span<const PlacedProbe> probes, const PlacedProbe& here, double hour) {
+  const PlacedProbe* before = &here;
+  const PlacedProbe* after = &here;
+  for (const PlacedProbe& probe : probes) {
+    if (!SamePosition(probe, here)) {
+      continue;
     }
-    if (HoursUntil(hour, probe->hour) < HoursUntil(hour, after->hour)) {
-      after = probe;
+    if (HoursUntil(probe.hour, hour) < HoursUntil(before->hour, hour)) {
+      before = &probe;
+    }
+    if (HoursUntil(hour, probe.hour) < HoursUntil(hour, after->hour)) {
+      after = &probe;
     }
   }
   const double between = HoursUntil(before->hour, after->hour);
   const double share = between > 0.0 ? HoursUntil(before->hour, hour) / between : 0.0;
   return Mix(before->light, after->light, static_cast<float>(share));
+}
+
+// Whether a probe before this one stands at the same position.
+bool IsRepeated(std::span<const PlacedProbe> probes, size_t index) {
+  return std::any_of(probes.begin(), probes.begin() + static_cast<ptrdiff_t>(index),
+                     [&](const PlacedProbe& other) { return SamePosition(other, probes[index]); });
 }
 
 }  // namespace
@@ -69,20 +81,12 @@ ProbeLight Mix(const ProbeLight& a, const ProbeLight& b, float share) {
 ProbeLight Blend(std::span<const PlacedProbe> probes, const glm::vec3& position, double hour) {
   ProbeLight blended;
   float total = 0.0f;
-  std::vector<bool> taken(probes.size(), false);
   for (size_t i = 0; i < probes.size(); ++i) {
-    if (taken[i]) {
+    if (IsRepeated(probes, i)) {
       continue;
     }
-    std::vector<const PlacedProbe*> here;
-    for (size_t k = i; k < probes.size(); ++k) {
-      if (!taken[k] && glm::distance(probes[k].position, probes[i].position) < kSamePosition) {
-        here.push_back(&probes[k]);
-        taken[k] = true;
-      }
-    }
     const float distance = glm::distance(position, probes[i].position);
-    const ProbeLight light = AtHour(here, hour);
+    const ProbeLight light = AtHour(probes, probes[i], hour);
     if (distance < 1e-3f) {
       return light;
     }

@@ -9,9 +9,11 @@
 
 namespace lararium::light {
 
+inline constexpr double kNoon = 12.0;
+
 struct PlacedProbe {
   glm::vec3 position = glm::vec3(0.0f);  // metres, stage axes
-  double hour = 12.0;                    // of the day, 0 to 24
+  double hour = kNoon;                   // of the day, 0 to 24
   ProbeLight light;
 };
 
@@ -24,7 +26,8 @@ ProbeLight Mix(const ProbeLight& a, const ProbeLight& b, float share);
 
 // The light at a position and an hour. At each position linear between the probes before and
 // after the hour, around midnight; between positions by inverse squared distances (Shepard
-// 1968), so that at a probe its own light is there alone. No probes: no light.
+// 1968), so that at a probe its own light is there alone. No probes: no light. Allocates
+// nothing.
 ProbeLight Blend(std::span<const PlacedProbe> probes, const glm::vec3& position, double hour);
 
 }  // namespace lararium::light

@@ -4,39 +4,18 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "shared/light/cap_means.h"
+
 namespace lararium::light {
-namespace {
-
-// The means of the Legendre polynomials P_l over a cap: the integral of P_l from
-// cos(radius) to 1 is (P_l-1 - P_l+1)(cos(radius)) / (2 l + 1).
-std::array<double, kShDegree + 1> CapMeans(double radius) {
-  const double x = std::cos(radius);
-  const double height = 2.0 * std::pow(std::sin(0.5 * radius), 2.0);  // 1 - x, exactly
-  std::array<double, kShDegree + 1> means;
-  means.fill(1.0);
-  if (height < 1e-9) {
-    return means;  // a point
-  }
-  std::array<double, kShDegree + 2> legendre = {1.0, x};
-  for (int l = 1; l <= kShDegree; ++l) {
-    legendre[l + 1] = ((2 * l + 1) * x * legendre[l] - l * legendre[l - 1]) / (l + 1);
-    means[l] = (legendre[l - 1] - legendre[l + 1]) / ((2 * l + 1) * height);
-  }
-  return means;
-}
-
-}  // namespace
-
 ShRgb ProjectSun(const Sun& sun) {
-  // Radiance L gives irradiance L pi sin^2 and flux L 2 pi (1 - cos).
-  const double cosine = std::cos(0.5 * sun.angular_radius);
-  const auto flux_over_irradiance = static_cast<float>(1.0 / (cosine * cosine));
-  const std::array<double, kShDegree + 1> means = CapMeans(sun.angular_radius);
+  // Radiance L gives irradiance L pi sin^2(a) and flux L 2 pi (1 - cos(a)).
+  const double half_sine = std::sin(0.5 * sun.angular_radius);
+  const double u = half_sine * half_sine;
   const auto basis = EvaluateShBasis(sun.direction);
   ShRgb radiance;
   for (int i = 0; i < kShCount; ++i) {
-    radiance[i] =
-        sun.irradiance * (flux_over_irradiance * static_cast<float>(means[ShBandOf(i)]) * basis[i]);
+    const double share = CapMean(ShBandOf(i), u) / (1.0 - u);
+    radiance[i] = sun.irradiance * (static_cast<float>(share) * basis[i]);
   }
   return radiance;
 }

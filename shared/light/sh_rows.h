@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -27,6 +28,13 @@ class ShRows {
   size_t stride() const { return stride_; }
   float* row(int k) { return values_.data() + static_cast<size_t>(k) * stride_; }
   const float* row(int k) const { return values_.data() + static_cast<size_t>(k) * stride_; }
+  void Clear() { std::fill(values_.begin(), values_.end(), 0.0f); }
+  // Rows of the same count and receivers.
+  void Add(const ShRows& more) {
+    for (size_t i = 0; i < values_.size(); ++i) {
+      values_[i] += more.values_[i];
+    }
+  }
   float& at(int k, size_t receiver) { return row(k)[receiver]; }
   float at(int k, size_t receiver) const { return row(k)[receiver]; }
 

@@ -29,8 +29,4 @@ KeyLight EstimateKeyLight(const light::ShRgb& radiance) {
   return key;
 }
 
-KeyLight ChooseKeyLight(const light::ShRgb& sky, const std::optional<light::Sun>& sun) {
-  return sun ? KeyLight{sun->direction, sun->irradiance} : EstimateKeyLight(sky);
-}
-
 }  // namespace lararium::render

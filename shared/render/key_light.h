@@ -3,10 +3,8 @@
 // The one direction that most light comes from, for highlights.
 
 #include <glm/vec3.hpp>
-#include <optional>
 
 #include "shared/light/spherical_harmonics.h"
-#include "shared/light/sun.h"
 
 namespace lararium::render {
 
@@ -19,8 +17,5 @@ struct KeyLight {
 // (least squares; its direction is that of the linear band's luminance: Sloan,
 // "Stupid Spherical Harmonics (SH) Tricks", GDC 2008). Never brighter than they are.
 KeyLight EstimateKeyLight(const light::ShRgb& radiance);
-
-// The sun where there is one, else as above from the sky.
-KeyLight ChooseKeyLight(const light::ShRgb& sky, const std::optional<light::Sun>& sun);
 
 }  // namespace lararium::render

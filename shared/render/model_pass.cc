@@ -10,7 +10,6 @@
 #include <string>
 
 #include "shared/human/skinning.h"
-#include "shared/render/key_light.h"
 #include "shared/render/sun_pass.h"
 #include "shared/render/surface_texture.h"
 
@@ -134,24 +133,17 @@ void ModelPass::UploadSkins(std::span<const ModelDraw> draws) {
   }
 }
 
-void ModelPass::SetLight(const RenderScene& scene, const SunPass& sun) const {
-  const std::array irradiance = IrradianceCoefficients(scene.light);
-  std::array scattered = irradiance;
-  ScatterInSkin(scattered);
-  const KeyLight key = ChooseKeyLight(scene.light, scene.sun);
+void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun) {
   const Eigen::Vector3d eye = scene.camera_from_stage->Inverse().translation;
-  for (size_t i = 0; i < kPrograms; ++i) {
-    if (!programs_[i].ready) {
+  scene_light_ = {scene.light, scene.sun};
+  for (Program& program : programs_) {
+    if (!program.ready) {
       continue;
     }
-    const ShaderProgram& shaders = programs_[i].shaders;
-    const bool skin = i / 2 == static_cast<size_t>(human::Surface::kSkin);
+    const ShaderProgram& shaders = program.shaders;
+    program.light = nullptr;
     shaders.Use();
-    shaders.Set("irradiance", skin ? scattered : irradiance);
-    shaders.Set("unscattered", irradiance);
     shaders.Set("matte_only", scene.matte ? 1 : 0);
-    shaders.Set("key_direction", key.direction);
-    shaders.Set("key_irradiance", key.irradiance);
     shaders.Set("eye_in_stage", glm::vec3(eye.x(), eye.y(), eye.z()));
     shaders.Set("gain", scene.exposure * scene.gain);
     shaders.Set("knee", std::max(scene.knee, 0.0f));
@@ -159,6 +151,29 @@ void ModelPass::SetLight(const RenderScene& scene, const SunPass& sun) const {
     shaders.Set("normal_texture", 1);
     sun.BindFor(shaders);
   }
+}
+
+KeyLight ModelPass::KeyLightOf(const light::ProbeLight& light) const {
+  if (!scene_light_.sun) {
+    return EstimateKeyLight(light.sky);
+  }
+  return {scene_light_.sun->direction, light.sun ? light.sun->irradiance : glm::vec3(0.0f)};
+}
+
+// Of the program in use.
+void ModelPass::SetLight(const light::ProbeLight& light, Program& program, bool skin) const {
+  if (program.light == &light) {
+    return;
+  }
+  program.light = &light;
+  const std::array irradiance = IrradianceCoefficients(light.sky);
+  std::array scattered = irradiance;
+  ScatterInSkin(scattered);
+  const KeyLight key = KeyLightOf(light);
+  program.shaders.Set("irradiance", skin ? scattered : irradiance);
+  program.shaders.Set("unscattered", irradiance);
+  program.shaders.Set("key_direction", key.direction);
+  program.shaders.Set("key_irradiance", key.irradiance);
 }
 
 void ModelPass::BindTextures(const GpuModel& model, const GpuModel::Part& part) const {
@@ -185,9 +200,14 @@ void ModelPass::DrawPart(const ModelDraw& draw,
     draw.model->StreamIrradiance(index,
                                  draw.irradiance.subspan(part.first_vertex, part.vertex_count));
   }
-  const ShaderProgram& shaders = phase == Phase::kCaster ? casters_[part.covered() ? 1 : 0]
-                                                         : programs_[ProgramIndex(part)].shaders;
+  Program& program = programs_[ProgramIndex(part)];
+  const ShaderProgram& shaders =
+      phase == Phase::kCaster ? casters_[part.covered() ? 1 : 0] : program.shaders;
   shaders.Use();
+  if (phase != Phase::kCaster) {
+    SetLight(draw.light != nullptr ? *draw.light : scene_light_, program,
+             part.surface == human::Surface::kSkin);
+  }
   shaders.Set("has_transfer", draw.irradiance.empty() ? 0 : 1);
   shaders.Set("stage_from_model", draw.stage_from_model);
   shaders.Set("clip_from_model", clip_from_stage * draw.stage_from_model);
@@ -231,7 +251,7 @@ void ModelPass::Draw(const RenderScene& scene,
                      const SunPass& sun) {
   glEnable(GL_DEPTH_TEST);
   UploadSkins(draws);
-  SetLight(scene, sun);
+  BeginFrame(scene, sun);
   DrawPhase(Phase::kOpaque, clip_from_stage, draws);
   DrawPhase(Phase::kCore, clip_from_stage, draws);
   glDepthMask(GL_FALSE);

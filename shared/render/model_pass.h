@@ -17,6 +17,7 @@
 #include "shared/core/status.h"
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_model.h"
+#include "shared/render/key_light.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/shader_program.h"
 
@@ -30,9 +31,10 @@ struct ModelDraw {
   glm::mat4 stage_from_model = glm::mat4(1.0f);
   std::span<const glm::mat4> skin;  // one for each joint, model frame
   std::span<const SceneVertices> vertices;
-  std::span<const glm::vec3> irradiance;  // of all vertices of all parts; may be empty
-  float detail = 0.0f;                    // metres that may be off
-  std::span<const uint8_t> shown;         // of a prop's parts; empty: all
+  std::span<const glm::vec3> irradiance;     // of all vertices of all parts; may be empty
+  float detail = 0.0f;                       // metres that may be off
+  std::span<const uint8_t> shown;            // of a prop's parts; empty: all
+  const light::ProbeLight* light = nullptr;  // nullptr: the scene's
 
   bool Shows(size_t prop_part) const { return shown.empty() || shown[prop_part] != 0; }
 };
@@ -57,12 +59,15 @@ class ModelPass {
   struct Program {
     ShaderProgram shaders;
     bool ready = false;
+    const light::ProbeLight* light = nullptr;  // that its uniforms hold in this picture
   };
   static constexpr size_t kPrograms = 2 * human::kSurfaceCount;
   static size_t ProgramIndex(const GpuModel::Part& part);
 
   void UploadSkins(std::span<const ModelDraw> draws);
-  void SetLight(const RenderScene& scene, const SunPass& sun) const;
+  void BeginFrame(const RenderScene& scene, const SunPass& sun);
+  KeyLight KeyLightOf(const light::ProbeLight& light) const;
+  void SetLight(const light::ProbeLight& light, Program& program, bool skin) const;
   void DrawPhase(Phase phase, const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
   void DrawPart(const ModelDraw& draw, size_t part, Phase phase, const glm::mat4& clip_from_stage);
   void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;
@@ -71,6 +76,7 @@ class ModelPass {
   std::array<ShaderProgram, 2> casters_;  // the second of partly covered surfaces
   GlBuffer skin_;  // matrices or dual quaternions of all models in the picture
   GlTexture white_;
+  light::ProbeLight scene_light_;
   std::vector<glm::mat4> packed_;  // dual quaternions of one model, as the shader takes them
 };
 

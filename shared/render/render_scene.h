@@ -13,8 +13,7 @@
 #include "shared/core/id.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
-#include "shared/light/spherical_harmonics.h"
-#include "shared/light/sun.h"
+#include "shared/light/probe_light.h"
 
 namespace lararium::render {
 
@@ -51,12 +50,15 @@ struct SceneHuman {
   // Metres by which what is drawn may differ from the finest level of detail
   // (shared/render/detail.h).
   float detail = 0.0f;
+  // Where they stand. Its sun is taken for as bright, in the scene's direction; none: the scene's.
+  const light::ProbeLight* light = nullptr;
 };
 
 struct SceneProp {
   ModelHandle prop = {};
   std::span<const glm::mat4> stage_from_part = {};  // one for each part
   std::span<const uint8_t> shown = {};              // likewise: 0 hides it; empty: all are there
+  const light::ProbeLight* light = nullptr;         // as of people
 };
 
 // What the camera does to its image and people would lack: all off unless set.

@@ -180,9 +180,15 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
   all_draws.clear();
   ScreenBounds bounds;
   for (const SceneProp& prop : scene.props) {
-    CollectDraw(
-        {models.Find(prop.prop), glm::mat4(1.0f), prop.stage_from_part, {}, {}, 0.0f, prop.shown},
-        view, bounds);
+    CollectDraw({models.Find(prop.prop),
+                 glm::mat4(1.0f),
+                 prop.stage_from_part,
+                 {},
+                 {},
+                 0.0f,
+                 prop.shown,
+                 prop.light},
+                view, bounds);
   }
   for (const SceneHuman& human : scene.humans) {
     CollectDraw({models.Find(human.human),
@@ -191,7 +197,8 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
                  human.vertices,
                  human.irradiance,
                  human.detail,
-                 {}},
+                 {},
+                 human.light},
                 view, bounds);
   }
   return bounds.Pixels(view.size.width, view.size.height);

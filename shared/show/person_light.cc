@@ -1,6 +1,7 @@
 #include "shared/show/person_light.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -32,6 +33,12 @@ int VisibilityCount(const LightTransfer& transfer) { return std::min(transfer.co
 // What went away since the key poses can brighten only what transfer has not put out:
 // half of it was measured to come nearest to path-traced poses.
 constexpr float kBrightening = 0.5f;
+
+// A lamp that gives a facing surface less than this is passed over: what shows on white
+// skin as less than a step of eight bits.
+constexpr float kLeastLampIrradiance = 0.01f;
+// All of somebody lies so near to the point as far above their feet, metres.
+constexpr float kBodyReach = 1.0f;
 
 void DampBrightening(light::ShRows& log) {
   for (size_t receiver = 0; receiver < log.receivers(); ++receiver) {
@@ -108,7 +115,8 @@ PersonLight::PersonLight(std::shared_ptr<const human::Human> human)
   const size_t slots = receiver_light_.receivers();
   const int count = VisibilityCount(human_->light);
   own_log_ = stage_log_ = light::ShRows(count, slots);
-  shadowed_ = turned_ = RowsRgb(count, slots);
+  shadowed_ = turned_ = lamp_light_ = RowsRgb(count, slots);
+  near_lamps_.reserve(light::kMaxLamps);
   pose_weights_.resize(slots * light::kMaxKeyPoses);
   blockers_.Resize(human_->light.blockers.size());
   local_.Resize(blockers_.size());
@@ -187,7 +195,28 @@ void PersonLight::Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_f
   }
 }
 
-void PersonLight::Update(const light::LightMatrix& light, const light::Spheres& others) {
+void PersonLight::AddLamps(const light::Spheres& others, std::span<const light::Lamp> lamps) {
+  near_lamps_.clear();
+  const glm::vec3 middle = stage_from_actor_ * glm::vec4(0.0f, kBodyReach, 0.0f, 1.0f);
+  for (const light::Lamp& lamp : lamps) {
+    const float reach = light::ReachOf(lamp, kLeastLampIrradiance) + kBodyReach;
+    if (near_lamps_.size() < light::kMaxLamps && glm::distance(lamp.position, middle) < reach) {
+      near_lamps_.push_back(lamp);
+    }
+  }
+  if (near_lamps_.empty()) {
+    return;
+  }
+  for (light::ShRows& rows : lamp_light_) {
+    rows.Clear();
+  }
+  light::AddLamps(near_lamps_, {stage_points_.x, stage_points_.y, stage_points_.z}, stage_log_,
+                  others, {0, receiver_light_.receivers()}, lamp_light_);
+}
+
+void PersonLight::Update(const light::LightMatrix& light,
+                         const light::Spheres& others,
+                         std::span<const light::Lamp> lamps) {
   OwnLog(skin_, own_log_);
   const light::ReceiverRange all = {0, receiver_light_.receivers()};
   light::KeyPoseWeights(key_logs_, own_log_, {}, all, pose_weights_);
@@ -202,9 +231,13 @@ void PersonLight::Update(const light::LightMatrix& light, const light::Spheres& 
     light::RotateRows(own_log_, light::ShRotation(RotationOf(stage_from_bind)), group.range,
                       stage_log_);
   }
+  AddLamps(others, lamps);
   light::AddLogVisibility(others, {stage_points_.x, stage_points_.y, stage_points_.z}, all,
                           stage_log_);
   light::ShadowLight(light, stage_log_, all, shadowed_);
+  for (size_t channel = 0; !near_lamps_.empty() && channel < 3; ++channel) {
+    shadowed_[channel].Add(lamp_light_[channel]);
+  }
   for (const Group& group : groups_) {
     const glm::quat stage_from_bind = RotationOf(stage_from_actor_ * skin_[group.joint]);
     const light::ShRotation turn(glm::conjugate(stage_from_bind));

@@ -18,6 +18,7 @@
 
 #include "shared/human/human.h"
 #include "shared/light/key_poses.h"
+#include "shared/light/lamp.h"
 #include "shared/light/receivers.h"
 #include "shared/light/transfer.h"
 
@@ -49,8 +50,10 @@ class PersonLight {
   int light_count() const { return own_log_.count(); }
 
   // The light of the stage at the receivers of the last pose. others: blockers that are
-  // not the person's own, stage axes.
-  void Update(const light::LightMatrix& light, const light::Spheres& others);
+  // not the person's own, stage axes. Lamps that give next to nothing are passed over.
+  void Update(const light::LightMatrix& light,
+              const light::Spheres& others,
+              std::span<const light::Lamp> lamps);
 
   // Irradiance of the vertices [begin, end) of a mesh, without albedo.
   void LightVertices(size_t mesh, size_t begin, size_t end, std::span<glm::vec3> irradiance) const;
@@ -69,6 +72,8 @@ class PersonLight {
   };
 
   void PlaceReceivers();
+  // Lamps as seen from the receivers of the last pose, past their own body and others.
+  void AddLamps(const light::Spheres& others, std::span<const light::Lamp> lamps);
   void MakeMeshes();
   void FindKeyLogs();
   // The log visibility past own blockers in the bind pose's axes.
@@ -88,6 +93,8 @@ class PersonLight {
   light::ShRows stage_log_;
   light::ShRowsRgb shadowed_;
   light::ShRowsRgb turned_;
+  light::ShRowsRgb lamp_light_;
+  std::vector<light::Lamp> near_lamps_;
   std::vector<float> pose_weights_;  // [slot][light::kMaxKeyPoses]
   light::ReceiverLight receiver_light_;
   std::vector<MeshLight> meshes_;

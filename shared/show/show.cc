@@ -19,6 +19,8 @@ constexpr double kSeekAheadSeconds = 2.0;
 // clothes and what they hold may be from the middle of the body.
 constexpr float kPersonHeight = 1.7f;
 constexpr float kPersonReach = 1.6f;
+// Before the camera, metres: where real surfaces are that people cast their shadows on.
+constexpr float kViewedDistance = 3.0f;
 
 }  // namespace
 
@@ -180,6 +182,30 @@ void Show::StageActors(double time, StagedFrame& staged) {
   });
 }
 
+light::ProbeLight Show::LightAt(const StagedFrame& staged, const glm::vec3& position) const {
+  const std::vector<light::PlacedProbe>& probes = content_.places[staged.place].stage.probes;
+  if (probes.empty()) {
+    return {};
+  }
+  return light::Blend(probes, position, drawn_.hour.value_or(probes.front().hour));
+}
+
+void Show::BlendProbes(StagedFrame& staged) const {
+  glm::vec3 viewed(0.0f);
+  if (staged.camera_from_stage) {
+    const geometry::Rigid3 stage_from_camera = staged.camera_from_stage->Inverse();
+    viewed = geometry::ToGlm(stage_from_camera * Eigen::Vector3d(0.0, 0.0, kViewedDistance));
+  }
+  staged.light = LightAt(staged, viewed);
+  for (StagedActor& actor : staged.actors) {
+    const glm::vec4 middle(0.0f, 0.5f * kPersonHeight, 0.0f, 1.0f);
+    actor.light = LightAt(staged, actor.stage_from_actor * middle);
+  }
+  for (StagedObject& object : staged.objects) {
+    object.light = LightAt(staged, glm::vec3(staged.stage_from_part[object.part_begin][3]));
+  }
+}
+
 void Show::CollectThings(const StagedFrame& staged) {
   thing_blockers_.Clear();
   for (const StagedObject& object : staged.objects) {
@@ -204,13 +230,13 @@ void Show::LightActors(StagedFrame& staged) {
   staged.irradiance.resize(vertices);
   lit_.clear();
   for (const StagedActor& actor : staged.actors) {
-    lit_.push_back({actor.cast, std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
+    lit_.push_back({actor.cast, &actor.light.sky,
+                    std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
                     actor.stage_from_actor,
                     std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count)});
   }
   CollectThings(staged);
-  staged.helpers_cpu_ms +=
-      light_->Light(content_.places[staged.place].stage.light.sky, thing_blockers_, lit_);
+  staged.helpers_cpu_ms += light_->Light(thing_blockers_, staged.lamps, lit_);
   staged.blockers.assign(light_->blockers().begin(), light_->blockers().end());
 }
 
@@ -228,23 +254,40 @@ stage::Pose Show::DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry
                           bodies_[holder->cast].actor_from_palm(state.hand));
 }
 
+void Show::StageVisible(uint32_t object,
+                        const stage::StageSnapshot::ObjectEntry& entry,
+                        StagedFrame& staged) {
+  const stage::ObjectModel& model = *content_.objects[object].model;
+  const stage::Object& known = *stage_.Find(entry.object);
+  const stage::Pose pose = DrawnObjectPose(entry);
+  const size_t begin = staged.stage_from_part.size();
+  const size_t count = model.prop().parts.size();
+  staged.stage_from_part.resize(begin + count);
+  staged.part_shown.resize(begin + count);
+  stage::ComputeParts(model, entry.state, pose, std::span(staged.stage_from_part).subspan(begin),
+                      std::span(staged.part_shown).subspan(begin));
+  stage::AddLamps(known, entry.state, pose, staged.time, staged.lamps);
+  staged.objects.push_back({object,
+                            static_cast<uint32_t>(begin),
+                            static_cast<uint32_t>(count),
+                            {},
+                            stage::GlowOf(known, entry.state, staged.time)});
+}
+
 void Show::StageObjects(StagedFrame& staged) {
   for (uint32_t object = 0; object < object_ids_.size(); ++object) {
     const auto entry = std::find_if(
         drawn_.objects.begin(), drawn_.objects.end(),
         [&](const auto& candidate) { return candidate.object == object_ids_[object]; });
-    if (entry == drawn_.objects.end() || !entry->state.visible) {
-      continue;
+    if (entry != drawn_.objects.end() && entry->state.visible) {
+      StageVisible(object, *entry, staged);
     }
-    const stage::ObjectModel& model = *content_.objects[object].model;
-    const size_t begin = staged.stage_from_part.size();
-    const size_t count = model.prop().parts.size();
-    staged.stage_from_part.resize(begin + count);
-    staged.part_shown.resize(begin + count);
-    stage::ComputeParts(model, entry->state, DrawnObjectPose(*entry),
-                        std::span(staged.stage_from_part).subspan(begin),
-                        std::span(staged.part_shown).subspan(begin));
-    staged.objects.push_back({object, static_cast<uint32_t>(begin), static_cast<uint32_t>(count)});
+  }
+  // Flicker does not change who is among the brightest from frame to frame: lamps differ more.
+  if (staged.lamps.size() > light::kMaxLamps) {
+    std::sort(staged.lamps.begin(), staged.lamps.end(),
+              [](const auto& a, const auto& b) { return a.intensity.g > b.intensity.g; });
+    staged.lamps.resize(light::kMaxLamps);
   }
 }
 
@@ -260,10 +303,12 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
   staged.skin.clear();
   staged.meshes.clear();
   staged.objects.clear();
+  staged.lamps.clear();
   staged.stage_from_part.clear();
   staged.part_shown.clear();
   StageActors(time, staged);
   StageObjects(staged);
+  BlendProbes(staged);
   LightActors(staged);
 }
 

@@ -35,6 +35,7 @@ struct StagedActor {
   uint32_t mesh_count = 0;
   uint32_t light_begin = 0;  // its vertices in StagedFrame::irradiance
   uint32_t light_count = 0;  // 0: light as it is without shadows
+  light::ProbeLight light;   // where the actor stands, stage axes
 };
 
 // A mesh of an actor whose vertices are not those of the bind pose: a face that
@@ -50,6 +51,8 @@ struct StagedObject {
   uint32_t object = 0;      // index into ShowContent::objects
   uint32_t part_begin = 0;  // in StagedFrame::stage_from_part and part_shown
   uint32_t part_count = 0;
+  light::ProbeLight light;  // where the object is, stage axes
+  float glow = 1.0f;        // times the emission of its meshes
 };
 
 // A tracked image with the stage as it stands at its moment. Reused from frame
@@ -62,7 +65,8 @@ struct StagedFrame {
   std::optional<geometry::Rigid3> camera_from_stage;  // rigid, metric; set when tracking
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};     // of tracked, steadied by GainFilter
   double time = 0.0;                                  // of the drama, seconds
-  std::chrono::steady_clock::time_point arrival;      // when the image was there
+  light::ProbeLight light;  // on real surfaces in view, stage axes; its sun is everybody's
+  std::chrono::steady_clock::time_point arrival;  // when the image was there
   std::vector<StagedActor> actors;
   // Of all actors and objects, one after the other.
   std::vector<glm::mat4> skin;
@@ -70,6 +74,7 @@ struct StagedFrame {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
   std::vector<glm::vec3> irradiance;  // of all vertices of lit actors
+  std::vector<light::Lamp> lamps;     // that burn, stage axes; the brightest of them
   std::vector<glm::vec4> blockers;    // balls that shade: centre and radius, stage axes
   std::vector<StagedObject> objects;
   std::vector<glm::mat4> stage_from_part;
@@ -115,9 +120,15 @@ class Show {
   // Bodies step, then write what moves; people are spread over the cores.
   void StageActors(double time, StagedFrame& staged);
   void LayOutActors(StagedFrame& staged);
+  // The probes of the frame's place, blended at its time of day.
+  light::ProbeLight LightAt(const StagedFrame& staged, const glm::vec3& position) const;
+  void BlendProbes(StagedFrame& staged) const;
   void CollectThings(const StagedFrame& staged);
   void LightActors(StagedFrame& staged);
   void StageObjects(StagedFrame& staged);
+  void StageVisible(uint32_t object,
+                    const stage::StageSnapshot::ObjectEntry& entry,
+                    StagedFrame& staged);
   stage::Pose DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const;
 
   ShowContent content_;

@@ -39,7 +39,6 @@ void ShowRenderer::SetPlace(size_t index, const stage::Place& place) {
     scene.occluders.push_back(
         {renderer_->AddMesh(occluder.mesh), geometry::ToGlm(occluder.stage_from_mesh)});
   }
-  scene.light = place.light;
 }
 
 // Objects of one model share what is on the GPU.
@@ -85,7 +84,7 @@ void ShowRenderer::CollectHumans(const StagedFrame& staged) {
                        std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
                        std::span(vertices_).subspan(actor.mesh_begin, actor.mesh_count),
                        std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count),
-                       details_[actor.cast].detail});
+                       details_[actor.cast].detail, &actor.light});
   }
 }
 
@@ -95,7 +94,8 @@ void ShowRenderer::CollectProps(const StagedFrame& staged) {
     props_.push_back(
         {objects_[object.object],
          std::span(staged.stage_from_part).subspan(object.part_begin, object.part_count),
-         std::span(staged.part_shown).subspan(object.part_begin, object.part_count)});
+         std::span(staged.part_shown).subspan(object.part_begin, object.part_count),
+         &object.light});
   }
 }
 
@@ -115,8 +115,8 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.occluders = place.occluders;
   scene.humans = humans_;
   scene.props = props_;
-  scene.light = place.light.sky;
-  scene.sun = place.light.sun;
+  scene.light = staged.light.sky;
+  scene.sun = staged.light.sun;
   scene.blockers = staged.blockers;
   scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
   return renderer_->Draw(scene, target);

@@ -20,7 +20,7 @@ class ShowRenderer {
   static Result<std::unique_ptr<ShowRenderer>> Create(const ShowContent& content,
                                                       const render::RendererOptions& options = {});
 
-  // Other occluders or light of places[index], while a designer stages.
+  // Other occluders of places[index], while a designer stages.
   void SetPlace(size_t index, const stage::Place& place);
 
   // Fills the target with the composite: image, the occluders of the frame's
@@ -30,7 +30,6 @@ class ShowRenderer {
  private:
   struct PlaceScene {
     std::vector<render::SceneOccluder> occluders;
-    light::ProbeLight light;
   };
 
   explicit ShowRenderer(std::unique_ptr<render::Renderer> renderer)

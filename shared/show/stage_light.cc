@@ -14,17 +14,18 @@ StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast
     }
     vertex_counts_.push_back(vertices);
     people_.push_back(human->light.empty() ? nullptr : std::make_unique<PersonLight>(human));
-    const int count = people_.back() == nullptr ? 0 : people_.back()->light_count();
-    if (count > 0 && std::find(counts_.begin(), counts_.end(), count) == counts_.end()) {
-      counts_.push_back(count);
-    }
   }
+  matrices_.resize(people_.size());
   others_.resize(people_.size());
 }
 
-const light::LightMatrix& StageLight::MatrixFor(int count) const {
-  const auto found = std::find(counts_.begin(), counts_.end(), count);
-  return matrices_[static_cast<size_t>(found - counts_.begin())];
+const light::LightMatrix& StageLight::MatrixFor(const LitActor& actor) {
+  PersonMatrix& of = matrices_[actor.cast];
+  if (!of.matrix || of.light != *actor.light) {
+    of.light = *actor.light;
+    of.matrix.emplace(of.light, people_[actor.cast]->light_count());
+  }
+  return *of.matrix;
 }
 
 void StageLight::PoseActor(const LitActor& actor) {
@@ -56,28 +57,23 @@ void StageLight::CollectBlockers(const SphereSet& things, std::span<const LitAct
   }
 }
 
-double StageLight::Light(const light::ShRgb& light,
-                         const SphereSet& things,
+double StageLight::Light(const SphereSet& things,
+                         std::span<const light::Lamp> lamps,
                          std::span<const LitActor> actors) {
-  if (!light_ || *light_ != light) {
-    light_ = light;
-    matrices_.clear();
-    for (const int count : counts_) {
-      matrices_.emplace_back(light, count);
-    }
-  }
   double helpers = ParallelForTimed(actors.size(), [&](size_t i) { PoseActor(actors[i]); });
   CollectBlockers(things, actors);
-  helpers += ParallelForTimed(actors.size(), [&](size_t i) { LightActor(actors[i], i); });
+  helpers += ParallelForTimed(actors.size(), [&](size_t i) { LightActor(actors[i], lamps, i); });
   return helpers;
 }
 
-void StageLight::LightActor(const LitActor& actor, size_t index) {
+void StageLight::LightActor(const LitActor& actor,
+                            std::span<const light::Lamp> lamps,
+                            size_t index) {
   if (!Lights(actor.cast) || actor.irradiance.empty()) {
     return;
   }
   PersonLight& person = *people_[actor.cast];
-  person.Update(MatrixFor(person.light_count()), others_[index].spheres());
+  person.Update(MatrixFor(actor), others_[index].spheres(), lamps);
   size_t first = 0;
   for (size_t mesh = 0; mesh < person.mesh_count(); ++mesh) {
     const size_t count = person.vertex_count(mesh);

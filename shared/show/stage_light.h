@@ -13,9 +13,10 @@
 
 namespace lararium::show {
 
-// Who is lit, and where the result goes.
+// Who is lit by what, and where the result goes.
 struct LitActor {
   uint32_t cast = 0;
+  const light::ShRgb* light = nullptr;  // where they stand, without the sun; stage axes
   std::span<const glm::mat4> skin;
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
   std::span<glm::vec3> irradiance;  // of all vertices of all meshes; empty: not wanted
@@ -30,11 +31,12 @@ class StageLight {
   // Vertices of all meshes of a member.
   size_t vertex_count(uint32_t cast) const { return vertex_counts_[cast]; }
 
-  // Lights the actors, who cast shade on each other and have shade cast on them by things. Spread
+  // Lights the actors, who cast shade on each other and have shade cast on them by things, by
+  // the light of where they stand and by lamps. Spread
   // over the cores; returns the processor milliseconds of other threads. After the first frame
   // nothing is allocated while as many people are there.
-  double Light(const light::ShRgb& light,
-               const SphereSet& things,
+  double Light(const SphereSet& things,
+               std::span<const light::Lamp> lamps,
                std::span<const LitActor> actors);
 
   // Blockers of the last call's actors and things, stage axes: centre and radius.
@@ -43,17 +45,20 @@ class StageLight {
  private:
   void PoseActor(const LitActor& actor);
   void CollectBlockers(const SphereSet& things, std::span<const LitActor> actors);
-  void LightActor(const LitActor& actor, size_t index);
+  void LightActor(const LitActor& actor, std::span<const light::Lamp> lamps, size_t index);
 
-  const light::LightMatrix& MatrixFor(int count) const;
+  // The light of a person as a matrix; made again when the light has changed.
+  struct PersonMatrix {
+    light::ShRgb light = {};
+    std::optional<light::LightMatrix> matrix;
+  };
+  const light::LightMatrix& MatrixFor(const LitActor& actor);
 
   std::vector<std::unique_ptr<PersonLight>> people_;  // of each member, or none
+  std::vector<PersonMatrix> matrices_;                // likewise
   std::vector<size_t> vertex_counts_;
   std::vector<SphereSet> others_;  // of each lit actor of the frame
   std::vector<glm::vec4> all_blockers_;
-  std::optional<light::ShRgb> light_;         // that the matrices are of
-  std::vector<light::LightMatrix> matrices_;  // one for each count of coefficients in use
-  std::vector<int> counts_;
 };
 
 }  // namespace lararium::show

@@ -118,6 +118,53 @@ void ComputeParts(const ObjectModel& model,
   }
 }
 
+namespace {
+
+bool Burns(const ObjectLight& light, const ObjectState& state) {
+  return (light.states >> state.state & 1u) != 0;
+}
+
+// Level and flicker of one of its lights.
+float BrightnessOf(const Object& object, const ObjectState& state, size_t light, double time) {
+  const float flicker = object.use().lights[light].flicker;
+  return state.light.level * light::Flicker(object.seed + light, time, flicker);
+}
+
+}  // namespace
+
+void AddLamps(const Object& object,
+              const ObjectState& state,
+              const Pose& stage_from_object,
+              double time,
+              std::vector<light::Lamp>& lamps) {
+  const std::vector<ObjectLight>& lights = object.use().lights;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const float brightness = BrightnessOf(object, state, i, time);
+    if (!Burns(lights[i], state) || !(lights[i].intensity * brightness > 0.0f)) {
+      continue;
+    }
+    const Pose stage_from_part =
+        stage_from_object * ObjectFromPart(*object.model, state.joints, lights[i].part);
+    const bool is_set = state.light.colour != glm::vec3(0.0f);
+    const glm::vec3& colour = is_set ? state.light.colour : lights[i].colour;
+    lamps.push_back({stage_from_part * lights[i].position,
+                     lights[i].intensity * brightness * colour, lights[i].radius});
+  }
+}
+
+float GlowOf(const Object& object, const ObjectState& state, double time) {
+  const std::vector<ObjectLight>& lights = object.use().lights;
+  float all = 0.0f;
+  float glowing = 0.0f;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    all += lights[i].intensity;
+    if (Burns(lights[i], state)) {
+      glowing += lights[i].intensity * BrightnessOf(object, state, i, time);
+    }
+  }
+  return all > 0.0f ? glowing / all : 1.0f;
+}
+
 ObjectState Interpolate(const ObjectState& previous, const ObjectState& current, float alpha) {
   ObjectState mixed = current;
   const bool goes_on = previous.visible == current.visible &&
@@ -133,6 +180,7 @@ ObjectState Interpolate(const ObjectState& previous, const ObjectState& current,
   if (previous.hand == current.hand) {
     mixed.in_hand = glm::mix(previous.in_hand, current.in_hand, alpha);
   }
+  mixed.light.level = glm::mix(previous.light.level, current.light.level, alpha);
   if (previous.action == current.action && previous.action_time <= current.action_time) {
     mixed.action_time = glm::mix(previous.action_time, current.action_time, alpha);
   }

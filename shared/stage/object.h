@@ -9,9 +9,11 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "shared/core/id.h"
 #include "shared/human/reach.h"
+#include "shared/light/lamp.h"
 #include "shared/stage/object_use.h"
 #include "shared/stage/prop.h"
 
@@ -32,6 +34,14 @@ struct Support {
   friend bool operator==(const Support&, const Support&) = default;
 };
 
+// What a drama makes of an object's lights.
+struct LightState {
+  float level = 1.0f;                  // times the intensities of the object's file
+  glm::vec3 colour = glm::vec3(0.0f);  // linear RGB of luminance 1; zero: as in the file
+
+  friend bool operator==(const LightState&, const LightState&) = default;
+};
+
 // All that a drama changes about an object; plain values.
 struct ObjectState {
   Pose stage_from_object;
@@ -48,6 +58,7 @@ struct ObjectState {
   // What is being done with it; -1: nothing. For whoever makes its sound.
   int8_t action = -1;        // index into ObjectUse::actions
   float action_time = 0.0f;  // seconds
+  LightState light;
 
   friend bool operator==(const ObjectState&, const ObjectState&) = default;
 };
@@ -71,6 +82,14 @@ struct Object {
     Pose now() const;
   };
   Held held;
+
+  // The light's level is on its way.
+  struct Dimming {
+    float to = 1.0f;
+    float seconds_left = 0.0f;
+  };
+  Dimming dimming;
+  uint64_t seed = 0;  // of its flicker; from its name
 
   const ObjectUse& use() const { return model->use(); }
 };
@@ -103,6 +122,15 @@ void ComputeParts(const ObjectModel& model,
                   const Pose& stage_from_object,
                   std::span<glm::mat4> stage_from_part,
                   std::span<uint8_t> shown);
+
+// Adds a lamp for each light that burns in the object's state, at a time of the drama.
+void AddLamps(const Object& object,
+              const ObjectState& state,
+              const Pose& stage_from_object,
+              double time,
+              std::vector<light::Lamp>& lamps);
+// What the emission of its meshes is multiplied with: as its lights burn, 1 without lights.
+float GlowOf(const Object& object, const ObjectState& state, double time);
 
 // Between two neighbouring ticks, alpha 0..1; current where it has gone elsewhere.
 ObjectState Interpolate(const ObjectState& previous, const ObjectState& current, float alpha);

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "shared/core/json.h"
+#include "shared/light/lamp.h"
 
 namespace lararium::stage {
 namespace {
@@ -111,11 +112,12 @@ class UseReader {
   Result<ObjectUse> Read() {
     LARARIUM_RETURN_IF_ERROR(
         CheckFields(root_, {"schema", "states", "parts", "grips", "places", "surfaces", "actions",
-                            "footprint", "carry", "capacity", "queue"}));
+                            "footprint", "carry", "capacity", "queue", "lights"}));
     LARARIUM_RETURN_IF_ERROR(root_.Integer("schema", 1, 1).status());
     LARARIUM_RETURN_IF_ERROR(ReadStates());
     LARARIUM_RETURN_IF_ERROR(ForEach("parts", Prop::kMaxParts, &UseReader::ReadPart));
     LARARIUM_RETURN_IF_ERROR(ForEach("grips", ObjectUse::kMaxGrips, &UseReader::ReadGrip));
+    LARARIUM_RETURN_IF_ERROR(ForEach("lights", ObjectUse::kMaxLights, &UseReader::ReadLight));
     LARARIUM_RETURN_IF_ERROR(ForEach("places", ObjectUse::kMaxPlaces, &UseReader::ReadPlace));
     LARARIUM_RETURN_IF_ERROR(ForEach("surfaces", ObjectUse::kMaxSpots, &UseReader::ReadSurface));
     LARARIUM_RETURN_IF_ERROR(ForEach("actions", ObjectUse::kMaxActions, &UseReader::ReadAction));
@@ -303,6 +305,44 @@ class UseReader {
                               ReadNumber(view, "heading", 0.0, -kMaxDegrees, kMaxDegrees));
     place.heading = Radians(heading);
     return place;
+  }
+
+  // "colour": [r, g, b] or "temperature": kelvin.
+  static Result<glm::vec3> ReadColour(const JsonView& view) {
+    if (view.Has("colour") == view.Has("temperature")) {
+      return view.Problem("must have either \"colour\" or \"temperature\"");
+    }
+    if (view.Has("temperature")) {
+      LARARIUM_ASSIGN_OR_RETURN(const double kelvin, view.Number("temperature", 1667.0, 25000.0));
+      return light::ColourOfTemperature(kelvin);
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("colour"));
+    LARARIUM_ASSIGN_OR_RETURN(const glm::vec3 colour, ReadVector(field));
+    const float luminance = glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    if (std::min({colour.r, colour.g, colour.b}) < 0.0f || !(luminance > 1e-6f)) {
+      return field.Problem("must be linear red, green and blue of at least 0, not all 0");
+    }
+    return colour / luminance;
+  }
+
+  Status ReadLight(const std::string& name, const JsonView& view) {
+    LARARIUM_RETURN_IF_ERROR(CheckFields(
+        view, {"part", "at", "colour", "temperature", "intensity", "radius", "flicker", "states"}));
+    ObjectLight light;
+    light.name = name;
+    LARARIUM_ASSIGN_OR_RETURN(light.part, ReadPartIndex(view, "part"));
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView at, view.Field("at"));
+    LARARIUM_ASSIGN_OR_RETURN(light.position, ReadVector(at));
+    LARARIUM_ASSIGN_OR_RETURN(light.colour, ReadColour(view));
+    LARARIUM_ASSIGN_OR_RETURN(const double intensity, view.Number("intensity", 0.0, 1e4));
+    LARARIUM_ASSIGN_OR_RETURN(const double radius, view.Number("radius", 1e-3, 10.0));
+    LARARIUM_ASSIGN_OR_RETURN(const double flicker, ReadNumber(view, "flicker", 0.0, 0.0, 1.0));
+    light.intensity = static_cast<float>(intensity);
+    light.radius = static_cast<float>(radius);
+    light.flicker = static_cast<float>(flicker);
+    LARARIUM_ASSIGN_OR_RETURN(light.states, ReadStateSet(view, "states"));
+    use_.lights.push_back(std::move(light));
+    return Status();
   }
 
   Status ReadPlace(const std::string& name, const JsonView& view) {

@@ -119,7 +119,22 @@ struct Carry {
   std::optional<Pose> holder_from_object;
 };
 
+// A flame or embers: a ball of light that moves with a part.
+struct ObjectLight {
+  std::string name;
+  int part = -1;                         // -1: the object as a whole
+  glm::vec3 position = glm::vec3(0.0f);  // part frame
+  glm::vec3 colour = glm::vec3(1.0f);    // linear RGB of luminance 1
+  // Irradiance of a surface one metre away that faces it; pi makes a white wall there as
+  // bright as white in an image of gain 1.
+  float intensity = 0.0f;
+  float radius = 0.05f;   // metres
+  float flicker = 0.0f;   // 0 steady, 1 wild: light::Flicker
+  uint32_t states = ~0u;  // bit i: it burns in state i
+};
+
 struct ObjectUse {
+  static constexpr size_t kMaxLights = 4;
   static constexpr size_t kMaxJoints = 4;
   static constexpr size_t kMaxStates = 16;
   static constexpr size_t kMaxPlaces = 8;
@@ -130,6 +145,7 @@ struct ObjectUse {
 
   std::vector<ObjectJoint> joints;
   std::vector<ShownPart> shown;
+  std::vector<ObjectLight> lights;
   std::vector<Grip> grips;
   std::vector<ApproachPlace> places;
   std::vector<Surface> surfaces;

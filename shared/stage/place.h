@@ -9,7 +9,7 @@
 
 #include "shared/geometry/transform.h"
 #include "shared/geometry/triangle_mesh.h"
-#include "shared/light/probe_light.h"
+#include "shared/light/probe_blend.h"
 
 namespace lararium::stage {
 
@@ -27,7 +27,7 @@ struct Place {
   // Moves the camera along its own axes, in metres: x right, y down, z forward.
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();
   std::vector<Occluder> occluders;
-  light::ProbeLight light;  // in stage axes
+  std::vector<light::PlacedProbe> probes;  // light in stage axes; none: dark
 };
 
 // The pose from which the stage is drawn: rigid and metric, nudge applied.

@@ -46,6 +46,7 @@ void ResetActor(Actor& actor) {
 void ResetObject(Object& object) {
   object.state = InitialState(object);
   object.held = {};
+  object.dimming = {};
 }
 
 float PaceOf(const World& world, const Actor& actor) {
@@ -58,6 +59,14 @@ float PaceOf(const World& world, const Actor& actor) {
     default:
       return 0.0f;
   }
+}
+
+// Hours from one time of day to another, the shorter way round the clock.
+double HoursBetween(double from, double to) { return std::remainder(to - from, 24.0); }
+
+double OnTheClock(double hour) {
+  const double rest = std::fmod(hour, 24.0);
+  return rest < 0.0 ? rest + 24.0 : rest;
 }
 
 }  // namespace
@@ -98,6 +107,7 @@ Result<ObjectId> Stage::AddObject(std::string name,
   object.name = std::move(name);
   object.model = std::move(model);
   object.initial_pose = stage_from_object;
+  object.seed = SeedOf(object.name);
   ResetObject(object);
   const ObjectId id = world_->objects.Add(std::move(object));
   world_->object_ids = world_->objects.ids();
@@ -393,7 +403,56 @@ void Stage::AnimateWalk(Actor& actor) const {
   }
 }
 
+void Stage::SetHour(double hour, double seconds) {
+  if (!daylight_.hour || !(seconds > 0.0)) {
+    daylight_ = {OnTheClock(hour), 0.0, 0.0};
+  } else {
+    daylight_.hours_left = HoursBetween(*daylight_.hour, hour);
+    daylight_.seconds_left = seconds;
+  }
+}
+
+void Stage::SetLightLevel(ObjectId id, float level, float seconds) {
+  if (Object* object = Find(id)) {
+    object->dimming = {level, std::max(seconds, 0.0f)};
+    if (!(seconds > 0.0f)) {
+      object->state.light.level = level;
+    }
+  }
+}
+
+void Stage::SetLightColour(ObjectId id, const glm::vec3& colour) {
+  if (Object* object = Find(id)) {
+    object->state.light.colour = colour;
+  }
+}
+
+void Stage::AdvanceLights() {
+  for (const ObjectId id : world_->object_ids) {
+    Object& object = world_->object(id);
+    Object::Dimming& dimming = object.dimming;
+    if (dimming.seconds_left > 0.0f) {
+      float& level = object.state.light.level;
+      level += (dimming.to - level) * std::min(kTick / dimming.seconds_left, 1.0f);
+      dimming.seconds_left -= kTick;
+    }
+  }
+}
+
+void Stage::AdvanceDaylight() {
+  if (daylight_.seconds_left <= 0.0) {
+    return;
+  }
+  const double share = std::min(kTickSeconds / daylight_.seconds_left, 1.0);
+  const double step = share * daylight_.hours_left;
+  daylight_.hour = OnTheClock(*daylight_.hour + step);
+  daylight_.hours_left -= step;
+  daylight_.seconds_left -= kTickSeconds;
+}
+
 void Stage::Advance() {
+  AdvanceDaylight();
+  AdvanceLights();
   if (tasks_.any()) {
     if (floor_changed_ || world_->navigation == nullptr) {
       if (const Status status = BuildNavigation(); !status.ok()) {
@@ -449,6 +508,7 @@ void Stage::Perform() {
 
 void Stage::Reset() {
   tasks_.Reset();
+  daylight_ = {};
   for (const ActorId id : world_->actor_ids) {
     ResetActor(world_->actor(id));
   }
@@ -466,6 +526,7 @@ void Stage::Reset() {
 }
 
 void Stage::Capture(StageSnapshot& snapshot) const {
+  snapshot.hour = daylight_.hour;
   snapshot.actors.clear();
   for (const ActorId id : world_->actor_ids) {
     snapshot.actors.push_back({id, Find(id)->state});
@@ -488,11 +549,13 @@ Stage::Checkpoint Stage::Save() const {
   for (const ObjectId id : world_->object_ids) {
     checkpoint.objects.push_back(*Find(id));
   }
+  checkpoint.daylight = daylight_;
   return checkpoint;
 }
 
 void Stage::Restore(const Checkpoint& checkpoint) {
   tasks_.Reset();
+  daylight_ = checkpoint.daylight;
   CHECK(checkpoint.actors.size() == world_->actor_ids.size() &&
         checkpoint.objects.size() == world_->object_ids.size());
   for (size_t i = 0; i < checkpoint.actors.size(); ++i) {
@@ -536,6 +599,15 @@ void Interpolate(const StageSnapshot& previous,
                      result.actors);
   InterpolateEntries(previous.objects, current.objects, &StageSnapshot::ObjectEntry::object, alpha,
                      result.objects);
+  result.hour = current.hour;
+  if (previous.hour && current.hour) {
+    const double moved = HoursBetween(*previous.hour, *current.hour);
+    // What moves further in one tick was put there.
+    constexpr double kJump = 0.1;  // hours
+    if (std::abs(moved) < kJump) {
+      result.hour = OnTheClock(*current.hour - (1.0 - static_cast<double>(alpha)) * moved);
+    }
+  }
 }
 
 }  // namespace lararium::stage

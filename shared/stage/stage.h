@@ -37,8 +37,18 @@ struct StageSnapshot {
   };
   std::vector<ActorEntry> actors;
   std::vector<ObjectEntry> objects;
+  std::optional<double> hour;  // Daylight::hour
 
   friend bool operator==(const StageSnapshot&, const StageSnapshot&) = default;
+};
+
+// The time of day on the stage, which chooses between a place's probes.
+struct Daylight {
+  std::optional<double> hour;  // 0 to 24; none: the drama has not said
+  double hours_left = 0.0;     // that it is still to move by, negative: back
+  double seconds_left = 0.0;   // in this time, evenly
+
+  friend bool operator==(const Daylight&, const Daylight&) = default;
 };
 
 class Stage {
@@ -90,10 +100,18 @@ class Stage {
   void Place(ObjectId id, const Pose& stage_from_object);
   Status PlaceOn(ObjectId id, const Support& support);  // fails where the spot is taken
   void SetState(ObjectId id, int state);
+  // Its lights, as a factor of what its file says, in some seconds; a colour at once.
+  void SetLightLevel(ObjectId id, float level, float seconds);
+  void SetLightColour(ObjectId id, const glm::vec3& colour);
   // Says it from its beginning; a negative speech: falls silent.
   void Say(ActorId id, int speech);
   // Plays a clip once on a part of the body, then goes on as before.
   void Gesture(ActorId id, int clip, human::BodyPart part);
+
+  // Goes to an hour, 0 to 24, over some seconds, the shorter way round the clock; at once
+  // where no hour was set before.
+  void SetHour(double hour, double seconds);
+  const Daylight& daylight() const { return daylight_; }
 
   // Where the visitor's eyes are, in the stage frame; none: nobody knows. Only gazes
   // depend on it. While seeking it is as it was last set.
@@ -116,6 +134,7 @@ class Stage {
   struct Checkpoint {
     std::vector<Actor> actors;
     std::vector<Object> objects;
+    Daylight daylight;
   };
   Checkpoint Save() const;
   void Restore(const Checkpoint& checkpoint);
@@ -126,9 +145,12 @@ class Stage {
   void RestartWalks();
   void UpdateGates();
   void AnimateWalk(Actor& actor) const;
+  void AdvanceDaylight();
+  void AdvanceLights();
 
   std::unique_ptr<World> world_;
   Tasks tasks_;
+  Daylight daylight_;
   NavigationOptions floor_;
   std::vector<std::pair<geometry::TriangleMesh, geometry::Similarity3>> solids_;
   struct Gate {

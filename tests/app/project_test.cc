@@ -27,7 +27,9 @@ ProjectDocument FullDocument() {
   place.picked_from_stage = {0.1, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, 0.2, 0.3}};
   place.camera_nudge = {0.01, -0.02, 0.03};
   place.occluders = {{"counter", "counter.glb", {1.0, Eigen::Quaterniond(0, 0, 1, 0), {1, 2, 3}}}};
-  place.probe = ProbeDocument{"probe.exr", Eigen::Quaterniond(0.6, 0, 0.8, 0), 2.0};
+  place.probes = {
+      {"noon", "probe.exr", {0.5, 1.2, -1.0}, 12.5, Eigen::Quaterniond(0.6, 0, 0.8, 0), 2.0},
+      {"dusk", "dusk.exr", {0.5, 1.2, -1.0}, 19.0, Eigen::Quaterniond::Identity(), 0.5}};
   PlaceDocument untouched;
   untouched.name = "maquette";
   ProjectDocument document;
@@ -96,6 +98,20 @@ TEST(Project, SaysHowToMakeOneWhereThereIsNone) {
   EXPECT_THAT(LoadProject({folder.path()}).message(), HasSubstr("lararium-editor new"));
 }
 
+TEST(Project, TheOneProbeOfOlderProjectsIsAListOfOne) {
+  Json json = FormatProject(FullDocument());
+  Json& place = json["places"][0];
+  place["probe"] = {{"file", "old.exr"}, {"rotation", {1, 0, 0, 0}}, {"scale", 0.7}};
+  EXPECT_THAT(ParseError(json).message(), HasSubstr("beside \"probes\""));
+  place.erase("probes");
+  const Result<ProjectDocument> read = ParseProject(json, "project.json");
+  ASSERT_TRUE(read.ok()) << read.message();
+  ASSERT_EQ(read->places[0].probes.size(), 1u);
+  EXPECT_EQ(read->places[0].probes[0].name, "probe");
+  EXPECT_EQ(read->places[0].probes[0].file, "old.exr");
+  EXPECT_EQ(read->places[0].probes[0].scale, 0.7);
+}
+
 TEST(Project, RefusesWhatANewerVersionWrote) {
   Json json = FormatProject(FullDocument());
   json["schema"] = kProjectSchema + 1;
@@ -153,7 +169,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"added_focal", "/places/0/added/0/intrinsics/fy", -1.0},
                     Damage{"family", "/places/0/tags/family", "tag1h1"},
                     Damage{"tag_size", "/places/0/tags/size_m", 0.0},
-                    Damage{"probe", "/places/0/probe/scale", -1.0},
+                    Damage{"probe", "/places/0/probes/0/scale", -1.0},
+                    Damage{"probe_twice", "/places/0/probes/1/name", "noon"},
+                    Damage{"hour", "/places/0/probes/1/hour", 24.5},
                     Damage{"cast", "/cast/0", "Publia"},
                     Damage{"giant", "/cast/1/height", 3.0},
                     Damage{"glowing", "/cast/1/tunic", {2.0, 0.1, 0.1}},

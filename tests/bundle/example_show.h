@@ -17,10 +17,13 @@ inline bundle::ShowManifest ExampleManifest() {
       0.37, Eigen::Quaterniond(0.1, 0.7, -0.3, 0.2).normalized(), {1.0, -2.0, 0.1}};
   place.camera_nudge = {0.001, 0.0, -0.02};
   place.occluders = {{"counter", "places/0/occluder0.larmesh", {}}};
-  for (size_t i = 0; i < place.light.sky.size(); ++i) {
-    place.light.sky[i] = glm::vec3(0.1f, 0.2f, 0.3f) * static_cast<float>(i + 1);
+  light::PlacedProbe& probe = place.probes.emplace_back();
+  probe.position = {1.0f, 1.5f, -2.0f};
+  probe.hour = 9.5;
+  for (size_t i = 0; i < probe.light.sky.size(); ++i) {
+    probe.light.sky[i] = glm::vec3(0.1f, 0.2f, 0.3f) * static_cast<float>(i + 1);
   }
-  place.light.sun = light::Sun{{0.0f, 0.6f, 0.8f}, {5.0f, 4.0f, 3.0f}, 0.005f};
+  probe.light.sun = light::Sun{{0.0f, 0.6f, 0.8f}, {5.0f, 4.0f, 3.0f}, 0.005f};
   manifest.places = {place};
   manifest.cast = {{"keeper", "cast/0.larhuman"}};
   return manifest;

@@ -31,11 +31,16 @@ TEST(ShowManifest, RoundTrips) {
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   EXPECT_EQ(FormatShowManifest(*parsed), text);
   EXPECT_EQ(parsed->title, manifest.title);
-  EXPECT_EQ(parsed->places[0].light.sky, manifest.places[0].light.sky);
-  ASSERT_TRUE(parsed->places[0].light.sun);
-  EXPECT_EQ(parsed->places[0].light.sun->direction, manifest.places[0].light.sun->direction);
-  EXPECT_EQ(parsed->places[0].light.sun->irradiance, manifest.places[0].light.sun->irradiance);
-  EXPECT_EQ(parsed->places[0].light.sun->angular_radius, 0.005f);
+  ASSERT_EQ(parsed->places[0].probes.size(), 1u);
+  const light::PlacedProbe& probe = parsed->places[0].probes[0];
+  const light::PlacedProbe& expected = manifest.places[0].probes[0];
+  EXPECT_EQ(probe.position, expected.position);
+  EXPECT_EQ(probe.hour, 9.5);
+  EXPECT_EQ(probe.light.sky, expected.light.sky);
+  ASSERT_TRUE(probe.light.sun);
+  EXPECT_EQ(probe.light.sun->direction, expected.light.sun->direction);
+  EXPECT_EQ(probe.light.sun->irradiance, expected.light.sun->irradiance);
+  EXPECT_EQ(probe.light.sun->angular_radius, 0.005f);
   EXPECT_EQ(parsed->places[0].map_from_stage.scale, 0.37);
   EXPECT_EQ(parsed->places[0].map_from_stage.rotation.coeffs(),
             manifest.places[0].map_from_stage.rotation.coeffs());
@@ -45,16 +50,36 @@ TEST(ShowManifest, RoundTrips) {
   EXPECT_EQ(parsed->members[3].size, 4u);
 }
 
-TEST(ShowManifest, OlderBundlesHaveNoSun) {
+// As schema 1 had it: one light, in the place itself.
+Json OfSchemaOne() {
   Json json = Json::parse(FormatShowManifest(Listed()));
+  json["schema"] = 1;
+  Json& place = json["places"][0];
+  const Json probe = place["probes"][0];
+  place.erase("probes");
+  place["light"] = probe["light"];
+  place["sun"] = probe["sun"];
+  return json;
+}
+
+TEST(ShowManifest, BundlesOfSchemaOneHaveOneProbe) {
+  const auto parsed = Parse(OfSchemaOne());
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  ASSERT_EQ(parsed->places[0].probes.size(), 1u);
+  EXPECT_EQ(parsed->places[0].probes[0].light.sky, Listed().places[0].probes[0].light.sky);
+  EXPECT_TRUE(parsed->places[0].probes[0].light.sun);
+}
+
+TEST(ShowManifest, OlderBundlesHaveNoSun) {
+  Json json = OfSchemaOne();
   json["places"][0].erase("sun");
   const auto parsed = Parse(json);
   ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_FALSE(parsed->places[0].light.sun);
+  EXPECT_FALSE(parsed->places[0].probes.at(0).light.sun);
 }
 
 TEST(ShowManifest, OldLightOfNineCoefficientsKeepsThemAndHasNoMore) {
-  Json json = Json::parse(FormatShowManifest(Listed()));
+  Json json = OfSchemaOne();
   Json& numbers = json["places"][0]["light"];
   numbers.clear();
   for (int i = 0; i < 27; ++i) {
@@ -62,9 +87,10 @@ TEST(ShowManifest, OldLightOfNineCoefficientsKeepsThemAndHasNoMore) {
   }
   const auto parsed = Parse(json);
   ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_EQ(parsed->places[0].light.sky[8], glm::vec3(24.0f, 25.0f, 26.0f));
+  const light::ShRgb& sky = parsed->places[0].probes.at(0).light.sky;
+  EXPECT_EQ(sky[8], glm::vec3(24.0f, 25.0f, 26.0f));
   for (size_t k = 9; k < light::kShCount; ++k) {
-    EXPECT_EQ(parsed->places[0].light.sky[k], glm::vec3(0.0f));
+    EXPECT_EQ(sky[k], glm::vec3(0.0f));
   }
 }
 
@@ -142,11 +168,13 @@ TEST(ShowManifest, RefusesWhatCannotBe) {
   } kWrong[] = {
       {"/places/0/map_from_stage/scale", 0, "between"},
       {"/places/0/map_from_stage/rotation", {1, 1, 0, 0}, "unit quaternion"},
-      {"/places/0/light/4", 1e300, "too large"},
-      {"/places/0/light", Json::array({1}), "108 numbers"},
-      {"/places/0/sun/direction", {1, 1, 0}, "unit vector"},
-      {"/places/0/sun/irradiance", {1, -1, 0}, "irradiance of the sun"},
-      {"/places/0/sun/angular_radius", 0.2, "angular_radius"},
+      {"/places/0/probes/0/light/4", 1e300, "too large"},
+      {"/places/0/probes/0/light", Json::array({1}), "108 numbers"},
+      {"/places/0/probes/0/sun/direction", {1, 1, 0}, "unit vector"},
+      {"/places/0/probes/0/sun/irradiance", {1, -1, 0}, "irradiance of the sun"},
+      {"/places/0/probes/0/sun/angular_radius", 0.2, "angular_radius"},
+      {"/places/0/probes/0/position", {1e9, 0, 0}, "too far away"},
+      {"/places/0/probes/0/hour", 25, "hour"},
       {"/places/0/scene", "../x", "member name"},
       {"/places/0/scene", "other", "not listed"},
       {"/places", Json::array(), "no place"},

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "shared/core/random.h"
@@ -286,6 +287,67 @@ TEST_F(WordsTest, ATrackedActorTakesNoTasks) {
     track{ actor = "keeper", clips = {{ at = 0, length = 4, clip = "idle" }} }
     function main() actor("keeper"):walk_to{ x = 1 } end)");
   EXPECT_THAT(FirstError(*drama), HasSubstr("'keeper' is led by a track"));
+}
+
+TEST_F(WordsTest, TheTimeOfDayMovesTheShorterWayAndSeeksBack) {
+  const auto drama = Make(R"(
+    function main()
+      assert(daylight:time() == nil)
+      wait(1)
+      daylight:set_time(22)
+      wait(1)
+      daylight:set_time(2, { seconds = 2 })
+      wait(1)
+      reached = daylight:time()
+    end)");
+  EXPECT_FALSE(Snapshot().hour);
+  PlayTo(*drama, 1.5);
+  EXPECT_EQ(Snapshot().hour, 22.0);
+  PlayTo(*drama, 3.0);
+  EXPECT_NEAR(std::remainder(*Snapshot().hour, 24.0), 0.0, 0.05);  // across midnight
+  PlayTo(*drama, 5.0);
+  EXPECT_NEAR(*Snapshot().hour, 2.0, 1e-9);
+  EXPECT_EQ(FirstError(*drama), "");
+  ASSERT_TRUE(drama->Seek(1.5).ok());
+  EXPECT_EQ(Snapshot().hour, 22.0);
+}
+
+TEST_F(WordsTest, ATimeOfDayThatIsNoneIsAnError) {
+  EXPECT_THAT(FirstError(*Make("daylight:set_time(25)")), HasSubstr("set_time: give the hours"));
+  EXPECT_THAT(FirstError(*Make("daylight:set_time(5, { seconds = 'x' })")), HasSubstr("seconds"));
+}
+
+TEST_F(WordsTest, LightsAreDimmedAndColouredAndSeekBack) {
+  Add("lamp", test::MakeLamp(), {});
+  const auto drama = Make(R"(
+    function main()
+      assert(light("lamp"):level() == 1)
+      light("lamp"):set{ level = 0.5, seconds = 2 }
+      wait(2)
+      light(object("lamp")):set{ colour = { 0, 2, 0 } }
+      wait(1)
+      light("lamp"):set{ level = 0, temperature = 1900 }
+    end)");
+  PlayTo(*drama, 1.0);
+  EXPECT_NEAR(ObjectState("lamp").light.level, 0.75f, 0.01f);
+  PlayTo(*drama, 2.5);
+  EXPECT_NEAR(ObjectState("lamp").light.level, 0.5f, 1e-5f);
+  EXPECT_NEAR(ObjectState("lamp").light.colour.g, 1.0f / 0.7152f, 1e-5f);
+  PlayTo(*drama, 3.5);
+  EXPECT_EQ(ObjectState("lamp").light.level, 0.0f);
+  EXPECT_GT(ObjectState("lamp").light.colour.r, 2.0f);
+  EXPECT_EQ(FirstError(*drama), "");
+  ASSERT_TRUE(drama->Seek(1.0).ok());
+  EXPECT_NEAR(ObjectState("lamp").light.level, 0.75f, 0.01f);
+  EXPECT_EQ(ObjectState("lamp").light.colour, glm::vec3(0.0f));
+}
+
+TEST_F(WordsTest, LightsThatAreNotThereAreErrors) {
+  EXPECT_THAT(FirstError(*Make("light('table')")), HasSubstr("no light in its object file"));
+  EXPECT_THAT(FirstError(*Make("light(3)")), HasSubstr("give an object"));
+  Add("lamp", test::MakeLamp(), {});
+  EXPECT_THAT(FirstError(*Make("light('lamp'):set{ level = -1 }")), HasSubstr("level must be"));
+  EXPECT_THAT(FirstError(*Make("light('lamp'):set{ colour = 'red' }")), HasSubstr("colour"));
 }
 
 }  // namespace

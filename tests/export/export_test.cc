@@ -25,7 +25,7 @@ ExportContent SmallShow() {
   PlaceContent place;
   place.place.name = "maquette";
   place.place.map_from_stage.scale = 2.0;
-  place.place.light.sky[0] = {1.0f, 2.0f, 3.0f};
+  place.place.probes.emplace_back().light.sky[0] = {1.0f, 2.0f, 3.0f};
   geometry::TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.indices = {0, 1, 2};
@@ -50,7 +50,7 @@ TEST(Export, PacksAllThatThePlayerNeeds) {
   EXPECT_EQ(manifest.credits, "The show: nobody\nThe figure: somebody");
   ASSERT_EQ(manifest.places.size(), 1u);
   EXPECT_EQ(manifest.places[0].map_from_stage.scale, 2.0);
-  EXPECT_EQ(manifest.places[0].light.sky[0], glm::vec3(1.0f, 2.0f, 3.0f));
+  EXPECT_EQ(manifest.places[0].probes.at(0).light.sky[0], glm::vec3(1.0f, 2.0f, 3.0f));
   ASSERT_EQ(manifest.places[0].occluders.size(), 2u);
   for (const bundle::OccluderEntry& occluder : manifest.places[0].occluders) {
     EXPECT_TRUE(stage::ParseMesh(*opened->member(occluder.mesh), occluder.mesh).ok());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "shared/light/key_poses.h"
+#include "shared/light/probe_blend.h"
 #include "shared/light/receivers.h"
 #include "shared/light/shadow_ratio.h"
 #include "shared/light/transfer.h"
@@ -76,6 +77,17 @@ TEST(LightAllocation, AFrameAllocatesNothing) {
     EXPECT_EQ(counter.Stop(), 0) << count;
     EXPECT_GT(frame.irradiance[0].r, 0.0f);
   }
+}
+
+TEST(LightAllocation, BlendingProbesAllocatesNothing) {
+  std::vector<PlacedProbe> probes(12);
+  for (size_t i = 0; i < probes.size(); ++i) {
+    probes[i].position.x = static_cast<float>(i / 3);
+    probes[i].hour = 6.0 + 5.0 * static_cast<double>(i % 3);
+  }
+  test::AllocationCounter counter;
+  Blend(probes, {1.7f, 0.0f, 0.5f}, 13.0);
+  EXPECT_EQ(counter.Stop(), 0);
 }
 
 }  // namespace

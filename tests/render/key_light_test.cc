@@ -35,14 +35,6 @@ TEST(KeyLight, FindsALampInEvenLight) {
   }
 }
 
-TEST(KeyLight, IsTheSunWhereThereIsOne) {
-  const light::ShRgb sky = Lit({0, 1, 0}, glm::vec3(1.0f), 0.3f);
-  const light::Sun sun{{1, 0, 0}, {3, 2, 1}, 0.005f};
-  EXPECT_EQ(ChooseKeyLight(sky, sun).direction, sun.direction);
-  EXPECT_EQ(ChooseKeyLight(sky, sun).irradiance, sun.irradiance);
-  EXPECT_LT(glm::distance(ChooseKeyLight(sky, std::nullopt).direction, glm::vec3(0, 1, 0)), 1e-4f);
-}
-
 TEST(KeyLight, EvenLightHasNone) {
   EXPECT_EQ(EstimateKeyLight(Lit({0, 1, 0}, glm::vec3(0.0f), 1.0f)).irradiance, glm::vec3(0.0f));
   EXPECT_EQ(EstimateKeyLight({}).irradiance, glm::vec3(0.0f));

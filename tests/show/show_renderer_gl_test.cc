@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "shared/show/show_renderer.h"
 #include "tests/golden/compare_images.h"
@@ -26,12 +27,11 @@ uint8_t SrgbFromLinear(double c) {
       std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055)));
 }
 
-// A place whose light makes a white matte surface of the given radiance, from
-// whichever side.
-stage::Place UniformPlace(const glm::vec3& radiance) {
-  stage::Place place;
-  place.light.sky[0] = radiance * 2.0f * std::sqrt(std::numbers::pi_v<float>);
-  return place;
+// Light that makes a white matte surface of the given radiance, from whichever side.
+light::ProbeLight UniformLight(const glm::vec3& radiance) {
+  light::ProbeLight light;
+  light.sky[0] = radiance * 2.0f * std::sqrt(std::numbers::pi_v<float>);
+  return light;
 }
 
 geometry::TriangleMesh Wall(float left, float right, float z) {
@@ -54,11 +54,16 @@ class ShowRendererTest : public render::GlTest {
     ASSERT_TRUE(renderer.ok()) << renderer.message();
     renderer_ = std::move(renderer).value();
     target_.emplace(MakeTarget(kCamera.width, kCamera.height));
-    staged_.actors = {{0, glm::mat4(1.0f), 0, 1}};
+    staged_.actors.resize(1);
+    staged_.actors[0].skin_count = 1;
     staged_.actors[0].stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
     staged_.skin = {glm::mat4(1.0f)};
     staged_.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
     staged_.tracked.camera = kCamera;
+  }
+
+  void SetLight(const glm::vec3& radiance) {
+    staged_.light = staged_.actors[0].light = UniformLight(radiance);
   }
 
   // An even image of the camera: linear colour, below the knee.
@@ -84,7 +89,8 @@ class ShowRendererTest : public render::GlTest {
 };
 
 TEST_F(ShowRendererTest, OneStopLessOfTheCameraIsOneStopLessOfThePeople) {
-  Create(glm::vec3(0.5f), {UniformPlace(glm::vec3(1.0f, 0.9f, 0.8f))});
+  Create(glm::vec3(0.5f), {{}});
+  SetLight({1.0f, 0.9f, 0.8f});
   staged_.gain = {1.0f, 1.0f, 1.0f};
   const glm::dvec3 full = LinearAt(Draw(), 80, 60);
   staged_.gain = {0.5f, 0.5f, 0.5f};
@@ -100,7 +106,8 @@ TEST_F(ShowRendererTest, PeopleStandInThePictureLikeThePlaceAtEveryGain) {
   // whatever exposure and white balance the camera chose: the ball vanishes.
   const glm::vec3 albedo(0.6f, 0.4f, 0.3f);
   const glm::vec3 light(0.8f, 0.9f, 1.0f);
-  Create(albedo, {UniformPlace(light)});
+  Create(albedo, {{}});
+  SetLight(light);
   const glm::vec3 reference = albedo * light;
   for (const glm::vec3& gain :
        {glm::vec3(1.0f), glm::vec3(0.5f), glm::vec3(0.25f), glm::vec3(1.2f, 1.0f, 0.7f)}) {
@@ -113,32 +120,44 @@ TEST_F(ShowRendererTest, PeopleStandInThePictureLikeThePlaceAtEveryGain) {
   }
 }
 
-TEST_F(ShowRendererTest, EachPlaceHasItsOwnLightAndOccluders) {
-  stage::Place bar = UniformPlace(glm::vec3(0.5f, 0.5f, 0.1f));
-  stage::Place yard = UniformPlace(glm::vec3(0.1f, 0.2f, 0.5f));
+TEST_F(ShowRendererTest, EachPlaceHasItsOwnOccluders) {
+  stage::Place yard;
   yard.occluders = {{"wall", Wall(0.0f, 9.0f, -2.0f), {}}};
-  Create(glm::vec3(1.0f), {bar, yard});
-  const glm::dvec3 in_bar(0.5, 0.5, 0.1);
-  const glm::dvec3 in_yard(0.1, 0.2, 0.5);
+  Create(glm::vec3(1.0f), {{}, yard});
+  SetLight(glm::vec3(0.5f));
   for (const uint32_t place : {0u, 1u, 0u}) {
     staged_.place = place;
     const cv::Mat picture = Draw();
-    const glm::dvec3 left = LinearAt(picture, 60, 60);
-    const glm::dvec3 right = LinearAt(picture, 100, 60);
-    const glm::dvec3& expected = place == 0 ? in_bar : in_yard;
+    EXPECT_NEAR(LinearAt(picture, 60, 60).r, 0.5, 0.01) << place;
+    EXPECT_NEAR(LinearAt(picture, 100, 60).r, place == 0 ? 0.5 : 0.0, 0.01) << place;
+  }
+}
+
+TEST_F(ShowRendererTest, EverybodyIsInTheirOwnLight) {
+  Create(glm::vec3(1.0f), {{}});
+  staged_.actors.push_back(staged_.actors[0]);
+  staged_.actors[0].stage_from_actor[3].x = -1.2f;
+  staged_.actors[1].stage_from_actor[3].x = 1.2f;
+  staged_.actors[0].light = UniformLight({0.5f, 0.4f, 0.1f});
+  staged_.actors[1].light = UniformLight({0.1f, 0.2f, 0.5f});
+  const cv::Mat picture = Draw();
+  for (const auto& [x, expected] :
+       {std::pair(20, glm::dvec3(0.5, 0.4, 0.1)), std::pair(140, glm::dvec3(0.1, 0.2, 0.5))}) {
     for (int c = 0; c < 3; ++c) {
-      EXPECT_NEAR(left[c], expected[c], 0.01) << place;
-      EXPECT_NEAR(right[c], place == 0 ? in_bar[c] : 0.0, 0.01) << place;
+      EXPECT_NEAR(LinearAt(picture, x, 60)[c], expected[c], 0.01) << x;
     }
   }
 }
 
 TEST_F(ShowRendererTest, StagingOnePlaceAnewLeavesTheOthers) {
-  Create(glm::vec3(1.0f), {UniformPlace(glm::vec3(0.5f)), UniformPlace(glm::vec3(0.2f))});
-  renderer_->SetPlace(1, UniformPlace(glm::vec3(0.4f)));
+  stage::Place yard;
+  yard.occluders = {{"wall", Wall(-9.0f, 9.0f, -2.0f), {}}};
+  Create(glm::vec3(1.0f), {{}, {}});
+  SetLight(glm::vec3(0.5f));
+  renderer_->SetPlace(1, yard);
   EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.5, 0.01);
   staged_.place = 1;
-  EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.4, 0.01);
+  EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.0, 0.01);
 }
 
 }  // namespace

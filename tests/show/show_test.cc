@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "shared/core/random.h"
 #include "tests/show/small_show.h"
@@ -157,6 +158,30 @@ TEST_F(ShowTest, AnEndlessLoopDoesNotStopTheShow) {
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
   EXPECT_NEAR(PositionX(At(*show, 0.5)), 0.5, 1e-4);
   EXPECT_FALSE(show->drama().errors().empty());
+}
+
+TEST_F(ShowTest, ActorsAreInTheLightOfWhereTheyStandAndOfTheDramasHour) {
+  ShowContent content = test::SmallContent();
+  content.drama += "function main() daylight:set_time(9); wait(0.75); daylight:set_time(15) end";
+  std::vector<light::PlacedProbe>& probes = content.places[0].stage.probes;
+  probes.clear();
+  for (const auto& [x, hour, radiance] :
+       {std::tuple(0.0f, 9.0, 1.0f), {0.0f, 15.0, 2.0f}, {1.0f, 9.0, 3.0f}, {1.0f, 15.0, 6.0f}}) {
+    light::ProbeLight light;
+    light.sky[0] = glm::vec3(radiance);
+    probes.push_back({{x, 0.85f, 0.0f}, hour, light});
+  }
+  const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
+  const auto radiance_at = [&](double time) { return At(*show, time).actors.at(0).light.sky[0].r; };
+  EXPECT_NEAR(radiance_at(0.0), 1.0f, 1e-3f);
+  EXPECT_NEAR(radiance_at(0.5), 2.0f, 1e-3f);  // the middle, at nine
+  EXPECT_NEAR(radiance_at(1.0), 6.0f, 1e-3f);
+  float before = radiance_at(0.0);
+  for (double time = 0.0; time < 0.74; time += 1.0 / 60.0) {
+    const float now = radiance_at(time);
+    EXPECT_LT(std::abs(now - before), 0.12f) << time;
+    before = now;
+  }
 }
 
 }  // namespace

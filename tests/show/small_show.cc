@@ -28,7 +28,7 @@ stage::Place Place(const char* name, double map_units_per_metre, float light) {
   stage::Place place;
   place.name = name;
   place.map_from_stage.scale = map_units_per_metre;
-  place.light.sky[0] = glm::vec3(light);
+  place.probes.emplace_back().light.sky[0] = glm::vec3(light);
   return place;
 }
 

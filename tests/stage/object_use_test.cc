@@ -130,6 +130,49 @@ TEST(ObjectUse, AHingeTurnsAboutItsPartsOrigin) {
             1e-5f);
 }
 
+TEST(ObjectLight, MovesWithItsPartAndBurnsInItsStates) {
+  Object object;
+  object.name = "lamp";
+  object.model = test::Model(test::MakeLamp());
+  object.seed = 5;
+  ObjectState state = InitialState(object);
+  const Pose pose = {{1.0f, 2.0f, 3.0f}, glm::angleAxis(0.5f * kPi, glm::vec3(0, 0, 1))};
+  std::vector<light::Lamp> lamps;
+  AddLamps(object, state, pose, 0.7, lamps);
+  ASSERT_EQ(lamps.size(), 1u);
+  EXPECT_LT(glm::distance(lamps[0].position, glm::vec3(0.9f, 2.0f, 3.0f)), 1e-5f);
+  EXPECT_EQ(lamps[0].radius, 0.02f);
+  // Red and green as the file says, of the luminance 0.5, as the flame flickers.
+  EXPECT_FLOAT_EQ(lamps[0].intensity.r, 2.0f * lamps[0].intensity.g);
+  const float luminance = glm::dot(lamps[0].intensity, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+  EXPECT_NEAR(luminance, 0.5f * light::Flicker(5, 0.7, 0.3f), 1e-5f);
+  EXPECT_NEAR(GlowOf(object, state, 0.7), 2.0f * luminance, 1e-5f);
+  state.state = 1;
+  lamps.clear();
+  AddLamps(object, state, pose, 0.7, lamps);
+  EXPECT_TRUE(lamps.empty());
+  EXPECT_EQ(GlowOf(object, state, 0.7), 0.0f);
+}
+
+TEST(ObjectLight, SaysWhatIsWrongWithIt) {
+  const auto problem = [](const std::string& light) {
+    return Parse("\"lights\": {\"fire\": " + light + "}").message();
+  };
+  EXPECT_EQ(problem(R"({"at": [0, 1, 0], "temperature": 1900, "intensity": 1, "radius": 0.1})"),
+            "");
+  EXPECT_THAT(problem(R"({"at": [0, 1, 0], "intensity": 1, "radius": 0.1})"),
+              HasSubstr("\"colour\" or \"temperature\""));
+  EXPECT_THAT(problem(R"({"at": [0, 1, 0], "colour": [0, 0, 0], "intensity": 1, "radius": 0.1})"),
+              HasSubstr("not all 0"));
+  EXPECT_THAT(problem(R"({"at": [0, 1, 0], "colour": [1, -1, 0], "intensity": 1, "radius": 0.1})"),
+              HasSubstr("at least 0"));
+  EXPECT_THAT(problem(R"({"at": [0, 1, 0], "temperature": 1900, "intensity": 1, "radius": 0})"),
+              HasSubstr("radius"));
+  EXPECT_THAT(problem(R"({"part": "wick", "at": [0, 1, 0], "temperature": 1900, "intensity": 1,
+                          "radius": 0.1})"),
+              HasSubstr("wick"));
+}
+
 TEST(Visemes, ReadsTracksAndSaysWhatIsWrongWithThem) {
   const auto track = ParseVisemes(
       R"({"schema": 1, "duration": 1.25, "visemes": [{"t": 0, "viseme": "PP"}, {"t": 0.08, "viseme": "aa", "strength": 0.8}]})",

@@ -91,6 +91,26 @@ inline stage::Prop MakeCup() {
   return prop;
 }
 
+// An oil lamp whose flame stands 0.1 m above its foot.
+inline stage::Prop MakeLamp() {
+  stage::Prop prop;
+  prop.name = "lamp";
+  prop.parts.resize(2);
+  prop.parts[0].name = "bowl";
+  prop.parts[0].meshes = {MakeBox({-0.04f, 0.0f, -0.04f}, {0.04f, 0.08f, 0.04f})};
+  prop.parts[1].name = "flame";
+  prop.parts[1].parent = 0;
+  prop.parts[1].parent_from_part.position = {0.0f, 0.08f, 0.0f};
+  prop.parts[1].meshes = {MakeBox({-0.01f, 0.0f, -0.01f}, {0.01f, 0.04f, 0.01f})};
+  prop.use = R"({
+    "schema": 1,
+    "states": ["lit", "out"],
+    "parts": {"flame": {"states": ["lit"]}},
+    "lights": {"flame": {"part": "flame", "at": [0, 0.02, 0], "colour": [2, 1, 0.5], "intensity": 0.5,
+                         "radius": 0.02, "flicker": 0.3, "states": ["lit"]}}})";
+  return prop;
+}
+
 // To sit on, facing -Z.
 inline stage::Prop MakeStool() {
   stage::Prop prop;
