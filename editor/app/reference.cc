@@ -1,12 +1,14 @@
 #include "editor/app/reference.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 #include <memory>
+#include <numbers>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,10 +20,12 @@
 #include "editor/bake/probe.h"
 #include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
+#include "shared/geometry/glm_convert.h"
 #include "shared/human/human.h"
 #include "shared/human/skinning.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/key_light.h"
+#include "shared/render/render_target.h"
 #include "shared/render/renderer.h"
 #include "shared/show/stage_light.h"
 #include "shared/vision/poses_file.h"
@@ -35,6 +39,32 @@ constexpr float kGroundHalf = 2.0f;  // metres
 struct View {
   geometry::CameraModel pinhole;
   geometry::Rigid3 camera_from_stage;
+};
+
+// The rays of its pixels.
+class Lens {
+ public:
+  explicit Lens(const View& view)
+      : pinhole_(view.pinhole),
+        eye_(geometry::ToGlm(view.camera_from_stage.Center())),
+        stage_from_camera_(glm::conjugate(geometry::ToGlm(view.camera_from_stage.rotation))) {}
+
+  // Where the ray through a pixel's centre meets y = 0.
+  std::optional<glm::vec3> OnFloor(int column, int row) const {
+    const glm::dvec3 in_camera((column - pinhole_.cx) / pinhole_.fx,
+                               (row - pinhole_.cy) / pinhole_.fy, 1.0);
+    const glm::vec3 direction = stage_from_camera_ * glm::vec3(in_camera);
+    const float distance = -eye_.y / direction.y;
+    if (!std::isfinite(distance) || distance <= 0.0f) {
+      return std::nullopt;
+    }
+    return eye_ + distance * direction;
+  }
+
+ private:
+  geometry::CameraModel pinhole_;
+  glm::vec3 eye_;
+  glm::quat stage_from_camera_;
 };
 
 Result<View> LoadView(const ReferenceOptions& options) {
@@ -106,24 +136,32 @@ Result<bake::RadianceImage> TraceImage(const ReferenceOptions& options,
                           progress);
 }
 
-// Irradiance of every vertex by the light transfer that the person has, or that is baked
-// now where it has none for so many reflections.
-Result<std::vector<glm::vec3>> TransferIrradiance(const ReferenceOptions& options,
-                                                  const std::shared_ptr<human::Human>& human,
-                                                  std::span<const glm::mat4> skin,
-                                                  const light::ShRgb& light,
-                                                  Progress& progress) {
+// What the show works out of a person's light.
+struct Lit {
+  std::vector<glm::vec3> irradiance;  // of every vertex
+  std::vector<glm::vec4> blockers;    // RenderScene::blockers
+};
+
+// By the light transfer that the person has, or that is baked now where it has none for so
+// many reflections.
+Result<Lit> LightByTransfer(const ReferenceOptions& options,
+                            const std::shared_ptr<human::Human>& human,
+                            std::span<const glm::mat4> skin,
+                            const light::ShRgb& light,
+                            Progress& progress) {
   bake::TransferOptions baking;
   baking.bounces = std::min(options.bounces, baking.bounces);
   if (human->light.empty() || human->light.bounces != baking.bounces) {
     LARARIUM_ASSIGN_OR_RETURN(human->light, bake::BakeTransfer(*human, baking, progress));
   }
-  const std::shared_ptr<const human::Human> lit = human;
-  show::StageLight stage({&lit, 1});
-  std::vector<glm::vec3> irradiance(stage.vertex_count(0));
-  const show::LitActor actor = {0, &light, skin, glm::mat4(1.0f), irradiance};
+  const std::shared_ptr<const human::Human> shared = human;
+  show::StageLight stage({&shared, 1});
+  Lit lit;
+  lit.irradiance.resize(stage.vertex_count(0));
+  const show::LitActor actor = {0, &light, skin, glm::mat4(1.0f), lit.irradiance};
   stage.Light({}, {}, {&actor, 1});
-  return irradiance;
+  lit.blockers.assign(stage.blockers().begin(), stage.blockers().end());
+  return lit;
 }
 
 // What AR-Life compared with: an even ambient light and one lamp, without shadows.
@@ -148,37 +186,60 @@ std::vector<glm::vec3> PhongIrradiance(const human::Human& human,
   return irradiance;
 }
 
-// As the player draws it, but for what is not Lambert's reflection.
-Result<bake::RadianceImage> DrawImage(const ReferenceOptions& options,
-                                      const std::shared_ptr<human::Human>& human,
-                                      const View& view,
-                                      Progress& progress) {
-  LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage probe, bake::ReadProbeImage(options.probe));
-  const light::ProbeLight light = bake::ProjectProbeLight(probe, Placement(options));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<glm::mat4> skin, PoseSkin(*human, options));
-  std::vector<glm::vec3> irradiance;
-  if (options.method == "prt") {
-    LARARIUM_ASSIGN_OR_RETURN(irradiance,
-                              TransferIrradiance(options, human, skin, light.sky, progress));
-  } else if (options.method == "phong") {
-    irradiance = PhongIrradiance(*human, skin, light.Whole());
+float LinearFromSrgb(float c) {
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+// How much of its light each pixel of the floor keeps, as the renderer darkens the camera's
+// image there; in steps of 8-bit sRGB.
+Result<cv::Mat> CatchShadows(render::Renderer& renderer, render::RenderScene scene) {
+  const bake::SurfaceMesh floor = Ground(1.0f);
+  const render::SceneOccluder occluder = {
+      renderer.AddMesh({floor.positions, floor.normals, floor.indices})};
+  scene.occluders = {&occluder, 1};
+  scene.camera = scene.display;
+  scene.background =
+      cv::Mat(scene.display.height, scene.display.width, CV_8UC3, cv::Scalar::all(255));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const auto target, render::RenderTarget::Create(scene.display.width, scene.display.height));
+  LARARIUM_RETURN_IF_ERROR(renderer.Draw(scene, target));
+  cv::Mat bgr;
+  target.ReadPixels(bgr);
+  renderer.RemoveMesh(occluder.mesh);
+  cv::Mat ratio(bgr.size(), CV_32FC3);
+  for (int row = 0; row < bgr.rows; ++row) {
+    for (int column = 0; column < bgr.cols; ++column) {
+      const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(row, column);
+      for (int c = 0; c < 3; ++c) {
+        ratio.at<cv::Vec3f>(row, column)[c] =
+            LinearFromSrgb(static_cast<float>(pixel[2 - c]) / 255.0f);
+      }
+    }
   }
-  LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());
-  LARARIUM_ASSIGN_OR_RETURN(const auto renderer, render::Renderer::Create());
-  render::SceneHuman person;
-  LARARIUM_ASSIGN_OR_RETURN(person.human, renderer->AddHuman(*human));
-  person.skin = skin;
-  person.irradiance = irradiance;
-  render::RenderScene scene;
-  scene.display = view.pinhole;
-  scene.camera_from_stage = view.camera_from_stage;
-  scene.humans = {&person, 1};
-  const bool shadowed = options.method == "prt";
-  scene.light = shadowed ? light.sky : light.Whole();
-  scene.sun = shadowed ? light.sun : std::nullopt;
-  scene.matte = true;
-  cv::Mat rgba;
-  LARARIUM_RETURN_IF_ERROR(renderer->DrawLinear(scene, rgba));
+  return ratio;
+}
+
+// Puts the floor under what is drawn: without anybody it has the light of an open plane.
+void AddFloor(const cv::Mat& ratio, const glm::vec3& radiance, const View& view, cv::Mat& rgba) {
+  const Lens lens(view);
+  for (int row = 0; row < rgba.rows; ++row) {
+    for (int column = 0; column < rgba.cols; ++column) {
+      const std::optional<glm::vec3> point = lens.OnFloor(column, row);
+      if (!point || std::max(std::abs(point->x), std::abs(point->z)) > kGroundHalf) {
+        continue;
+      }
+      cv::Vec4f& pixel = rgba.at<cv::Vec4f>(row, column);
+      const cv::Vec3f& kept = ratio.at<cv::Vec3f>(row, column);
+      const float open = 1.0f - pixel[3];
+      for (int c = 0; c < 3; ++c) {
+        pixel[c] += open * radiance[c] * kept[c];
+      }
+      pixel[3] = 1.0f;
+    }
+  }
+}
+
+bake::RadianceImage ToImage(const cv::Mat& rgba) {
   bake::RadianceImage image{rgba.cols, rgba.rows, {}};
   image.pixels.reserve(rgba.total());
   for (int row = 0; row < rgba.rows; ++row) {
@@ -188,6 +249,48 @@ Result<bake::RadianceImage> DrawImage(const ReferenceOptions& options,
     }
   }
   return image;
+}
+
+// As the player draws it, but for what is not Lambert's reflection.
+Result<bake::RadianceImage> DrawImage(const ReferenceOptions& options,
+                                      const std::shared_ptr<human::Human>& human,
+                                      const View& view,
+                                      Progress& progress) {
+  LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage probe, bake::ReadProbeImage(options.probe));
+  const light::ProbeLight light = bake::ProjectProbeLight(probe, Placement(options));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<glm::mat4> skin, PoseSkin(*human, options));
+  Lit lit;
+  if (options.method == "prt") {
+    LARARIUM_ASSIGN_OR_RETURN(lit, LightByTransfer(options, human, skin, light.sky, progress));
+  } else if (options.method == "phong") {
+    lit.irradiance = PhongIrradiance(*human, skin, light.Whole());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());
+  LARARIUM_ASSIGN_OR_RETURN(const auto renderer, render::Renderer::Create());
+  render::SceneHuman person;
+  LARARIUM_ASSIGN_OR_RETURN(person.human, renderer->AddHuman(*human));
+  person.skin = skin;
+  person.irradiance = lit.irradiance;
+  render::RenderScene scene;
+  scene.display = view.pinhole;
+  scene.camera_from_stage = view.camera_from_stage;
+  if (!options.without_person) {
+    scene.humans = {&person, 1};
+    scene.blockers = lit.blockers;
+  }
+  const bool shadowed = options.method == "prt";
+  scene.light = shadowed ? light.sky : light.Whole();
+  scene.sun = shadowed ? light.sun : std::nullopt;
+  scene.matte = true;
+  cv::Mat rgba;
+  LARARIUM_RETURN_IF_ERROR(renderer->DrawLinear(scene, rgba));
+  if (options.ground) {
+    LARARIUM_ASSIGN_OR_RETURN(const cv::Mat ratio, CatchShadows(*renderer, scene));
+    const glm::vec3 irradiance = light.Irradiance(glm::vec3(0.0f, 1.0f, 0.0f));
+    AddFloor(ratio, irradiance * static_cast<float>(*options.ground) / std::numbers::pi_v<float>,
+             view, rgba);
+  }
+  return ToImage(rgba);
 }
 
 }  // namespace
