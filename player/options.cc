@@ -29,8 +29,12 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
       ->delimiter(',')
       ->expected(4, 8)
       ->check(CLI::Number);
-  app.add_option("--device", play.device, "Device file with the camera's calibration")
+  app.add_option("--device", play.device, "Device file: the camera's calibration and look")
       ->check(CLI::ExistingFile);
+  app.add_option_function<std::string>(
+         "--look", [&play](const std::string& look) { play.camera_look = look == "camera"; },
+         "camera: people as noisy, soft and smeared as the camera's image; plain: as drawn")
+      ->check(CLI::IsMember({"camera", "plain"}));
 
   app.add_flag("--headless", play.headless, "Draw off screen");
   app.add_option("--monitor", play.monitor, "Full screen on this monitor")

@@ -26,6 +26,7 @@ struct PlayOptions {
 
   std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
   std::filesystem::path device;
+  bool camera_look = true;  // people as noisy, soft and smeared as the camera's image
 
   bool headless = false;
   int monitor = -1;  // full screen there; -1: a window

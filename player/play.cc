@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "player/camera_choice.h"
+#include "player/device_file.h"
 #include "player/recorder.h"
 #include "player/screen.h"
 #include "shared/bundle/bundle.h"
@@ -41,6 +42,22 @@ Result<std::unique_ptr<capture::FrameSource>> OpenSource(const PlayOptions& opti
 Result<show::ShowContent> LoadContent(const PlayOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
   return show::LoadShowContent(bundle, options.place);
+}
+
+// Where the device says nothing of its camera, each place keeps what the bundle says.
+Status SetLook(const PlayOptions& options, show::ShowContent& content) {
+  Device device;
+  if (!options.device.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(device, LoadDevice(options.device));
+  }
+  for (show::ShowPlace& place : content.places) {
+    if (!options.camera_look) {
+      place.stage.camera.reset();
+    } else if (device.look) {
+      place.stage.camera = device.look;
+    }
+  }
+  return Status();
 }
 
 std::vector<TrainedCamera> TrainedCameras(const show::ShowContent& content) {
@@ -91,6 +108,7 @@ Status Performance::Prepare() {
       const CameraChoice choice,
       ChooseCamera(options_, TrainedCameras(content), source_->width(), source_->height()));
   log_.info("camera intrinsics from {}", choice.origin);
+  LARARIUM_RETURN_IF_ERROR(SetLook(options_, content));
   for (const show::ShowPlace& place : content.places) {
     statistics_.places.push_back(place.stage.name);
   }

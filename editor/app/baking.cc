@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "editor/app/document_fields.h"
 #include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
 #include "editor/import/cast_builder.h"
@@ -87,6 +88,8 @@ struct BakeStep {
   std::string settings;
   // Bytes of the product; adds warnings.
   std::function<Result<std::vector<std::byte>>(std::vector<std::string>&)> make;
+  // What stands in where it fails, said in the warning that this then is. Empty: nothing can.
+  std::string stand_in = {};
 };
 
 std::vector<std::byte> BytesOf(std::string_view text) {
@@ -144,8 +147,9 @@ Result<std::vector<std::byte>> MakeLight(const std::filesystem::path& file,
   for (const std::string& warning : image.warnings) {
     warnings.push_back(file.string() + ": " + warning);
   }
-  return BytesOf(FormatLight(bake::ProjectProbeLight(
-      image, {geometry::ToGlm(probe.stage_from_probe), static_cast<float>(probe.scale)})));
+  const light::ProbeLight light = bake::ProjectProbeLight(
+      image, {geometry::ToGlm(probe.stage_from_probe), static_cast<float>(probe.scale)});
+  return BytesOf(FormatLight(light::Balanced(light, geometry::ToGlm(probe.balance))));
 }
 
 BakeStep LightStep(const ProjectPaths& paths,
@@ -153,12 +157,14 @@ BakeStep LightStep(const ProjectPaths& paths,
                    const ProbeDocument& probe) {
   const std::filesystem::path file = paths.Resolve(probe.file);
   const Eigen::Vector4d q = probe.stage_from_probe.coeffs();
-  return {
-      "light of " + place.name + ", " + probe.name,
-      LightFile(paths, place, probe),
-      {file},
-      Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale, light::kShCount, "sun apart"}).dump(),
-      [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); }};
+  return {"light of " + place.name + ", " + probe.name,
+          LightFile(paths, place, probe),
+          {file},
+          Json::array({q.w(), q.x(), q.y(), q.z(), probe.scale, FormatVector(probe.balance),
+                       light::kShCount, "sun apart"})
+              .dump(),
+          [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); },
+          "people are lit evenly instead"};
 }
 
 BakeStep MeshStep(const ProjectPaths& paths,
@@ -388,20 +394,46 @@ Result<bool> RunStep(const BakeStep& step, std::vector<std::string>& warnings) {
   return true;
 }
 
+// As RunStep, but for what something can stand in for: then nothing of it is left over.
+Result<bool> RunOrReplace(const BakeStep& step, std::vector<std::string>& warnings) {
+  Result<bool> made = RunStep(step, warnings);
+  if (made.ok() || step.stand_in.empty()) {
+    return made;
+  }
+  warnings.push_back(made.message() + "; " + step.stand_in);
+  std::error_code ignored;
+  std::filesystem::remove(HashFile(step.product), ignored);
+  std::filesystem::remove(step.product, ignored);
+  return false;
+}
+
 Status NotBaked(const std::filesystem::path& product) {
   return Status::Error(product.string(), "was not baked yet", "bake the project");
 }
 
-// What a place without a probe is lit by: the same white from everywhere.
-light::ProbeLight EvenLight() {
-  constexpr float kRadiance = 0.5f;
+// The same white from everywhere.
+light::ProbeLight EvenLight(float radiance) {
   light::ProbeLight light;
   const float y00 = light::EvaluateShBasis(glm::vec3(0.0f, 1.0f, 0.0f))[0];
-  light.sky[0] = glm::vec3(kRadiance / y00);
+  light.sky[0] = glm::vec3(radiance / y00);
   return light;
 }
 
 }  // namespace
+
+float EvenRadiance(const vision::SceneDatabase& map) {
+  constexpr float kWithoutColours = 0.5f;
+  constexpr float kUsualAlbedo = 0.3f;  // of stone, plaster, wood and earth, taken together
+  if (map.colours.empty()) {
+    return kWithoutColours;
+  }
+  double sum = 0.0;
+  for (const Eigen::Vector3f& colour : map.colours) {
+    sum += 0.2126 * colour.x() + 0.7152 * colour.y() + 0.0722 * colour.z();
+  }
+  const auto mean = static_cast<float>(sum / static_cast<double>(map.colours.size()));
+  return std::clamp(mean / kUsualAlbedo, 0.02f, 2.0f);
+}
 
 std::optional<std::filesystem::path> FindCastLibrary() {
   if (const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY")) {
@@ -429,7 +461,7 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
     if (progress.Cancelled()) {
       return Status::Error("bake", "cancelled before the " + steps[i].name);
     }
-    LARARIUM_ASSIGN_OR_RETURN(const bool made, RunStep(steps[i], report.warnings));
+    LARARIUM_ASSIGN_OR_RETURN(const bool made, RunOrReplace(steps[i], report.warnings));
     (made ? report.baked : report.unchanged).push_back(steps[i].name);
   }
   progress.Report("baking", 1.0);
@@ -444,15 +476,18 @@ Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& me
 }
 
 Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& paths,
-                                                        const PlaceDocument& place) {
+                                                        const PlaceDocument& place,
+                                                        float even_radiance) {
+  const light::ProbeLight even = EvenLight(even_radiance);
   if (place.probes.empty()) {
-    return std::vector<light::PlacedProbe>{{{}, light::kNoon, EvenLight()}};
+    return std::vector<light::PlacedProbe>{{{}, light::kNoon, even}};
   }
   std::vector<light::PlacedProbe> probes;
   for (const ProbeDocument& probe : place.probes) {
     const std::filesystem::path file = LightFile(paths, place, probe);
     if (!Exists(file)) {
-      return NotBaked(file);
+      probes.push_back({geometry::ToGlm(probe.position), probe.hour, even});
+      continue;
     }
     LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
     LARARIUM_ASSIGN_OR_RETURN(const light::ProbeLight light,

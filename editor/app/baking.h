@@ -16,6 +16,7 @@
 #include "shared/human/human.h"
 #include "shared/light/probe_blend.h"
 #include "shared/stage/prop.h"
+#include "shared/vision/scene_database.h"
 
 namespace lararium::app {
 
@@ -30,7 +31,8 @@ struct BakeReport {
 };
 
 // Makes what is missing or stale. Stops at the first failure; what was made
-// until then is complete and stays.
+// until then is complete and stays. A probe that cannot be read is a warning: even light
+// stands in for it.
 Result<BakeReport> Bake(const ProjectPaths& paths,
                         const ProjectDocument& document,
                         Progress& progress);
@@ -39,9 +41,14 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
 Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member);
 
 // The products. An error where they were never baked says so.
-// The light of each of the place's probes; even light where it has none.
+// The light of each of the place's probes; even light of that radiance for one that could not
+// be baked, and where the place has none.
 Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& paths,
-                                                        const PlaceDocument& place);
+                                                        const PlaceDocument& place,
+                                                        float even_radiance);
+// By the map's photometric reference: even light in which surfaces of usual albedo look as
+// bright as the map's points do.
+float EvenRadiance(const vision::SceneDatabase& map);
 Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const PlaceDocument& place,
                                              const OccluderDocument& occluder);

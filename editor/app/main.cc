@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <variant>
 
+#include "editor/app/camera_measure.h"
 #include "editor/app/options.h"
 #include "editor/app/portrait.h"
 #include "editor/app/probe_commands.h"
@@ -62,6 +63,9 @@ struct Runner {
     return RunReference(options, progress);
   }
   Result<CommandResult> operator()(const ProbeOptions& options) { return RunProbe(options); }
+  Result<CommandResult> operator()(const CameraOptions& options) {
+    return RunCamera(options, progress);
+  }
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);
   }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "editor/app/camera_measure.h"
 #include "editor/app/document_fields.h"
 #include "editor/app/project.h"
 #include "editor/app/stage_report.h"
@@ -215,6 +216,14 @@ Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, 
                             options.add
                                 ? TrainAnother(options, training, paths, *place, progress, log)
                                 : TrainFirst(options, training, paths, *place, progress, log));
+  if (!place->camera) {
+    // Nothing depends on it but the look of people.
+    if (const auto camera = MeasureCamera(paths, *place, progress); camera.ok()) {
+      place->camera = *camera;
+    } else {
+      log.warn("{}", camera.message());
+    }
+  }
   LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
   if (!options.poses_out.empty()) {
     LARARIUM_RETURN_IF_ERROR(vision::SavePoses(options.poses_out, PosesOf(report)));

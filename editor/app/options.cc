@@ -29,6 +29,7 @@ struct AllOptions {
   std::string portrait_size;
   ReferenceOptions reference;
   ProbeOptions probe;
+  CameraOptions camera;
   ExportOptions export_;
 };
 
@@ -299,6 +300,30 @@ void AddProbe(CLI::App& app, ProbeOptions& options) {
   }
 }
 
+void AddCamera(CLI::App& app, CameraOptions& options) {
+  CLI::App* camera = AddSubcommand(app, "camera", "Measure how noisy and soft a place's images are",
+                                   options.project);
+  camera->add_option("--place", options.place, "The place; the only one otherwise");
+  CLI::Option* video =
+      camera->add_option("--video", options.video, "A recording instead of the training's");
+  video->check(CLI::ExistingFile);
+  camera->add_option("--images", options.images, "Likewise, a folder of images")
+      ->check(CLI::ExistingDirectory)
+      ->excludes(video);
+  CLI::Option* response = camera->add_option("--response", options.response,
+                                             "The camera's response (.json): where highlights end");
+  response->check(CLI::ExistingFile);
+  camera->add_option("--knee", options.knee, "Where highlights are compressed from; 1: nowhere")
+      ->check(CLI::Range(0.05, 1.0))
+      ->excludes(response);
+  camera
+      ->add_option("--shutter", options.shutter,
+                   "Share of the time between frames that it is open; learnt otherwise")
+      ->check(CLI::Range(0.0, 1.0));
+  camera->add_option("--device-out", options.device_out, "Write a device file for the player too");
+  camera->add_flag("--forget", options.forget, "People stay sharp and clean");
+}
+
 void AddOthers(CLI::App& app, AllOptions& options) {
   CLI::App* create = AddSubcommand(app, "new", "Make an empty project", options.create.project);
   create->add_option("--title", options.create.title, "Title; the folder's name otherwise");
@@ -308,6 +333,8 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   AddPrune(app, options.prune);
 
   AddCast(app, options.cast);
+
+  AddCamera(app, options.camera);
 
   AddSubcommand(app, "bake", "Prepare light, occluders and people", options.bake.project);
 
@@ -340,6 +367,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("portrait")) return options.portrait;
   if (app.got_subcommand("reference")) return options.reference;
   if (app.got_subcommand("probe")) return options.probe;
+  if (app.got_subcommand("camera")) return options.camera;
   if (app.got_subcommand("export")) return options.export_;
   return options.window;
 }

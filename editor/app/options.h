@@ -147,6 +147,19 @@ struct ProbeOptions {
   std::vector<double> normal = {0.0, 1.0, 0.0};
 };
 
+// What a place's camera is like.
+struct CameraOptions {
+  std::filesystem::path project;
+  std::string place;             // empty: the only one
+  std::filesystem::path video;   // at most one recording; none: the training's
+  std::filesystem::path images;  // likewise
+  std::filesystem::path response;
+  std::optional<double> knee;     // instead of one fitted to the response
+  std::optional<double> shutter;  // share of the time between frames; none: learnt
+  std::filesystem::path device_out;
+  bool forget = false;
+};
+
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
@@ -166,6 +179,7 @@ using Subcommand = std::variant<WindowOptions,
                                 PortraitOptions,
                                 ReferenceOptions,
                                 ProbeOptions,
+                                CameraOptions,
                                 ExportOptions>;
 
 struct CommandLine {

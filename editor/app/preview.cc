@@ -39,6 +39,8 @@ class Preview::Worker {
   // it beyond the end.
   Status Track(int64_t frame);
   PreviewPicture Describe() const;
+  // Adds what the picture that was just drawn is compared with.
+  Status Compare(PreviewPicture& picture);
 
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
@@ -104,6 +106,7 @@ PreviewPicture Preview::Worker::Describe() const {
   picture.confidence = staged_.tracked.confidence;
   picture.camera_from_map = staged_.tracked.camera_from_map;
   picture.camera_from_stage = staged_.camera_from_stage;
+  picture.gain = staged_.gain;
   for (const show::StagedActor& actor : staged_.actors) {
     const auto skin = staged_.skin.begin() + actor.skin_begin;
     picture.actors.push_back({show_->content().cast[actor.cast].human,
@@ -111,6 +114,14 @@ PreviewPicture Preview::Worker::Describe() const {
                               {skin, skin + actor.skin_count}});
   }
   return picture;
+}
+
+Status Preview::Worker::Compare(PreviewPicture& picture) {
+  renderer_->ReadCoverage(picture.coverage);
+  staged_.camera_from_stage.reset();  // nobody is drawn without a pose
+  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
+  target_->ReadPixels(picture.plain);
+  return Status();
 }
 
 Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const PreviewRequest& request) {
@@ -129,6 +140,9 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   PreviewPicture picture = Describe();
   target_->ReadPixels(picture.bgr);
+  if (request.compare) {
+    LARARIUM_RETURN_IF_ERROR(Compare(picture));
+  }
   return std::make_shared<const PreviewPicture>(std::move(picture));
 }
 

@@ -3,6 +3,7 @@
 // The camera view's picture: a recording, tracked and composited on a thread of
 // its own with an OpenGL context of its own, so that the interface never waits.
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <memory>
 #include <mutex>
@@ -26,6 +27,7 @@ struct PreviewRequest {
   int64_t frame = 0;  // of the recording
   // Staged as it is now; nullptr: as it was.
   std::shared_ptr<const stage::Place> place;
+  bool compare = false;  // the picture without people, and where they are, besides
 };
 
 struct PreviewActor {
@@ -37,6 +39,10 @@ struct PreviewActor {
 struct PreviewPicture {
   int64_t frame = -1;
   cv::Mat bgr;                    // the composite, or the plain image without a pose
+  // Where they were asked for, else empty: the camera's image alone (bgr), and how much of
+  // each pixel people and props hide (CV_8UC1).
+  cv::Mat plain;
+  cv::Mat coverage;
   geometry::CameraModel display;  // the pinhole that it was drawn with
   vision::TrackState state = vision::TrackState::kSearching;
   vision::TrackReason reason = vision::TrackReason::kNone;
@@ -45,6 +51,7 @@ struct PreviewPicture {
   float confidence = 0.0f;  // see vision::TrackedFrame
   std::optional<geometry::Rigid3> camera_from_map;
   std::optional<geometry::Rigid3> camera_from_stage;
+  std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};  // that people were drawn with
   std::vector<PreviewActor> actors;  // those that the drama shows at this moment
 };
 

@@ -9,6 +9,7 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "editor/app/camera_measure.h"
 #include "editor/bake/exr_image.h"
 #include "editor/bake/hdr_merge.h"
 #include "editor/bake/mirror_ball.h"
@@ -81,11 +82,6 @@ Result<CommandResult> Info(const ProbeOptions& options) {
   return result;
 }
 
-Result<light::CameraResponse> LoadResponse(const std::filesystem::path& file) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  return light::ParseCameraResponse(JsonView(json, file.string()));
-}
-
 struct Merged {
   bake::MergedImage image;
   light::CameraResponse response;
@@ -100,7 +96,7 @@ Result<Merged> Merge(const ProbeOptions& options) {
                               bake::CalibrateResponse(brackets));
     merged.response = calibrated.response;
   } else {
-    LARARIUM_ASSIGN_OR_RETURN(merged.response, LoadResponse(options.response));
+    LARARIUM_ASSIGN_OR_RETURN(merged.response, LoadCameraResponse(options.response));
   }
   LARARIUM_ASSIGN_OR_RETURN(merged.image, bake::MergeBrackets(brackets, merged.response));
   return merged;
@@ -185,7 +181,7 @@ Result<cv::Mat> BallPicture(const ProbeOptions& options, std::string& notes) {
   }
   light::CameraResponse response = light::SrgbResponse();
   if (!options.response.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(response, LoadResponse(options.response));
+    LARARIUM_ASSIGN_OR_RETURN(response, LoadCameraResponse(options.response));
   }
   notes +=
       "warning: one photograph has too small a range of brightness; lamps and the sun are too "
@@ -291,7 +287,7 @@ Result<CommandResult> Scale(const ProbeOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage image, bake::ReadProbeImage(options.files[0]));
   light::CameraResponse response = light::SrgbResponse();
   if (!options.response.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(response, LoadResponse(options.response));
+    LARARIUM_ASSIGN_OR_RETURN(response, LoadCameraResponse(options.response));
   }
   bake::GreyPatch patch;
   for (int c = 0; c < 3; ++c) {

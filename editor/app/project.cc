@@ -149,12 +149,19 @@ Status ParseProbeImage(const JsonView& view, ProbeDocument& probe) {
   LARARIUM_ASSIGN_OR_RETURN(probe.file, view.Text("file"));
   LARARIUM_ASSIGN_OR_RETURN(probe.stage_from_probe, ParseRotation(view));
   LARARIUM_ASSIGN_OR_RETURN(probe.scale, view.Number("scale", 0.0, 1e9));
+  if (view.Has("balance")) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> balance, view.Numbers("balance", 3));
+    probe.balance = {balance[0], balance[1], balance[2]};
+    if (!(probe.balance.minCoeff() > 1e-3 && probe.balance.maxCoeff() < 1e3)) {
+      return view.Problem("\"balance\" must be three numbers about 1");
+    }
+  }
   return Status();
 }
 
 Result<ProbeDocument> ParseProbe(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"name", "file", "position", "hour", "rotation", "scale"}));
+      CheckFields(view, {"name", "file", "position", "hour", "rotation", "scale", "balance"}));
   ProbeDocument probe;
   LARARIUM_ASSIGN_OR_RETURN(probe.name, ParsePlainName(view, "name"));
   LARARIUM_ASSIGN_OR_RETURN(probe.position, ParseVector(view, "position"));
@@ -205,6 +212,12 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("intrinsics"));
     LARARIUM_ASSIGN_OR_RETURN(place.intrinsics, ParseIntrinsics(field));
   }
+  if (view.Has("camera")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("camera"));
+    LARARIUM_RETURN_IF_ERROR(
+        CheckFields(field, {"width", "noise", "blur_px", "knee", "shutter"}));
+    LARARIUM_ASSIGN_OR_RETURN(place.camera, light::ParseCameraTraits(field));
+  }
   if (view.Has("added")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("added"));
     LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(kMaxAddedSessions));
@@ -222,8 +235,8 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
 
 Result<PlaceDocument> ParsePlace(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"name", "training", "preview", "intrinsics", "added", "tags", "picks",
-                         "adjust", "camera_nudge", "occluders", "probe", "probes"}));
+      CheckFields(view, {"name", "training", "preview", "intrinsics", "camera", "added", "tags",
+                         "picks", "adjust", "camera_nudge", "occluders", "probe", "probes"}));
   PlaceDocument place;
   LARARIUM_ASSIGN_OR_RETURN(place.name, ParsePlainName(view, "name"));
   LARARIUM_RETURN_IF_ERROR(ParseOptionalFields(view, place));
@@ -267,6 +280,9 @@ Json FormatPlace(const PlaceDocument& place) {
   if (place.intrinsics) {
     json["intrinsics"] = FormatIntrinsics(*place.intrinsics);
   }
+  if (place.camera) {
+    json["camera"] = light::FormatCameraTraits(*place.camera);
+  }
   for (const SessionDocument& session : place.added) {
     Json entry = {{"source", FormatSource(session.source)}};
     if (session.intrinsics) {
@@ -289,6 +305,9 @@ Json FormatPlace(const PlaceDocument& place) {
                               {"hour", probe.hour},
                               {"rotation", FormatRotation(probe.stage_from_probe)},
                               {"scale", probe.scale}});
+    if (probe.balance != Eigen::Vector3d::Ones()) {
+      json["probes"].back()["balance"] = FormatVector(probe.balance);
+    }
   }
   return json;
 }

@@ -17,6 +17,7 @@
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
+#include "shared/light/camera_traits.h"
 #include "shared/light/probe_blend.h"
 #include "shared/stage/picks.h"
 
@@ -60,6 +61,7 @@ struct ProbeDocument {
   double hour = light::kNoon;                          // of the day, 0 to 24
   Eigen::Quaterniond stage_from_probe = Eigen::Quaterniond::Identity();
   double scale = 1.0;  // radiance of the stage over radiance of the file
+  Eigen::Vector3d balance = Eigen::Vector3d::Ones();  // of the channels beyond that
 };
 
 // Picks with the names of their anchors set and nothing picked.
@@ -81,6 +83,8 @@ struct PlaceDocument {
   // By hand, on top of the picks: the stage that they give from the stage itself.
   geometry::Similarity3 picked_from_stage;
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres, camera axes
+  // What the recordings' images are like, measured; none: people stay sharp and clean.
+  std::optional<light::CameraTraits> camera;
   std::vector<OccluderDocument> occluders;
   std::vector<ProbeDocument> probes;  // none: even light
 };

@@ -131,17 +131,44 @@ Similarity3 LayOnFloor(const Similarity3& map_from_picked,
 
 Result<stage::Place> StagePlace(const ProjectPaths& paths,
                                 const PlaceDocument& place,
+                                const vision::SceneDatabase& map,
                                 const Similarity3& map_from_picked) {
   stage::Place staged;
   staged.name = place.name;
   staged.map_from_stage = map_from_picked * place.picked_from_stage;
   staged.camera_nudge = place.camera_nudge;
+  staged.camera = place.camera;
   for (const OccluderDocument& occluder : place.occluders) {
     LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh mesh, LoadBakedMesh(paths, place, occluder));
     staged.occluders.push_back({occluder.name, std::move(mesh), occluder.stage_from_mesh});
   }
-  LARARIUM_ASSIGN_OR_RETURN(staged.probes, LoadBakedProbes(paths, place));
+  LARARIUM_ASSIGN_OR_RETURN(staged.probes, LoadBakedProbes(paths, place, EvenRadiance(map)));
   return staged;
+}
+
+std::vector<light::PlacedProbe> RelitProbes(std::span<const light::PlacedProbe> baked_light,
+                                            std::span<const ProbeDocument> baked,
+                                            std::span<const ProbeDocument> now) {
+  if (now.empty() || baked_light.size() != baked.size()) {
+    return {baked_light.begin(), baked_light.end()};
+  }
+  std::vector<light::PlacedProbe> relit;
+  for (const ProbeDocument& probe : now) {
+    for (size_t i = 0; i < baked.size(); ++i) {
+      const ProbeDocument& before = baked[i];
+      if (before.name != probe.name || before.file != probe.file || !(before.scale > 0.0)) {
+        continue;
+      }
+      const Eigen::Quaterniond turn = probe.stage_from_probe * before.stage_from_probe.conjugate();
+      light::PlacedProbe& placed = relit.emplace_back(baked_light[i]);
+      placed.position = geometry::ToGlm(probe.position);
+      placed.hour = probe.hour;
+      placed.light = light::Balanced(light::Placed(placed.light, geometry::ToGlm(turn),
+                                                   static_cast<float>(probe.scale / before.scale)),
+                                     geometry::ToGlm(probe.balance.cwiseQuotient(before.balance)));
+    }
+  }
+  return relit;
 }
 
 Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
@@ -175,7 +202,8 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const Similarity3& map_from_picked) {
   show::ShowContent content;
   content.title = document.title;
-  LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StagePlace(paths, place, map_from_picked));
+  LARARIUM_ASSIGN_OR_RETURN(stage::Place staged,
+                            StagePlace(paths, place, *database, map_from_picked));
   content.places.push_back({std::move(staged), std::move(database)});
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));

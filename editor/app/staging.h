@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "editor/app/project.h"
 #include "editor/train/april_tags.h"
@@ -61,9 +63,17 @@ geometry::Similarity3 LayOnFloor(const geometry::Similarity3& map_from_picked,
 
 // Picks, adjustment, nudge, occluders and light of a place. picks are resolved
 // already. Fails where something was not baked.
+// map: for the even light of places without a probe that can be used.
 Result<stage::Place> StagePlace(const ProjectPaths& paths,
                                 const PlaceDocument& place,
+                                const vision::SceneDatabase& map,
                                 const geometry::Similarity3& map_from_picked);
+
+// The light of probes that were baked, turned, brightened and moved as they are now: exact,
+// and at once. Probes that were not baked, or from another file, are not there.
+std::vector<light::PlacedProbe> RelitProbes(std::span<const light::PlacedProbe> baked_light,
+                                            std::span<const ProbeDocument> baked,
+                                            std::span<const ProbeDocument> now);
 
 // A trained place with what its map says and where its picks put the stage.
 struct StagedMap {

@@ -15,6 +15,7 @@
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
 #include "editor/app/thumbnail.h"
+#include "editor/bake/probe.h"
 #include "shared/core/file.h"
 #include "shared/drama/drama.h"
 #include "shared/stage/stage.h"
@@ -42,7 +43,7 @@ Status FillStage(const ProjectPaths& paths, const ProjectDocument& document, sta
   std::vector<stage::Place> places;
   for (const PlaceDocument& place : document.places) {
     // What is in the way lies in stage metres, wherever the map is.
-    LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StagePlace(paths, place, {}));
+    LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StagePlace(paths, place, {}, {}));
     places.push_back(std::move(staged));
   }
   return stage.SetFloor({}, places);
@@ -128,6 +129,29 @@ DryRunReport DryRun(const ProjectPaths& paths,
     progress.Report("running the drama", static_cast<double>(tick + 1) / ticks);
   }
   return {DramaProblems(**drama), TasksJson((*drama)->tasks())};
+}
+
+// What is wrong with a place's probes, each with its file; adds to warnings what was mended.
+std::vector<std::string> CheckProbes(const ProjectPaths& paths,
+                                     const PlaceDocument& place,
+                                     std::vector<std::string>& warnings) {
+  std::vector<std::string> problems;
+  for (const ProbeDocument& probe : place.probes) {
+    const std::filesystem::path file = paths.Resolve(probe.file);
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+      continue;  // FindMissingFiles() says so
+    }
+    const Result<bake::ProbeImage> image = bake::ReadProbeImage(file);
+    if (!image.ok()) {
+      problems.push_back(image.message());
+      continue;
+    }
+    for (const std::string& warning : image->warnings) {
+      warnings.push_back(file.string() + ": " + warning);
+    }
+  }
+  return problems;
 }
 
 // What keeps a place from being shown; adds how well its stage is known to stages
@@ -273,7 +297,10 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   }
   StageReport stages;
   stages.json = Json::object();
+  std::vector<std::string> warnings;
   for (const PlaceDocument& place : document.places) {
+    const std::vector<std::string> of_probes = CheckProbes(paths, place, warnings);
+    problems.insert(problems.end(), of_probes.begin(), of_probes.end());
     const Status problem = CheckPlace(paths, document, place, stages);
     if (!problem.ok()) {
       problems.push_back(problem.message());
@@ -289,13 +316,19 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
   CommandResult result;
   result.text = stages.text;
+  for (const std::string& warning : warnings) {
+    result.text += "warning: " + warning + "\n";
+  }
   for (const std::string& problem : problems) {
     result.text += problem + "\n";
   }
   if (problems.empty()) {
     result.text += "no problems\n";
   }
-  result.json = {{"problems", problems}, {"stages", stages.json}, {"tasks", run.tasks}};
+  result.json = {{"problems", problems},
+                 {"warnings", warnings},
+                 {"stages", stages.json},
+                 {"tasks", run.tasks}};
   result.failed = !problems.empty();
   return result;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "editor/app/baking.h"
+#include "editor/app/camera_measure.h"
 #include "editor/app/exporting.h"
 #include "editor/app/training.h"
 
@@ -264,10 +265,8 @@ std::string Workspace::PreviewKey() const {
     key["occluders"].push_back({occluder.name, occluder.file});
   }
   for (const ProbeDocument& probe : at.probes) {
-    const Eigen::Vector3d& p = probe.position;
-    const Eigen::Vector4d q = probe.stage_from_probe.coeffs();
-    key["probes"].push_back({probe.name, probe.file, probe.hour, p.x(), p.y(), p.z(), probe.scale,
-                             q.x(), q.y(), q.z(), q.w()});
+    // How it lies and how bright it is changes without opening anew.
+    key["probes"].push_back({probe.name, probe.file, FileStamp(paths_.Resolve(probe.file))});
   }
   for (const CastDocument& member : document().cast) {
     key["cast"].push_back(FormatCastMember(member));
@@ -288,27 +287,34 @@ void Workspace::ReloadPreview() {
     return;
   }
   const auto content = std::make_shared<show::ShowContent>();
-  const auto work = [content, paths = paths_, document = commands_.snapshot(), name = place_name_,
-                     database = loaded_.database, baking = baking_,
+  const auto report = std::make_shared<BakeReport>();
+  const auto work = [content, report, paths = paths_, document = commands_.snapshot(),
+                     name = place_name_, database = loaded_.database, baking = baking_,
                      map_from_picked = loaded_.picks.map_from_picked](Progress& progress) {
     {
       const std::lock_guard turn(*baking);
-      LARARIUM_RETURN_IF_ERROR(app::Bake(paths, *document, progress).status());
+      LARARIUM_ASSIGN_OR_RETURN(*report, app::Bake(paths, *document, progress));
     }
     LARARIUM_ASSIGN_OR_RETURN(*content, AssembleShow(paths, *document, *document->FindPlace(name),
                                                      database, map_from_picked));
     return Status();
   };
-  const auto done = [this, content, name = place_name_](const Status& status, bool cancelled) {
+  const auto done = [this, content, report, document = commands_.snapshot(), name = place_name_](
+                        const Status& status, bool cancelled) {
     if (!status.ok()) {
       Report(status, cancelled, "");
       return;
+    }
+    for (const std::string& warning : report->warnings) {
+      Tell(Message::Level::kWarning, warning);
     }
     if (name != place_name_ || place() == nullptr) {
       preview_stale_ = true;
       return;
     }
     loaded_.staged = std::make_shared<const stage::Place>(content->places.front().stage);
+    loaded_.baked_probes = document->FindPlace(name)->probes;
+    loaded_.baked_light = loaded_.staged->probes;
     const SourceDocument& source = place()->preview.empty() ? place()->training : place()->preview;
     preview_ = std::make_unique<Preview>(paths_, source, std::move(*content), log_);
     requested_frame_ = -1;
@@ -349,6 +355,8 @@ void Workspace::RequestPicture() {
     const PlaceDocument& at = *place();
     staged->map_from_stage = loaded_.picks.map_from_picked * at.picked_from_stage;
     staged->camera_nudge = at.camera_nudge;
+    staged->camera = camera_look_ ? at.camera : std::nullopt;
+    staged->probes = RelitProbes(loaded_.baked_light, loaded_.baked_probes, at.probes);
     for (stage::Occluder& occluder : staged->occluders) {
       const auto known =
           std::find_if(at.occluders.begin(), at.occluders.end(),
@@ -362,6 +370,7 @@ void Workspace::RequestPicture() {
     return;
   }
   request.place = loaded_.staged;
+  request.compare = compare_;
   place_changed_ = false;
   requested_frame_ = request.frame;
   awaiting_picture_ = true;
@@ -469,6 +478,64 @@ const BoneReview* Workspace::bone_review(const CastDocument& member) {
     }
   }
   return reviewed_name_ == member.name ? review_.get() : nullptr;
+}
+
+const ProbePicture* Workspace::probe_picture(const ProbeDocument& probe) {
+  const std::filesystem::path file = paths_.Resolve(probe.file);
+  std::string key = file.string() + FileStamp(file);
+  if (key != probe_key_) {
+    const auto picture = std::make_shared<ProbePicture>();
+    const auto work = [picture, file](Progress&) {
+      LARARIUM_ASSIGN_OR_RETURN(*picture, LoadProbePicture(file));
+      return Status();
+    };
+    const auto done = [this, picture, key](const Status& status, bool) {
+      if (status.ok()) {
+        probe_picture_ = picture;
+        pictured_probe_ = key;
+      } else if (key == probe_key_) {
+        probe_problem_ = status.message();
+      }
+    };
+    if (tasks_.Start(kProbe, work, done)) {
+      probe_problem_.clear();
+      probe_key_ = key;
+    }
+  }
+  return pictured_probe_ == key ? probe_picture_.get() : nullptr;
+}
+
+void Workspace::MeasureCameraTraits() {
+  if (place() == nullptr) {
+    return;
+  }
+  const auto traits = std::make_shared<light::CameraTraits>();
+  tasks_.Start(
+      kCamera,
+      [traits, paths = paths_, place = *place()](Progress& progress) {
+        LARARIUM_ASSIGN_OR_RETURN(*traits, MeasureCamera(paths, place, progress));
+        return Status();
+      },
+      [this, traits, name = place_name_](const Status& status, bool cancelled) {
+        Report(status, cancelled, name + ": " + CameraText(*traits));
+        if (status.ok() && !cancelled) {
+          Edit("measure the camera", [&](ProjectDocument& document) {
+            if (PlaceDocument* place = document.FindPlace(name)) {
+              place->camera = *traits;
+            }
+          });
+        }
+      });
+}
+
+void Workspace::SetCameraLook(bool on) {
+  place_changed_ |= on != camera_look_;
+  camera_look_ = on;
+}
+
+void Workspace::SetCompare(bool compare) {
+  place_changed_ |= compare && !compare_;
+  compare_ = compare;
 }
 
 void Workspace::SaveBones(const CastDocument& member) {

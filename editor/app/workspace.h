@@ -19,6 +19,7 @@
 #include "editor/app/cast_pictures.h"
 #include "editor/app/command_stack.h"
 #include "editor/app/preview.h"
+#include "editor/app/probe_picture.h"
 #include "editor/app/project.h"
 #include "editor/app/staging.h"
 #include "editor/train/trainer.h"
@@ -43,6 +44,9 @@ struct LoadedPlace {
   ResolvedPicks picks;
   // As staged for the preview; occluder meshes for drawing. nullptr before that.
   std::shared_ptr<const stage::Place> staged;
+  // The probes as they were then, and their light: edits turn and brighten that at once.
+  std::vector<ProbeDocument> baked_probes;
+  std::vector<light::PlacedProbe> baked_light;
 };
 
 class Workspace {
@@ -54,6 +58,8 @@ class Workspace {
   static constexpr const char* kMeasuring = "Measuring";
   static constexpr const char* kCatalogue = "Opening the cast library";
   static constexpr const char* kReview = "Reading the bones";
+  static constexpr const char* kProbe = "Reading the light probe";
+  static constexpr const char* kCamera = "Measuring the camera";
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
@@ -104,6 +110,20 @@ class Workspace {
   const BoneReview* bone_review(const CastDocument& member);
   // Writes what is in use into a file, which the member names from then on.
   void SaveBones(const CastDocument& member);
+
+  // The image of a probe of the document, read when first asked for and again when the file
+  // changes. nullptr: not yet, or it cannot be read, which probe_problem() says.
+  const ProbePicture* probe_picture(const ProbeDocument& probe);
+  const std::string& probe_problem() const { return probe_problem_; }
+  // How noisy and soft the images of the place at hand are, from its training recording: an
+  // edit, once that is known.
+  void MeasureCameraTraits();
+
+  // People in the camera view as the camera would have taken them, or as drawn.
+  bool camera_look() const { return camera_look_; }
+  void SetCameraLook(bool on);
+  // Whether pictures come with what they are compared with (PreviewPicture::plain).
+  void SetCompare(bool compare);
 
   // The recording in the camera view.
   bool playing() const { return playing_; }
@@ -162,6 +182,8 @@ class Workspace {
   std::shared_ptr<const PreviewPicture> picture_;
   int64_t requested_frame_ = -1;
   bool place_changed_ = true;
+  bool camera_look_ = true;
+  bool compare_ = false;
   bool awaiting_picture_ = false;
   bool playing_ = false;
   double position_ = 0.0;             // frames
@@ -171,6 +193,10 @@ class Workspace {
   CastPictures cast_pictures_;
   std::shared_ptr<const CastCatalogue> catalogue_;
   std::string catalogue_problem_;
+  std::shared_ptr<const ProbePicture> probe_picture_;
+  std::string pictured_probe_;  // key of probe_picture_
+  std::string probe_key_;       // of what was read last, also where that failed
+  std::string probe_problem_;
   std::shared_ptr<const BoneReview> review_;
   std::string reviewed_name_;  // whose bones review_ shows
   std::string review_key_;     // of what was read last, also where that failed

@@ -149,7 +149,8 @@ void MendOverflow(ProbeImage& image) {
   }
   if (count > 0) {
     image.warnings.push_back(std::to_string(count) +
-                             " infinite values were set to 65504; the sun may be too weak");
+                             " infinite values were set to 65504; the sun may be too weak: save "
+                             "the image with 32-bit floats");
   }
 }
 
@@ -219,7 +220,8 @@ void WarnOfLowRange(ProbeImage& image, double mean) {
   if (brightest < kLowDynamicRange * mean) {
     image.warnings.push_back(
         "the brightest pixel is less than four times the mean: perhaps not a high-dynamic-range "
-        "image; lamps and the sun would be too weak");
+        "image; lamps and the sun would be too weak: merge a bracketed series, lararium-editor "
+        "probe merge");
   }
 }
 

@@ -43,6 +43,7 @@ Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
   bundle::PlaceEntry entry{
       place.name,  folder + "scene.larscene", place.map_from_stage, place.camera_nudge, {},
       place.probes};
+  entry.camera = place.camera;
   const auto scene = vision::ParseSceneDatabase(content.scene, "place '" + place.name + "'");
   LARARIUM_RETURN_IF_ERROR(scene.status());
   packing.members.push_back({entry.scene, content.scene});

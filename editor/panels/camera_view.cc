@@ -191,6 +191,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
       DrawStage(workspace, view, draw);
       ShowGizmo(workspace, state, view, hovered, draw);
     }
+    light_.Show(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
     DrawBadge(*picture, rect, draw);
     draw.PopClipRect();
   }

@@ -5,6 +5,7 @@
 
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
+#include "editor/panels/light_view.h"
 #include "shared/render/texture.h"
 
 namespace lararium::panels {
@@ -16,6 +17,7 @@ class CameraView {
 
  private:
   render::Texture texture_;
+  LightOverlay light_;
   const app::PreviewPicture* uploaded_ = nullptr;
 };
 

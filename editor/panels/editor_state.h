@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "editor/app/cast_pictures.h"
+#include "editor/bake/probe_match.h"
 #include "editor/panels/gizmo.h"
 #include "editor/panels/picture_textures.h"
 #include "editor/panels/view_camera.h"
@@ -55,6 +56,26 @@ struct CastView {
   bool all_joints = false;
 };
 
+// How the light of a probe is looked at and matched.
+struct LightView {
+  enum class Picking { kNothing, kGrey, kOnProbe, kOnStage };
+  Picking picking = Picking::kNothing;
+  bool level = true;       // drags turn about the vertical only
+  bool balls = true;       // a mirror ball and a grey one stand at the probe
+  bool wipe = false;       // the camera's image alone to the left of wipe_at
+  bool histogram = false;  // of the camera's image against people
+  float wipe_at = 0.5f;    // of the picture's width
+  float albedo = 0.18f;    // of grey surfaces that are picked
+  std::string probe;       // that the picks below are of
+  std::vector<bake::GreyPatch> patches;
+  std::optional<bake::ScaleMatch> scale_match;
+  std::vector<bake::DirectionPair> pairs;
+  std::optional<glm::vec3> in_probe;  // the first half of the next pair
+  std::optional<bake::DirectionMatch> direction_match;
+  std::string problem;                       // of the last pick; empty: none
+  std::optional<glm::vec3> dragged_in_probe;  // what a drag holds on to
+};
+
 struct EditorState {
   std::vector<KeyPress> keys;  // since the last frame
   Selection selection;
@@ -69,6 +90,7 @@ struct EditorState {
   int anchor = 0;
   int keyframe = 0;
 
+  LightView light;
   CastView cast;
   std::shared_ptr<const app::CastPortrait> portrait;  // the one shown in this frame
   PictureTextures pictures;

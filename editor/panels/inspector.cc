@@ -12,6 +12,7 @@
 
 #include "editor/panels/cast_inspector.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/light_panel.h"
 #include "editor/panels/object_inspector.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/theme.h"
@@ -395,8 +396,6 @@ void ShowProbe(app::Workspace& workspace, EditorState& state, app::ProbeDocument
     PropertyText("File", probe.file);
     changed = VectorProperty(workspace, "Position", probe.position, 0.01, "%.2f");
     changed |= NumberProperty(workspace, "Time of day", probe.hour, 0.05, 0.0, 24.0, "%.2f h");
-    changed |= RotationProperty(workspace, "Rotation", probe.stage_from_probe);
-    changed |= NumberProperty(workspace, "Brightness", probe.scale, 0.01, 0.0, 1e4, "%.3f");
     EndProperties();
   }
   if (changed) {
@@ -411,6 +410,7 @@ void ShowProbe(app::Workspace& workspace, EditorState& state, app::ProbeDocument
         },
         "probe " + probe.name);
   }
+  ShowLightPanel(workspace, state, probe);
   if (ImGui::Button("Remove", ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace("remove " + probe.name, [&](app::PlaceDocument& p) {
       std::erase_if(p.probes, [&](const auto& other) { return other.name == probe.name; });

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "editor/panels/light_panel.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -152,6 +153,12 @@ void HandlePlainKey(app::Workspace& workspace, EditorState& state, int key) {
     case GLFW_KEY_3:
       state.view = ViewKind::kPicks;
       break;
+    case GLFW_KEY_L:
+      if (workspace.place() != nullptr && !workspace.place()->probes.empty()) {
+        state.selection = {Selection::Kind::kProbe, workspace.place()->probes.front().name};
+        state.view = ViewKind::kCamera;
+      }
+      break;
     case GLFW_KEY_F:
       workspace.LayStageOnFloor();
       break;
@@ -255,7 +262,9 @@ void HandleShortcuts(app::Workspace& workspace, EditorState& state) {
     if ((press.modifiers & GLFW_MOD_CONTROL) != 0) {
       HandleControlKey(workspace, state, press);
     } else if (!ImGui::GetIO().WantTextInput && (press.modifiers & GLFW_MOD_ALT) == 0) {
-      HandlePlainKey(workspace, state, press.key);
+      if (!HandleLightKey(workspace, state, press)) {
+        HandlePlainKey(workspace, state, press.key);
+      }
     }
   }
 }

@@ -16,9 +16,14 @@ uniform vec4 camera_distortion;
 
 layout(location = 0) out vec4 colour;
 
-vec3 Background() {
+// Of the camera's image.
+vec2 RawPixel() {
   vec2 plane = PlaneFromPixel(gl_FragCoord.xy - 0.5, display_intrinsics);
-  vec2 raw = PixelFromPlane(plane, camera_intrinsics, camera_distortion);
+  return has_image ? PixelFromPlane(plane, camera_intrinsics, camera_distortion)
+                   : gl_FragCoord.xy - 0.5;
+}
+
+vec3 Background(vec2 raw) {
   vec2 position = (raw + 0.5) / vec2(textureSize(image, 0));
   bool inside = all(greaterThan(position, vec2(-1e-4))) && all(lessThan(position, vec2(1.0001)));
   return has_image && inside ? textureLod(image, position, 0.0).rgb : vec3(0.0);
@@ -29,7 +34,8 @@ bool Within(vec2 cell, vec4 bounds) {
 }
 
 void main() {
-  vec3 light = Background();
+  vec2 raw = RawPixel();
+  vec3 light = Background(raw);
   vec2 cell = vec2(gl_FragCoord.x, float(textureSize(people, 0).y) - gl_FragCoord.y);
   // A loop instead of an if: shaders/include/sun.glsl.
   int may_catch = Within(cell, catcher_bounds) ? 1 : 0;
@@ -45,7 +51,7 @@ void main() {
   vec3 encoded = SrgbFromLinear(clamp(light, 0.0, 1.0));
   int noisy = person.a > 0.0 ? noise_is_on : 0;
   for (int i = 0; i < noisy; ++i) {
-    encoded += sqrt(person.a) * CameraNoise(encoded, ivec2(cell));
+    encoded += sqrt(person.a) * CameraNoise(encoded, raw);
   }
   colour = vec4(encoded, 1.0);
 }

@@ -205,6 +205,10 @@ Result<PlaceEntry> ParsePlace(const JsonView& json) {
   LARARIUM_ASSIGN_OR_RETURN(place.map_from_stage, ParseSimilarity(json, "map_from_stage"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> nudge, json.Numbers("camera_nudge", 3));
   place.camera_nudge = {nudge[0], nudge[1], nudge[2]};
+  if (json.Has("camera")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView camera, json.Field("camera"));
+    LARARIUM_ASSIGN_OR_RETURN(place.camera, light::ParseCameraTraits(camera));
+  }
   LARARIUM_ASSIGN_OR_RETURN(place.occluders,
                             ParseList(json, "occluders", kMaxOccluders, ParseOccluder));
   LARARIUM_ASSIGN_OR_RETURN(place.probes, ParseProbes(json));
@@ -333,6 +337,9 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
                               {"camera_nudge", {nudge.x(), nudge.y(), nudge.z()}},
                               {"occluders", std::move(occluders)},
                               {"probes", Json::array()}});
+    if (place.camera) {
+      json["places"].back()["camera"] = light::FormatCameraTraits(*place.camera);
+    }
     for (const light::PlacedProbe& probe : place.probes) {
       json["places"].back()["probes"].push_back(FormatProbe(probe));
     }

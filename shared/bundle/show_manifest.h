@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "shared/bundle/sha256.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
+#include "shared/light/camera_traits.h"
 #include "shared/light/probe_blend.h"
 
 namespace lararium::bundle {
@@ -34,7 +36,8 @@ struct PlaceEntry {
   geometry::Similarity3 map_from_stage;
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres along camera axes
   std::vector<OccluderEntry> occluders;
-  std::vector<light::PlacedProbe> probes;  // light in stage axes
+  std::vector<light::PlacedProbe> probes;                    // light in stage axes
+  std::optional<light::CameraTraits> camera = std::nullopt;  // a bundle may lack the field
 };
 
 struct CastEntry {

@@ -1,3 +1,5 @@
+#include "shared/capture/exif.h"
+
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -133,25 +135,14 @@ Bytes FindExif(Bytes jpeg) {
 
 }  // namespace
 
-std::optional<double> ExifFocalPixels(const std::filesystem::path& file, int width, int height) {
-  const Result<MappedFile> mapped = MappedFile::Open(file);
-  if (!mapped.ok()) {
-    return std::nullopt;
-  }
-  const auto exif = ExifDirectory::Open(FindExif(mapped->bytes()));
+std::optional<uint32_t> FindFocalLengthIn35mmFilm(Bytes jpeg) {
+  const auto exif = ExifDirectory::Open(FindExif(jpeg));
   const uint32_t focal = exif ? exif->Short(kFocalLengthIn35mmFilm).value_or(0) : 0;
-  if (focal == 0) {
-    return std::nullopt;
-  }
-  return focal * std::hypot(width, height) / kFilmDiagonal;
+  return focal == 0 ? std::nullopt : std::optional(focal);
 }
 
-std::optional<double> ExifExposure(const std::filesystem::path& file) {
-  const Result<MappedFile> mapped = MappedFile::Open(file);
-  if (!mapped.ok()) {
-    return std::nullopt;
-  }
-  const auto exif = ExifDirectory::Open(FindExif(mapped->bytes()));
+std::optional<double> FindExposure(Bytes jpeg) {
+  const auto exif = ExifDirectory::Open(FindExif(jpeg));
   const auto seconds = exif ? exif->Rational(kExposureTime) : std::nullopt;
   if (!seconds) {
     return std::nullopt;
@@ -159,6 +150,17 @@ std::optional<double> ExifExposure(const std::filesystem::path& file) {
   const double aperture = exif->Rational(kFNumber).value_or(1.0);
   const uint32_t iso = exif->Short(kIsoSpeed).value_or(0);
   return *seconds / (aperture * aperture) * (iso > 0 ? iso / 100.0 : 1.0);
+}
+
+std::optional<double> ExifFocalPixels(const std::filesystem::path& file, int width, int height) {
+  const Result<MappedFile> mapped = MappedFile::Open(file);
+  const auto focal = mapped.ok() ? FindFocalLengthIn35mmFilm(mapped->bytes()) : std::nullopt;
+  return focal ? std::optional(*focal * std::hypot(width, height) / kFilmDiagonal) : std::nullopt;
+}
+
+std::optional<double> ExifExposure(const std::filesystem::path& file) {
+  const Result<MappedFile> mapped = MappedFile::Open(file);
+  return mapped.ok() ? FindExposure(mapped->bytes()) : std::nullopt;
 }
 
 }  // namespace lararium::capture

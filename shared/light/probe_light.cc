@@ -52,4 +52,15 @@ ProbeLight Placed(const ProbeLight& light, const glm::quat& stage_from_probe, fl
   return placed;
 }
 
+ProbeLight Balanced(const ProbeLight& light, const glm::vec3& balance) {
+  ProbeLight balanced = light;
+  for (glm::vec3& coefficient : balanced.sky) {
+    coefficient *= balance;
+  }
+  if (balanced.sun) {
+    balanced.sun->irradiance *= balance;
+  }
+  return balanced;
+}
+
 }  // namespace lararium::light

@@ -25,4 +25,7 @@ ShRgb ProjectSun(const Sun& sun);
 // The light turned and brightened: stage_from_probe and the stage's radiance for one unit.
 ProbeLight Placed(const ProbeLight& light, const glm::quat& stage_from_probe, float scale);
 
+// Each channel multiplied.
+ProbeLight Balanced(const ProbeLight& light, const glm::vec3& balance);
+
 }  // namespace lararium::light

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 #include <string>
 #include <utility>
 
@@ -35,7 +36,7 @@ void ResetState() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  for (GLuint unit = 0; unit < SunPass::kFirstUnit + SunPass::kUnits; ++unit) {
+  for (GLuint unit = 0; unit <= LookPass::kUnit; ++unit) {
     glBindSampler(unit, 0);
   }
 }
@@ -53,6 +54,7 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const RendererOptions& option
   LARARIUM_ASSIGN_OR_RETURN(state->model_pass, ModelPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->catcher_pass, CatcherPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->sun_pass, SunPass::Create());
+  state->look_pass = LookPass::Create();
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
                             ShaderProgram::Create("full_screen.vert", "composite.frag"));
   state->no_vertices = GlVertexArray::Generate();
@@ -206,37 +208,18 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
 
 Status Renderer::State::DrawPeople(const RenderScene& scene,
                                    const PictureView& view,
-                                   const PixelBounds& bounds) {
+                                   const PixelBounds& bounds,
+                                   int clear) {
   LARARIUM_RETURN_IF_ERROR(people.Prepare(view.size.width, view.size.height, samples));
   if (bounds.empty()) {
     return Status();
   }
-  people.BindAndClear(bounds);
+  const PixelBounds cleared = Widened(bounds, clear, view.size);
+  people.BindAndClear(cleared);
   DrawOccluders(scene.occluders, view.clip_from_stage);
   model_pass.Draw(scene, view.clip_from_stage, draws, sun_pass);
-  people.Resolve(bounds);
+  people.Resolve(cleared);
   return Status();
-}
-
-void Renderer::State::SetLook(const RenderScene& scene,
-                              const PictureView& view,
-                              const PixelBounds& people_bounds) const {
-  const CameraLook& look = scene.look;
-  const bool moves = look.previous_camera_from_stage && look.shutter > 0.0f;
-  const float lens = std::clamp(look.blur_px, 0.0f, 4.0f);
-  constexpr float kSpread = 24.0f;  // as the shader limits smears
-  const float beyond = people_bounds.empty() ? 0.0f : (moves ? kSpread : 0.0f) + 3.0f * lens;
-  const glm::vec4 bounds(people_bounds.left, people_bounds.bottom, people_bounds.right,
-                         people_bounds.top);
-  composite_pass.Set("people_bounds", bounds);
-  composite_pass.Set("smeared_bounds", bounds + glm::vec4(-beyond, -beyond, beyond, beyond));
-  composite_pass.Set("lens_variance", lens * lens);
-  composite_pass.Set("shutter", moves ? std::clamp(look.shutter, 0.0f, 1.0f) : 0.0f);
-  composite_pass.Set("previous_from_pixel", PreviousFromPixel(scene, view, PeopleDepth(view)));
-  const bool noisy = look.noise_floor > 0.0f || look.noise_slope > 0.0f;
-  composite_pass.Set("noise_is_on", noisy ? 1 : 0);
-  composite_pass.Set("noise", glm::vec2(look.noise_floor * look.noise_floor, look.noise_slope));
-  composite_pass.Set("noise_frame", static_cast<int>(look.frame));
 }
 
 float Renderer::State::PeopleDepth(const PictureView& view) const {
@@ -250,6 +233,7 @@ float Renderer::State::PeopleDepth(const PictureView& view) const {
 
 void Renderer::State::Composite(const RenderScene& scene,
                                 const PictureView& view,
+                                const Smear& smear,
                                 const PixelBounds& people_bounds,
                                 const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
@@ -271,7 +255,7 @@ void Renderer::State::Composite(const RenderScene& scene,
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, people.texture());
   composite_pass.Set("people", 1);
-  SetLook(scene, view, people_bounds);
+  look_pass.BindFor(composite_pass, scene.look, smear, people_bounds);
   catcher_pass.BindFor(composite_pass, view, 2);
   sun_pass.BindFor(composite_pass);
   glBindVertexArray(no_vertices.id());
@@ -294,6 +278,9 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   ResetState();
   const PictureView view = ViewOf(scene, {target.width(), target.height()});
   PixelBounds people_bounds;
+  Smear smear;
+  state.people_bounds = {};
+  state.picture_size = view.size;
   state.catcher_pass.Skip();
   state.sun_pass.Skip();
   if (scene.camera_from_stage) {
@@ -301,11 +288,27 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
     state.catcher_pass.SetBlockers(scene.blockers);
     state.sun_pass.Draw(scene, state.meshes, state.model_pass, state.all_draws,
                         state.catcher_pass.reach());
-    LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, view, people_bounds));
+    smear = SmearOf(scene, view, people_bounds, state.PeopleDepth(view));
+    state.people_bounds = people_bounds;
+    // What is seen at the rim of a smear looks as far again.
+    LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, view, people_bounds, 2 * smear.reach));
+    people_bounds = Widened(people_bounds, smear.reach, view.size);
     LARARIUM_RETURN_IF_ERROR(state.catcher_pass.Draw(scene, state.meshes, state.sun_pass, view));
   }
-  state.Composite(scene, view, people_bounds, target);
+  state.Composite(scene, view, smear, people_bounds, target);
   return State::CheckDriver();
+}
+
+void Renderer::ReadCoverage(cv::Mat& coverage) const {
+  const State& state = *state_;
+  coverage = cv::Mat::zeros(state.picture_size.height, state.picture_size.width, CV_8UC1);
+  if (state.people_bounds.empty()) {
+    return;
+  }
+  cv::Mat rgba, alpha;
+  state.people.ReadPixels(state.people_bounds, rgba);
+  cv::extractChannel(rgba, alpha, 3);
+  alpha.convertTo(coverage, CV_8UC1, 255.0);
 }
 
 Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
@@ -322,7 +325,7 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   const PictureView view = ViewOf(linear, {scene.display.width, scene.display.height});
   const PixelBounds bounds = state.CollectDraws(linear, view);
   state.sun_pass.Draw(linear, state.meshes, state.model_pass, state.all_draws, {});
-  LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, view, bounds));
+  LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, view, bounds, 0));
   state.people.ReadPixels(bounds, rgba);
   return State::CheckDriver();
 }

@@ -42,6 +42,10 @@ class Renderer {
   // memory) the target's content is undefined.
   Status Draw(const RenderScene& scene, const RenderTarget& target);
 
+  // Of the picture that Draw() made last: how much of each pixel people and props cover,
+  // 0 to 255, CV_8UC1, before the camera's look softens them.
+  void ReadCoverage(cv::Mat& coverage) const;
+
   // For comparisons with other light: people and props alone, hidden by occluders, at
   // the display's size. rgba: CV_32FC4, linear radiance times coverage, coverage, before
   // exposure, gain and the camera's response; in steps of 16-bit floats.

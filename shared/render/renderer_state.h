@@ -11,6 +11,7 @@
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_mesh.h"
 #include "shared/render/linear_target.h"
+#include "shared/render/look_pass.h"
 #include "shared/render/model_pass.h"
 #include "shared/render/picture_view.h"
 #include "shared/render/renderer.h"
@@ -27,10 +28,13 @@ struct Renderer::State {
   ModelPass model_pass;
   CatcherPass catcher_pass;
   SunPass sun_pass;
+  LookPass look_pass;
   ShaderProgram composite_pass;
   GlVertexArray no_vertices;  // of the full-screen pass
   Texture background_image{Texture::Encoding::kLinear};
   LinearTarget people;
+  PixelBounds people_bounds;  // of the picture drawn last: what of people is valid
+  ImageSize picture_size;     // likewise
   SlotMap<GpuMesh> meshes;
   SlotMap<GpuModel> models;
   std::vector<ModelDraw> draws;      // of the picture at hand: what may be seen in it
@@ -43,18 +47,21 @@ struct Renderer::State {
   PixelBounds CollectDraws(const RenderScene& scene, const PictureView& view);
   // Unless it lies outside the picture.
   void CollectDraw(const ModelDraw& draw, const PictureView& view, ScreenBounds& bounds);
-  Status DrawPeople(const RenderScene& scene, const PictureView& view, const PixelBounds& bounds);
+  // Nothing is left of older pictures up to clear beyond the bounds.
+  Status DrawPeople(const RenderScene& scene,
+                    const PictureView& view,
+                    const PixelBounds& bounds,
+                    int clear);
   void DrawOccluders(std::span<const SceneOccluder> occluders,
                      const glm::mat4& clip_from_stage) const;
   void Composite(const RenderScene& scene,
                  const PictureView& view,
+                 const Smear& smear,
                  const PixelBounds& people_bounds,
                  const RenderTarget& target);
   // How far away the people in the picture are on average, along the view; of those who
   // consist of a root joint and others, by the root.
   float PeopleDepth(const PictureView& view) const;
-  // The composite's share of scene.look.
-  void SetLook(const RenderScene& scene, const PictureView& view, const PixelBounds& people) const;
   static Status CheckDriver();
 };
 

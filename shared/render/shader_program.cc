@@ -85,6 +85,9 @@ int ShaderProgram::Location(const char* name) const {
 
 void ShaderProgram::Set(const char* name, int value) const { glUniform1i(Location(name), value); }
 void ShaderProgram::Set(const char* name, float value) const { glUniform1f(Location(name), value); }
+void ShaderProgram::Set(const char* name, const glm::ivec2& value) const {
+  glUniform2iv(Location(name), 1, glm::value_ptr(value));
+}
 void ShaderProgram::Set(const char* name, const glm::vec2& value) const {
   glUniform2fv(Location(name), 1, glm::value_ptr(value));
 }

@@ -29,6 +29,7 @@ class ShaderProgram {
   // Of the program in use. Names that the compiler optimised away are ignored.
   void Set(const char* name, int value) const;
   void Set(const char* name, float value) const;
+  void Set(const char* name, const glm::ivec2& value) const;
   void Set(const char* name, const glm::vec2& value) const;
   void Set(const char* name, const glm::vec3& value) const;
   void Set(const char* name, const glm::vec4& value) const;

@@ -101,18 +101,22 @@ void Show::AdvanceTo(double time) {
 
 void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
   staged.camera_from_stage.reset();
+  staged.motion.reset();
   if (tracked.camera_from_map) {
     CHECK(tracked.map < content_.places.size());
     if (tracked.map != place_) {
       gain_filter_.Reset();
+      camera_motion_.Reset();
     }
     place_ = tracked.map;
     staged.camera_from_stage =
         stage::CameraFromStage(content_.places[place_].stage, *tracked.camera_from_map);
+    staged.motion = camera_motion_.Update(tracked.frame.index, *staged.camera_from_stage);
     staged.gain = gain_filter_.Update(tracked.gain, tracked.frame.capture_time);
     stage_.SetVisitor(geometry::ToGlm(staged.camera_from_stage->Center()));
   } else {
     gain_filter_.Reset();
+    camera_motion_.Reset();
     stage_.SetVisitor(std::nullopt);
   }
   staged.place = place_;

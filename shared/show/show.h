@@ -16,6 +16,7 @@
 #include "shared/geometry/transform.h"
 #include "shared/human/performance.h"
 #include "shared/show/body.h"
+#include "shared/show/camera_motion.h"
 #include "shared/show/gain_filter.h"
 #include "shared/show/prop_blockers.h"
 #include "shared/show/show_content.h"
@@ -64,6 +65,7 @@ struct StagedFrame {
   uint32_t place = 0;
   std::optional<geometry::Rigid3> camera_from_stage;  // rigid, metric; set when tracking
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};     // of tracked, steadied by GainFilter
+  std::optional<CameraMotion> motion;                 // none: not known
   double time = 0.0;                                  // of the drama, seconds
   light::ProbeLight light;  // on real surfaces in view, stage axes; its sun is everybody's
   std::chrono::steady_clock::time_point arrival;  // when the image was there
@@ -98,6 +100,7 @@ class Show {
   // places[index].
   void SetPlace(size_t index, stage::Place place) {
     content_.places[index].stage = std::move(place);
+    camera_motion_.Reset();  // poses of before mean another stage
   }
 
   // Brings the drama to time (seconds, at least 0) and fills staged. The drama
@@ -140,6 +143,7 @@ class Show {
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
   GainFilter gain_filter_;
+  CameraMotionTracker camera_motion_;
   int64_t tick_ = 0;               // that current_ shows
   stage::StageSnapshot previous_;  // one tick before
   stage::StageSnapshot current_;

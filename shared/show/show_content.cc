@@ -33,6 +33,7 @@ Result<stage::Place> LoadStage(const bundle::Bundle& bundle, const bundle::Place
   place.name = entry.name;
   place.map_from_stage = entry.map_from_stage;
   place.camera_nudge = entry.camera_nudge;
+  place.camera = entry.camera;
   place.probes = entry.probes;
   for (const bundle::OccluderEntry& occluder : entry.occluders) {
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(occluder.mesh));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shared/geometry/glm_convert.h"
+#include "shared/show/camera_look.h"
 
 namespace lararium::show {
 
@@ -39,6 +40,7 @@ void ShowRenderer::SetPlace(size_t index, const stage::Place& place) {
     scene.occluders.push_back(
         {renderer_->AddMesh(occluder.mesh), geometry::ToGlm(occluder.stage_from_mesh)});
   }
+  scene.camera = place.camera;
 }
 
 // Objects of one model share what is on the GPU.
@@ -107,8 +109,9 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.camera = tracked.camera;
   scene.display = tracked.camera.DisplayPinhole();
   scene.camera_from_stage = staged.camera_from_stage;
+  const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
   if (staged.camera_from_stage) {
-    ChooseDetails(staged, scene.display.Resized(target.width(), target.height()));
+    ChooseDetails(staged, picture);
   }
   CollectHumans(staged);
   CollectProps(staged);
@@ -119,6 +122,10 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.sun = staged.light.sun;
   scene.blockers = staged.blockers;
   scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
+  if (place.camera) {
+    scene.knee = place.camera->knee;
+    scene.look = LookOf(*place.camera, staged, picture);
+  }
   return renderer_->Draw(scene, target);
 }
 

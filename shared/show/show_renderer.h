@@ -27,9 +27,13 @@ class ShowRenderer {
   // place, people in its light.
   Status Draw(const StagedFrame& staged, const render::RenderTarget& target);
 
+  // Of the frame drawn last: how much of each pixel people and props cover, CV_8UC1.
+  void ReadCoverage(cv::Mat& coverage) const { renderer_->ReadCoverage(coverage); }
+
  private:
   struct PlaceScene {
     std::vector<render::SceneOccluder> occluders;
+    std::optional<light::CameraTraits> camera;
   };
 
   explicit ShowRenderer(std::unique_ptr<render::Renderer> renderer)

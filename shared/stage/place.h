@@ -4,11 +4,13 @@
 // what hides people there, and the light that falls on them.
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "shared/geometry/transform.h"
 #include "shared/geometry/triangle_mesh.h"
+#include "shared/light/camera_traits.h"
 #include "shared/light/probe_blend.h"
 
 namespace lararium::stage {
@@ -28,6 +30,8 @@ struct Place {
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();
   std::vector<Occluder> occluders;
   std::vector<light::PlacedProbe> probes;  // light in stage axes; none: dark
+  // Of the camera that films it, where it was measured: people are made alike.
+  std::optional<light::CameraTraits> camera = std::nullopt;
 };
 
 // The pose from which the stage is drawn: rigid and metric, nudge applied.

@@ -79,6 +79,13 @@ class Follower {
   // Of the last honest pose.
   std::span<const SeenPoint> seen() const { return seen_; }
 
+  // TrackedFrame::shutter: none while too little fast motion was seen.
+  std::optional<float> shutter() const {
+    constexpr int kEnoughTrials = 3;
+    return shutter_trials_ < kEnoughTrials ? std::nullopt
+                                           : std::optional(static_cast<float>(shutter_));
+  }
+
  private:
   // A patch that is looked for in every frame.
   struct Slot {

@@ -51,6 +51,9 @@ struct TrackedFrame {
   int matches = 0;
   int inliers = 0;
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};  // image over map reference, linear R, G, B
+  // Share of the time between frames for which the shutter is open, as fast motion has shown
+  // it; none before that.
+  std::optional<float> shutter = std::nullopt;
 };
 
 // Gives frames their poses: the SIFT tracker, recorded poses, a headset.

@@ -220,6 +220,7 @@ class Tracker final : public PoseSource {
       last_gain_ = *gain;
     }
     tracked.gain = last_gain_;
+    tracked.shutter = followers_[map_]->shutter();
     share_ = followed.share();
     blur_px_ = followed.blur_px;
     depth_ = followed.evidence.depths[1];

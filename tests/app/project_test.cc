@@ -26,6 +26,7 @@ ProjectDocument FullDocument() {
   place.picks.length_m = 2.75;
   place.picked_from_stage = {0.1, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, 0.2, 0.3}};
   place.camera_nudge = {0.01, -0.02, 0.03};
+  place.camera = light::CameraTraits{640, 0.01f, 0.0005f, 0.75f, 0.625f, 0.5f};
   place.occluders = {{"counter", "counter.glb", {1.0, Eigen::Quaterniond(0, 0, 1, 0), {1, 2, 3}}}};
   place.probes = {
       {"noon", "probe.exr", {0.5, 1.2, -1.0}, 12.5, Eigen::Quaterniond(0.6, 0, 0.8, 0), 2.0},
@@ -73,6 +74,8 @@ TEST(Project, SurvivesWritingAndReading) {
   EXPECT_FALSE(loaded->places[0].added[1].intrinsics.has_value());
   EXPECT_EQ(loaded->places[0].tags->family, "tag25h9");
   EXPECT_EQ(loaded->places[0].tags->size_m, 0.125);
+  EXPECT_EQ(loaded->places[0].camera, document.places[0].camera);
+  EXPECT_FALSE(loaded->places[1].camera.has_value());
   EXPECT_EQ(loaded->places[0].intrinsics, document.places[0].intrinsics);
   EXPECT_TRUE(loaded->places[1].training.empty());
 }

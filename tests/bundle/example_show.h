@@ -16,6 +16,7 @@ inline bundle::ShowManifest ExampleManifest() {
   place.map_from_stage = {
       0.37, Eigen::Quaterniond(0.1, 0.7, -0.3, 0.2).normalized(), {1.0, -2.0, 0.1}};
   place.camera_nudge = {0.001, 0.0, -0.02};
+  place.camera = light::CameraTraits{640, 0.01f, 0.0005f, 0.75f, 0.625f, 0.5f};
   place.occluders = {{"counter", "places/0/occluder0.larmesh", {}}};
   light::PlacedProbe& probe = place.probes.emplace_back();
   probe.position = {1.0f, 1.5f, -2.0f};

@@ -45,6 +45,7 @@ TEST(ShowManifest, RoundTrips) {
   EXPECT_EQ(parsed->places[0].map_from_stage.rotation.coeffs(),
             manifest.places[0].map_from_stage.rotation.coeffs());
   EXPECT_EQ(parsed->places[0].camera_nudge, manifest.places[0].camera_nudge);
+  EXPECT_EQ(parsed->places[0].camera, manifest.places[0].camera);
   EXPECT_EQ(parsed->places[0].occluders[0].mesh, "places/0/occluder0.larmesh");
   EXPECT_EQ(parsed->cast[0].human, "cast/0.larhuman");
   EXPECT_EQ(parsed->members[3].size, 4u);

@@ -30,6 +30,7 @@ class ShowContentTest : public ::testing::Test {
     manifest_.places[1].scene = "yard.larscene";
     manifest_.places[0].map_from_stage.scale = 2.0;
     manifest_.places[1].camera_nudge = {0.0, 0.1, 0.0};
+    manifest_.places[1].camera = light::CameraTraits{640, 0.01f};
     manifest_.places[1].probes.emplace_back().light.sky[0] = {1.0f, 2.0f, 3.0f};
     manifest_.places[1].occluders = {{"wall", "wall.larmesh", {}}};
   }
@@ -94,6 +95,7 @@ TEST_F(ShowContentTest, LoadsAllPlacesInTheBundlesOrder) {
   EXPECT_TRUE(bar.stage.occluders.empty());
   EXPECT_EQ(yard.stage.name, "yard");
   EXPECT_EQ(yard.stage.camera_nudge.y(), 0.1);
+  EXPECT_EQ(yard.stage.camera, (light::CameraTraits{640, 0.01f}));
   EXPECT_EQ(yard.stage.probes.at(0).light.sky[0], glm::vec3(1.0f, 2.0f, 3.0f));
   EXPECT_EQ(yard.map->camera.fx, 60.0);
   EXPECT_EQ(yard.stage.occluders.size(), 1u);

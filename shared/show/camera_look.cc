@@ -1,0 +1,31 @@
+#include "shared/show/camera_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lararium::show {
+
+render::CameraLook LookOf(const light::CameraTraits& traits,
+                          const StagedFrame& staged,
+                          const geometry::CameraModel& display) {
+  const geometry::CameraModel& camera = staged.tracked.camera;
+  const double display_px = display.fx / camera.fx;  // for each pixel of the camera's image
+  const double measured_px = static_cast<double>(camera.width) / traits.width;
+  const double lens = traits.blur_px * measured_px * display_px;
+  // The camera's pixels average over themselves; so do the picture's, as far as they go.
+  const double pixels = std::max(0.0, (display_px * display_px - 1.0) / 12.0);
+
+  render::CameraLook look;
+  look.noise_floor = traits.noise_floor;
+  look.noise_slope = traits.noise_slope;
+  look.frame = static_cast<uint32_t>(staged.tracked.frame.index);
+  look.blur_px = static_cast<float>(std::sqrt(lens * lens + pixels));
+  if (staged.motion) {
+    look.previous_camera_from_stage = staged.motion->before_from_stage;
+    const float shutter = traits.shutter.value_or(staged.tracked.shutter.value_or(0.0f));
+    look.shutter = shutter / static_cast<float>(staged.motion->frames);
+  }
+  return look;
+}
+
+}  // namespace lararium::show

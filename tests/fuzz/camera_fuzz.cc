@@ -1,0 +1,34 @@
+// libFuzzer harness: whatever the text is, reading it as a camera's response and as its
+// traits ends, and what is accepted is valid and survives being written.
+
+#include <cmath>
+#include <string_view>
+
+#include "shared/core/check.h"
+#include "shared/light/camera_response.h"
+#include "shared/light/camera_traits.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace lararium;         // NOLINT: a program
+  using namespace lararium::light;  // NOLINT
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const Result<Json> json = ParseJson(text, "fuzz.json");
+  if (!json.ok()) {
+    return 0;
+  }
+  const auto response = ParseCameraResponse(JsonView(*json, "fuzz.json"));
+  if (response.ok()) {
+    CHECK(response->Validate("fuzz.json").ok());
+    const FittedKnee knee = FitKnee(*response);
+    CHECK(knee.knee > 0.0f && knee.knee <= 1.0f && std::isfinite(knee.residual));
+    const Json again = FormatCameraResponse(*response);
+    CHECK(ParseCameraResponse(JsonView(again, "fuzz.json")).ok());
+  }
+  const auto traits = ParseCameraTraits(JsonView(*json, "fuzz.json"));
+  if (traits.ok()) {
+    CHECK(traits->width > 0 && std::isfinite(traits->blur_px));
+    const Json again = FormatCameraTraits(*traits);
+    CHECK(ParseCameraTraits(JsonView(again, "fuzz.json")).value() == *traits);
+  }
+  return 0;
+}

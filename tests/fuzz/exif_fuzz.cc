@@ -1,0 +1,19 @@
+// libFuzzer harness: whatever the bytes are, looking for EXIF data in them ends, and what is
+// found is a possible exposure and focal length.
+
+#include <cmath>
+#include <span>
+
+#include "shared/capture/exif.h"
+#include "shared/core/check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(data), size);
+  if (const auto exposure = lararium::capture::FindExposure(bytes)) {
+    CHECK(std::isfinite(*exposure) && *exposure > 0.0);
+  }
+  if (const auto focal = lararium::capture::FindFocalLengthIn35mmFilm(bytes)) {
+    CHECK(*focal > 0);
+  }
+  return 0;
+}

@@ -1,0 +1,42 @@
+#include "shared/light/camera_traits.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace lararium::light {
+namespace {
+
+const CameraTraits kTraits = {640, 0.01f, 0.0005f, 0.75f, 0.625f, 0.5f};
+
+std::string Error(const Json& json) {
+  return ParseCameraTraits(JsonView(json, "device.json: look")).status().message();
+}
+
+TEST(CameraTraits, SurviveWritingAndReading) {
+  const Json json = FormatCameraTraits(kTraits);
+  EXPECT_EQ(ParseCameraTraits(JsonView(json, "test")).value(), kTraits);
+  CameraTraits learns = kTraits;
+  learns.shutter.reset();
+  const Json shorter = FormatCameraTraits(learns);
+  EXPECT_EQ(ParseCameraTraits(JsonView(shorter, "test")).value(), learns);
+}
+
+TEST(CameraTraits, WhatIsImpossibleIsNamed) {
+  const auto with = [](const char* key, const Json& value) {
+    Json json = FormatCameraTraits(kTraits);
+    json[key] = value;
+    return json;
+  };
+  EXPECT_NE(Error(with("noise", {0.5, 0.0})).find("noise"), std::string::npos);
+  EXPECT_NE(Error(with("noise", {0.1})).find("noise"), std::string::npos);
+  EXPECT_NE(Error(with("blur_px", -1.0)).find("blur_px"), std::string::npos);
+  EXPECT_NE(Error(with("blur_px", 1e9)).find("blur_px"), std::string::npos);
+  EXPECT_NE(Error(with("knee", 0.0)).find("knee"), std::string::npos);
+  EXPECT_NE(Error(with("shutter", 2.0)).find("shutter"), std::string::npos);
+  EXPECT_NE(Error(with("width", 0)).find("width"), std::string::npos);
+  EXPECT_NE(Error(with("width", "wide")).find("device.json: look"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lararium::light

@@ -1,0 +1,100 @@
+#!/bin/bash
+# Drives the light panel with real input events: drags the sun over the probe's picture, turns
+# and brightens the light by keys, undoes, and opens a project whose probe cannot be read.
+#
+#   light_window_test.sh EDITOR OUTPUT_FOLDER MAKE_PROBE
+set -u
+editor=$1
+out=$2
+make_probe=$3
+
+. "$(dirname "$0")/window.sh"
+need xvfb-run Xvfb xdotool import identify
+on_a_display "$0" "$@"
+start_clean
+project=$out/ui.lararium
+json=$project/project.json
+
+press() { xdotool key --delay 60 "$1" && sleep 0.5; }
+# A field of the first probe, on one line.
+probe_field() {
+  tr -d ' \n' < "$json" | sed -E "s/.*\"probes\":\[\{[^]]*\"$1\":(\[[^]]*\]|[^,}]*).*/\1/"
+}
+field_is() { [ "$(probe_field "$1")" = "$2" ]; }
+# The heading of the rotation (w, x, y, z) about the vertical lies within two numbers, degrees.
+heading_within() {
+  probe_field rotation | tr -d '[]' | awk -F, -v low="$1" -v high="$2" '{
+    heading = 2 * atan2($3, $1) * 57.29578
+    exit !(heading > low && heading < high && $2 * $2 + $4 * $4 < 1e-6)}'
+}
+
+start_editor() {
+  "$editor" "$project" >> "$out/editor.log" 2>&1 &
+  pid=$!
+  wait_for 40 xdotool search --name Lararium || fail "no window"
+  xdotool mousemove 700 780
+  sleep 3
+  press l
+  sleep 2
+}
+quit() {
+  press ctrl+q
+  wait_for 20 bash -c "! kill -0 $pid" || fail "did not quit"
+  wait $pid || fail "exit code $?"
+}
+
+"$editor" new "$project" > /dev/null || fail "cannot make a project"
+"$make_probe" "$project/probe.exr" || fail "cannot make a probe"
+cat > "$json" << 'JSON'
+{"schema": 1, "title": "Test", "credits": "", "cast": [], "places": [{
+  "name": "site", "camera_nudge": [0, 0, 0], "occluders": [],
+  "adjust": {"translation": [0, 0, 0], "rotation": [1, 0, 0, 0], "scale": 1},
+  "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
+            "length_m": 1},
+  "probes": [{"name": "noon", "file": "probe.exr", "position": [0, 1.2, 0], "hour": 12,
+              "rotation": [1, 0, 0, 0], "scale": 1}]}]}
+JSON
+
+start_editor
+import -window root "$out/panel.png"
+
+# Keys: ten degrees to the left, a sixth of a stop less; one command each.
+press shift+bracketleft
+press ctrl+s
+wait_for 10 heading_within 9.9 10.1 || fail "the key did not turn: $(probe_field rotation)"
+press minus
+press ctrl+s
+dimmer() { awk -v s="$(probe_field scale)" 'BEGIN {exit !(s > 0.88 && s < 0.90)}'; }
+wait_for 10 dimmer || fail "the key did not dim: $(probe_field scale)"
+press ctrl+z
+press ctrl+z
+press ctrl+s
+wait_for 10 field_is rotation "[1.0,0.0,0.0,0.0]" || fail "undo of the keys: $(probe_field rotation)"
+field_is scale 1.0 || fail "undo of dimming: $(probe_field scale)"
+
+# The sun stands at three quarters of the picture's width; an eighth of it to the left is 45
+# degrees, counted towards the left.
+sun=(1334 310)
+xdotool mousemove "${sun[0]}" "${sun[1]}" sleep 0.4 mousedown 1 sleep 0.4
+xdotool mousemove $((sun[0] - 20)) "${sun[1]}" sleep 0.3
+xdotool mousemove $((sun[0] - 40)) "${sun[1]}" sleep 0.5 mouseup 1
+sleep 0.5
+press ctrl+s
+wait_for 10 heading_within 40 50 || fail "the drag did not turn the light: $(probe_field rotation)"
+import -window root "$out/dragged.png"
+press ctrl+z
+press ctrl+s
+wait_for 10 field_is rotation "[1.0,0.0,0.0,0.0]" || fail "one drag is one command"
+colours=$(identify -format %k "$out/panel.png")
+[ "$colours" -gt 100 ] || fail "the screenshot is blank: $colours colours"
+quit
+
+# A probe that cannot be read is said in the panel, and the window lives on.
+echo "no image" > "$project/probe.exr"
+start_editor
+import -window root "$out/broken.png"
+press bracketright
+press ctrl+s
+wait_for 10 heading_within -1.1 -0.9 || fail "a broken probe cannot be turned"
+quit
+echo "passed; screenshots: $out/panel.png $out/dragged.png $out/broken.png"
