@@ -13,6 +13,7 @@
 #include "editor/import/cast_builder.h"
 #include "editor/import/cast_library.h"
 #include "editor/import/clip_import.h"
+#include "editor/import/levels_of_detail.h"
 #include "editor/import/model_import.h"
 #include "editor/import/objects/object_import.h"
 #include "editor/import/objects/object_models.h"
@@ -29,7 +30,7 @@ namespace lararium::app {
 namespace {
 
 // Part of every hash: raise it when the same sources give another product.
-constexpr std::string_view kBakerVersion = "3";
+constexpr std::string_view kBakerVersion = "4";
 
 std::filesystem::path LightFile(const ProjectPaths& paths,
                                 const PlaceDocument& place,
@@ -246,6 +247,10 @@ FigureSource ImportedFigure(const ProjectPaths& paths, const CastDocument& membe
     for (const std::string& note : imported.notes) {
       warnings.push_back(member.name + ": " + note);
     }
+    for (human::SkinnedMesh& mesh : imported.human.meshes) {
+      import::AddLevelsOfDetail(mesh);
+    }
+    import::OrderVertices(imported.human);
     return std::move(imported.human);
   };
   return figure;

@@ -151,6 +151,7 @@ class CastBuilder {
     }
     human_.capsules = body_.capsules;
     StandOnSoles(human_);
+    OrderVertices(human_);
     LARARIUM_RETURN_IF_ERROR(human_.Validate(recipe_.name));
     return std::move(human_);
   }
@@ -184,7 +185,6 @@ class CastBuilder {
     return CutGarments(patterns, body_);
   }
 
-  // Its vertices stay in their order: its cloth counts them.
   void AddGarment(Garment garment) {
     for (human::SpringChain& chain : HangTails(garment, human_.skeleton)) {
       human_.springs.push_back(std::move(chain));

@@ -1,7 +1,7 @@
 #pragma once
 
 // Fewer triangles for people who are far away, and an order of triangles and vertices
-// that graphics processors like (meshoptimizer).
+// that graphics processors like (meshoptimizer) and that lighting can stop early in.
 
 #include "shared/human/human.h"
 
@@ -15,5 +15,11 @@ void OrderTriangles(human::SkinnedMesh& mesh);
 // (quadric error; Garland & Heckbert, SIGGRAPH 1997). A level that saves little over the
 // one before is left out.
 void AddLevelsOfDetail(human::SkinnedMesh& mesh);
+
+// Renumbers the vertices of every mesh, and all that counts them: those that the coarsest
+// level takes come first, then those that the next finer one adds, and so on, each in the
+// order of its triangles; last what no triangle takes. A level then needs the first so many
+// only (render::MeshLevel).
+void OrderVertices(human::Human& human);
 
 }  // namespace lararium::import

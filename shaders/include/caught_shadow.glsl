@@ -32,18 +32,30 @@ vec4 WeightedRatio(ivec2 coarse, float share, float depth, vec3 point, vec3 norm
   return weight * vec4(texel.rgb, 1.0);
 }
 
+// Whether any of the four coarse cells about a cell is darkened.
+bool DarkenedAbout(ivec2 first) {
+  ivec2 low = ivec2(catcher_bounds.xy) / kCoarse;
+  ivec2 high = (ivec2(catcher_bounds.zw) - 1) / kCoarse;
+  vec3 least = vec3(1.0);
+  for (int i = 0; i < 4; ++i) {
+    least = min(least, texelFetch(sky_ratio, clamp(first + ivec2(i & 1, i >> 1), low, high), 0).rgb);
+  }
+  return any(lessThan(least, vec3(0.998)));
+}
+
 vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
   vec2 at = (vec2(cell) - float(kCoarse / 2)) / float(kCoarse);
   ivec2 first = ivec2(floor(at));
   vec2 part = at - vec2(first);
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < 4; ++i) {
+  int corners = DarkenedAbout(first) ? 4 : 0;
+  for (int i = 0; i < corners; ++i) {
     ivec2 corner = ivec2(i & 1, i >> 1);
     vec2 share = mix(1.0 - part, part, vec2(corner));
     sum += WeightedRatio(first + corner, share.x * share.y + 1e-3, depth, point, normal);
   }
   // Along edges none of the four may fit, but some beyond them.
-  int more = sum.a < 1e-2 ? 16 : 0;
+  int more = corners > 0 && sum.a < 1e-2 ? 16 : 0;
   for (int i = 0; i < more; ++i) {
     sum += WeightedRatio(first - 1 + ivec2(i & 3, i >> 2), 0.1, depth, point, normal);
   }

@@ -3,6 +3,9 @@
 // same basis as shared/light/spherical_harmonics.h; coefficients arrive there
 // multiplied by the clamped cosine (pi, 2 pi / 3, pi / 4) and the basis' constants.
 
+// Added where something is divided by unshadowed irradiance.
+const float kLeastUnshadowed = 1e-3;
+
 vec3 Irradiance(vec3 c[9], vec3 n) {
   vec3 irradiance = c[0] + c[1] * n.y + c[2] * n.z + c[3] * n.x + c[4] * (n.x * n.y) +
                     c[5] * (n.y * n.z) + c[6] * (3.0 * n.z * n.z - 1.0) + c[7] * (n.x * n.z) +

@@ -26,8 +26,8 @@ float DiscRadius(int index, int count) { return sqrt((float(index) + 0.5) / floa
 const int kSearches = 8;
 const int kTaps = 14;
 
-// What is in the way of a point on average; as deep as the point where nothing is.
-float BlockerDepth(sampler2D map, vec3 at, vec2 radius, int searches) {
+// What is in the way of a point on average, and of how many searches.
+vec2 Blockers(sampler2D map, vec3 at, vec2 radius, int searches) {
   float sum = 0.0;
   float count = 0.0;
   vec2 direction = vec2(1.0, 0.0);
@@ -40,7 +40,7 @@ float BlockerDepth(sampler2D map, vec3 at, vec2 radius, int searches) {
       count += 1.0;
     }
   }
-  return count > 0.0 ? sum / count : at.z;
+  return vec2(sum / max(count, 1.0), count);
 }
 
 // asked: 0 or 1. How often the loops turn depends on it since software (llvmpipe) leaves
@@ -49,17 +49,20 @@ float SeenPast(highp sampler2DShadow map, sampler2D map_depth, vec3 at, vec3 siz
   bool within = all(greaterThan(at, vec3(0.0))) && all(lessThan(at.xy, vec2(1.0)));
   vec2 texel = 1.0 / vec2(textureSize(map, 0));
   vec2 widest = max(min(sun_slope * at.z * size.z, 0.5) / size.xy, texel);
-  float blocker = BlockerDepth(map_depth, at, widest, within ? asked * kSearches : 0);
-  vec2 radius = max(sun_slope * (at.z - blocker) * size.z / size.xy, 0.5 * texel);
-  int taps = blocker < at.z ? asked * kTaps : 0;
+  int searches = within ? asked * kSearches : 0;
+  vec2 blockers = Blockers(map_depth, at, widest, searches);
+  vec2 radius = max(sun_slope * (at.z - blockers.x) * size.z / size.xy, 0.5 * texel);
+  // Where the widest penumbra is dark or bright all over, its middle is.
+  bool edge = blockers.y > 0.0 && blockers.y < float(searches);
+  int taps = edge ? kTaps : 0;
   float seen = 0.0;
   vec2 direction = vec2(1.0, 0.0);
   for (int i = 0; i < taps; ++i) {
     vec2 tap = at.xy + radius * DiscRadius(i, kTaps) * direction;
     direction = kGoldenTurn * direction;
-    seen += texture(map, vec3(tap, min(at.z, 1.0)));
+    seen += textureLod(map, vec3(tap, min(at.z, 1.0)), 0.0);
   }
-  return taps > 0 ? seen / float(taps) : 1.0;
+  return taps > 0 ? seen / float(taps) : blockers.y > 0.0 ? 0.0 : 1.0;
 }
 
 // clearance: metres by which the point is moved towards the sun, so that surfaces do not

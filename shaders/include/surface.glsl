@@ -3,10 +3,10 @@
 // SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH or SURFACE_EYE chooses the model.
 
 #include "spherical_harmonics.glsl"
-#include "sun.glsl"
 
+uniform int has_sun;
+uniform vec3 sun_direction;  // towards it, unit, stage axes
 uniform vec3 irradiance[9];
-uniform vec3 unscattered[9];  // the same where it is not softened by skin
 uniform int matte_only;
 uniform vec3 key_direction;   // towards the light, unit, stage axes
 uniform vec3 key_irradiance;  // of a surface that faces it; of the sun where there is one
@@ -92,14 +92,11 @@ struct Arriving {
 Arriving Unshadowed(vec3 normal) { return Arriving(Irradiance(irradiance, normal), 1.0, 0.0); }
 
 // Transfer was worked out for a vertex and its normal; what the normal at hand would see
-// without shadows, over what that one would, carries it over.
-Arriving Transferred(vec3 transferred, vec3 transfer_normal, vec3 normal) {
-  const float kLeast = 1e-3;
-  vec3 there = Irradiance(unscattered, transfer_normal) + kLeast;
-  vec3 here = Irradiance(irradiance, normal) + kLeast;
-  vec3 weight = vec3(0.2126, 0.7152, 0.0722);
-  float open = clamp(dot(transferred, weight) / dot(there, weight), 0.0, 1.0);
-  return Arriving(transferred * min(here / there, 4.0), open, 0.0);
+// without shadows, over what that one would, carries it over. share: transferred over what
+// the vertex would see without shadows.
+Arriving Transferred(vec3 transferred, vec3 share, float open, vec3 normal) {
+  vec3 here = Irradiance(irradiance, normal) + kLeastUnshadowed;
+  return Arriving(min(share * here, 4.0 * transferred), open, 0.0);
 }
 
 // strand: unit, along hair from root to tip. Highlights apart, so that they can stay

@@ -20,8 +20,10 @@ in vec3 position_in_stage;
 in vec3 normal_in_stage;
 in vec3 surface_albedo;
 in vec2 surface_uv;
-in vec3 transferred;
-in vec3 transfer_normal;
+// Within the triangle where only its rim is in the pixel: beyond, a share may be anything.
+centroid in vec3 transferred;
+centroid in vec3 transfer_share;
+centroid in float transfer_open;
 
 layout(location = 0) out vec4 colour;
 
@@ -55,6 +57,7 @@ vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
 }
 
 uniform int has_transfer;
+uniform sampler2D sun_seen;  // shaders/pass/sun_seen.frag
 // Share of unshadowed light on the back of a sheet.
 const float kSeenFromBehind = 0.5;
 
@@ -62,7 +65,7 @@ Arriving LightOn(vec3 normal) {
   Arriving arriving = Unshadowed(normal);
   if (has_transfer == 1) {
     if (gl_FrontFacing) {
-      arriving = Transferred(transferred, normalize(transfer_normal), normal);
+      arriving = Transferred(transferred, transfer_share, transfer_open, normal);
     } else {
       // Transfer knows fronts only; the back of a sheet is mostly turned to something near.
       arriving.irradiance *= kSeenFromBehind;
@@ -70,11 +73,8 @@ Arriving LightOn(vec3 normal) {
     }
   }
   vec3 outward = gl_FrontFacing ? normal_in_stage : -normal_in_stage;
-  int sunny = dot(outward, sun_direction) > 0.0 ? has_sun : 0;
-  for (int i = 0; i < sunny; ++i) {
-    // A little off the surface, which is not as fine in the sun's map.
-    vec3 point = position_in_stage + 0.005 * normalize(outward);
-    arriving.sun_seen = SunPastPeople(point, 0.015, 1) * SunPastOccluders(point, 0.03, 1);
+  if (has_sun == 1 && dot(outward, sun_direction) > 0.0) {
+    arriving.sun_seen = texelFetch(sun_seen, ivec2(gl_FragCoord.xy), 0).r;
   }
   return arriving;
 }
@@ -117,5 +117,5 @@ void main() {
   highlight *= coverage;
 #endif
   vec3 radiance = (matte + emission) * coverage + highlight;
-  colour = vec4(CameraResponse(radiance * gain), coverage);
+  colour = vec4(CameraResponse(max(radiance * gain, 0.0)), coverage);
 }

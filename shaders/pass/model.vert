@@ -1,6 +1,9 @@
 // Skinning, four influences: what human::SkinningJob does on the CPU.
 
+#include "spherical_harmonics.glsl"
+
 uniform mat4 clip_from_model;
+uniform vec3 unscattered[9];  // irradiance, not softened by skin
 uniform mat4 stage_from_model;
 uniform int posed;             // 1: positions and normals are as they are to be drawn
 uniform int dual_quaternions;  // 0: by matrices
@@ -21,8 +24,9 @@ out vec3 position_in_stage;
 out vec3 normal_in_stage;
 out vec3 surface_albedo;
 out vec2 surface_uv;
-out vec3 transferred;      // irradiance by light transfer
-out vec3 transfer_normal;  // that it was worked out for
+centroid out vec3 transferred;     // irradiance by light transfer
+centroid out vec3 transfer_share;  // the same over what would come without shadows
+centroid out float transfer_open;  // of all channels: at most 1
 
 mat4 BlendMatrices() {
   return weights.x * skin[joints.x] + weights.y * skin[joints.y] + weights.z * skin[joints.z] +
@@ -69,5 +73,9 @@ void main() {
   surface_albedo = albedo;
   surface_uv = uv;
   transferred = irradiance_at_vertex;
-  transfer_normal = mat3(stage_from_model) * (mat3(skinned) * bind_normal);
+  vec3 transfer_normal = normalize(mat3(stage_from_model) * (mat3(skinned) * bind_normal));
+  vec3 there = Irradiance(unscattered, transfer_normal) + kLeastUnshadowed;
+  transfer_share = transferred / there;
+  vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+  transfer_open = clamp(dot(transferred, luminance) / dot(there, luminance), 0.0, 1.0);
 }

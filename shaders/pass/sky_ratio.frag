@@ -63,9 +63,6 @@ void Hide(vec3 to_centre, float radius) {
   float by_distance = inversesqrt(max(dot(to_centre, to_centre), 1e-12));
   float apparent = radius * by_distance;
   float fade = clamp((apparent * apparent - least_share) / least_share, 0.0, 1.0);
-  if (fade <= 0.0) {
-    return;
-  }
   float sine = max(apparent < 1.0 ? apparent : 1.0 / apparent, 1e-3);
   float cosine = sqrt(max(1.0 - sine * sine, 0.0)) * (apparent < 1.0 ? 1.0 : -1.0);
   vec3 direction = to_centre * by_distance;
@@ -91,13 +88,12 @@ const float kMergedRadius = 0.3;
 void HideCluster(Cluster cluster, vec3 point) {
   vec3 to_centre = cluster.merged.xyz - point;
   float near = cluster.extent.x / kMergedRadius;
-  if (dot(to_centre, to_centre) > near * near) {
-    Hide(to_centre, cluster.merged.w);
-    return;
-  }
-  int end = int(cluster.extent.z);
-  for (int i = int(cluster.extent.y); i < end; ++i) {
-    Hide(balls[i].xyz - point, balls[i].w);
+  bool merged = dot(to_centre, to_centre) > near * near;
+  int first = int(cluster.extent.y);
+  int end = merged ? first + 1 : int(cluster.extent.z);
+  for (int i = first; i < end; ++i) {
+    vec4 ball = merged ? cluster.merged : balls[i];
+    Hide(ball.xyz - point, ball.w);
   }
 }
 

@@ -26,17 +26,6 @@ size_t TrianglesAt(const DetailRequest& request, float error) {
   return triangles;
 }
 
-// The finest that is used at an allowed error of one mesh.
-size_t TrianglesAt(const human::SkinnedMesh& mesh, float error) {
-  size_t indices = mesh.indices.size();
-  for (const human::LevelOfDetail& level : mesh.coarser) {
-    if (level.error <= error) {
-      indices = level.indices.size();
-    }
-  }
-  return indices / 3;
-}
-
 }  // namespace
 
 float PixelsPerMetre(const geometry::CameraModel& display,
@@ -62,10 +51,26 @@ bool MaySee(const geometry::CameraModel& display,
          inside(-centre.y(), display.fy, display.cy + 0.5);
 }
 
+std::vector<MeshLevel> FindMeshLevels(const human::SkinnedMesh& mesh) {
+  const auto level = [](const std::vector<uint32_t>& indices, float error) {
+    const auto last = std::max_element(indices.begin(), indices.end());
+    return MeshLevel{error, indices.size() / 3, last == indices.end() ? 0 : size_t{*last} + 1};
+  };
+  std::vector<MeshLevel> levels = {level(mesh.indices, 0.0f)};
+  for (const human::LevelOfDetail& coarser : mesh.coarser) {
+    levels.push_back(level(coarser.indices, coarser.error));
+  }
+  for (size_t i = levels.size() - 1; i > 0; --i) {
+    levels[i - 1].vertices = std::max(levels[i - 1].vertices, levels[i].vertices);
+  }
+  return levels;
+}
+
 std::vector<DetailLevel> FindDetailLevels(const human::Human& human) {
+  std::vector<std::vector<MeshLevel>> meshes;
   std::vector<float> errors = {0.0f};
   for (const human::SkinnedMesh& mesh : human.meshes) {
-    for (const human::LevelOfDetail& level : mesh.coarser) {
+    for (const MeshLevel& level : meshes.emplace_back(FindMeshLevels(mesh))) {
       errors.push_back(level.error);
     }
   }
@@ -74,8 +79,8 @@ std::vector<DetailLevel> FindDetailLevels(const human::Human& human) {
   std::vector<DetailLevel> levels;
   for (const float error : errors) {
     DetailLevel level{error, 0};
-    for (const human::SkinnedMesh& mesh : human.meshes) {
-      level.triangles += TrianglesAt(mesh, error);
+    for (const std::vector<MeshLevel>& mesh : meshes) {
+      level.triangles += LevelAllowed(mesh, error).triangles;
     }
     levels.push_back(level);
   }

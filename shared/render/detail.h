@@ -26,6 +26,27 @@ bool MaySee(const geometry::CameraModel& display,
             const glm::vec3& centre_in_stage,
             float radius);
 
+// A level of detail of one mesh.
+struct MeshLevel {
+  float error = 0.0f;  // metres, from the finest
+  size_t triangles = 0;
+  // How many of the mesh's first vertices this and all coarser levels take. Files that
+  // import::OrderVertices has been at have those of coarser levels first.
+  size_t vertices = 0;
+};
+// The finest first.
+std::vector<MeshLevel> FindMeshLevels(const human::SkinnedMesh& mesh);
+
+// Which of levels, the finest first, is drawn: the coarsest whose error is allowed, metres.
+template <typename Level>
+const Level& LevelAllowed(const std::vector<Level>& levels, float allowed_error) {
+  const Level* drawn = &levels.front();
+  for (const Level& level : levels) {
+    drawn = level.error <= allowed_error ? &level : drawn;
+  }
+  return *drawn;
+}
+
 // What each allowed error costs, summed over a person's meshes: ascending errors,
 // descending triangles. The first is the finest.
 struct DetailLevel {

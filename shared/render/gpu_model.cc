@@ -11,6 +11,7 @@
 #include "shared/core/check.h"
 #include "shared/core/parallel.h"
 #include "shared/render/closed_surface.h"
+#include "shared/render/detail.h"
 #include "shared/render/surface_texture.h"
 #include "shared/render/texture_image.h"
 
@@ -33,6 +34,7 @@ struct PartSource {
   struct Level {
     std::span<const uint32_t> indices;
     float error = 0.0f;
+    size_t vertices = 0;
   };
   std::vector<Level> levels;
   int16_t material = human::Material::kNone;
@@ -84,7 +86,8 @@ GlVertexArray CreateVertexArray(const GpuModel::Part& part, const GlBuffer& vert
 void UploadIndices(const PartSource& source, GpuModel::Part& part) {
   std::vector<uint32_t> indices;
   for (const PartSource::Level& level : source.levels) {
-    part.levels.push_back({indices.size(), static_cast<int>(level.indices.size()), level.error});
+    part.levels.push_back(
+        {indices.size(), static_cast<int>(level.indices.size()), level.error, level.vertices});
     indices.insert(indices.end(), level.indices.begin(), level.indices.end());
   }
   // Not as an element array: that would belong to whichever vertex array is bound.
@@ -132,20 +135,30 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
 }
 
 PartSource Source(const human::SkinnedMesh& mesh) {
-  PartSource source{mesh.positions, mesh.normals, {}, {{mesh.indices, 0.0f}}, mesh.material};
+  const std::vector<MeshLevel> levels = FindMeshLevels(mesh);
+  PartSource source{mesh.positions,
+                    mesh.normals,
+                    {},
+                    {{mesh.indices, 0.0f, levels.front().vertices}},
+                    mesh.material};
   source.attributes.resize(mesh.positions.size());
   for (size_t v = 0; v < source.attributes.size(); ++v) {
     source.attributes[v] = {mesh.albedo[v], mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
                             mesh.joints[v], mesh.weights[v]};
   }
-  for (const human::LevelOfDetail& level : mesh.coarser) {
-    source.levels.push_back({level.indices, level.error});
+  for (size_t i = 0; i < mesh.coarser.size(); ++i) {
+    source.levels.push_back(
+        {mesh.coarser[i].indices, mesh.coarser[i].error, levels[i + 1].vertices});
   }
   return source;
 }
 
 PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
-  PartSource source{mesh.positions, mesh.normals, {}, {{mesh.indices, 0.0f}}, mesh.material};
+  PartSource source{mesh.positions,
+                    mesh.normals,
+                    {},
+                    {{mesh.indices, 0.0f, mesh.positions.size()}},
+                    mesh.material};
   source.attributes.resize(mesh.positions.size());
   for (size_t v = 0; v < source.attributes.size(); ++v) {
     source.attributes[v] = {mesh.albedo[v],
@@ -327,7 +340,7 @@ void GpuModel::Stream(size_t part_index,
 
 void GpuModel::StreamIrradiance(size_t part_index, std::span<const glm::vec3> irradiance) {
   const Part& part = parts[part_index];
-  CHECK(irradiance.size() == part.vertex_count);
+  CHECK(irradiance.size() <= part.vertex_count);
   glBindBuffer(GL_ARRAY_BUFFER, part.irradiance.id());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(irradiance.size_bytes()), irradiance.data(),
                GL_STREAM_DRAW);
@@ -335,13 +348,10 @@ void GpuModel::StreamIrradiance(size_t part_index, std::span<const glm::vec3> ir
 
 void GpuModel::Draw(size_t part_index, float allowed_error, bool streamed) const {
   const Part& part = parts[part_index];
-  const Part::Level* drawn = &part.levels.front();
-  for (const Part::Level& level : part.levels) {
-    drawn = level.error <= allowed_error ? &level : drawn;
-  }
+  const Part::Level& drawn = LevelAllowed(part.levels, allowed_error);
   glBindVertexArray(streamed ? part.streamed.id() : part.bind_pose.id());
-  glDrawElements(GL_TRIANGLES, drawn->count, GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(drawn->first * sizeof(uint32_t)));
+  glDrawElements(GL_TRIANGLES, drawn.count, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(drawn.first * sizeof(uint32_t)));
 }
 
 }  // namespace lararium::render

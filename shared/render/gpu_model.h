@@ -34,7 +34,8 @@ struct GpuModel {
     struct Level {
       size_t first = 0;  // index
       int count = 0;
-      float error = 0.0f;  // metres
+      float error = 0.0f;   // metres
+      size_t vertices = 0;  // MeshLevel::vertices
     };
     std::vector<Level> levels;  // of detail, the finest first
     size_t vertex_count = 0;
@@ -73,7 +74,7 @@ struct GpuModel {
   void Stream(size_t part,
               std::span<const glm::vec3> positions,
               std::span<const glm::vec3> normals);
-  // Irradiance for the next draw of a part; one for each of its vertices.
+  // Irradiance for the next draw of a part; one for each vertex that its level takes.
   void StreamIrradiance(size_t part, std::span<const glm::vec3> irradiance);
   // The coarsest level whose error is allowed, metres. Attributes as in
   // shaders/pass/model.vert.

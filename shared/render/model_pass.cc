@@ -10,6 +10,8 @@
 #include <string>
 
 #include "shared/human/skinning.h"
+#include "shared/render/detail.h"
+#include "shared/render/sun_mask.h"
 #include "shared/render/sun_pass.h"
 #include "shared/render/surface_texture.h"
 
@@ -133,7 +135,7 @@ void ModelPass::UploadSkins(std::span<const ModelDraw> draws) {
   }
 }
 
-void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun) {
+void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const SunMask& sun_mask) {
   const Eigen::Vector3d eye = scene.camera_from_stage->Inverse().translation;
   scene_light_ = {scene.light, scene.sun};
   for (Program& program : programs_) {
@@ -150,6 +152,7 @@ void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun) {
     shaders.Set("colour_texture", 0);
     shaders.Set("normal_texture", 1);
     sun.BindFor(shaders);
+    sun_mask.BindFor(shaders);
   }
 }
 
@@ -196,15 +199,15 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   if (vertices != nullptr) {
     draw.model->Stream(index, vertices->positions, vertices->normals);
   }
-  if (!draw.irradiance.empty() && phase != Phase::kCaster) {
-    draw.model->StreamIrradiance(index,
-                                 draw.irradiance.subspan(part.first_vertex, part.vertex_count));
+  const bool only_depth = phase == Phase::kDepth || phase == Phase::kCaster;
+  if (!draw.irradiance.empty() && !only_depth) {
+    const size_t used = LevelAllowed(part.levels, draw.detail).vertices;
+    draw.model->StreamIrradiance(index, draw.irradiance.subspan(part.first_vertex, used));
   }
   Program& program = programs_[ProgramIndex(part)];
-  const ShaderProgram& shaders =
-      phase == Phase::kCaster ? casters_[part.covered() ? 1 : 0] : program.shaders;
+  const ShaderProgram& shaders = only_depth ? casters_[part.covered() ? 1 : 0] : program.shaders;
   shaders.Use();
-  if (phase != Phase::kCaster) {
+  if (!only_depth) {
     SetLight(draw.light != nullptr ? *draw.light : scene_light_, program,
              part.surface == human::Surface::kSkin);
   }
@@ -237,7 +240,8 @@ void ModelPass::DrawPhase(Phase phase,
                       static_cast<GLintptr>(i * kSkinStride), kSkinStride);
     for (size_t part = 0; part < draws[i].model->parts.size(); ++part) {
       const GpuModel::Part& drawn = draws[i].model->parts[part];
-      const bool of_phase = phase == Phase::kCaster || drawn.covered() == (phase != Phase::kOpaque);
+      const bool of_phase = phase == Phase::kDepth || phase == Phase::kCaster ||
+                            drawn.covered() == (phase != Phase::kOpaque);
       if (of_phase && draws[i].Shows(drawn.prop_part)) {
         DrawPart(draws[i], part, phase, clip_from_stage);
       }
@@ -248,10 +252,11 @@ void ModelPass::DrawPhase(Phase phase,
 void ModelPass::Draw(const RenderScene& scene,
                      const glm::mat4& clip_from_stage,
                      std::span<const ModelDraw> draws,
-                     const SunPass& sun) {
+                     const SunPass& sun,
+                     const SunMask& sun_mask) {
   glEnable(GL_DEPTH_TEST);
   UploadSkins(draws);
-  BeginFrame(scene, sun);
+  BeginFrame(scene, sun, sun_mask);
   DrawPhase(Phase::kOpaque, clip_from_stage, draws);
   DrawPhase(Phase::kCore, clip_from_stage, draws);
   glDepthMask(GL_FALSE);
@@ -260,6 +265,12 @@ void ModelPass::Draw(const RenderScene& scene,
   DrawPhase(Phase::kFringe, clip_from_stage, draws);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+}
+
+void ModelPass::DrawDepth(const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws) {
+  UploadSkins(draws);
+  DrawPhase(Phase::kDepth, clip_from_stage, draws);
   glDisable(GL_CULL_FACE);
 }
 

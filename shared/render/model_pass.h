@@ -23,6 +23,7 @@
 
 namespace lararium::render {
 
+class SunMask;
 class SunPass;
 
 // One model in the picture.
@@ -50,12 +51,15 @@ class ModelPass {
   void Draw(const RenderScene& scene,
             const glm::mat4& clip_from_stage,
             std::span<const ModelDraw> draws,
-            const SunPass& sun);
-  // Depth alone, as of what is wholly there.
+            const SunPass& sun,
+            const SunMask& sun_mask);
+  // Depth alone, of what is at least half there, as Draw would have it.
+  void DrawDepth(const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
+  // The same, only as fine as maps of the sun are, and both sides of all.
   void DrawCasters(const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
 
  private:
-  enum class Phase { kOpaque, kCore, kFringe, kCaster };
+  enum class Phase { kOpaque, kCore, kFringe, kDepth, kCaster };
   struct Program {
     ShaderProgram shaders;
     bool ready = false;
@@ -65,7 +69,7 @@ class ModelPass {
   static size_t ProgramIndex(const GpuModel::Part& part);
 
   void UploadSkins(std::span<const ModelDraw> draws);
-  void BeginFrame(const RenderScene& scene, const SunPass& sun);
+  void BeginFrame(const RenderScene& scene, const SunPass& sun, const SunMask& sun_mask);
   KeyLight KeyLightOf(const light::ProbeLight& light) const;
   void SetLight(const light::ProbeLight& light, Program& program, bool skin) const;
   void DrawPhase(Phase phase, const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);

@@ -45,7 +45,8 @@ struct SceneHuman {
   std::span<const glm::mat4> skin = {};  // one for each joint (human::ComputeSkinMatrices)
   std::span<const SceneVertices> vertices = {};
   // What falls on each vertex, all meshes in a row, with the shadows of body, people and
-  // things (show/person_light.h); empty: unshadowed light.
+  // things (show/person_light.h); empty: unshadowed light. Only those vertices count that the
+  // levels of detail take.
   std::span<const glm::vec3> irradiance = {};
   // Metres by which what is drawn may differ from the finest level of detail
   // (shared/render/detail.h).

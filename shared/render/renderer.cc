@@ -26,6 +26,11 @@ glm::vec4 Distortion(const geometry::CameraModel& camera) {
           static_cast<float>(camera.p1), static_cast<float>(camera.p2)};
 }
 
+bool IsOn(const CameraLook& look) {
+  return look.noise_floor > 0.0f || look.noise_slope > 0.0f || look.blur_px > 0.0f ||
+         (look.previous_camera_from_stage && look.shutter > 0.0f);
+}
+
 void ResetState() {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -55,6 +60,10 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const RendererOptions& option
   LARARIUM_ASSIGN_OR_RETURN(state->catcher_pass, CatcherPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->sun_pass, SunPass::Create());
   state->look_pass = LookPass::Create();
+  LARARIUM_ASSIGN_OR_RETURN(state->sun_mask, SunMask::Create());
+  LARARIUM_ASSIGN_OR_RETURN(
+      state->look_composite_pass,
+      ShaderProgram::Create("full_screen.vert", "composite.frag", "#define LOOK\n"));
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
                             ShaderProgram::Create("full_screen.vert", "composite.frag"));
   state->no_vertices = GlVertexArray::Generate();
@@ -214,10 +223,11 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
   if (bounds.empty()) {
     return Status();
   }
+  LARARIUM_RETURN_IF_ERROR(sun_mask.Draw(view, bounds, draws, sun_pass, model_pass));
   const PixelBounds cleared = Widened(bounds, clear, view.size);
   people.BindAndClear(cleared);
   DrawOccluders(scene.occluders, view.clip_from_stage);
-  model_pass.Draw(scene, view.clip_from_stage, draws, sun_pass);
+  model_pass.Draw(scene, view.clip_from_stage, draws, sun_pass, sun_mask);
   people.Resolve(cleared);
   return Status();
 }
@@ -239,25 +249,26 @@ void Renderer::State::Composite(const RenderScene& scene,
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   glDisable(GL_DEPTH_TEST);
-  composite_pass.Use();
-  composite_pass.Set("has_image", scene.background.empty() ? 0 : 1);
-  composite_pass.Set("display_intrinsics", Intrinsics(view.display));
+  const ShaderProgram& composite = IsOn(scene.look) ? look_composite_pass : composite_pass;
+  composite.Use();
+  composite.Set("has_image", scene.background.empty() ? 0 : 1);
+  composite.Set("display_intrinsics", Intrinsics(view.display));
   glActiveTexture(GL_TEXTURE0);
   if (!scene.background.empty()) {
     const cv::Mat& image = scene.background;
     const geometry::CameraModel camera = scene.camera.Resized(image.cols, image.rows);
     background_image.Upload(image);
-    composite_pass.Set("camera_intrinsics", Intrinsics(camera));
-    composite_pass.Set("camera_distortion", Distortion(camera));
+    composite.Set("camera_intrinsics", Intrinsics(camera));
+    composite.Set("camera_distortion", Distortion(camera));
   }
   glBindTexture(GL_TEXTURE_2D, background_image.id());
-  composite_pass.Set("image", 0);
+  composite.Set("image", 0);
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, people.texture());
-  composite_pass.Set("people", 1);
-  look_pass.BindFor(composite_pass, scene.look, smear, people_bounds);
-  catcher_pass.BindFor(composite_pass, view, 2);
-  sun_pass.BindFor(composite_pass);
+  composite.Set("people", 1);
+  look_pass.BindFor(composite, scene.look, smear, people_bounds);
+  catcher_pass.BindFor(composite, view, 2);
+  sun_pass.BindFor(composite);
   glBindVertexArray(no_vertices.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);

@@ -17,6 +17,7 @@
 #include "shared/render/renderer.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
+#include "shared/render/sun_mask.h"
 #include "shared/render/sun_pass.h"
 #include "shared/render/texture.h"
 
@@ -29,8 +30,10 @@ struct Renderer::State {
   CatcherPass catcher_pass;
   SunPass sun_pass;
   LookPass look_pass;
+  SunMask sun_mask;
   ShaderProgram composite_pass;
-  GlVertexArray no_vertices;  // of the full-screen pass
+  ShaderProgram look_composite_pass;  // with RenderScene::look
+  GlVertexArray no_vertices;          // of the full-screen pass
   Texture background_image{Texture::Encoding::kLinear};
   LinearTarget people;
   PixelBounds people_bounds;  // of the picture drawn last: what of people is valid

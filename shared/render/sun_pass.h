@@ -37,6 +37,7 @@ class SunPass {
   // There is no sun.
   void Skip();
 
+  bool shines() const { return shines_; }
   // A box of the stage that holds all shadows of people as far as they matter; empty
   // without a sun.
   const Box& shadows() const { return shadows_; }

@@ -1,10 +1,13 @@
 #include "shared/show/person_light.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -39,6 +42,11 @@ constexpr float kBrightening = 0.5f;
 constexpr float kLeastLampIrradiance = 0.01f;
 // All of somebody lies so near to the point as far above their feet, metres.
 constexpr float kBodyReach = 1.0f;
+
+// Blockers that one ball may stand for, and the sine of the angle from its middle to its rim
+// up to which it does.
+constexpr size_t kBlockersOfGroup = 6;
+constexpr float kSmall = 0.3f;
 
 void DampBrightening(light::ShRows& log) {
   for (size_t receiver = 0; receiver < log.receivers(); ++receiver) {
@@ -118,6 +126,7 @@ PersonLight::PersonLight(std::shared_ptr<const human::Human> human)
   shadowed_ = turned_ = lamp_light_ = RowsRgb(count, slots);
   near_lamps_.reserve(light::kMaxLamps);
   pose_weights_.resize(slots * light::kMaxKeyPoses);
+  GroupBlockers();
   blockers_.Resize(human_->light.blockers.size());
   local_.Resize(blockers_.size());
   PlaceReceivers();
@@ -150,8 +159,10 @@ void PersonLight::PlaceReceivers() {
 }
 
 void PersonLight::MakeMeshes() {
-  for (const LightTransfer::Mesh& mesh : human_->light.meshes) {
+  for (size_t i = 0; i < human_->meshes.size(); ++i) {
+    const LightTransfer::Mesh& mesh = human_->light.meshes[i];
     MeshLight& made = meshes_.emplace_back();
+    made.levels = render::FindMeshLevels(human_->meshes[i]);
     made.transfer = Unpack(human_->light, mesh);
     made.receivers.resize(mesh.receivers.size());
     for (size_t v = 0; v < made.receivers.size(); ++v) {
@@ -189,9 +200,88 @@ void PersonLight::Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_f
   std::copy(skin.begin(), skin.end(), skin_.begin());
   stage_from_actor_ = stage_from_actor;
   for (size_t i = 0; i < blockers_.size(); ++i) {
-    const LightTransfer::Blocker& blocker = human_->light.blockers[i];
+    const LightTransfer::Blocker& blocker = human_->light.blockers[blocker_order_[i]];
     const glm::vec4 in_actor = skin_[blocker.joint] * glm::vec4(blocker.centre, 1.0f);
     blockers_.Set(i, stage_from_actor * in_actor, blocker.radius);
+  }
+  MergeGroups();
+}
+
+// Joins the two nearest groups until few are left.
+void PersonLight::GroupBlockers() {
+  const std::vector<LightTransfer::Blocker>& blockers = human_->light.blockers;
+  std::vector<std::vector<uint32_t>> groups;
+  std::vector<glm::vec3> centres;
+  for (uint32_t i = 0; i < blockers.size(); ++i) {
+    groups.push_back({i});
+    centres.push_back(blockers[i].centre);
+  }
+  const size_t wanted = (blockers.size() + kBlockersOfGroup - 1) / kBlockersOfGroup;
+  while (groups.size() > wanted) {
+    size_t first = 0, second = 1;
+    float least = std::numeric_limits<float>::max();
+    for (size_t i = 0; i < groups.size(); ++i) {
+      for (size_t k = i + 1; k < groups.size(); ++k) {
+        // Small groups first, so that none grows long.
+        const float distance = glm::distance(centres[i], centres[k]) *
+                               static_cast<float>(groups[i].size() + groups[k].size());
+        if (distance < least) {
+          least = distance;
+          first = i;
+          second = k;
+        }
+      }
+    }
+    const auto sizes = glm::vec2(groups[first].size(), groups[second].size());
+    centres[first] = (sizes.x * centres[first] + sizes.y * centres[second]) / (sizes.x + sizes.y);
+    groups[first].insert(groups[first].end(), groups[second].begin(), groups[second].end());
+    groups.erase(groups.begin() + static_cast<ptrdiff_t>(second));
+    centres.erase(centres.begin() + static_cast<ptrdiff_t>(second));
+  }
+  for (const std::vector<uint32_t>& group : groups) {
+    const size_t begin = blocker_order_.size();
+    blocker_order_.insert(blocker_order_.end(), group.begin(), group.end());
+    blocker_groups_.push_back({.begin = begin, .end = blocker_order_.size()});
+  }
+}
+
+// From afar shares of the sky add up: those of balls grow with the square of the radius.
+void PersonLight::MergeGroups() {
+  low_ = glm::vec3(std::numeric_limits<float>::max());
+  high_ = -low_;
+  const auto centre_of = [&](size_t i) {
+    return glm::vec3(blockers_.x[i], blockers_.y[i], blockers_.z[i]);
+  };
+  for (BlockerGroup& group : blocker_groups_) {
+    glm::vec3 centre(0.0f);
+    float share = 0.0f;
+    for (size_t i = group.begin; i < group.end; ++i) {
+      const float radius = blockers_.radius[i];
+      centre += radius * radius * centre_of(i);
+      share += radius * radius;
+      low_ = glm::min(low_, centre_of(i) - radius);
+      high_ = glm::max(high_, centre_of(i) + radius);
+    }
+    group.centre = share > 0.0f ? centre / share : centre_of(group.begin);
+    group.radius = std::sqrt(share);
+    group.extent = 0.0f;
+    for (size_t i = group.begin; i < group.end; ++i) {
+      group.extent =
+          std::max(group.extent, glm::distance(group.centre, centre_of(i)) + blockers_.radius[i]);
+    }
+  }
+}
+
+void PersonLight::AppendBlockers(const PersonLight& seen_from, SphereSet& to) const {
+  for (const BlockerGroup& group : blocker_groups_) {
+    const glm::vec3 nearest = glm::clamp(group.centre, seen_from.low_, seen_from.high_);
+    if (group.extent < kSmall * glm::distance(nearest, group.centre)) {
+      to.Add(group.centre, group.radius);
+      continue;
+    }
+    for (size_t i = group.begin; i < group.end; ++i) {
+      to.Add({blockers_.x[i], blockers_.y[i], blockers_.z[i]}, blockers_.radius[i]);
+    }
   }
 }
 
@@ -222,13 +312,14 @@ void PersonLight::Update(const light::LightMatrix& light,
   light::KeyPoseWeights(key_logs_, own_log_, {}, all, pose_weights_);
   light::SubtractKeyPoses(key_logs_, own_log_, pose_weights_, all, own_log_);
   DampBrightening(own_log_);
+  const int degree = light::ShDegreeOf(own_log_.count());
   for (const Group& group : groups_) {
     const glm::mat4 stage_from_bind = stage_from_actor_ * skin_[group.joint];
     for (size_t slot = group.range.begin; slot < group.range.end; ++slot) {
       const glm::vec4 bind(bind_points_.x[slot], bind_points_.y[slot], bind_points_.z[slot], 1.0f);
       stage_points_.Set(slot, stage_from_bind * bind, 0.0f);
     }
-    light::RotateRows(own_log_, light::ShRotation(RotationOf(stage_from_bind)), group.range,
+    light::RotateRows(own_log_, light::ShRotation(RotationOf(stage_from_bind), degree), group.range,
                       stage_log_);
   }
   AddLamps(others, lamps);
@@ -240,7 +331,7 @@ void PersonLight::Update(const light::LightMatrix& light,
   }
   for (const Group& group : groups_) {
     const glm::quat stage_from_bind = RotationOf(stage_from_actor_ * skin_[group.joint]);
-    const light::ShRotation turn(glm::conjugate(stage_from_bind));
+    const light::ShRotation turn(glm::conjugate(stage_from_bind), degree);
     for (size_t channel = 0; channel < 3; ++channel) {
       light::RotateRows(shadowed_[channel], turn, group.range, turned_[channel]);
     }
@@ -248,13 +339,15 @@ void PersonLight::Update(const light::LightMatrix& light,
   light::PackReceiverLight(turned_, all, receiver_light_);
 }
 
-void PersonLight::LightVertices(size_t mesh,
-                                size_t begin,
-                                size_t end,
-                                std::span<glm::vec3> irradiance) const {
-  const MeshLight& lit = meshes_[mesh];
-  light::LightVerticesJob{&lit.transfer, lit.receivers, &receiver_light_, pose_weights_, irradiance}
-      .Run(begin, end);
+void PersonLight::LightVertices(float detail, std::span<glm::vec3> irradiance) const {
+  size_t first = 0;
+  for (const MeshLight& mesh : meshes_) {
+    const size_t count = mesh.receivers.size();
+    light::LightVerticesJob{&mesh.transfer, mesh.receivers, &receiver_light_, pose_weights_,
+                            irradiance.subspan(first, count)}
+        .Run(0, render::LevelAllowed(mesh.levels, detail).vertices);
+    first += count;
+  }
 }
 
 }  // namespace lararium::show

@@ -21,6 +21,7 @@
 #include "shared/light/lamp.h"
 #include "shared/light/receivers.h"
 #include "shared/light/transfer.h"
+#include "shared/render/detail.h"
 
 namespace lararium::show {
 
@@ -46,6 +47,9 @@ class PersonLight {
   // nothing, like all below.
   void Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor);
   const SphereSet& blockers() const { return blockers_; }
+  // The same for somebody whose own blockers are at `seen_from`: what is small from there is
+  // one ball, which hides as much as its parts do (Ren et al. 2006, section 5: hierarchies).
+  void AppendBlockers(const PersonLight& seen_from, SphereSet& to) const;
   // Coefficients that Update wants its light in.
   int light_count() const { return own_log_.count(); }
 
@@ -55,10 +59,10 @@ class PersonLight {
               const light::Spheres& others,
               std::span<const light::Lamp> lamps);
 
-  // Irradiance of the vertices [begin, end) of a mesh, without albedo.
-  void LightVertices(size_t mesh, size_t begin, size_t end, std::span<glm::vec3> irradiance) const;
-  size_t mesh_count() const { return meshes_.size(); }
-  size_t vertex_count(size_t mesh) const { return meshes_[mesh].receivers.size(); }
+  // Irradiance, without albedo, of the vertices that each mesh's level of detail takes where
+  // `detail` metres may be off (render/detail.h). irradiance: of all vertices of all meshes in
+  // a row; the others stay as they are.
+  void LightVertices(float detail, std::span<glm::vec3> irradiance) const;
 
  private:
   // Receivers that follow one joint; they lie in registers of their own.
@@ -69,8 +73,20 @@ class PersonLight {
   struct MeshLight {
     light::Transfer transfer;
     std::vector<light::VertexReceivers> receivers;
+    std::vector<render::MeshLevel> levels;
   };
 
+  // Blockers [begin, end) of blockers_, and the one ball for them.
+  struct BlockerGroup {
+    size_t begin = 0;
+    size_t end = 0;
+    glm::vec3 centre = glm::vec3(0.0f);
+    float radius = 0.0f;
+    float extent = 0.0f;  // of a ball about the centre that holds all
+  };
+
+  void GroupBlockers();
+  void MergeGroups();
   void PlaceReceivers();
   // Lamps as seen from the receivers of the last pose, past their own body and others.
   void AddLamps(const light::Spheres& others, std::span<const light::Lamp> lamps);
@@ -81,11 +97,14 @@ class PersonLight {
 
   std::shared_ptr<const human::Human> human_;
   std::vector<Group> groups_;
-  std::vector<uint16_t> slots_;  // of each receiver of the human
-  SphereSet bind_points_;        // receivers, bind pose; radius unused
-  SphereSet stage_points_;       // receivers of the last pose
-  SphereSet blockers_;           // of the last pose, stage
-  SphereSet local_;              // blockers as seen from one joint's bind pose
+  std::vector<uint16_t> slots_;          // of each receiver of the human
+  SphereSet bind_points_;                // receivers, bind pose; radius unused
+  SphereSet stage_points_;               // receivers of the last pose
+  std::vector<uint32_t> blocker_order_;  // those of one group next to each other
+  std::vector<BlockerGroup> blocker_groups_;
+  SphereSet blockers_;  // of the last pose, stage, in blocker_order_
+  glm::vec3 low_ = glm::vec3(0.0f), high_ = glm::vec3(0.0f);  // a box that holds them
+  SphereSet local_;  // blockers as seen from one joint's bind pose
   std::vector<glm::mat4> skin_;
   glm::mat4 stage_from_actor_ = glm::mat4(1.0f);
   std::vector<light::ShRows> key_logs_;  // of each key pose

@@ -7,7 +7,6 @@
 #include "shared/core/check.h"
 #include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
-#include "shared/render/detail.h"
 
 namespace lararium::show {
 namespace {
@@ -46,9 +45,11 @@ Status Show::FillStage() {
     bodies_.emplace_back(stage_.Find(id)->model);
   }
   details_.resize(bodies_.size());
+  requests_.resize(bodies_.size());
   std::vector<std::shared_ptr<const human::Human>> cast;
   for (const CastMember& member : content_.cast) {
     cast.push_back(member.human);
+    levels_.push_back(render::FindDetailLevels(*member.human));
   }
   light_.emplace(cast);
   for (const StageObject& object : content_.objects) {
@@ -127,15 +128,23 @@ void Show::ChooseDetails(const StagedFrame& staged) {
   if (!staged.camera_from_stage) {
     return;  // nothing is drawn: as it was
   }
-  const geometry::CameraModel display = staged.tracked.camera.DisplayPinhole();
+  geometry::CameraModel display = staged.tracked.camera.DisplayPinhole();
+  if (picture_width_ > 0) {
+    display = display.Resized(picture_width_, picture_width_ * display.height / display.width);
+  }
+  for (size_t cast = 0; cast < requests_.size(); ++cast) {
+    requests_[cast].levels = levels_[cast];
+    requests_[cast].pixels_per_metre = 0.0f;
+  }
   for (const Visible& visible : visible_) {
     const glm::vec3 middle = visible.state->position + glm::vec3(0.0f, 0.5f * kPersonHeight, 0.0f);
-    const float height =
-        kPersonHeight * render::PixelsPerMetre(display, *staged.camera_from_stage, middle);
+    const float scale = render::PixelsPerMetre(display, *staged.camera_from_stage, middle);
     const bool seen = render::MaySee(display, *staged.camera_from_stage, middle, kPersonReach);
     BodyDetail& detail = details_[visible.cast];
-    detail = ChooseBodyDetail(height, !seen, detail);
+    detail = ChooseBodyDetail(kPersonHeight * scale, !seen, detail);
+    requests_[visible.cast].pixels_per_metre = seen ? scale : 0.0f;
   }
+  detail_chooser_.Choose(requests_);
 }
 
 void Show::LayOutActors(StagedFrame& staged) {
@@ -145,6 +154,7 @@ void Show::LayOutActors(StagedFrame& staged) {
     StagedActor& actor = staged.actors.emplace_back();
     actor.cast = visible.cast;
     actor.stage_from_actor = stage::StageFromActor(*visible.state);
+    actor.detail = requests_[visible.cast].detail;
     actor.skin_begin = static_cast<uint32_t>(staged.skin.size());
     actor.skin_count = static_cast<uint32_t>(body.skin().size());
     staged.skin.insert(staged.skin.end(), body.skin().begin(), body.skin().end());
@@ -234,10 +244,10 @@ void Show::LightActors(StagedFrame& staged) {
   staged.irradiance.resize(vertices);
   lit_.clear();
   for (const StagedActor& actor : staged.actors) {
-    lit_.push_back({actor.cast, &actor.light.sky,
-                    std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
-                    actor.stage_from_actor,
-                    std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count)});
+    lit_.push_back(
+        {actor.cast, &actor.light.sky,
+         std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count), actor.stage_from_actor,
+         std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count), actor.detail});
   }
   CollectThings(staged);
   staged.helpers_cpu_ms += light_->Light(thing_blockers_, staged.lamps, lit_);

@@ -15,6 +15,7 @@
 #include "shared/drama/drama.h"
 #include "shared/geometry/transform.h"
 #include "shared/human/performance.h"
+#include "shared/render/detail.h"
 #include "shared/show/body.h"
 #include "shared/show/camera_motion.h"
 #include "shared/show/gain_filter.h"
@@ -37,6 +38,9 @@ struct StagedActor {
   uint32_t light_begin = 0;  // its vertices in StagedFrame::irradiance
   uint32_t light_count = 0;  // 0: light as it is without shadows
   light::ProbeLight light;   // where the actor stands, stage axes
+  // Metres by which what is drawn may differ from the finest level of detail; light is
+  // worked out for no other vertices.
+  float detail = 0.0f;
 };
 
 // A mesh of an actor whose vertices are not those of the bind pose: a face that
@@ -75,7 +79,7 @@ struct StagedFrame {
   std::vector<StagedMesh> meshes;
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
-  std::vector<glm::vec3> irradiance;  // of all vertices of lit actors
+  std::vector<glm::vec3> irradiance;  // of all vertices of lit actors that are drawn
   std::vector<light::Lamp> lamps;     // that burn, stage axes; the brightest of them
   std::vector<glm::vec4> blockers;    // balls that shade: centre and radius, stage axes
   std::vector<StagedObject> objects;
@@ -103,6 +107,10 @@ class Show {
     camera_motion_.Reset();  // poses of before mean another stage
   }
 
+  // How wide pictures will be drawn, which decides on levels of detail; as wide as the
+  // camera's images unless set. Not while a frame is being staged.
+  void SetPictureWidth(int width) { picture_width_ = width; }
+
   // Brings the drama to time (seconds, at least 0) and fills staged. The drama
   // runs in ticks of 1/120 s; what lies between two ticks is interpolated. Going
   // back, or far ahead, seeks. The drama does not depend on the place: it runs on
@@ -118,7 +126,7 @@ class Show {
   void TickOnce();
   // Fills what of staged depends on where the camera is.
   void Locate(vision::TrackedFrame tracked, StagedFrame& staged);
-  // What of each visible actor is simulated, by how it is seen.
+  // What of each visible actor is simulated, and how finely it is drawn, by how it is seen.
   void ChooseDetails(const StagedFrame& staged);
   // Bodies step, then write what moves; people are spread over the cores.
   void StageActors(double time, StagedFrame& staged);
@@ -136,9 +144,13 @@ class Show {
 
   ShowContent content_;
   stage::Stage stage_;
-  std::vector<stage::ActorId> actor_ids_;    // of each cast member
-  std::vector<Body> bodies_;                 // likewise
-  std::vector<BodyDetail> details_;          // likewise
+  std::vector<stage::ActorId> actor_ids_;                 // of each cast member
+  std::vector<Body> bodies_;                              // likewise
+  std::vector<BodyDetail> details_;                       // likewise
+  std::vector<std::vector<render::DetailLevel>> levels_;  // likewise
+  std::vector<render::DetailRequest> requests_;           // likewise
+  render::DetailChooser detail_chooser_;
+  int picture_width_ = 0;                    // 0: the camera's
   std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose

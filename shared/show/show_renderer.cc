@@ -18,10 +18,6 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
   for (const CastMember& member : content.cast) {
     LARARIUM_ASSIGN_OR_RETURN(show->cast_.emplace_back(), show->renderer_->AddHuman(*member.human));
   }
-  for (const CastMember& member : content.cast) {
-    show->levels_.push_back(render::FindDetailLevels(*member.human));
-  }
-  show->details_.resize(content.cast.size());
   LARARIUM_RETURN_IF_ERROR(show->AddObjects(content));
   show->places_.resize(content.places.size());
   for (size_t i = 0; i < content.places.size(); ++i) {
@@ -60,19 +56,6 @@ Status ShowRenderer::AddObjects(const ShowContent& content) {
   return Status();
 }
 
-void ShowRenderer::ChooseDetails(const StagedFrame& staged, const geometry::CameraModel& display) {
-  for (size_t cast = 0; cast < details_.size(); ++cast) {
-    details_[cast].levels = levels_[cast];
-    details_[cast].pixels_per_metre = 0.0f;
-  }
-  for (const StagedActor& actor : staged.actors) {
-    const glm::vec3 middle = actor.stage_from_actor * glm::vec4(0.0f, 1.0f, 0.0f, 1.0f);
-    details_[actor.cast].pixels_per_metre =
-        render::PixelsPerMetre(display, *staged.camera_from_stage, middle);
-  }
-  detail_chooser_.Choose(details_);
-}
-
 void ShowRenderer::CollectHumans(const StagedFrame& staged) {
   humans_.clear();
   vertices_.clear();
@@ -86,7 +69,7 @@ void ShowRenderer::CollectHumans(const StagedFrame& staged) {
                        std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
                        std::span(vertices_).subspan(actor.mesh_begin, actor.mesh_count),
                        std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count),
-                       details_[actor.cast].detail, &actor.light});
+                       actor.detail, &actor.light});
   }
 }
 
@@ -110,9 +93,6 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.display = tracked.camera.DisplayPinhole();
   scene.camera_from_stage = staged.camera_from_stage;
   const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
-  if (staged.camera_from_stage) {
-    ChooseDetails(staged, picture);
-  }
   CollectHumans(staged);
   CollectProps(staged);
   scene.occluders = place.occluders;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "shared/core/status.h"
-#include "shared/render/detail.h"
 #include "shared/render/renderer.h"
 #include "shared/show/show.h"
 
@@ -40,16 +39,12 @@ class ShowRenderer {
       : renderer_(std::move(renderer)) {}
 
   Status AddObjects(const ShowContent& content);
-  void ChooseDetails(const StagedFrame& staged, const geometry::CameraModel& display);
   void CollectHumans(const StagedFrame& staged);
   void CollectProps(const StagedFrame& staged);
 
   std::unique_ptr<render::Renderer> renderer_;
   std::vector<render::ModelHandle> cast_;
-  std::vector<std::vector<render::DetailLevel>> levels_;  // of each cast member
-  std::vector<render::DetailRequest> details_;            // likewise
-  std::vector<render::ModelHandle> objects_;              // of each object
-  render::DetailChooser detail_chooser_;
+  std::vector<render::ModelHandle> objects_;  // of each object
   std::vector<PlaceScene> places_;
   // Of the frame being drawn.
   std::vector<render::SceneHuman> humans_;

@@ -50,8 +50,8 @@ void StageLight::CollectBlockers(const SphereSet& things, std::span<const LitAct
       add(people_[actors[i].cast]->blockers());
     }
     for (size_t k = 0; k < actors.size(); ++k) {
-      if (k != i && Lights(actors[k].cast)) {
-        others_[i].Append(people_[actors[k].cast]->blockers());
+      if (k != i && Lights(actors[i].cast) && Lights(actors[k].cast)) {
+        people_[actors[k].cast]->AppendBlockers(*people_[actors[i].cast], others_[i]);
       }
     }
   }
@@ -74,12 +74,7 @@ void StageLight::LightActor(const LitActor& actor,
   }
   PersonLight& person = *people_[actor.cast];
   person.Update(MatrixFor(actor), others_[index].spheres(), lamps);
-  size_t first = 0;
-  for (size_t mesh = 0; mesh < person.mesh_count(); ++mesh) {
-    const size_t count = person.vertex_count(mesh);
-    person.LightVertices(mesh, 0, count, actor.irradiance.subspan(first, count));
-    first += count;
-  }
+  person.LightVertices(actor.detail, actor.irradiance);
 }
 
 }  // namespace lararium::show

@@ -20,6 +20,7 @@ struct LitActor {
   std::span<const glm::mat4> skin;
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
   std::span<glm::vec3> irradiance;  // of all vertices of all meshes; empty: not wanted
+  float detail = 0.0f;              // StagedActor::detail
 };
 
 class StageLight {

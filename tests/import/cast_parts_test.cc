@@ -117,6 +117,83 @@ TEST(LevelsOfDetail, OfAFewTrianglesAreNone) {
   EXPECT_TRUE(empty.coarser.empty());
 }
 
+// What a triangle list looks like, whatever its vertices are called.
+std::vector<glm::vec3> Corners(const human::SkinnedMesh& mesh,
+                               const std::vector<uint32_t>& indices) {
+  std::vector<glm::vec3> corners;
+  for (const uint32_t index : indices) {
+    corners.push_back(mesh.positions[index]);
+    corners.push_back(mesh.normals[index]);
+  }
+  return corners;
+}
+
+TEST(OrderVertices, ChangesNothingButTheNumbersAndPutsCoarseLevelsFirst) {
+  human::Human human;
+  human.meshes = {Sphere(24, 48).mesh};
+  human::SkinnedMesh& mesh = human.meshes[0];
+  OrderTriangles(mesh);
+  AddLevelsOfDetail(mesh);
+  ASSERT_EQ(mesh.coarser.size(), 3u);
+  const auto count = static_cast<uint32_t>(mesh.positions.size());
+  human.morphs = {{"up", {{0, {1, count / 2, count - 1}, {}, {}}}}};
+  human::MorphTarget::Part& part = human.morphs[0].parts[0];
+  for (const uint32_t vertex : part.vertices) {
+    part.position_deltas.push_back(mesh.positions[vertex]);
+    part.normal_deltas.push_back(mesh.normals[vertex]);
+  }
+  human.cloths.resize(1);
+  for (uint32_t vertex = 0; vertex < count; ++vertex) {
+    human.cloths[0].vertex_triangle.push_back(vertex % 7);
+    human.cloths[0].vertex_weights.push_back(mesh.positions[vertex] + glm::vec3(vertex % 7));
+  }
+  human::LightTransfer& light = human.light;
+  light.count = 1;
+  light.meshes.resize(1);
+  light.meshes[0].receivers.resize(count);
+  light.meshes[0].weights.resize(count);
+  for (size_t row = 0; row < 2 * count; ++row) {
+    light.meshes[0].scale.push_back(mesh.positions[row % count].x + (row < count ? 0.0f : 5.0f));
+    for (int channel = 0; channel < 3; ++channel) {
+      light.meshes[0].coefficients.push_back(
+          static_cast<int8_t>(100.0f * mesh.positions[row % count][channel]));
+    }
+  }
+  const human::Human before = human;
+  OrderVertices(human);
+  for (size_t row = 0; row < 2 * count; ++row) {
+    const glm::vec3& at = mesh.positions[row % count];
+    EXPECT_EQ(light.meshes[0].scale[row], at.x + (row < count ? 0.0f : 5.0f));
+    for (int channel = 0; channel < 3; ++channel) {
+      EXPECT_EQ(light.meshes[0].coefficients[3 * row + static_cast<size_t>(channel)],
+                static_cast<int8_t>(100.0f * at[channel]));
+    }
+  }
+  EXPECT_EQ(Corners(mesh, mesh.indices), Corners(before.meshes[0], before.meshes[0].indices));
+  std::vector<bool> seen(count, false);
+  uint32_t next = 0;
+  for (size_t i = mesh.coarser.size(); i-- > 0;) {
+    const std::vector<uint32_t>& indices = mesh.coarser[i].indices;
+    EXPECT_EQ(Corners(mesh, indices),
+              Corners(before.meshes[0], before.meshes[0].coarser[i].indices));
+    for (const uint32_t index : indices) {
+      seen[index] = true;
+    }
+    next = static_cast<uint32_t>(std::count(seen.begin(), seen.end(), true));
+    EXPECT_TRUE(std::all_of(seen.begin(), seen.begin() + next, [](bool s) { return s; })) << i;
+  }
+  EXPECT_LT(next, 0.7 * count);
+  EXPECT_TRUE(std::is_sorted(part.vertices.begin(), part.vertices.end()));
+  for (size_t i = 0; i < part.vertices.size(); ++i) {
+    EXPECT_EQ(part.position_deltas[i], mesh.positions[part.vertices[i]]);
+  }
+  for (uint32_t vertex = 0; vertex < count; ++vertex) {
+    EXPECT_EQ(human.cloths[0].vertex_weights[vertex],
+              mesh.positions[vertex] +
+                  glm::vec3(static_cast<float>(human.cloths[0].vertex_triangle[vertex])));
+  }
+}
+
 std::vector<std::byte> Png(const cv::Mat& image) {
   std::vector<uchar> bytes;
   cv::imencode(".png", image, bytes);

@@ -33,6 +33,23 @@ TEST(FindDetailLevels, SumsWhatEachMeshShowsAtAnError) {
   EXPECT_FLOAT_EQ(levels[3].error, 0.004f);
 }
 
+TEST(FindMeshLevels, CountsTheFirstVerticesThatALevelAndAllCoarserOnesTake) {
+  human::SkinnedMesh mesh = MakeHuman(BendingBox(glm::vec3(0.5f)), 3).meshes[0];
+  mesh.indices = {0, 1, 2, 5, 4, 3};
+  mesh.coarser = {{0.001f, {0, 1, 2}}, {0.002f, {1, 2, 3}}, {0.004f, {}}};
+  const std::vector<MeshLevel> levels = FindMeshLevels(mesh);
+  ASSERT_EQ(levels.size(), 4u);
+  const size_t vertices[] = {6, 4, 4, 0};
+  const size_t triangles[] = {2, 1, 1, 0};
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(levels[i].vertices, vertices[i]) << i;
+    EXPECT_EQ(levels[i].triangles, triangles[i]) << i;
+  }
+  EXPECT_EQ(&LevelAllowed(levels, 0.0f), &levels[0]);
+  EXPECT_EQ(&LevelAllowed(levels, 0.003f), &levels[2]);
+  EXPECT_EQ(&LevelAllowed(levels, 1.0f), &levels[3]);
+}
+
 TEST(PixelsPerMetre, IsWhatTheCameraSees) {
   const geometry::Rigid3 camera_from_stage = LookAt({1, 2, 3}, {0, 1, 0}, {0, 1, 0});
   const glm::vec3 point(0.0f, 1.0f, 0.0f);
