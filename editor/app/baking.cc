@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "editor/app/document_fields.h"
+#include "editor/bake/prop_transfer.h"
 #include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
 #include "editor/import/cast_builder.h"
@@ -314,7 +315,8 @@ std::string TransferSettings() {
   const bake::TransferOptions options;
   std::ostringstream settings;
   settings << "light transfer " << options.count << " " << options.rays << " " << options.bounces
-           << " " << options.key_poses << " " << options.blockers << " " << options.receivers;
+           << " " << options.key_poses << " " << options.blockers << " " << options.receivers
+           << " backs";
   return settings.str();
 }
 
@@ -335,17 +337,35 @@ BakeStep TransferStep(const ProjectPaths& paths,
           }};
 }
 
+std::string PropTransferSettings() {
+  const bake::PropTransferOptions options;
+  std::ostringstream settings;
+  settings << ", light transfer " << options.count << " " << options.rays << " " << options.bounces
+           << " " << options.longest_edge << " " << options.most_vertices << " "
+           << options.receiver_area << " " << options.most_receivers;
+  return settings.str();
+}
+
+Result<std::vector<std::byte>> LitProp(const stage::Prop& prop, const std::string& place) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto model, stage::ObjectModel::Create(prop, place));
+  LARARIUM_ASSIGN_OR_RETURN(const stage::Prop lit, bake::BakePropTransfer(*model, {}));
+  return stage::SerializeProp(lit);
+}
+
 BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
   const std::filesystem::path file = paths.Resolve(object.file);
-  BakeStep step{"object " + object.name, paths.Prop(object.name), {file}, "object file", {}};
+  BakeStep step{"object " + object.name,
+                paths.Prop(object.name),
+                {file},
+                "object file" + PropTransferSettings(),
+                {}};
   const std::filesystem::path use = import::UseFileBeside(file);
   if (use != file && Exists(use)) {
     step.sources.push_back(use);
   }
   step.make = [file](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
     LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop, import::ImportObject(file));
-    LARARIUM_RETURN_IF_ERROR(stage::ObjectModel::Create(prop, file.string()).status());
-    return stage::SerializeProp(prop);
+    return LitProp(prop, file.string());
   };
   return step;
 }
@@ -357,11 +377,11 @@ BakeStep ObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
   return {"object " + object.name,
           paths.Prop(object.name),
           {},
-          "object model " + object.model,
+          "object model " + object.model + PropTransferSettings(),
           [=](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
             LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop,
                                       import::BuildObjectModel(object.model));
-            return stage::SerializeProp(prop);
+            return LitProp(prop, object.name);
           }};
 }
 

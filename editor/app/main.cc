@@ -60,7 +60,7 @@ struct Runner {
   }
   Result<CommandResult> operator()(const PortraitOptions& options) { return RunPortrait(options); }
   Result<CommandResult> operator()(const ReferenceOptions& options) {
-    return RunReference(options, progress);
+    return RunReference(options, progress, log);
   }
   Result<CommandResult> operator()(const ProbeOptions& options) { return RunProbe(options); }
   Result<CommandResult> operator()(const CameraOptions& options) {

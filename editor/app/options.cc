@@ -172,26 +172,29 @@ void AddPortrait(CLI::App& app, PortraitOptions& portrait, std::string& size) {
 }
 
 void AddReference(CLI::App& app, ReferenceOptions& reference) {
-  CLI::App* command =
-      app.add_subcommand("reference", "Draw a person in a probe's light, in linear radiance");
+  CLI::App* command = app.add_subcommand(
+      "reference", "Path-trace a moment of a show, or a person in a probe's light");
   command->fallthrough();
-  command->add_option("FILE", reference.human, "The person (.larhuman)")
+  command->add_option("FILE", reference.human, "The project, or the person (.larhuman)")
       ->required()
-      ->check(CLI::ExistingFile);
-  command->add_option("--probe", reference.probe, "The light (.exr, .hdr)")
-      ->required()
+      ->check(CLI::ExistingPath);
+  command->add_option("--place", reference.place, "Of the project; the only one otherwise");
+  CLI::Option* video =
+      command->add_option("--video", reference.video, "Of the place, whose frame it is")
+          ->check(CLI::ExistingFile);
+  command->add_option("--probe", reference.probe, "The light of a person (.exr, .hdr)")
       ->check(CLI::ExistingFile);
   command->add_option("--probe-turn", reference.probe_turn, "Degrees about the vertical")
       ->check(CLI::Range(-360.0, 360.0));
   command->add_option("--probe-scale", reference.probe_scale, "Radiance for each unit of the file")
       ->check(CLI::Range(1e-6, 1e6));
   command->add_option("--camera", reference.camera, "Where from (poses.json, world = stage)")
-      ->required()
-      ->check(CLI::ExistingFile);
-  command->add_option("--frame", reference.frame, "Which of its poses")
+      ->check(CLI::ExistingFile)
+      ->excludes(video);
+  command->add_option("--frame", reference.frame, "Of the video, or which pose of the camera")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--clip", reference.clip, "The clip to pose by; the rest pose otherwise");
-  command->add_option("--time", reference.time, "Seconds into the clip")
+  command->add_option("--time", reference.time, "Seconds into the clip, or into the drama")
       ->check(CLI::Range(0.0, 3600.0));
   command->add_option("--ground", reference.ground, "Albedo of a floor")
       ->check(CLI::Range(0.0, 1.0));
@@ -209,7 +212,8 @@ void AddReference(CLI::App& app, ReferenceOptions& reference) {
       ->check(CLI::Range(0, 16))
       ->capture_default_str();
   command->add_option("--seed", reference.seed, "Of the noise");
-  command->add_option("--out", reference.out, "The image (.exr)")->required();
+  command->add_option("--out", reference.out, "The image (.exr; of a project .png or .jpg)")
+      ->required();
 }
 
 // A picture that was merged already (.exr, .hdr) or a photograph.

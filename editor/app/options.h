@@ -106,23 +106,25 @@ struct PortraitOptions {
   bool sheet = false;  // everyone from several sides, and each shape of the first face
 };
 
-// A person in a probe's light, in linear radiance.
+// A person in a probe's light, in linear radiance; or a moment of a project's show.
 struct ReferenceOptions {
-  std::filesystem::path human;  // .larhuman, standing at the stage's origin
-  std::filesystem::path probe;  // HDR image
+  std::filesystem::path human;  // .larhuman, standing at the stage's origin; or a project
+  std::string place;            // of the project; empty: the only one
+  std::filesystem::path video;  // of the place, whose frame it is; empty: no camera image
+  std::filesystem::path probe;  // HDR image; of a project: the place's
   double probe_turn = 0.0;      // degrees about the vertical, stage from probe
   double probe_scale = 1.0;
   std::filesystem::path camera;  // poses.json; its world is the stage
-  int frame = 0;                 // of the camera file
+  int frame = 0;                 // of the camera file, or of the video
   std::string clip;              // empty: the rest pose
-  double time = 0.0;             // seconds into the clip
+  double time = 0.0;             // seconds into the clip; of a project: of the drama
   std::optional<double> ground;  // albedo of a floor of 4 x 4 m, if there is one
   bool without_person = false;   // the floor alone
   std::string method = "path";   // path, prt, sh, phong
   int samples = 256;             // of each pixel, by path
   int bounces = 4;
   uint64_t seed = 1;
-  std::filesystem::path out;  // .exr
+  std::filesystem::path out;  // .exr; of a project: .png or .jpg
 };
 
 // Light probes from photographs.

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "editor/app/scene_reference.h"
 #include "editor/bake/environment.h"
 #include "editor/bake/exr_image.h"
 #include "editor/bake/path_tracer.h"
@@ -28,23 +29,17 @@
 #include "shared/render/render_target.h"
 #include "shared/render/renderer.h"
 #include "shared/show/stage_light.h"
-#include "shared/vision/poses_file.h"
+#include "shared/vision/photometry.h"
 
 namespace lararium::app {
 namespace {
 
 constexpr float kGroundHalf = 2.0f;  // metres
 
-// Where the picture is taken from.
-struct View {
-  geometry::CameraModel pinhole;
-  geometry::Rigid3 camera_from_stage;
-};
-
 // The rays of its pixels.
 class Lens {
  public:
-  explicit Lens(const View& view)
+  explicit Lens(const ReferenceView& view)
       : pinhole_(view.pinhole),
         eye_(geometry::ToGlm(view.camera_from_stage.Center())),
         stage_from_camera_(glm::conjugate(geometry::ToGlm(view.camera_from_stage.rotation))) {}
@@ -66,22 +61,6 @@ class Lens {
   glm::vec3 eye_;
   glm::quat stage_from_camera_;
 };
-
-Result<View> LoadView(const ReferenceOptions& options) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<vision::PoseRecord> records,
-                            vision::LoadPoses(options.camera));
-  const auto index = static_cast<size_t>(options.frame);
-  if (index >= records.size() || !records[index].camera_from_world) {
-    return Status::Error(options.camera.string(),
-                         "has no pose of frame " + std::to_string(options.frame),
-                         "it has " + std::to_string(records.size()) + " frames");
-  }
-  if (records[index].camera.HasDistortion()) {
-    return Status::Error(options.camera.string(), "the camera has distortion",
-                         "give a pinhole: K alone");
-  }
-  return View{records[index].camera, *records[index].camera_from_world};
-}
 
 Result<std::vector<glm::mat4>> PoseSkin(const human::Human& human,
                                         const ReferenceOptions& options) {
@@ -117,7 +96,7 @@ bake::ProbePlacement Placement(const ReferenceOptions& options) {
 
 Result<bake::RadianceImage> TraceImage(const ReferenceOptions& options,
                                        const human::Human& human,
-                                       const View& view,
+                                       const ReferenceView& view,
                                        Progress& progress) {
   LARARIUM_ASSIGN_OR_RETURN(bake::ProbeImage probe, bake::ReadProbeImage(options.probe));
   const bake::Environment environment(std::move(probe), Placement(options));
@@ -159,7 +138,8 @@ Result<Lit> LightByTransfer(const ReferenceOptions& options,
   Lit lit;
   lit.irradiance.resize(stage.vertex_count(0));
   const show::LitActor actor = {0, &light, skin, glm::mat4(1.0f), lit.irradiance};
-  stage.Light({}, {}, {&actor, 1});
+  stage.Pose({&actor, 1});
+  stage.Light({}, {&actor, 1});
   lit.blockers.assign(stage.blockers().begin(), stage.blockers().end());
   return lit;
 }
@@ -186,10 +166,6 @@ std::vector<glm::vec3> PhongIrradiance(const human::Human& human,
   return irradiance;
 }
 
-float LinearFromSrgb(float c) {
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
-
 // How much of its light each pixel of the floor keeps, as the renderer darkens the camera's
 // image there; in steps of 8-bit sRGB.
 Result<cv::Mat> CatchShadows(render::Renderer& renderer, render::RenderScene scene) {
@@ -211,8 +187,7 @@ Result<cv::Mat> CatchShadows(render::Renderer& renderer, render::RenderScene sce
     for (int column = 0; column < bgr.cols; ++column) {
       const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(row, column);
       for (int c = 0; c < 3; ++c) {
-        ratio.at<cv::Vec3f>(row, column)[c] =
-            LinearFromSrgb(static_cast<float>(pixel[2 - c]) / 255.0f);
+        ratio.at<cv::Vec3f>(row, column)[c] = vision::LinearFromSrgb(pixel[2 - c]);
       }
     }
   }
@@ -220,7 +195,10 @@ Result<cv::Mat> CatchShadows(render::Renderer& renderer, render::RenderScene sce
 }
 
 // Puts the floor under what is drawn: without anybody it has the light of an open plane.
-void AddFloor(const cv::Mat& ratio, const glm::vec3& radiance, const View& view, cv::Mat& rgba) {
+void AddFloor(const cv::Mat& ratio,
+              const glm::vec3& radiance,
+              const ReferenceView& view,
+              cv::Mat& rgba) {
   const Lens lens(view);
   for (int row = 0; row < rgba.rows; ++row) {
     for (int column = 0; column < rgba.cols; ++column) {
@@ -240,7 +218,7 @@ void AddFloor(const cv::Mat& ratio, const glm::vec3& radiance, const View& view,
 }
 
 bake::RadianceImage ToImage(const cv::Mat& rgba) {
-  bake::RadianceImage image{rgba.cols, rgba.rows, {}};
+  bake::RadianceImage image{rgba.cols, rgba.rows, {}, {}};
   image.pixels.reserve(rgba.total());
   for (int row = 0; row < rgba.rows; ++row) {
     for (int column = 0; column < rgba.cols; ++column) {
@@ -254,7 +232,7 @@ bake::RadianceImage ToImage(const cv::Mat& rgba) {
 // As the player draws it, but for what is not Lambert's reflection.
 Result<bake::RadianceImage> DrawImage(const ReferenceOptions& options,
                                       const std::shared_ptr<human::Human>& human,
-                                      const View& view,
+                                      const ReferenceView& view,
                                       Progress& progress) {
   LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage probe, bake::ReadProbeImage(options.probe));
   const light::ProbeLight light = bake::ProjectProbeLight(probe, Placement(options));
@@ -295,10 +273,17 @@ Result<bake::RadianceImage> DrawImage(const ReferenceOptions& options,
 
 }  // namespace
 
-Result<CommandResult> RunReference(const ReferenceOptions& options, Progress& progress) {
+Result<CommandResult> RunReference(const ReferenceOptions& options, Progress& progress, Log& log) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(options.human, ignored)) {
+    return RunSceneReference(options, progress, log);
+  }
+  if (options.probe.empty() || options.camera.empty()) {
+    return Status::Error(options.human.string(), "a person alone needs --probe and --camera");
+  }
   LARARIUM_ASSIGN_OR_RETURN(human::Human loaded, human::LoadHuman(options.human));
   const auto human = std::make_shared<human::Human>(std::move(loaded));
-  LARARIUM_ASSIGN_OR_RETURN(const View view, LoadView(options));
+  LARARIUM_ASSIGN_OR_RETURN(const ReferenceView view, LoadReferenceView(options));
   LARARIUM_ASSIGN_OR_RETURN(const bake::RadianceImage image,
                             options.method == "path" ? TraceImage(options, *human, view, progress)
                                                      : DrawImage(options, human, view, progress));

@@ -22,6 +22,7 @@ struct SurfacePoint {
   glm::vec3 normal = glm::vec3(0.0f, 1.0f, 0.0f);  // interpolated, on the side of the ray
   glm::vec3 face = glm::vec3(0.0f, 1.0f, 0.0f);    // the triangle's, likewise
   glm::vec3 albedo = glm::vec3(0.0f);
+  glm::vec3 emission = glm::vec3(0.0f);
 };
 
 // Random numbers of one path: well stratified over the paths of a pixel for what matters
@@ -64,11 +65,15 @@ class Tracer {
   Tracer(std::span<const SurfaceMesh> meshes, const RayScene& rays, const Environment& environment)
       : meshes_(meshes), rays_(rays), environment_(environment) {}
 
-  // Radiance towards the origin, and whether anything is there.
-  glm::vec4 Trace(const glm::vec3& origin,
-                  const glm::vec3& direction,
-                  int bounces,
-                  PathRandom& random) const;
+  // Radiance towards the origin from the mesh that is met there, or nothing.
+  struct Seen {
+    uint32_t mesh = 0;
+    glm::vec3 radiance = glm::vec3(0.0f);
+  };
+  std::optional<Seen> Trace(const glm::vec3& origin,
+                            const glm::vec3& direction,
+                            int bounces,
+                            PathRandom& random) const;
 
  private:
   SurfacePoint PointOf(const glm::vec3& origin,
@@ -92,6 +97,7 @@ SurfacePoint Tracer::PointOf(const glm::vec3& origin,
   point.normal = mesh.NormalAt(hit.triangle, hit.barycentric);
   point.normal = behind ? -point.normal : point.normal;
   point.albedo = mesh.AlbedoAt(hit.triangle, hit.barycentric);
+  point.emission = mesh.emission;
   return point;
 }
 
@@ -107,18 +113,20 @@ glm::vec3 Tracer::SampleProbe(const SurfacePoint& point, PathRandom& random) con
   return environment_.Radiance(sample.direction) * (cosine / kPi * weight / sample.density);
 }
 
-glm::vec4 Tracer::Trace(const glm::vec3& origin,
-                        const glm::vec3& direction,
-                        int bounces,
-                        PathRandom& random) const {
+std::optional<Tracer::Seen> Tracer::Trace(const glm::vec3& origin,
+                                          const glm::vec3& direction,
+                                          int bounces,
+                                          PathRandom& random) const {
   std::optional<RayHit> hit = rays_.Trace(origin, direction);
   if (!hit) {
-    return glm::vec4(0.0f);
+    return std::nullopt;
   }
+  const uint32_t seen = hit->mesh;
   SurfacePoint point = PointOf(origin, direction, *hit);
   glm::vec3 throughput(1.0f);
   glm::vec3 radiance(0.0f);
   for (int bounce = 0;; ++bounce) {
+    radiance += throughput * point.emission;
     throughput *= point.albedo;
     radiance += throughput * SampleProbe(point, random);
     const glm::vec3 next = AroundNormal(point.normal, CosineDirection(random.DrawPair()));
@@ -137,7 +145,7 @@ glm::vec4 Tracer::Trace(const glm::vec3& origin,
     }
     point = PointOf(point.position, next, *hit);
   }
-  return glm::vec4(radiance, 1.0f);
+  return Seen{seen, radiance};
 }
 
 // Rays of an ideal pinhole, stage axes.
@@ -170,13 +178,20 @@ void TraceRow(const Tracer& tracer,
     const size_t index =
         static_cast<size_t>(row) * static_cast<size_t>(image.width) + static_cast<size_t>(column);
     PathRandom random(tracing, index);
-    glm::vec4 sum(0.0f);
+    glm::vec4 drawn(0.0f);
+    glm::vec4 real(0.0f);
     for (int sample = 0; sample < tracing.samples; ++sample) {
       random.StartPath(sample);
       const glm::vec2 pixel = glm::vec2(column, row) + random.DrawPair() - 0.5f;
-      sum += tracer.Trace(lens.eye, lens.Direction(pixel), tracing.bounces, random);
+      const auto seen = tracer.Trace(lens.eye, lens.Direction(pixel), tracing.bounces, random);
+      if (seen) {
+        (seen->mesh < tracing.first_real ? drawn : real) += glm::vec4(seen->radiance, 1.0f);
+      }
     }
-    image.pixels[index] = sum / static_cast<float>(tracing.samples);
+    image.pixels[index] = drawn / static_cast<float>(tracing.samples);
+    if (!image.real.empty()) {
+      image.real[index] = real / static_cast<float>(tracing.samples);
+    }
   }
 }
 
@@ -191,8 +206,9 @@ Result<RadianceImage> TracePaths(std::span<const SurfaceMesh> meshes,
   LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RaysAt(meshes));
   const Tracer tracer(meshes, rays, environment);
   const Lens lens(pinhole, camera_from_stage);
-  RadianceImage image{pinhole.width, pinhole.height, {}};
+  RadianceImage image{pinhole.width, pinhole.height, {}, {}};
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
+  image.real.resize(tracing.first_real < meshes.size() ? image.pixels.size() : 0);
   // In bands, between which progress is reported from this thread.
   constexpr size_t kBand = 16;
   const auto height = static_cast<size_t>(image.height);

@@ -5,7 +5,7 @@
 // with them.
 
 #include <cstdint>
-#include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +24,9 @@ struct PathTracing {
   // Reflections between surfaces before the light is reached; 0: only direct light.
   int bounces = 4;
   uint64_t seed = 1;
+  // Meshes from here on are real surfaces: they take part in the light, but what the camera
+  // sees of them is kept apart.
+  size_t first_real = std::numeric_limits<size_t>::max();
 };
 
 // Linear radiance times coverage, and coverage: row by row from the top left.
@@ -31,6 +34,7 @@ struct RadianceImage {
   int width = 0;
   int height = 0;
   std::vector<glm::vec4> pixels;
+  std::vector<glm::vec4> real;  // likewise of real surfaces; empty where there are none
 };
 
 // The meshes (stage axes) as an ideal pinhole sees them; a pixel is the mean over its

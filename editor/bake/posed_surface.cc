@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "shared/human/skinning.h"
+#include "shared/render/closed_surface.h"
 #include "shared/render/texture_image.h"
 
 namespace lararium::bake {
@@ -146,51 +147,122 @@ Result<RayScene> RaysAt(std::span<const SurfaceMesh> meshes) {
   return RayScene::Create(ray_meshes);
 }
 
+SurfaceMesh Moved(const glm::mat4& target_from_mesh, const SurfaceMesh& mesh) {
+  SurfaceMesh moved = mesh;
+  for (glm::vec3& position : moved.positions) {
+    position = target_from_mesh * glm::vec4(position, 1.0f);
+  }
+  for (glm::vec3& normal : moved.normals) {
+    normal = glm::normalize(glm::mat3(target_from_mesh) * normal);
+  }
+  return moved;
+}
+
+Result<MaterialImages> MaterialImages::Create(std::span<const human::Texture> textures,
+                                              std::span<const human::Material> materials,
+                                              const std::string& place) {
+  MaterialImages images;
+  images.materials_ = materials;
+  for (const human::Texture& texture : textures) {
+    LARARIUM_ASSIGN_OR_RETURN(const cv::Mat decoded,
+                              render::DecodeTexture(texture.encoded, place + ": " + texture.name));
+    const cv::Mat small = Shrink(decoded);
+    images.colours_.push_back(LinearColour(small));
+    cv::extractChannel(small, images.alphas_.emplace_back(), 3);
+  }
+  return images;
+}
+
+SurfaceLook MaterialImages::LookOf(int16_t material,
+                                   bool has_uvs,
+                                   std::span<const glm::vec3> positions,
+                                   std::span<const uint32_t> indices) const {
+  SurfaceLook look;
+  look.two_sided = true;
+  if (material != human::Material::kNone) {
+    const human::Material& of = materials_[static_cast<size_t>(material)];
+    look.two_sided = of.two_sided;
+    look.colour = of.colour;
+    if (of.colour_texture >= 0 && has_uvs) {
+      const auto texture = static_cast<size_t>(of.colour_texture);
+      look.texture = colours_[texture];
+      look.coverage = of.alpha_cutoff > 0.0f ? alphas_[texture] : cv::Mat();
+    }
+  }
+  if (look.two_sided && look.coverage.empty()) {
+    look.two_sided = !render::IsClosedSurface(positions, indices);
+  }
+  return look;
+}
+
+Result<std::vector<SurfaceMesh>> SurfacesOf(const stage::Prop& prop) {
+  LARARIUM_ASSIGN_OR_RETURN(const MaterialImages images,
+                            MaterialImages::Create(prop.textures, prop.materials, prop.name));
+  std::vector<SurfaceMesh> surfaces;
+  for (const stage::PropPart& part : prop.parts) {
+    for (const stage::PropMesh& mesh : part.meshes) {
+      const SurfaceLook look =
+          images.LookOf(mesh.material, !mesh.uvs.empty(), mesh.positions, mesh.indices);
+      SurfaceMesh& surface = surfaces.emplace_back(
+          SurfaceMesh{mesh.positions, mesh.normals, mesh.albedo, mesh.uvs, mesh.indices,
+                      look.texture, look.coverage, look.two_sided});
+      for (glm::vec3& albedo : surface.albedo) {
+        albedo *= look.colour;
+      }
+      surface.emission = mesh.emission;
+    }
+  }
+  return surfaces;
+}
+
 Result<PosableSurface> PosableSurface::Create(const human::Human& human) {
   PosableSurface surface(human);
-  std::vector<cv::Mat> colours(human.textures.size());
-  std::vector<cv::Mat> alphas(human.textures.size());
-  for (size_t i = 0; i < human.textures.size(); ++i) {
-    LARARIUM_ASSIGN_OR_RETURN(const cv::Mat decoded,
-                              render::DecodeTexture(human.textures[i].encoded,
-                                                    human.name + ": " + human.textures[i].name));
-    const cv::Mat small = Shrink(decoded);
-    colours[i] = LinearColour(small);
-    cv::extractChannel(small, alphas[i], 3);
-  }
+  LARARIUM_ASSIGN_OR_RETURN(const MaterialImages images,
+                            MaterialImages::Create(human.textures, human.materials, human.name));
   for (const human::SkinnedMesh& mesh : human.meshes) {
-    const bool plain = mesh.material == human::Material::kNone;
-    const human::Material material =
-        plain ? human::Material{} : human.materials[static_cast<size_t>(mesh.material)];
-    const bool textured = material.colour_texture >= 0 && !mesh.uvs.empty();
-    const auto texture = static_cast<size_t>(std::max<int>(material.colour_texture, 0));
-    surface.textures_.push_back(textured ? colours[texture] : cv::Mat());
-    const bool covered = textured && material.alpha_cutoff > 0.0f;
-    surface.coverages_.push_back(covered ? alphas[texture] : cv::Mat());
+    surface.looks_.push_back(
+        images.LookOf(mesh.material, !mesh.uvs.empty(), mesh.positions, mesh.indices));
     surface.seams_.push_back(FindSeams(mesh));
   }
   return surface;
 }
 
+// All but where its vertices are.
+SurfaceMesh PosableSurface::Dressed(size_t index) const {
+  const human::SkinnedMesh& source = human_->meshes[index];
+  const SurfaceLook& look = looks_[index];
+  SurfaceMesh mesh{{},
+                   {},
+                   source.albedo,
+                   source.uvs,
+                   source.indices,
+                   look.texture,
+                   look.coverage,
+                   look.two_sided};
+  for (glm::vec3& albedo : mesh.albedo) {
+    albedo *= look.colour;
+  }
+  return mesh;
+}
+
+SurfaceMesh PosableSurface::PoseMesh(size_t index,
+                                     std::span<const glm::vec3> positions,
+                                     std::span<const glm::vec3> normals) const {
+  SurfaceMesh mesh = Dressed(index);
+  mesh.positions.assign(positions.begin(), positions.end());
+  mesh.normals.assign(normals.begin(), normals.end());
+  RecomputeNormals(seams_[index], mesh);
+  return mesh;
+}
+
 std::vector<SurfaceMesh> PosableSurface::Pose(std::span<const glm::mat4> skin) const {
-  std::vector<SurfaceMesh> meshes(human_->meshes.size());
-  for (size_t i = 0; i < meshes.size(); ++i) {
+  std::vector<SurfaceMesh> meshes;
+  for (size_t i = 0; i < human_->meshes.size(); ++i) {
     const human::SkinnedMesh& source = human_->meshes[i];
-    SurfaceMesh& mesh = meshes[i];
-    mesh.positions.resize(source.positions.size());
-    mesh.normals.resize(source.positions.size());
-    human::SkinMesh(source, skin, mesh.positions, mesh.normals, human_->skinning);
-    mesh.albedo = source.albedo;
-    if (source.material != human::Material::kNone) {
-      for (glm::vec3& albedo : mesh.albedo) {
-        albedo *= human_->materials[static_cast<size_t>(source.material)].colour;
-      }
-    }
-    mesh.uvs = source.uvs;
-    mesh.indices = source.indices;
-    mesh.texture = textures_[i];
-    mesh.coverage = coverages_[i];
-    RecomputeNormals(seams_[i], mesh);
+    std::vector<glm::vec3> positions(source.positions.size());
+    std::vector<glm::vec3> normals(source.positions.size());
+    human::SkinMesh(source, skin, positions, normals, human_->skinning);
+    meshes.push_back(PoseMesh(i, positions, normals));
   }
   return meshes;
 }

@@ -13,17 +13,20 @@ constexpr float kOffSurface = 0.02f;  // metres
 // What opposite normals, or following quite another joint, count as in distance.
 constexpr float kNormalDistance = 0.15f;  // metres
 constexpr float kJointDistance = 0.15f;
+constexpr float kPartDistance = 1e3f;
 
 struct SurfaceVertex {
   glm::vec3 position = glm::vec3(0.0f);
   glm::vec3 normal = glm::vec3(0.0f);
   uint32_t mesh = 0;
   uint32_t vertex = 0;
+  uint32_t part = 0;  // of a prop
 };
 
 float Distance(const SurfaceVertex& a, const SurfaceVertex& b) {
   return glm::distance(a.position, b.position) +
-         0.5f * kNormalDistance * (1.0f - glm::dot(a.normal, b.normal));
+         0.5f * kNormalDistance * (1.0f - glm::dot(a.normal, b.normal)) +
+         (a.part == b.part ? 0.0f : kPartDistance);
 }
 
 std::vector<SurfaceVertex> AllVertices(std::span<const SurfaceMesh> meshes) {
@@ -51,8 +54,14 @@ std::vector<SurfaceVertex> Spread(const std::vector<SurfaceVertex>& all, size_t 
   return chosen;
 }
 
-// How much of a vertex follows a joint.
-float WeightOf(const human::SkinnedMesh& mesh, uint32_t vertex, uint32_t joint) {
+// How much of a vertex follows a joint. human: none for a prop, whose parts are told apart
+// already.
+float WeightOf(const human::Human* human, const SurfaceVertex& at, uint32_t joint) {
+  if (human == nullptr) {
+    return 1.0f;
+  }
+  const human::SkinnedMesh& mesh = human->meshes[at.mesh];
+  const uint32_t vertex = at.vertex;
   float weight = 0.0f;
   for (size_t i = 0; i < 4; ++i) {
     weight += mesh.joints[vertex][i] == joint ? mesh.weights[vertex][static_cast<int>(i)] : 0.0f;
@@ -66,7 +75,7 @@ struct Near {
 };
 
 // The four nearest; the last is the farthest.
-std::array<Near, 5> FindNearest(const human::SkinnedMesh& mesh,
+std::array<Near, 5> FindNearest(const human::Human* human,
                                 const SurfaceVertex& vertex,
                                 const std::vector<SurfaceVertex>& receivers,
                                 const human::LightTransfer& transfer) {
@@ -76,8 +85,7 @@ std::array<Near, 5> FindNearest(const human::SkinnedMesh& mesh,
     if (distance >= nearest[4].distance) {
       continue;
     }
-    distance +=
-        kJointDistance * (1.0f - WeightOf(mesh, vertex.vertex, transfer.receivers[r].joint));
+    distance += kJointDistance * (1.0f - WeightOf(human, vertex, transfer.receivers[r].joint));
     if (distance < nearest[4].distance) {
       nearest[4] = {static_cast<uint16_t>(r), distance};
       std::sort(nearest.begin(), nearest.end(),
@@ -108,6 +116,27 @@ std::array<uint8_t, 4> WeighNearest(const std::array<Near, 5>& nearest) {
   return bytes;
 }
 
+void BindVertices(const std::vector<SurfaceVertex>& all,
+                  const std::vector<SurfaceVertex>& chosen,
+                  const human::Human* human,
+                  std::span<const SurfaceMesh> rest,
+                  human::LightTransfer& transfer) {
+  transfer.meshes.resize(rest.size());
+  for (size_t m = 0; m < rest.size(); ++m) {
+    transfer.meshes[m].receivers.resize(rest[m].positions.size());
+    transfer.meshes[m].weights.resize(rest[m].positions.size());
+  }
+  ParallelFor(all.size(), [&](size_t i) {
+    const SurfaceVertex& vertex = all[i];
+    const std::array<Near, 5> nearest = FindNearest(human, vertex, chosen, transfer);
+    human::LightTransfer::Mesh& mesh = transfer.meshes[vertex.mesh];
+    for (size_t k = 0; k < 4; ++k) {
+      mesh.receivers[vertex.vertex][k] = nearest[k].receiver;
+    }
+    mesh.weights[vertex.vertex] = WeighNearest(nearest);
+  });
+}
+
 }  // namespace
 
 void PlaceReceivers(std::span<const SurfaceMesh> rest,
@@ -122,21 +151,24 @@ void PlaceReceivers(std::span<const SurfaceMesh> rest,
     transfer.receivers.push_back({joints[receiver.mesh][receiver.vertex],
                                   receiver.position + kOffSurface * receiver.normal});
   }
-  transfer.meshes.resize(rest.size());
-  for (size_t m = 0; m < rest.size(); ++m) {
-    transfer.meshes[m].receivers.resize(rest[m].positions.size());
-    transfer.meshes[m].weights.resize(rest[m].positions.size());
+  BindVertices(all, chosen, &human, rest, transfer);
+}
+
+void PlacePropReceivers(std::span<const SurfaceMesh> rest,
+                        std::span<const uint32_t> parts,
+                        size_t count,
+                        human::LightTransfer& transfer) {
+  std::vector<SurfaceVertex> all = AllVertices(rest);
+  for (SurfaceVertex& vertex : all) {
+    vertex.part = parts[vertex.mesh];
   }
-  ParallelFor(all.size(), [&](size_t i) {
-    const SurfaceVertex& vertex = all[i];
-    const std::array<Near, 5> nearest =
-        FindNearest(human.meshes[vertex.mesh], vertex, chosen, transfer);
-    human::LightTransfer::Mesh& mesh = transfer.meshes[vertex.mesh];
-    for (size_t k = 0; k < 4; ++k) {
-      mesh.receivers[vertex.vertex][k] = nearest[k].receiver;
-    }
-    mesh.weights[vertex.vertex] = WeighNearest(nearest);
-  });
+  const std::vector<SurfaceVertex> chosen = Spread(all, count);
+  transfer.receivers.clear();
+  for (const SurfaceVertex& receiver : chosen) {
+    transfer.receivers.push_back(
+        {receiver.part, receiver.position + kOffSurface * receiver.normal});
+  }
+  BindVertices(all, chosen, nullptr, rest, transfer);
 }
 
 }  // namespace lararium::bake

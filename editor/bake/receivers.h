@@ -1,8 +1,9 @@
 #pragma once
 
-// Chooses where on a person the light left by blockers is worked out.
+// Chooses where on a person or a thing the light left by blockers is worked out.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,5 +21,12 @@ void PlaceReceivers(std::span<const SurfaceMesh> rest,
                     const human::Human& human,
                     size_t count,
                     human::LightTransfer& transfer);
+
+// The same for a prop's meshes as they stand at rest, whose parts are given: each part has its
+// own receivers, and no vertex takes another's.
+void PlacePropReceivers(std::span<const SurfaceMesh> rest,
+                        std::span<const uint32_t> parts,
+                        size_t count,
+                        human::LightTransfer& transfer);
 
 }  // namespace lararium::bake

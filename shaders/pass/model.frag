@@ -24,6 +24,7 @@ in vec2 surface_uv;
 centroid in vec3 transferred;
 centroid in vec3 transfer_share;
 centroid in float transfer_open;
+centroid in vec3 back_share;
 
 layout(location = 0) out vec4 colour;
 
@@ -58,8 +59,6 @@ vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
 
 uniform int has_transfer;
 uniform sampler2D sun_seen;  // shaders/pass/sun_seen.frag
-// Share of unshadowed light on the back of a sheet.
-const float kSeenFromBehind = 0.5;
 
 Arriving LightOn(vec3 normal) {
   Arriving arriving = Unshadowed(normal);
@@ -67,9 +66,8 @@ Arriving LightOn(vec3 normal) {
     if (gl_FrontFacing) {
       arriving = Transferred(transferred, transfer_share, transfer_open, normal);
     } else {
-      // Transfer knows fronts only; the back of a sheet is mostly turned to something near.
-      arriving.irradiance *= kSeenFromBehind;
-      arriving.open = kSeenFromBehind;
+      arriving.irradiance *= back_share;
+      arriving.open = dot(back_share, vec3(0.2126, 0.7152, 0.0722));
     }
   }
   vec3 outward = gl_FrontFacing ? normal_in_stage : -normal_in_stage;

@@ -19,6 +19,7 @@ layout(location = 4) in vec4 weights;
 layout(location = 5) in vec2 uv;
 layout(location = 6) in vec3 irradiance_at_vertex;
 layout(location = 7) in vec3 bind_normal;
+layout(location = 8) in vec3 back_at_vertex;
 
 out vec3 position_in_stage;
 out vec3 normal_in_stage;
@@ -27,6 +28,7 @@ out vec2 surface_uv;
 centroid out vec3 transferred;     // irradiance by light transfer
 centroid out vec3 transfer_share;  // the same over what would come without shadows
 centroid out float transfer_open;  // of all channels: at most 1
+centroid out vec3 back_share;      // of unshadowed light, on the back
 
 mat4 BlendMatrices() {
   return weights.x * skin[joints.x] + weights.y * skin[joints.y] + weights.z * skin[joints.z] +
@@ -73,6 +75,7 @@ void main() {
   surface_albedo = albedo;
   surface_uv = uv;
   transferred = irradiance_at_vertex;
+  back_share = back_at_vertex;
   vec3 transfer_normal = normalize(mat3(stage_from_model) * (mat3(skinned) * bind_normal));
   vec3 there = Irradiance(unscattered, transfer_normal) + kLeastUnshadowed;
   transfer_share = transferred / there;

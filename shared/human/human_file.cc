@@ -125,6 +125,7 @@ void ReadMeshLight(const fb::MeshLight& from, BlockReader& reader, LightTransfer
   reader.Read(from.weights(), to.weights);
   reader.Read(from.coefficients(), to.coefficients);
   reader.Read(from.scale(), to.scale);
+  reader.Read(from.backs(), to.backs);
 }
 
 void ReadLight(const fb::LightTransfer* from, BlockReader& reader, LightTransfer& to) {
@@ -266,7 +267,8 @@ auto WriteMeshLight(flatbuffers::FlatBufferBuilder& builder, const LightTransfer
   const auto weights = WriteBlock<fb::JointIndices>(builder, mesh.weights);
   const auto coefficients = builder.CreateVector(mesh.coefficients);
   const auto scale = builder.CreateVector(mesh.scale);
-  return fb::CreateMeshLight(builder, receivers, weights, coefficients, scale);
+  const auto backs = WriteBlock<fb::Shares>(builder, mesh.backs);
+  return fb::CreateMeshLight(builder, receivers, weights, coefficients, scale, backs);
 }
 
 auto WriteLight(flatbuffers::FlatBufferBuilder& builder, const LightTransfer& light) {

@@ -17,7 +17,7 @@ Status ValidateMesh(const LightTransfer& transfer,
                     const std::string& at) {
   const size_t vectors = transfer.key_poses.size() * vertices;
   if (mesh.receivers.size() != vertices || mesh.weights.size() != vertices ||
-      mesh.scale.size() != vectors ||
+      mesh.scale.size() != vectors || (!mesh.backs.empty() && mesh.backs.size() != vertices) ||
       mesh.coefficients.size() != vectors * 3 * static_cast<size_t>(transfer.count)) {
     return Status::Error(at, "its light transfer does not fit its vertices");
   }
@@ -61,7 +61,7 @@ Status ValidateParts(const LightTransfer& transfer, size_t joint_count, const st
 
 }  // namespace
 
-Status LightTransfer::Validate(const std::vector<SkinnedMesh>& skinned,
+Status LightTransfer::Validate(const std::vector<Surface>& surfaces,
                                size_t joint_count,
                                const std::string& place) const {
   if (empty()) {
@@ -70,15 +70,25 @@ Status LightTransfer::Validate(const std::vector<SkinnedMesh>& skinned,
   const std::string at = place + ": light transfer";
   if (!IsCount(count) || bounces < 0 || key_poses.empty() || key_poses.size() > kMaxKeyPoses ||
       blockers.size() > kMaxBlockers || receivers.empty() || receivers.size() > kMaxReceivers ||
-      meshes.size() != skinned.size()) {
+      meshes.size() != surfaces.size()) {
     return Status::Error(at, "its counts are not possible ones");
   }
   LARARIUM_RETURN_IF_ERROR(ValidateParts(*this, joint_count, at));
   for (size_t i = 0; i < meshes.size(); ++i) {
-    LARARIUM_RETURN_IF_ERROR(ValidateMesh(*this, meshes[i], skinned[i].positions.size(),
-                                          place + ": part '" + skinned[i].name + "'"));
+    LARARIUM_RETURN_IF_ERROR(ValidateMesh(*this, meshes[i], surfaces[i].vertices,
+                                          place + ": part '" + surfaces[i].name + "'"));
   }
   return Status();
+}
+
+Status LightTransfer::Validate(const std::vector<SkinnedMesh>& skinned,
+                               size_t joint_count,
+                               const std::string& place) const {
+  std::vector<Surface> surfaces;
+  for (const SkinnedMesh& mesh : skinned) {
+    surfaces.push_back({mesh.name, mesh.positions.size()});
+  }
+  return Validate(surfaces, joint_count, place);
 }
 
 }  // namespace lararium::human

@@ -46,6 +46,9 @@ struct LightTransfer {
     // scale.
     std::vector<int8_t> coefficients;
     std::vector<float> scale;  // [key pose][vertex]
+    // Where the mesh is a sheet whose back can be seen, else empty: of each vertex's back, the
+    // share of unshadowed light that arrives there, for each channel, in 1/255.
+    std::vector<std::array<uint8_t, 3>> backs;
   };
 
   int count = 0;    // coefficients of each vector: 9, 16, 25 or 36
@@ -55,7 +58,16 @@ struct LightTransfer {
   std::vector<Receiver> receivers;
   std::vector<Mesh> meshes;
 
+  // What a mesh belongs to, as errors call it, and how large it must be.
+  struct Surface {
+    std::string name;
+    size_t vertices = 0;
+  };
+
   bool empty() const { return meshes.empty(); }
+  Status Validate(const std::vector<Surface>& surfaces,
+                  size_t joint_count,
+                  const std::string& place) const;
   Status Validate(const std::vector<SkinnedMesh>& skinned,
                   size_t joint_count,
                   const std::string& place) const;

@@ -18,12 +18,17 @@
 namespace lararium::render {
 namespace {
 
+// Share of unshadowed light on the back of a sheet whose light was not baked: that is mostly
+// turned to something near.
+constexpr std::array<uint8_t, 4> kBack = {128, 128, 128, 0};
+
 // What a vertex keeps while it moves.
 struct Attributes {
   glm::vec3 albedo;
   glm::vec2 uv;
   std::array<uint8_t, 4> joints;
   glm::vec4 weights;
+  std::array<uint8_t, 4> back = kBack;
 };
 
 // The arrays of one part, wherever they come from.
@@ -54,6 +59,9 @@ void DefineAttributes() {
                          reinterpret_cast<const void*>(offsetof(Attributes, joints)));
   glEnableVertexAttribArray(3);
   DefineFloats(4, 4, kStride, offsetof(Attributes, weights));
+  glVertexAttribPointer(8, 3, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
+                        reinterpret_cast<const void*>(offsetof(Attributes, back)));
+  glEnableVertexAttribArray(8);
 }
 
 void Upload(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals) {
@@ -144,7 +152,7 @@ PartSource Source(const human::SkinnedMesh& mesh) {
   source.attributes.resize(mesh.positions.size());
   for (size_t v = 0; v < source.attributes.size(); ++v) {
     source.attributes[v] = {mesh.albedo[v], mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
-                            mesh.joints[v], mesh.weights[v]};
+                            mesh.joints[v], mesh.weights[v], kBack};
   }
   for (size_t i = 0; i < mesh.coarser.size(); ++i) {
     source.levels.push_back(
@@ -164,9 +172,20 @@ PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
     source.attributes[v] = {mesh.albedo[v],
                             mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
                             {joint, joint, joint, joint},
-                            {1.0f, 0.0f, 0.0f, 0.0f}};
+                            {1.0f, 0.0f, 0.0f, 0.0f},
+                            kBack};
   }
   return source;
+}
+
+// light: of each source, or empty.
+void SetBacks(std::span<const human::LightTransfer::Mesh> light, std::span<PartSource> sources) {
+  for (size_t i = 0; i < light.size(); ++i) {
+    for (size_t v = 0; v < light[i].backs.size(); ++v) {
+      const std::array<uint8_t, 3>& back = light[i].backs[v];
+      sources[i].attributes[v].back = {back[0], back[1], back[2], 0};
+    }
+  }
 }
 
 // Decodes what materials use, each image once for each use, and hands out indices.
@@ -288,6 +307,7 @@ Result<GpuModel> GpuModel::Create(const human::Human& human) {
   for (const human::SkinnedMesh& mesh : human.meshes) {
     sources.push_back(Source(mesh));
   }
+  SetBacks(human.light.meshes, sources);
   LARARIUM_RETURN_IF_ERROR(AddParts(sources, human.materials, human.textures, human.name, model));
   model.joint_boxes.resize(human.skeleton.size());
   const auto reach = MorphReach(human);
@@ -316,6 +336,7 @@ Result<GpuModel> GpuModel::Create(const stage::Prop& prop) {
       }
     }
   }
+  SetBacks(prop.light.meshes, sources);
   LARARIUM_RETURN_IF_ERROR(AddParts(sources, prop.materials, prop.textures, prop.name, model));
   for (size_t i = 0; i < emissions.size(); ++i) {
     model.parts[i].emission = emissions[i];

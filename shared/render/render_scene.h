@@ -60,6 +60,8 @@ struct SceneProp {
   std::span<const glm::mat4> stage_from_part = {};  // one for each part
   std::span<const uint8_t> shown = {};              // likewise: 0 hides it; empty: all are there
   const light::ProbeLight* light = nullptr;         // as of people
+  // What falls on each vertex, all meshes in a row, as of SceneHuman.
+  std::span<const glm::vec3> irradiance = {};
 };
 
 // What the camera does to its image and people would lack: all off unless set.

@@ -124,6 +124,10 @@ Status Renderer::State::ValidateModels(const RenderScene& scene) const {
     if (!prop.shown.empty() && prop.shown.size() != prop.stage_from_part.size()) {
       return Status::Error(kPlace, "a prop does not say of each part whether it is shown");
     }
+    if (!prop.irradiance.empty() &&
+        prop.irradiance.size() != models.Find(prop.prop)->vertex_count()) {
+      return Status::Error(kPlace, "a prop's irradiance is not that of its vertices");
+    }
   }
   for (const SceneHuman& human : scene.humans) {
     LARARIUM_RETURN_IF_ERROR(check(human.human, human.skin.size(), "a person"));
@@ -195,7 +199,7 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
                  glm::mat4(1.0f),
                  prop.stage_from_part,
                  {},
-                 {},
+                 prop.irradiance,
                  0.0f,
                  prop.shown,
                  prop.light},

@@ -51,13 +51,16 @@ Status Show::FillStage() {
     cast.push_back(member.human);
     levels_.push_back(render::FindDetailLevels(*member.human));
   }
-  light_.emplace(cast);
   for (const StageObject& object : content_.objects) {
     LARARIUM_ASSIGN_OR_RETURN(const stage::ObjectId id, stage_.AddObject(object.name, object.model,
                                                                          object.stage_from_object));
     object_ids_.push_back(id);
-    object_blockers_.push_back(FindBlockers(object.model->prop()));
+    cast.push_back(FigureOf(object.model->prop()));
+    things_.push_back({std::vector<glm::mat4>(object.model->prop().parts.size()),
+                       {},
+                       ThingMemory(RadiusOf(object.model->prop()))});
   }
+  light_.emplace(cast);
   for (Speech& speech : content_.speech) {
     LARARIUM_RETURN_IF_ERROR(stage_.AddSpeech(speech.name, speech.visemes));
   }
@@ -220,28 +223,28 @@ void Show::BlendProbes(StagedFrame& staged) const {
   }
 }
 
-void Show::CollectThings(const StagedFrame& staged) {
-  thing_blockers_.Clear();
-  for (const StagedObject& object : staged.objects) {
-    for (const PropBlocker& blocker : object_blockers_[object.object]) {
-      if (staged.part_shown[object.part_begin + blocker.part] != 0) {
-        const glm::mat4& stage_from_part = staged.stage_from_part[object.part_begin + blocker.part];
-        thing_blockers_.Add(stage_from_part * glm::vec4(blocker.centre, 1.0f), blocker.radius);
-      }
-    }
-  }
-}
-
-// Who is not seen still shades. The sun has shadows of its own (render/sun_pass.h).
-void Show::LightActors(StagedFrame& staged) {
+// Who is not seen still shades.
+void Show::LayOutLight(StagedFrame& staged) {
   uint32_t vertices = 0;
+  const auto lay_out = [&](auto& lit, size_t cast, bool wanted) {
+    lit.light_begin = vertices;
+    lit.light_count = wanted && light_->Lights(static_cast<uint32_t>(cast))
+                          ? static_cast<uint32_t>(light_->vertex_count(static_cast<uint32_t>(cast)))
+                          : 0;
+    vertices += lit.light_count;
+  };
   for (StagedActor& actor : staged.actors) {
-    const bool lit = light_->Lights(actor.cast) && details_[actor.cast].drawn;
-    actor.light_begin = vertices;
-    actor.light_count = lit ? static_cast<uint32_t>(light_->vertex_count(actor.cast)) : 0;
-    vertices += actor.light_count;
+    lay_out(actor, actor.cast, details_[actor.cast].drawn);
+  }
+  for (StagedObject& object : staged.objects) {
+    lay_out(object, content_.cast.size() + object.object, true);
   }
   staged.irradiance.resize(vertices);
+}
+
+// The sun has shadows of its own (render/sun_pass.h).
+void Show::LightStage(StagedFrame& staged) {
+  LayOutLight(staged);
   lit_.clear();
   for (const StagedActor& actor : staged.actors) {
     lit_.push_back(
@@ -249,9 +252,39 @@ void Show::LightActors(StagedFrame& staged) {
          std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count), actor.stage_from_actor,
          std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count), actor.detail});
   }
-  CollectThings(staged);
-  staged.helpers_cpu_ms += light_->Light(thing_blockers_, staged.lamps, lit_);
+  for (const StagedObject& object : staged.objects) {
+    Thing& thing = things_[object.object];
+    SkinOfFigure(std::span(staged.stage_from_part).subspan(object.part_begin, object.part_count),
+                 std::span(staged.part_shown).subspan(object.part_begin, object.part_count),
+                 thing.skin);
+    const auto cast = static_cast<uint32_t>(content_.cast.size() + object.object);
+    lit_.push_back({cast, &object.light.sky, thing.skin, staged.stage_from_part[object.part_begin],
+                    std::span(staged.irradiance).subspan(object.light_begin, object.light_count)});
+  }
+  staged.helpers_cpu_ms += light_->Pose(lit_);
   staged.blockers.assign(light_->blockers().begin(), light_->blockers().end());
+  for (size_t i = 0; i < staged.objects.size(); ++i) {
+    const StagedObject& object = staged.objects[i];
+    Thing& thing = things_[object.object];
+    if (!thing.memory.Update(object.light.sky, staged.lamps,
+                             staged.stage_from_part[object.part_begin], thing.skin,
+                             staged.blockers)) {
+      std::copy(thing.irradiance.begin(), thing.irradiance.end(),
+                staged.irradiance.begin() + object.light_begin);
+      lit_[staged.actors.size() + i].irradiance = {};
+    }
+  }
+  staged.helpers_cpu_ms += light_->Light(staged.lamps, lit_);
+  KeepLightOfThings(staged);
+}
+
+void Show::KeepLightOfThings(const StagedFrame& staged) {
+  for (size_t i = 0; i < staged.objects.size(); ++i) {
+    const std::span<const glm::vec3> lit = lit_[staged.actors.size() + i].irradiance;
+    if (!lit.empty()) {
+      things_[staged.objects[i].object].irradiance.assign(lit.begin(), lit.end());
+    }
+  }
 }
 
 // What is in a hand goes with the hand as it is drawn.
@@ -323,7 +356,7 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
   StageActors(time, staged);
   StageObjects(staged);
   BlendProbes(staged);
-  LightActors(staged);
+  LightStage(staged);
 }
 
 }  // namespace lararium::show

@@ -19,9 +19,9 @@
 #include "shared/show/body.h"
 #include "shared/show/camera_motion.h"
 #include "shared/show/gain_filter.h"
-#include "shared/show/prop_blockers.h"
 #include "shared/show/show_content.h"
 #include "shared/show/stage_light.h"
+#include "shared/show/thing_light.h"
 #include "shared/stage/stage.h"
 #include "shared/vision/tracked_frame.h"
 
@@ -56,8 +56,10 @@ struct StagedObject {
   uint32_t object = 0;      // index into ShowContent::objects
   uint32_t part_begin = 0;  // in StagedFrame::stage_from_part and part_shown
   uint32_t part_count = 0;
-  light::ProbeLight light;  // where the object is, stage axes
-  float glow = 1.0f;        // times the emission of its meshes
+  light::ProbeLight light;   // where the object is, stage axes
+  float glow = 1.0f;         // times the emission of its meshes
+  uint32_t light_begin = 0;  // its vertices in StagedFrame::irradiance
+  uint32_t light_count = 0;  // 0: light as it is without shadows
 };
 
 // A tracked image with the stage as it stands at its moment. Reused from frame
@@ -79,7 +81,7 @@ struct StagedFrame {
   std::vector<StagedMesh> meshes;
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
-  std::vector<glm::vec3> irradiance;  // of all vertices of lit actors that are drawn
+  std::vector<glm::vec3> irradiance;  // of all vertices of lit actors and objects that are drawn
   std::vector<light::Lamp> lamps;     // that burn, stage axes; the brightest of them
   std::vector<glm::vec4> blockers;    // balls that shade: centre and radius, stage axes
   std::vector<StagedObject> objects;
@@ -134,8 +136,9 @@ class Show {
   // The probes of the frame's place, blended at its time of day.
   light::ProbeLight LightAt(const StagedFrame& staged, const glm::vec3& position) const;
   void BlendProbes(StagedFrame& staged) const;
-  void CollectThings(const StagedFrame& staged);
-  void LightActors(StagedFrame& staged);
+  void LayOutLight(StagedFrame& staged);
+  void LightStage(StagedFrame& staged);
+  void KeepLightOfThings(const StagedFrame& staged);
   void StageObjects(StagedFrame& staged);
   void StageVisible(uint32_t object,
                     const stage::StageSnapshot::ObjectEntry& entry,
@@ -167,8 +170,13 @@ class Show {
   };
   std::vector<Visible> visible_;
   std::optional<StageLight> light_;
-  std::vector<std::vector<PropBlocker>> object_blockers_;  // of each object
-  SphereSet thing_blockers_;                               // of the frame, stage axes
+  // Of each object: its figure, as a member of light_'s cast after the people.
+  struct Thing {
+    std::vector<glm::mat4> skin;        // of the frame
+    std::vector<glm::vec3> irradiance;  // as last worked out
+    ThingMemory memory;
+  };
+  std::vector<Thing> things_;
   std::vector<LitActor> lit_;
 };
 

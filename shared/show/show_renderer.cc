@@ -79,8 +79,8 @@ void ShowRenderer::CollectProps(const StagedFrame& staged) {
     props_.push_back(
         {objects_[object.object],
          std::span(staged.stage_from_part).subspan(object.part_begin, object.part_count),
-         std::span(staged.part_shown).subspan(object.part_begin, object.part_count),
-         &object.light});
+         std::span(staged.part_shown).subspan(object.part_begin, object.part_count), &object.light,
+         std::span(staged.irradiance).subspan(object.light_begin, object.light_count)});
   }
 }
 
@@ -102,7 +102,8 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.sun = staged.light.sun;
   scene.blockers = staged.blockers;
   scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
-  if (place.camera) {
+  scene.matte = matte_;
+  if (place.camera && !matte_) {
     scene.knee = place.camera->knee;
     scene.look = LookOf(*place.camera, staged, picture);
   }

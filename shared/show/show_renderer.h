@@ -22,6 +22,10 @@ class ShowRenderer {
   // Other occluders of places[index], while a designer stages.
   void SetPlace(size_t index, const stage::Place& place);
 
+  // Only Lambert's reflection from now on and nothing of the camera, as path-traced references
+  // have it.
+  void SetMatte(bool matte) { matte_ = matte; }
+
   // Fills the target with the composite: image, the occluders of the frame's
   // place, people in its light.
   Status Draw(const StagedFrame& staged, const render::RenderTarget& target);
@@ -46,6 +50,7 @@ class ShowRenderer {
   std::vector<render::ModelHandle> cast_;
   std::vector<render::ModelHandle> objects_;  // of each object
   std::vector<PlaceScene> places_;
+  bool matte_ = false;
   // Of the frame being drawn.
   std::vector<render::SceneHuman> humans_;
   std::vector<render::SceneVertices> vertices_;

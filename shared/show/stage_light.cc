@@ -6,6 +6,7 @@
 #include "shared/core/parallel.h"
 
 namespace lararium::show {
+
 StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast) {
   for (const std::shared_ptr<const human::Human>& human : cast) {
     size_t vertices = 0;
@@ -13,7 +14,9 @@ StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast
       vertices += mesh.positions.size();
     }
     vertex_counts_.push_back(vertices);
-    people_.push_back(human->light.empty() ? nullptr : std::make_unique<PersonLight>(human));
+    lights_.push_back(!human->light.empty());
+    const bool shades = !human->light.blockers.empty();
+    people_.push_back(lights_.back() || shades ? std::make_unique<PersonLight>(human) : nullptr);
   }
   matrices_.resize(people_.size());
   others_.resize(people_.size());
@@ -28,50 +31,55 @@ const light::LightMatrix& StageLight::MatrixFor(const LitActor& actor) {
   return *of.matrix;
 }
 
-void StageLight::PoseActor(const LitActor& actor) {
-  if (Lights(actor.cast)) {
-    people_[actor.cast]->Pose(actor.skin, actor.stage_from_actor);
-  }
+double StageLight::Pose(std::span<const LitActor> actors) {
+  const double helpers = ParallelForTimed(actors.size(), [&](size_t i) {
+    if (people_[actors[i].cast] != nullptr) {
+      people_[actors[i].cast]->Pose(actors[i].skin, actors[i].stage_from_actor);
+    }
+  });
+  CollectBlockers(actors);
+  return helpers;
 }
 
 // What is not the actor's own, for each; and all there is.
-void StageLight::CollectBlockers(const SphereSet& things, std::span<const LitActor> actors) {
+void StageLight::CollectBlockers(std::span<const LitActor> actors) {
   all_blockers_.clear();
-  const auto add = [this](const SphereSet& set) {
+  for (const LitActor& actor : actors) {
+    if (people_[actor.cast] == nullptr) {
+      continue;
+    }
+    const SphereSet& set = people_[actor.cast]->blockers();
     for (size_t k = 0; k < set.size(); ++k) {
-      all_blockers_.emplace_back(set.x[k], set.y[k], set.z[k], set.radius[k]);
-    }
-  };
-  add(things);
-  for (size_t i = 0; i < actors.size(); ++i) {
-    others_[i].Clear();
-    others_[i].Append(things);
-    if (Lights(actors[i].cast)) {
-      add(people_[actors[i].cast]->blockers());
-    }
-    for (size_t k = 0; k < actors.size(); ++k) {
-      if (k != i && Lights(actors[i].cast) && Lights(actors[k].cast)) {
-        people_[actors[k].cast]->AppendBlockers(*people_[actors[i].cast], others_[i]);
+      if (set.y[k] > 0.5f * kNowhere) {
+        continue;
       }
+      all_blockers_.emplace_back(set.x[k], set.y[k], set.z[k], set.radius[k]);
     }
   }
 }
 
-double StageLight::Light(const SphereSet& things,
-                         std::span<const light::Lamp> lamps,
-                         std::span<const LitActor> actors) {
-  double helpers = ParallelForTimed(actors.size(), [&](size_t i) { PoseActor(actors[i]); });
-  CollectBlockers(things, actors);
-  helpers += ParallelForTimed(actors.size(), [&](size_t i) { LightActor(actors[i], lamps, i); });
-  return helpers;
+void StageLight::CollectOthers(std::span<const LitActor> actors, size_t index) {
+  SphereSet& others = others_[index];
+  others.Clear();
+  for (size_t k = 0; k < actors.size(); ++k) {
+    if (k != index && people_[actors[k].cast] != nullptr) {
+      people_[actors[k].cast]->AppendBlockers(*people_[actors[index].cast], others);
+    }
+  }
+}
+
+double StageLight::Light(std::span<const light::Lamp> lamps, std::span<const LitActor> actors) {
+  return ParallelForTimed(actors.size(), [&](size_t i) {
+    if (Lights(actors[i].cast) && !actors[i].irradiance.empty()) {
+      CollectOthers(actors, i);
+      LightActor(actors[i], lamps, i);
+    }
+  });
 }
 
 void StageLight::LightActor(const LitActor& actor,
                             std::span<const light::Lamp> lamps,
                             size_t index) {
-  if (!Lights(actor.cast) || actor.irradiance.empty()) {
-    return;
-  }
   PersonLight& person = *people_[actor.cast];
   person.Update(MatrixFor(actor), others_[index].spheres(), lamps);
   person.LightVertices(actor.detail, actor.irradiance);

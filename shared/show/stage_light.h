@@ -1,6 +1,6 @@
 #pragma once
 
-// The light on everybody who is on stage, frame by frame.
+// The light on everybody and everything on stage, frame by frame.
 
 #include <cstdint>
 #include <memory>
@@ -13,7 +13,10 @@
 
 namespace lararium::show {
 
-// Who is lit by what, and where the result goes.
+// So many metres up is what is not there: a blocker there is none.
+inline constexpr float kNowhere = 1e5f;
+
+// Who or what is lit by what, and where the result goes.
 struct LitActor {
   uint32_t cast = 0;
   const light::ShRgb* light = nullptr;  // where they stand, without the sun; stage axes
@@ -25,27 +28,29 @@ struct LitActor {
 
 class StageLight {
  public:
-  // cast: who may be on stage; those without baked transfer neither take nor cast shade.
+  // cast: who may be on stage, figures of things among them (thing_light.h). Those without
+  // baked transfer take no shade; those without blockers cast none.
   explicit StageLight(std::span<const std::shared_ptr<const human::Human>> cast);
 
-  bool Lights(uint32_t cast) const { return people_[cast] != nullptr; }
+  bool Lights(uint32_t cast) const { return lights_[cast]; }
   // Vertices of all meshes of a member.
   size_t vertex_count(uint32_t cast) const { return vertex_counts_[cast]; }
 
-  // Lights the actors, who cast shade on each other and have shade cast on them by things, by
-  // the light of where they stand and by lamps. Spread
-  // over the cores; returns the processor milliseconds of other threads. After the first frame
-  // nothing is allocated while as many people are there.
-  double Light(const SphereSet& things,
-               std::span<const light::Lamp> lamps,
-               std::span<const LitActor> actors);
+  // Where the frame's actors are, each of whom has another cast. Returns the processor
+  // milliseconds of other threads, as Light does.
+  double Pose(std::span<const LitActor> actors);
 
-  // Blockers of the last call's actors and things, stage axes: centre and radius.
+  // Lights the actors of the last Pose, who cast shade on each other, by the light of where they
+  // stand and by lamps. Spread over the cores. After the first frame nothing is allocated while
+  // as many are there.
+  double Light(std::span<const light::Lamp> lamps, std::span<const LitActor> actors);
+
+  // Blockers of the last Pose, stage axes: centre and radius.
   std::span<const glm::vec4> blockers() const { return all_blockers_; }
 
  private:
-  void PoseActor(const LitActor& actor);
-  void CollectBlockers(const SphereSet& things, std::span<const LitActor> actors);
+  void CollectBlockers(std::span<const LitActor> actors);
+  void CollectOthers(std::span<const LitActor> actors, size_t index);
   void LightActor(const LitActor& actor, std::span<const light::Lamp> lamps, size_t index);
 
   // The light of a person as a matrix; made again when the light has changed.
@@ -57,6 +62,7 @@ class StageLight {
 
   std::vector<std::unique_ptr<PersonLight>> people_;  // of each member, or none
   std::vector<PersonMatrix> matrices_;                // likewise
+  std::vector<bool> lights_;  // likewise: takes light, rather than only giving shade
   std::vector<size_t> vertex_counts_;
   std::vector<SphereSet> others_;  // of each lit actor of the frame
   std::vector<glm::vec4> all_blockers_;

@@ -40,6 +40,20 @@ Status ValidatePart(const Prop& prop, size_t index, const std::string& place) {
   return Status();
 }
 
+Status ValidateLight(const Prop& prop, const std::string& place) {
+  if (prop.light_shown.size() != prop.light.key_poses.size()) {
+    return Status::Error(place, "does not say which parts are there at the key poses of its light",
+                         "bake the project again");
+  }
+  std::vector<human::LightTransfer::Surface> surfaces;
+  for (const PropPart& part : prop.parts) {
+    for (const PropMesh& mesh : part.meshes) {
+      surfaces.push_back({part.name, mesh.positions.size()});
+    }
+  }
+  return prop.light.Validate(surfaces, prop.parts.size(), place);
+}
+
 }  // namespace
 
 Status PropMesh::Validate(size_t material_count, const std::string& place) const {
@@ -92,7 +106,7 @@ Status Prop::Validate(const std::string& place) const {
   for (size_t i = 0; i < parts.size(); ++i) {
     LARARIUM_RETURN_IF_ERROR(ValidatePart(*this, i, place));
   }
-  return Status();
+  return ValidateLight(*this, place);
 }
 
 }  // namespace lararium::stage

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/human/light_transfer.h"
 #include "shared/human/material.h"
 
 namespace lararium::stage {
@@ -72,6 +73,12 @@ struct Prop {
   // ObjectModel::Create, not here.
   std::string use;
   std::string credits;  // authors and licences of what it is made of
+  // How it answers to distant light; may be empty. Its joints are the parts, the bind pose is
+  // each part's own frame, a key pose is object_from_part; of its meshes there is one for each
+  // mesh of each part, in a row. It has no blockers: show finds them (show/prop_blockers.h).
+  human::LightTransfer light;
+  // Of each key pose of light, the parts that are there: bit i is part i.
+  std::vector<uint32_t> light_shown;
 
   int FindPart(std::string_view part) const;  // -1: none
   Status Validate(const std::string& place) const;

@@ -22,14 +22,62 @@ void ReadMesh(const prop_fb::Mesh& from, BlockReader& reader, PropMesh& to) {
   to.emission = human::ReadVec3(from.emission());
 }
 
+glm::quat ReadQuaternion(const prop_fb::Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+prop_fb::Quaternion WriteQuaternion(const glm::quat& q) { return {q.w, q.x, q.y, q.z}; }
+
 void ReadPart(const prop_fb::Part& from, BlockReader& reader, PropPart& to) {
   reader.Read(from.name(), to.name);
   to.parent = from.parent();
   to.parent_from_part.position = human::ReadVec3(from.position());
   if (const prop_fb::Quaternion* q = from.rotation()) {
-    to.parent_from_part.rotation = glm::quat(q->w(), q->x(), q->y(), q->z());
+    to.parent_from_part.rotation = ReadQuaternion(*q);
   }
   reader.ReadTables(from.meshes(), to.meshes, ReadMesh);
+}
+
+struct KeyPose {
+  std::vector<human::JointTransform> parts;
+  uint32_t shown = 0;
+};
+
+void ReadKeyPose(const prop_fb::KeyPose& from, BlockReader& reader, KeyPose& to) {
+  to.shown = from.shown();
+  for (flatbuffers::uoffset_t i = 0; from.parts() != nullptr && i < from.parts()->size(); ++i) {
+    if (!reader.Take(sizeof(prop_fb::PartPose))) {
+      return;
+    }
+    const prop_fb::PartPose& part = *from.parts()->Get(i);
+    human::JointTransform& joint = to.parts.emplace_back();
+    joint.translation = human::ReadVec3(&part.position());
+    joint.rotation = ReadQuaternion(part.rotation());
+  }
+}
+
+void ReadMeshLight(const prop_fb::MeshLight& from,
+                   BlockReader& reader,
+                   human::LightTransfer::Mesh& to) {
+  reader.Read(from.receivers(), to.receivers);
+  reader.Read(from.weights(), to.weights);
+  reader.Read(from.coefficients(), to.coefficients);
+  reader.Read(from.scale(), to.scale);
+  reader.Read(from.backs(), to.backs);
+}
+
+void ReadLight(const prop_fb::LightTransfer* from, BlockReader& reader, Prop& prop) {
+  if (from == nullptr) {
+    return;
+  }
+  prop.light.count = from->count();
+  prop.light.bounces = from->bounces();
+  std::vector<KeyPose> key_poses;
+  reader.ReadTables(from->key_poses(), key_poses, ReadKeyPose);
+  for (KeyPose& key_pose : key_poses) {
+    prop.light.key_poses.push_back(std::move(key_pose.parts));
+    prop.light_shown.push_back(key_pose.shown);
+  }
+  reader.Read(from->receivers(), prop.light.receivers);
+  reader.ReadTables(from->meshes(), prop.light.meshes, ReadMeshLight);
 }
 
 // Of a buffer whose structure has been verified.
@@ -42,6 +90,7 @@ Result<Prop> ReadProp(const prop_fb::Prop& from, size_t file_size, const std::st
   reader.ReadTables(from.parts(), prop.parts, ReadPart);
   reader.Read(from.use(), prop.use);
   reader.Read(from.credits(), prop.credits);
+  ReadLight(from.light(), reader, prop);
   if (!reader.ok()) {
     return Status::Error(place, "the file is damaged: its parts overlap", kRemedy);
   }
@@ -66,9 +115,44 @@ auto WritePart(flatbuffers::FlatBufferBuilder& builder, const PropPart& part) {
   const auto name = builder.CreateString(part.name);
   const auto meshes = WriteTables(builder, part.meshes, WriteMesh);
   const prop_fb::Vec3 position = Write(part.parent_from_part.position);
-  const glm::quat& q = part.parent_from_part.rotation;
-  const prop_fb::Quaternion rotation(q.w, q.x, q.y, q.z);
+  const prop_fb::Quaternion rotation = WriteQuaternion(part.parent_from_part.rotation);
   return prop_fb::CreatePart(builder, name, part.parent, &position, &rotation, meshes);
+}
+
+auto WriteKeyPose(flatbuffers::FlatBufferBuilder& builder, const KeyPose& key_pose) {
+  std::vector<prop_fb::PartPose> parts;
+  for (const human::JointTransform& part : key_pose.parts) {
+    parts.emplace_back(Write(part.translation), WriteQuaternion(part.rotation));
+  }
+  return prop_fb::CreateKeyPose(builder, builder.CreateVectorOfStructs(parts), key_pose.shown);
+}
+
+auto WriteMeshLight(flatbuffers::FlatBufferBuilder& builder,
+                    const human::LightTransfer::Mesh& mesh) {
+  const auto receivers = WriteBlock<prop_fb::VertexReceivers>(builder, mesh.receivers);
+  const auto weights = WriteBlock<prop_fb::VertexShares>(builder, mesh.weights);
+  const auto coefficients = builder.CreateVector(mesh.coefficients);
+  const auto scale = builder.CreateVector(mesh.scale);
+  const auto backs = WriteBlock<prop_fb::Shares>(builder, mesh.backs);
+  return prop_fb::CreateMeshLight(builder, receivers, weights, coefficients, scale, backs);
+}
+
+// Nothing where nothing was baked.
+flatbuffers::Offset<prop_fb::LightTransfer> WriteLight(flatbuffers::FlatBufferBuilder& builder,
+                                                       const Prop& prop) {
+  if (prop.light.empty()) {
+    return {};
+  }
+  std::vector<KeyPose> poses;
+  for (size_t i = 0; i < prop.light.key_poses.size(); ++i) {
+    poses.push_back({prop.light.key_poses[i], prop.light_shown[i]});
+  }
+  const auto key_poses = WriteTables(builder, poses, WriteKeyPose);
+  const auto receivers = WriteBlock<prop_fb::LightReceiver>(builder, prop.light.receivers);
+  const auto meshes = WriteTables(builder, prop.light.meshes, WriteMeshLight);
+  return prop_fb::CreateLightTransfer(builder, static_cast<uint8_t>(prop.light.count),
+                                      static_cast<uint8_t>(prop.light.bounces), key_poses,
+                                      receivers, meshes);
 }
 
 }  // namespace
@@ -93,8 +177,9 @@ std::vector<std::byte> SerializeProp(const Prop& prop) {
   const auto parts = WriteTables(builder, prop.parts, WritePart);
   const auto use = builder.CreateString(prop.use);
   const auto credits = builder.CreateString(prop.credits);
+  const auto light = WriteLight(builder, prop);
   prop_fb::FinishPropBuffer(builder, prop_fb::CreateProp(builder, kVersion, name, textures,
-                                                         materials, parts, use, credits));
+                                                         materials, parts, use, credits, light));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
   return {bytes.begin(), bytes.end()};
 }

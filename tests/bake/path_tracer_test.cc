@@ -205,6 +205,46 @@ TEST(PathTracer, TheSameSeedGivesTheSameImageOnAnyNumberOfCores) {
   EXPECT_NE(many.pixels, other.pixels);
 }
 
+TEST(PathTracer, KeepsRealSurfacesApartAndLetsThemTakePartInTheLight) {
+  // A disc under a black one: it is seen around it, darker than alone.
+  const SurfaceMesh meshes[] = {
+      MakeDisc({0, 0.5f, 0}, {0, 1, 0}, 0.4f, glm::vec3(0.0f)),
+      MakeDisc({0, 0, 0}, {0, 1, 0}, 3.0f, glm::vec3(0.5f)),
+  };
+  const Environment environment(MakeUniformProbe(1.0f), {});
+  const View view = MakeView({0, 4, 0}, {0, 0, 0}, 2.0);
+  const RadianceImage image = Trace(meshes, environment, view, {.samples = 64, .first_real = 1});
+  ASSERT_EQ(image.real.size(), image.pixels.size());
+  float both = 0.0f;
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    EXPECT_NEAR(image.pixels[i].a + image.real[i].a, 1.0f, 1e-5f);
+    EXPECT_EQ(glm::vec3(image.pixels[i]), glm::vec3(0.0f));
+    both = std::max(both, std::min(image.pixels[i].a, image.real[i].a));
+  }
+  EXPECT_GT(both, 0.1f);
+  // In a corner of the picture, about a metre from below the disc's middle.
+  const glm::vec4 corner = image.real[0];
+  EXPECT_LT(corner.g, 0.5f);
+  EXPECT_GT(corner.g, 0.4f);
+  const RadianceImage all = Trace(meshes, environment, view, {.samples = 4});
+  EXPECT_TRUE(all.real.empty());
+}
+
+TEST(PathTracer, WhatGivesOffLightIsSeenWithItAndLightsOthers) {
+  SurfaceMesh meshes[] = {
+      MakeDisc({0, 0, 0}, {0, 1, 0}, 3.0f, glm::vec3(0.5f)),
+      MakeDisc({0, 1, 0}, {0, -1, 0}, 1.0f, glm::vec3(0.0f)),
+  };
+  meshes[1].emission = {4.0f, 2.0f, 0.0f};
+  const Environment environment(MakeUniformProbe(0.0f), {});
+  const View below = MakeView({0, 0.4, 0}, {0, 0, 0}, 40.0);
+  const glm::vec4 lit = Mean(Trace(meshes, environment, below, {.samples = 1024}));
+  EXPECT_NEAR(lit.r, 0.5f * 0.5f * 4.0f, 0.03f);  // its form factor is a half
+  EXPECT_NEAR(lit.g, 0.5f * 0.5f * 2.0f, 0.02f);
+  const View up = MakeView({0, 0.2, 0}, {0, 1, 0}, 4.0);
+  EXPECT_NEAR(Mean(Trace(meshes, environment, up, {.samples = 4})).r, 4.0f, 1e-4f);
+}
+
 class Impatient : public Progress {
  public:
   void Report(std::string_view, double) override {}

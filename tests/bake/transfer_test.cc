@@ -98,6 +98,23 @@ TEST(Transfer, BetweenTwoDiscsTheFormFactorIsHidden) {
   EXPECT_LT(Vector(transfer, 1, 0, 0)[1], 0.0f);
 }
 
+// The back of the lower of two parallel sheets sees everything but the form factor of a black
+// disc beneath it; that of a closed surface is not asked for.
+TEST(Transfer, TheBackOfASheetLosesTheFormFactorOfWhatIsBehindIt) {
+  const float factor = 1.0f / (1.0f + 0.8f * 0.8f);
+  const human::Human human = MakeRigidHuman(
+      {glm::vec3(0.0f)}, {{MakeDisc({0, 2, 0}, {0, 1, 0}, 1.0f, glm::vec3(0.5f)), 0},
+                          {MakeDisc({0, 1.2f, 0}, {0, 1, 0}, 1.0f, glm::vec3(0.0f)), 0},
+                          {MakeSphere({5, 1, 0}, 0.3f, glm::vec3(0.5f)), 0}});
+  const LightTransfer transfer = Bake(human, {.rays = 1024, .bounces = 0});
+  ASSERT_EQ(transfer.meshes[0].backs.size(), human.meshes[0].positions.size());
+  for (size_t channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(transfer.meshes[0].backs[0][channel] / 255.0f, 1.0f - factor, 0.02f);
+    EXPECT_NEAR(transfer.meshes[1].backs[0][channel] / 255.0f, 1.0f, 0.02f);
+  }
+  EXPECT_TRUE(transfer.meshes[2].backs.empty());
+}
+
 // As in path_tracer_test.cc: a bowl sends half of its light back to itself.
 TEST(Transfer, BouncesInABowlAddUpAsInAnIntegratingSphere) {
   const glm::vec3 albedo(1.0f, 0.5f, 0.0f);

@@ -137,6 +137,8 @@ TEST(HumanFile, RoundTripKeepsTheLightTransfer) {
   EXPECT_EQ(light.meshes[0].weights, human.light.meshes[0].weights);
   EXPECT_EQ(light.meshes[0].coefficients, human.light.meshes[0].coefficients);
   EXPECT_EQ(light.meshes[0].scale, human.light.meshes[0].scale);
+  ASSERT_FALSE(human.light.meshes[0].backs.empty());
+  EXPECT_EQ(light.meshes[0].backs, human.light.meshes[0].backs);
 }
 
 TEST(HumanFile, AHumanWithoutLightTransferHasNone) {
@@ -270,6 +272,7 @@ TEST(HumanFile, RefusesLightTransferThatCannotBe) {
   EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].scale[7] = -1.0f; }));
   EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].scale[0] = NAN; }));
   EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].scale.push_back(0.0f); }));
+  EXPECT_TRUE(refuses([](LightTransfer& l) { l.meshes[0].backs.pop_back(); }));
 }
 
 TEST(HumanFile, RefusesEveryTruncation) {

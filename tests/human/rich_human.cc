@@ -45,6 +45,7 @@ Human RichHuman() {
   light.meshes.resize(1);
   light.meshes[0].receivers = {{0, 0, 0, 0}, {1, 2, 0, 0}, {2, 1, 0, 0}, {2, 1, 0, 2}};
   light.meshes[0].weights = {{255, 0, 0, 0}, {200, 55, 0, 0}, {128, 127, 0, 0}, {100, 80, 60, 15}};
+  light.meshes[0].backs = {{0, 10, 255}, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
   for (int i = 0; i < 2 * 4 * 3 * 9; ++i) {
     light.meshes[0].coefficients.push_back(static_cast<int8_t>(i * 37 % 255 - 127));
   }

@@ -10,6 +10,28 @@
 namespace lararium::stage {
 namespace {
 
+// Two key poses, the lid away in the second.
+void AddLight(Prop& prop) {
+  human::LightTransfer& light = prop.light;
+  light.count = 9;
+  light.bounces = 2;
+  light.key_poses.resize(2, std::vector<human::JointTransform>(2));
+  light.key_poses[1][1].translation = {0.0f, 0.7f, 0.2f};
+  light.key_poses[1][1].rotation = glm::angleAxis(0.5f, glm::vec3(1.0f, 0.0f, 0.0f));
+  prop.light_shown = {3, 1};
+  light.receivers = {{0, {0.0f, 0.8f, 0.0f}}, {1, {0.1f, 0.2f, 0.3f}}};
+  for (size_t m = 0; m < 2; ++m) {
+    human::LightTransfer::Mesh& mesh = light.meshes.emplace_back();
+    mesh.receivers.assign(8, {static_cast<uint16_t>(m), 0, 0, 0});
+    mesh.weights.assign(8, {200, 55, 0, 0});
+    mesh.scale.assign(16, 0.25f);
+    for (int i = 0; i < 16 * 3 * 9; ++i) {
+      mesh.coefficients.push_back(static_cast<int8_t>(i % 251 - 125));
+    }
+  }
+  light.meshes[1].backs.assign(8, {10, 20, 30});
+}
+
 Prop MakeRich() {
   Prop prop = test::MakeChest();
   prop.credits = "by us";
@@ -23,6 +45,7 @@ Prop MakeRich() {
   prop.parts[0].meshes[0].material = 0;
   prop.parts[0].meshes[0].uvs.resize(8, {0.25f, 0.75f});
   prop.parts[1].meshes[0].emission = {3.0f, 2.0f, 1.0f};
+  AddLight(prop);
   return prop;
 }
 
@@ -40,6 +63,34 @@ TEST(Prop, RoundTrips) {
   EXPECT_EQ(parsed->parts[1].meshes[0].emission, prop.parts[1].meshes[0].emission);
   EXPECT_EQ(parsed->materials[0].roughness, 0.4f);
   EXPECT_EQ(parsed->textures[0].encoded, prop.textures[0].encoded);
+}
+
+TEST(Prop, RoundTripKeepsTheLightTransfer) {
+  const Prop prop = MakeRich();
+  const auto parsed = ParseProp(SerializeProp(prop), "a.larprop");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(parsed->light.count, 9);
+  EXPECT_EQ(parsed->light.bounces, 2);
+  EXPECT_EQ(parsed->light_shown, prop.light_shown);
+  ASSERT_EQ(parsed->light.key_poses.size(), 2u);
+  EXPECT_EQ(parsed->light.key_poses[1][1].translation, prop.light.key_poses[1][1].translation);
+  EXPECT_EQ(parsed->light.key_poses[1][1].rotation, prop.light.key_poses[1][1].rotation);
+  ASSERT_EQ(parsed->light.receivers.size(), 2u);
+  EXPECT_EQ(parsed->light.receivers[1].joint, 1u);
+  EXPECT_EQ(parsed->light.receivers[1].position, prop.light.receivers[1].position);
+  ASSERT_EQ(parsed->light.meshes.size(), 2u);
+  EXPECT_EQ(parsed->light.meshes[1].receivers, prop.light.meshes[1].receivers);
+  EXPECT_EQ(parsed->light.meshes[1].weights, prop.light.meshes[1].weights);
+  EXPECT_EQ(parsed->light.meshes[1].coefficients, prop.light.meshes[1].coefficients);
+  EXPECT_EQ(parsed->light.meshes[1].scale, prop.light.meshes[1].scale);
+  EXPECT_TRUE(parsed->light.meshes[0].backs.empty());
+  EXPECT_EQ(parsed->light.meshes[1].backs, prop.light.meshes[1].backs);
+}
+
+TEST(Prop, WithoutLightIsRead) {
+  const auto parsed = ParseProp(SerializeProp(test::MakeChest()), "a.larprop");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_TRUE(parsed->light.empty());
 }
 
 TEST(Prop, RefusesEveryTruncation) {
@@ -86,6 +137,10 @@ TEST(Prop, SaysWhatIsWrong) {
             }).find("rigid"),
             std::string::npos);
   EXPECT_NE(error([](Prop& p) { p.parts.clear(); }).find("parts"), std::string::npos);
+  EXPECT_NE(error([](Prop& p) { p.light.meshes[1].scale.pop_back(); }).find("does not fit"),
+            std::string::npos);
+  EXPECT_NE(error([](Prop& p) { p.light.receivers[1].joint = 2; }).find("receiver"),
+            std::string::npos);
 }
 
 }  // namespace
