@@ -1,5 +1,6 @@
 #include "editor/app/baking.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "editor/app/document_fields.h"
+#include "editor/bake/glossy_probe.h"
 #include "editor/bake/prop_transfer.h"
 #include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
@@ -37,6 +39,12 @@ std::filesystem::path LightFile(const ProjectPaths& paths,
                                 const PlaceDocument& place,
                                 const ProbeDocument& probe) {
   return paths.Place(place.name) / "baked" / (probe.name + ".light.json");
+}
+
+std::filesystem::path GlossyFile(const ProjectPaths& paths,
+                                 const PlaceDocument& place,
+                                 const ProbeDocument& probe) {
+  return paths.Place(place.name) / "baked" / (probe.name + ".gloss");
 }
 
 std::filesystem::path MeshFile(const ProjectPaths& paths,
@@ -167,6 +175,26 @@ BakeStep LightStep(const ProjectPaths& paths,
               .dump(),
           [=](std::vector<std::string>& warnings) { return MakeLight(file, probe, warnings); },
           "people are lit evenly instead"};
+}
+
+BakeStep GlossyStep(const ProjectPaths& paths,
+                    const PlaceDocument& place,
+                    const ProbeDocument& probe) {
+  BakeStep step = LightStep(paths, place, probe);
+  step.name = "reflections of " + place.name + ", " + probe.name;
+  step.product = GlossyFile(paths, place, probe);
+  step.settings += "reflections";
+  step.make = [file = step.sources[0],
+               probe](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
+    LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage image, bake::ReadProbeImage(file));
+    bake::ProbeImage sky = bake::SplitSun(image).sky;
+    for (glm::vec3& pixel : sky.pixels) {
+      pixel *= geometry::ToGlm(probe.balance);
+    }
+    return light::SerializeGlossyMap(bake::PrefilterProbe(
+        sky, {geometry::ToGlm(probe.stage_from_probe), static_cast<float>(probe.scale)}));
+  };
+  return step;
 }
 
 BakeStep MeshStep(const ProjectPaths& paths,
@@ -377,7 +405,7 @@ BakeStep ObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
   return {"object " + object.name,
           paths.Prop(object.name),
           {},
-          "object model " + object.model + PropTransferSettings(),
+          "object model with lights " + object.model + PropTransferSettings(),
           [=](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
             LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop,
                                       import::BuildObjectModel(object.model));
@@ -392,6 +420,7 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
   for (const PlaceDocument& place : document.places) {
     for (const ProbeDocument& probe : place.probes) {
       steps.push_back(LightStep(paths, place, probe));
+      steps.push_back(GlossyStep(paths, place, probe));
     }
     for (const OccluderDocument& occluder : place.occluders) {
       steps.push_back(MeshStep(paths, place, occluder));
@@ -425,7 +454,13 @@ Result<bool> RunOrReplace(const BakeStep& step, std::vector<std::string>& warnin
   if (made.ok() || step.stand_in.empty()) {
     return made;
   }
-  warnings.push_back(made.message() + "; " + step.stand_in);
+  // Several products of one bad file are one warning.
+  const bool known = std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+    return warning.starts_with(made.message());
+  });
+  if (!known) {
+    warnings.push_back(made.message() + "; " + step.stand_in);
+  }
   std::error_code ignored;
   std::filesystem::remove(HashFile(step.product), ignored);
   std::filesystem::remove(step.product, ignored);
@@ -520,6 +555,20 @@ Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& path
     probes.push_back({geometry::ToGlm(probe.position), probe.hour, light});
   }
   return probes;
+}
+
+Result<std::vector<light::GlossyMap>> LoadBakedReflections(const ProjectPaths& paths,
+                                                           const PlaceDocument& place) {
+  std::vector<light::GlossyMap> maps;
+  for (const ProbeDocument& probe : place.probes) {
+    const std::filesystem::path file = GlossyFile(paths, place, probe);
+    light::GlossyMap& map = maps.emplace_back();
+    if (Exists(file)) {
+      LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+      LARARIUM_ASSIGN_OR_RETURN(map, light::ParseGlossyMap(bytes, file.string()));
+    }
+  }
+  return maps;
 }
 
 Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,

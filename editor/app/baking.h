@@ -14,6 +14,7 @@
 #include "shared/core/status.h"
 #include "shared/geometry/triangle_mesh.h"
 #include "shared/human/human.h"
+#include "shared/light/glossy_map.h"
 #include "shared/light/probe_blend.h"
 #include "shared/stage/prop.h"
 #include "shared/vision/scene_database.h"
@@ -49,6 +50,10 @@ Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& path
 // By the map's photometric reference: even light in which surfaces of usual albedo look as
 // bright as the map's points do.
 float EvenRadiance(const vision::SceneDatabase& map);
+// What rough surfaces mirror of each of them, none where a probe is bad or was not baked;
+// empty where the place has no probes.
+Result<std::vector<light::GlossyMap>> LoadBakedReflections(const ProjectPaths& paths,
+                                                           const PlaceDocument& place);
 Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const PlaceDocument& place,
                                              const OccluderDocument& occluder);

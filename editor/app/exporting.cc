@@ -23,7 +23,9 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
       train::Prune(*map.database, {.max_points = budget.max_points,
                                    .max_descriptors_per_point = budget.max_descriptors_per_point,
                                    .image_coverage = budget.image_coverage}));
-  LARARIUM_ASSIGN_OR_RETURN(content.place, StagePlace(paths, place, *map.database, map.picks.map_from_picked));
+  LARARIUM_ASSIGN_OR_RETURN(content.place,
+                            StagePlace(paths, place, *map.database, map.picks.map_from_picked));
+  LARARIUM_ASSIGN_OR_RETURN(content.glossy, LoadBakedReflections(paths, place));
   return content;
 }
 

@@ -204,7 +204,9 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
   content.title = document.title;
   LARARIUM_ASSIGN_OR_RETURN(stage::Place staged,
                             StagePlace(paths, place, *database, map_from_picked));
-  content.places.push_back({std::move(staged), std::move(database)});
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<light::GlossyMap> glossy,
+                            LoadBakedReflections(paths, place));
+  content.places.push_back({std::move(staged), std::move(database), std::move(glossy)});
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
     content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});

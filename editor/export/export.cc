@@ -1,6 +1,7 @@
 #include "editor/export/export.h"
 
 #include <algorithm>
+#include <deque>
 
 #include "shared/bundle/bundle.h"
 #include "shared/bundle/bundle_writer.h"
@@ -17,11 +18,11 @@ namespace {
 constexpr char kDramaName[] = "drama.lua";
 
 // What goes into the file: the manifest, and members that borrow from the
-// content and from `meshes`.
+// content and from `made`.
 struct Packing {
   bundle::ShowManifest manifest;
   std::vector<bundle::MemberContent> members;
-  std::vector<std::vector<std::byte>> meshes;
+  std::deque<std::vector<std::byte>> made;  // stay where they are
 
   struct PackedProp {
     const std::vector<std::byte>* bytes = nullptr;
@@ -49,11 +50,19 @@ Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
   packing.members.push_back({entry.scene, content.scene});
   for (const stage::Occluder& occluder : place.occluders) {
     LARARIUM_RETURN_IF_ERROR(occluder.mesh.Validate("occluder '" + occluder.name + "'"));
-    packing.meshes.push_back(stage::SerializeMesh(occluder.mesh));
+    packing.made.push_back(stage::SerializeMesh(occluder.mesh));
     const std::string member =
         folder + "occluder" + std::to_string(entry.occluders.size()) + ".larmesh";
-    packing.members.push_back({member, packing.meshes.back()});
+    packing.members.push_back({member, packing.made.back()});
     entry.occluders.push_back({occluder.name, member, occluder.stage_from_mesh});
+  }
+  for (const light::GlossyMap& glossy : content.glossy) {
+    entry.glossy.emplace_back();
+    if (!glossy.empty()) {
+      entry.glossy.back() = folder + "probe" + std::to_string(entry.glossy.size() - 1) + ".gloss";
+      packing.made.push_back(light::SerializeGlossyMap(glossy));
+      packing.members.push_back({entry.glossy.back(), packing.made.back()});
+    }
   }
   packing.manifest.places.push_back(std::move(entry));
   return Status();

@@ -9,13 +9,15 @@
 
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
+#include "shared/light/glossy_map.h"
 #include "shared/stage/place.h"
 
 namespace lararium::exporter {
 
 struct PlaceContent {
-  stage::Place place;            // with its occluders' meshes
-  std::vector<std::byte> scene;  // a serialised scene database (.larscene)
+  stage::Place place;                    // with its occluders' meshes
+  std::vector<std::byte> scene;          // a serialised scene database (.larscene)
+  std::vector<light::GlossyMap> glossy;  // of each of the place's probes; may be empty
 };
 
 struct CastContent {

@@ -1,5 +1,5 @@
-// What a real surface's pixel keeps of its light: of the sky's from the coarse image of
-// ratios, of the sun's where it is not in the shadow of real things already.
+// What a real surface's pixel keeps of its light and gains by lamps: of the sky's from the
+// coarse image of ratios, of the sun's where it is not in the shadow of real things already.
 
 #include "catcher.glsl"
 #include "octahedral.glsl"
@@ -67,8 +67,8 @@ vec3 WithSun(vec3 kept, vec3 point, vec3 normal) {
   float cosine = dot(normal, sun_direction);
   int faces = cosine > 0.0 ? 1 : 0;
   float past_people = SunPastPeople(point, 0.005, faces);
-  bool darkens = past_people < 0.999 || any(lessThan(kept, vec3(0.999)));
-  float past_things = SunPastOccluders(point, 0.03, darkens ? faces : 0);
+  bool changes = past_people < 0.999 || any(greaterThan(abs(kept - 1.0), vec3(1e-3)));
+  float past_things = SunPastOccluders(point, 0.03, changes ? faces : 0);
   vec3 sun = max(cosine, 0.0) * past_things * sun_irradiance;
   vec3 sky = textureLod(sky_irradiance, OctahedralPosition(normal), 0.0).rgb;
   return (sky * kept + sun * past_people + 1e-6) / (sky + sun + 1e-6);

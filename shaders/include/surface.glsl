@@ -1,7 +1,10 @@
-// The radiance of surfaces under distant light: spherical harmonics for all of it,
-// and for highlights the one direction that most of it comes from. SURFACE_PLAIN,
+// The radiance of surfaces under distant light: spherical harmonics for all of it, and for
+// highlights a prefiltered map and the sun; without a map, the one direction that most of
+// the light comes from. SURFACE_PLAIN,
 // SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH or SURFACE_EYE chooses the model.
 
+#include "glossy.glsl"
+#include "lamps.glsl"
 #include "spherical_harmonics.glsl"
 
 uniform int has_sun;
@@ -29,31 +32,69 @@ float ReflectedShare(float f0, float roughness, float cosine) {
   return f0 * (-1.04 * a + r.z) + 1.04 * a + r.w;
 }
 
-// A rough dielectric under the key light: GGX (Walter et al., EGSR 2007), with the
-// visibility of Hammon, "PBR Diffuse Lighting for GGX+Smith", GDC 2017.
-vec3 KeyHighlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
-  vec3 half_way = normalize(key_direction + to_eye);
-  float n_l = max(dot(normal, key_direction), 0.0);
+// What a rough dielectric reflects of an irradiance from one direction: GGX (Walter et al.,
+// EGSR 2007), with the visibility of Hammon, "PBR Diffuse Lighting for GGX+Smith", GDC 2017.
+float Glint(vec3 direction, vec3 normal, vec3 to_eye, float f0, float alpha) {
+  vec3 half_way = normalize(direction + to_eye);
+  float n_l = max(dot(normal, direction), 0.0);
   float n_v = max(dot(normal, to_eye), 1e-3);
   float n_h = max(dot(normal, half_way), 0.0);
-  float alpha = max(roughness * roughness, 2e-3);
   float spread = n_h * n_h * (alpha * alpha - 1.0) + 1.0;
   float distribution = alpha * alpha / (kPi * spread * spread);
   float visibility = 0.5 / max(mix(2.0 * n_l * n_v, n_l + n_v, alpha), 1e-3);
   float fresnel = Fresnel(f0, max(dot(to_eye, half_way), 0.0));
-  return key_light * (distribution * visibility * fresnel * n_l);
+  return distribution * visibility * fresnel * n_l;
 }
 
-// All highlights of a rough dielectric. What comes from around is as blurred as
-// irradiance is; the key light is left out of it.
-vec3 Highlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
-  vec3 mirrored = reflect(-to_eye, normal);
+// Clay, wood and plaster that are rougher count as matte.
+const float kMatte = 0.75;
+
+float LobeOf(float roughness) { return max(roughness * roughness, 2e-3); }
+
+// A lamp's own size widens its glint (Karis 2013, "Sphere Lights").
+vec3 LampHighlights(vec3 normal, vec3 to_eye, float f0, float roughness) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < lamp_count; ++i) {
+    SeenLamp lamp = SeeLamp(i, position_in_stage);
+    float alpha = min(LobeOf(roughness) + 0.5 * lamp.sine, 1.0);
+    sum += lamp.irradiance * Glint(lamp.direction, normal, to_eye, f0, alpha);
+  }
+  return open_share * sum;
+}
+
+// What comes from around without a map is as blurred as irradiance is; the key light, from
+// which it is apart, glints.
+vec3 KeyHighlight(vec3 normal, vec3 mirrored, vec3 to_eye, float f0, float roughness) {
   vec3 around = Irradiance(irradiance, mirrored);
   if (has_sun == 0) {  // which is not in the harmonics
     around -= key_irradiance * max(dot(mirrored, key_direction), 0.0);
   }
   float share = ReflectedShare(f0, roughness, max(dot(normal, to_eye), 0.0));
-  return open_share * share * max(around, 0.0) / kPi + KeyHighlight(normal, to_eye, f0, roughness);
+  return open_share * share * max(around, 0.0) / kPi +
+         key_light * Glint(key_direction, normal, to_eye, f0, LobeOf(roughness));
+}
+
+// All highlights of a rough dielectric.
+vec3 Highlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
+  vec3 mirrored = reflect(-to_eye, normal);
+  vec3 sum = LampHighlights(normal, to_eye, f0, roughness);
+  if (has_glossy == 0) {
+    return sum + KeyHighlight(normal, mirrored, to_eye, f0, roughness);
+  }
+  // Rough surfaces mirror from nearer the normal (Lagarde & de Rousiers, "Moving Frostbite to
+  // PBR", SIGGRAPH 2014 courses, "Dominant direction").
+  float alpha = LobeOf(roughness);
+  vec3 towards = mix(normal, mirrored, (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha));
+  float n_v = max(dot(normal, to_eye), 0.0);
+  // What irradiance lost to shadows the mirrored light lost too, the less the sharper it is
+  // (likewise, "Specular occlusion").
+  float open = clamp(pow(n_v + open_share, exp2(-16.0 * roughness - 1.0)) - 1.0 + open_share,
+                     0.0, 1.0);
+  sum += open * ReflectedShare(f0, roughness, n_v) * Mirrored(normalize(towards), roughness);
+  for (int i = 0; i < has_sun; ++i) {
+    sum += key_light * Glint(key_direction, normal, to_eye, f0, alpha);
+  }
+  return sum;
 }
 
 // One lobe of light along strands (Kajiya & Kay, SIGGRAPH 1989), moved towards root
@@ -114,6 +155,11 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
   if (matte_only == 1) {
     return;
   }
+#ifdef SURFACE_PLAIN
+  if (has_glossy == 1 && roughness < kMatte) {
+    highlight = Highlight(normal, to_eye, 0.04, roughness);
+  }
+#endif
 #ifdef SURFACE_SKIN
   highlight = Highlight(normal, to_eye, 0.028, roughness);
 #endif
@@ -127,7 +173,9 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
   // Lids, lashes and brows keep most of what is around off, so that the pupil is dark; the
   // film of tears is smooth whatever lies beneath.
   matte *= 0.8;
-  vec3 glint = KeyHighlight(normal, to_eye, 0.025, 0.2);
-  highlight = glint + 0.25 * max(Highlight(normal, to_eye, 0.025, 0.2) - glint, 0.0);
+  vec3 glint = key_light * Glint(key_direction, normal, to_eye, 0.025, LobeOf(0.2));
+  glint = has_glossy == 1 && has_sun == 0 ? vec3(0.0) : glint;
+  glint += LampHighlights(normal, to_eye, 0.025, 0.2);
+  highlight = glint + 0.5 * max(Highlight(normal, to_eye, 0.025, 0.2) - glint, 0.0);
 #endif
 }

@@ -1,6 +1,8 @@
 // Surfaces of people and props. COVERED: partly covered ones, in two passes, the dense
 // core and the fringe around it.
 
+in vec3 position_in_stage;
+
 #include "surface.glsl"
 
 uniform vec3 gain;   // exposure and the camera's gain
@@ -16,7 +18,6 @@ uniform float roughness;
 uniform float alpha_cutoff;
 uniform int fringe;
 
-in vec3 position_in_stage;
 in vec3 normal_in_stage;
 in vec3 surface_albedo;
 in vec2 surface_uv;
@@ -69,6 +70,12 @@ Arriving LightOn(vec3 normal) {
       arriving.irradiance *= back_share;
       arriving.open = dot(back_share, vec3(0.2126, 0.7152, 0.0722));
     }
+  }
+  // Transfer has the lamps' light, with its shadows.
+  int unlit = has_transfer == 1 ? 0 : lamp_count;
+  for (int i = 0; i < unlit; ++i) {
+    SeenLamp lamp = SeeLamp(i, position_in_stage);
+    arriving.irradiance += lamp.irradiance * LampCosine(lamp, normal);
   }
   vec3 outward = gl_FrontFacing ? normal_in_stage : -normal_in_stage;
   if (has_sun == 1 && dot(outward, sun_direction) > 0.0) {

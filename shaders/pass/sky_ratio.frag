@@ -1,9 +1,10 @@
-// How much of the sky's light real surfaces keep where people stand before it, for each
+// How much of the sky's light real surfaces have where people stand before it, for each
 // channel: the ratio of differential rendering (Debevec, SIGGRAPH 1998). The light is that
 // of cones about the normal; what a ball hides of a cone is the overlap of two caps (Oat &
 // Sander, "Ambient Aperture Lighting", I3D 2007), in cosines instead of angles.
 
 #include "catcher.glsl"
+#include "lamps.glsl"
 #include "octahedral.glsl"
 
 const int kGroups = 6;  // of four cones each, one in each lane
@@ -13,7 +14,8 @@ uniform vec4 cones_y[kGroups];
 uniform vec4 cones_z[kGroups];
 uniform vec4 cones_cosine[kGroups];  // of half the opening
 uniform vec3 cone_axis;
-uniform sampler2D sky;  // radiance of cones, octahedral
+uniform sampler2D sky;             // radiance of cones, octahedral
+uniform sampler2D sky_irradiance;  // likewise, by normal
 uniform float least_share;
 uniform int cluster_count;
 
@@ -119,6 +121,53 @@ vec3 VisibleShare() {
   return mix(vec3(1.0), left / max(all, 1e-12), greaterThan(all, vec3(1e-9)));
 }
 
+// As shared/light/lamp.cc has it.
+const float kLeastPenumbra = 0.03;
+
+// What a ball leaves of a lamp.
+float LampPast(vec4 ball, SeenLamp lamp, vec4 place, vec3 point) {
+  vec3 to = ball.xyz - point;
+  float along = dot(to, lamp.direction);
+  float off = sqrt(max(dot(to, to) - along * along, 0.0));
+  float wide = max(place.w * along / lamp.distance, kLeastPenumbra);
+  float t = clamp((ball.w + wide - off) / (ball.w + wide - abs(ball.w - wide)), 0.0, 1.0);
+  float covered = t * t * (3.0 - 2.0 * t) * min(ball.w * ball.w / (wide * wide), 1.0);
+  bool between = along > 0.0 && along < lamp.distance;
+  bool holds = distance(ball.xyz, place.xyz) < ball.w + place.w;
+  return between && !holds ? 1.0 - covered : 1.0;
+}
+
+float LampSeen(SeenLamp lamp, vec4 place, vec3 point) {
+  float seen = 1.0;
+  for (int i = 0; i < cluster_count; ++i) {
+    vec3 to = clusters[i].merged.xyz - point;
+    vec3 off = to - clamp(dot(to, lamp.direction), 0.0, lamp.distance) * lamp.direction;
+    float near = clusters[i].extent.x + place.w + kLeastPenumbra;
+    int end = dot(off, off) < near * near ? int(clusters[i].extent.z) : 0;
+    for (int k = int(clusters[i].extent.y); k < end; ++k) {
+      seen *= LampPast(balls[k], lamp, place, point);
+    }
+  }
+  return seen;
+}
+
+uniform float least_lamp;  // irradiance that would not be seen
+
+// The lamps' light over the sky's, where nobody stands.
+vec3 LampRatio(vec3 point, vec3 normal) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < lamp_count; ++i) {
+    SeenLamp lamp = SeeLamp(i, point);
+    vec3 irradiance = lamp.irradiance * LampCosine(lamp, normal);
+    int shows = max(irradiance.r, max(irradiance.g, irradiance.b)) > least_lamp ? 1 : 0;
+    for (int k = 0; k < shows; ++k) {
+      sum += (irradiance - least_lamp) * LampSeen(lamp, lamp_places[i], point);
+    }
+  }
+  vec3 sky_here = textureLod(sky_irradiance, OctahedralPosition(normal), 0.0).rgb;
+  return max(sum, 0.0) / max(sky_here, 1e-3);
+}
+
 void main() {
   ivec2 cell = CoarseSource(ivec2(gl_FragCoord.xy));
   vec4 surface = texelFetch(surface_normal, cell, 0);
@@ -130,5 +179,10 @@ void main() {
   for (int i = 0; i < count; ++i) {
     HideCluster(clusters[i], point);
   }
-  ratio = receives ? vec4(VisibleShare(), depth) : vec4(1.0, 1.0, 1.0, 0.0);
+  vec3 kept = VisibleShare();
+  int lit = receives ? min(lamp_count, 1) : 0;
+  for (int i = 0; i < lit; ++i) {
+    kept += LampRatio(point, SurfaceNormal(surface));
+  }
+  ratio = receives ? vec4(kept, depth) : vec4(1.0, 1.0, 1.0, 0.0);
 }

@@ -9,6 +9,7 @@
 #include "shared/bundle/member_name.h"
 #include "shared/bundle/zip_layout.h"
 #include "shared/core/json.h"
+#include "shared/light/probe_weights.h"
 
 namespace lararium::bundle {
 namespace {
@@ -20,7 +21,6 @@ constexpr size_t kMaxCast = 256;
 constexpr size_t kMaxObjects = 1024;
 constexpr size_t kMaxSpeech = 4096;
 constexpr size_t kMaxOccluders = 256;
-constexpr size_t kMaxProbes = 64;
 constexpr double kMaxIrradiance = 1e6;
 constexpr double kMaxProbeDistance = 1e5;  // metres
 constexpr size_t kMaxCredits = 1 << 20;
@@ -151,8 +151,9 @@ Result<light::ProbeLight> ParseLight(const JsonView& json) {
   return light;
 }
 
-Result<light::PlacedProbe> ParseProbe(const JsonView& json) {
-  light::PlacedProbe probe;
+Status ParseProbe(const JsonView& json, PlaceEntry& place) {
+  light::PlacedProbe& probe = place.probes.emplace_back();
+  std::string& glossy = place.glossy.emplace_back();
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> at, json.Numbers("position", 3));
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(at[static_cast<size_t>(axis)]) < kMaxProbeDistance)) {
@@ -162,22 +163,27 @@ Result<light::PlacedProbe> ParseProbe(const JsonView& json) {
   }
   LARARIUM_ASSIGN_OR_RETURN(probe.hour, json.Number("hour", 0.0, 24.0));
   LARARIUM_ASSIGN_OR_RETURN(probe.light, ParseLight(json));
-  return probe;
+  if (json.Has("glossy")) {
+    LARARIUM_ASSIGN_OR_RETURN(glossy, ParseMemberName(json, "glossy"));
+  }
+  return Status();
 }
 
 // Bundles of schema 1 have one light in the place itself.
-Result<std::vector<light::PlacedProbe>> ParseProbes(const JsonView& json) {
+Status ParseProbes(const JsonView& json, PlaceEntry& place) {
   if (!json.Has("probes")) {
     LARARIUM_ASSIGN_OR_RETURN(const light::ProbeLight light, ParseLight(json));
-    return std::vector<light::PlacedProbe>{{{}, light::kNoon, light}};
+    place.probes = {{{}, light::kNoon, light}};
+    place.glossy.resize(1);
+    return Status();
   }
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("probes"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> items, field.Array(kMaxProbes));
-  std::vector<light::PlacedProbe> probes;
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> items,
+                            field.Array(light::kMaxPlacedProbes));
   for (const JsonView& item : items) {
-    LARARIUM_ASSIGN_OR_RETURN(probes.emplace_back(), ParseProbe(item));
+    LARARIUM_RETURN_IF_ERROR(ParseProbe(item, place));
   }
-  return probes;
+  return Status();
 }
 
 Json FormatProbe(const light::PlacedProbe& probe) {
@@ -211,7 +217,7 @@ Result<PlaceEntry> ParsePlace(const JsonView& json) {
   }
   LARARIUM_ASSIGN_OR_RETURN(place.occluders,
                             ParseList(json, "occluders", kMaxOccluders, ParseOccluder));
-  LARARIUM_ASSIGN_OR_RETURN(place.probes, ParseProbes(json));
+  LARARIUM_RETURN_IF_ERROR(ParseProbes(json, place));
   return place;
 }
 
@@ -274,6 +280,11 @@ Status CheckReferences(const ShowManifest& manifest, const JsonView& json) {
   }
   for (const PlaceEntry& place : manifest.places) {
     used.push_back(place.scene);
+    for (const std::string& glossy : place.glossy) {
+      if (!glossy.empty()) {
+        used.push_back(glossy);
+      }
+    }
     for (const OccluderEntry& occluder : place.occluders) {
       used.push_back(occluder.mesh);
     }
@@ -340,8 +351,12 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
     if (place.camera) {
       json["places"].back()["camera"] = light::FormatCameraTraits(*place.camera);
     }
-    for (const light::PlacedProbe& probe : place.probes) {
-      json["places"].back()["probes"].push_back(FormatProbe(probe));
+    for (size_t i = 0; i < place.probes.size(); ++i) {
+      Json probe = FormatProbe(place.probes[i]);
+      if (i < place.glossy.size() && !place.glossy[i].empty()) {
+        probe["glossy"] = place.glossy[i];
+      }
+      json["places"].back()["probes"].push_back(std::move(probe));
     }
   }
   for (const CastEntry& cast : manifest.cast) {

@@ -38,6 +38,7 @@ struct PlaceEntry {
   std::vector<OccluderEntry> occluders;
   std::vector<light::PlacedProbe> probes;                    // light in stage axes
   std::optional<light::CameraTraits> camera = std::nullopt;  // a bundle may lack the field
+  std::vector<std::string> glossy = {};  // of each probe: member, .gloss; empty: none
 };
 
 struct CastEntry {

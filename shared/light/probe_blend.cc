@@ -1,10 +1,14 @@
 #include "shared/light/probe_blend.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
+
+#include "shared/core/check.h"
+#include "shared/light/probe_weights.h"
 
 namespace lararium::light {
 namespace {
@@ -41,30 +45,42 @@ bool SamePosition(const PlacedProbe& a, const PlacedProbe& b) {
   return glm::distance(a.position, b.position) < kSamePosition;
 }
 
-// The probes at the position of one of them: between the hour before and the hour after.
-ProbeLight AtHour(std::span<const PlacedProbe> probes, const PlacedProbe& here, double hour) {
-  const PlacedProbe* before = &here;
-  const PlacedProbe* after = &here;
-  for (const PlacedProbe& probe : probes) {
-    if (!SamePosition(probe, here)) {
+// Adds the share of a position to the probes there: between the hour before and the one after.
+void AddAtHour(std::span<const PlacedProbe> probes,
+               size_t here,
+               double hour,
+               float share,
+               std::span<float> weights) {
+  size_t before = here;
+  size_t after = here;
+  for (size_t i = 0; i < probes.size(); ++i) {
+    if (!SamePosition(probes[i], probes[here])) {
       continue;
     }
-    if (HoursUntil(probe.hour, hour) < HoursUntil(before->hour, hour)) {
-      before = &probe;
+    if (HoursUntil(probes[i].hour, hour) < HoursUntil(probes[before].hour, hour)) {
+      before = i;
     }
-    if (HoursUntil(hour, probe.hour) < HoursUntil(hour, after->hour)) {
-      after = &probe;
+    if (HoursUntil(hour, probes[i].hour) < HoursUntil(hour, probes[after].hour)) {
+      after = i;
     }
   }
-  const double between = HoursUntil(before->hour, after->hour);
-  const double share = between > 0.0 ? HoursUntil(before->hour, hour) / between : 0.0;
-  return Mix(before->light, after->light, static_cast<float>(share));
+  const double between = HoursUntil(probes[before].hour, probes[after].hour);
+  const double passed = HoursUntil(probes[before].hour, hour);
+  const float later = between > 0.0 ? static_cast<float>(passed / between) : 0.0f;
+  weights[before] += share * (1.0f - later);
+  weights[after] += share * later;
 }
 
 // Whether a probe before this one stands at the same position.
 bool IsRepeated(std::span<const PlacedProbe> probes, size_t index) {
   return std::any_of(probes.begin(), probes.begin() + static_cast<ptrdiff_t>(index),
                      [&](const PlacedProbe& other) { return SamePosition(other, probes[index]); });
+}
+
+// Not infinite at the probe itself.
+float Nearness(const PlacedProbe& probe, const glm::vec3& position) {
+  const float distance = std::max(glm::distance(position, probe.position), 1e-3f);
+  return 1.0f / (distance * distance);
 }
 
 }  // namespace
@@ -78,21 +94,36 @@ ProbeLight Mix(const ProbeLight& a, const ProbeLight& b, float share) {
   return mixed;
 }
 
+void ComputeProbeWeights(std::span<const PlacedProbe> probes,
+                         const glm::vec3& position,
+                         double hour,
+                         std::span<float> weights) {
+  CHECK(weights.size() == probes.size());
+  std::fill(weights.begin(), weights.end(), 0.0f);
+  float total = 0.0f;
+  for (size_t i = 0; i < probes.size(); ++i) {
+    total += IsRepeated(probes, i) ? 0.0f : Nearness(probes[i], position);
+  }
+  for (size_t i = 0; i < probes.size(); ++i) {
+    if (!IsRepeated(probes, i)) {
+      AddAtHour(probes, i, hour, Nearness(probes[i], position) / total, weights);
+    }
+  }
+}
+
 ProbeLight Blend(std::span<const PlacedProbe> probes, const glm::vec3& position, double hour) {
+  CHECK(probes.size() <= kMaxPlacedProbes);
+  std::array<float, kMaxPlacedProbes> all;
+  const std::span<float> weights(all.data(), probes.size());
+  ComputeProbeWeights(probes, position, hour, weights);
   ProbeLight blended;
   float total = 0.0f;
   for (size_t i = 0; i < probes.size(); ++i) {
-    if (IsRepeated(probes, i)) {
-      continue;
+    if (weights[i] > 0.0f) {
+      const bool first = total == 0.0f;
+      total += weights[i];
+      blended = first ? probes[i].light : Mix(blended, probes[i].light, weights[i] / total);
     }
-    const float distance = glm::distance(position, probes[i].position);
-    const ProbeLight light = AtHour(probes, probes[i], hour);
-    if (distance < 1e-3f) {
-      return light;
-    }
-    const float weight = 1.0f / (distance * distance);
-    total += weight;
-    blended = total == weight ? light : Mix(blended, light, weight / total);
   }
   return blended;
 }

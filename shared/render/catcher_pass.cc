@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "shared/geometry/glm_convert.h"
 #include "shared/render/sky_cones.h"
 
 namespace lararium::render {
@@ -12,6 +13,9 @@ namespace {
 
 constexpr int kCoarse = 4;  // as shaders/include/catcher.glsl has it
 constexpr uint32_t kBlockerBinding = 1;
+
+// Less of the sky's light than this from a lamp is not seen on real surfaces.
+constexpr float kLeastLampShare = 0.02f;
 
 void AllocateImage(
     GlTexture& texture, GLint internal, const ImageSize& size, GLenum format, GLenum type) {
@@ -128,16 +132,35 @@ void CatcherPass::UploadBlockers() {
   glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof(BlockerBlock), &clusters_.block());
 }
 
+void CatcherPass::ChooseLamps(const RenderScene& scene) {
+  const glm::vec3 sky = light::EvaluateIrradiance(scene.light, glm::vec3(0.0f, 1.0f, 0.0f));
+  least_lamp_ = std::max(kLeastLampShare * std::max({sky.r, sky.g, sky.b}), 1e-4f);
+  const glm::vec3 eye = geometry::ToGlm(scene.camera_from_stage->Center());
+  lamps_.Choose(scene.lamps, eye, scene.far, least_lamp_);
+}
+
+Box CatcherPass::ReachOfLamps(const RenderScene& scene) const {
+  Box reach;
+  for (const light::Lamp& lamp : scene.lamps) {
+    const glm::vec3 far(light::ReachOf(lamp, least_lamp_));
+    reach.Extend(lamp.position - far);
+    reach.Extend(lamp.position + far);
+  }
+  return reach;
+}
+
 PixelBounds CatcherPass::FindBounds(const RenderScene& scene,
                                     const SlotMap<GpuMesh>& meshes,
                                     const SunPass& sun,
                                     const PictureView& view) const {
   ScreenBounds bounds;
+  const Box lamp_reach = ReachOfLamps(scene);
   for (const SceneOccluder& occluder : scene.occluders) {
     if (occluder.receives_shadow) {
       const Box box = Transformed(meshes.Find(occluder.mesh)->box, occluder.stage_from_mesh);
       bounds.Extend(Intersection(box, clusters_.reach()), view.clip_from_stage);
       bounds.Extend(Intersection(box, sun.shadows()), view.clip_from_stage);
+      bounds.Extend(Intersection(box, lamp_reach), view.clip_from_stage);
     }
   }
   return bounds.Pixels(view.size.width, view.size.height);
@@ -192,6 +215,11 @@ void CatcherPass::DrawRatio(const PictureView& view) const {
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, sky_.id());
   ratio_shaders_.Set("sky", 2);
+  glActiveTexture(GL_TEXTURE3);
+  glBindTexture(GL_TEXTURE_2D, sky_irradiance_.id());
+  ratio_shaders_.Set("sky_irradiance", 3);
+  lamps_.Set(ratio_shaders_);
+  ratio_shaders_.Set("least_lamp", least_lamp_);
   ratio_shaders_.Set("cluster_count", clusters_.cluster_count());
   glBindBufferBase(GL_UNIFORM_BUFFER, kBlockerBinding, blockers_.id());
   glBindVertexArray(no_vertices_.id());
@@ -204,6 +232,7 @@ Status CatcherPass::Draw(const RenderScene& scene,
                          const SlotMap<GpuMesh>& meshes,
                          const SunPass& sun,
                          const PictureView& view) {
+  ChooseLamps(scene);
   bounds_ = FindBounds(scene, meshes, sun, view);
   if (bounds_.empty()) {
     return Status();

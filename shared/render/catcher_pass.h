@@ -1,7 +1,7 @@
 #pragma once
 
-// Shadows of people and props on real surfaces: how much light those keep where somebody
-// stands before it. Private to render.
+// Shadows of people and props on real surfaces and the light of lamps: how much light those
+// keep where somebody stands before it, and gain. Private to render.
 //
 // The nearest real surfaces are drawn with normal and depth; the ratio of the sky's light
 // is worked out for every fourth pixel in both directions; the composite brings it to all
@@ -17,6 +17,7 @@
 #include "shared/render/blocker_clusters.h"
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_mesh.h"
+#include "shared/render/lamp_uniforms.h"
 #include "shared/render/picture_view.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/screen_bounds.h"
@@ -55,6 +56,8 @@ class CatcherPass {
                     const SlotMap<GpuMesh>& meshes,
                     const PictureView& view) const;
   void DrawRatio(const PictureView& view) const;
+  void ChooseLamps(const RenderScene& scene);
+  Box ReachOfLamps(const RenderScene& scene) const;
   void UploadSky(const light::ShRgb& light);
   void UploadBlockers();
   void BindSurfaces(const ShaderProgram& shaders,
@@ -75,6 +78,8 @@ class CatcherPass {
   GlTexture ratio_;
   GlFramebuffer ratio_framebuffer_;
   PixelBounds bounds_;
+  LampUniforms lamps_;
+  float least_lamp_ = 0.0f;  // irradiance that would not be seen
   BlockerClusters clusters_;
   light::ShRgb uploaded_light_ = {};
   std::vector<glm::vec4> sky_map_;

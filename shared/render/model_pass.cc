@@ -10,6 +10,7 @@
 #include <string>
 
 #include "shared/human/skinning.h"
+#include "shared/light/glossy_map.h"
 #include "shared/render/detail.h"
 #include "shared/render/sun_mask.h"
 #include "shared/render/sun_pass.h"
@@ -26,6 +27,13 @@ constexpr size_t kSkinStride = human::Skeleton::kMaxJoints * sizeof(glm::mat4);
 // Metres by which what casts shadows may differ from the finest level of detail: less
 // than a texel of the sun's map.
 constexpr float kCasterDetail = 0.005f;
+
+// Lamps are passed over that give next to nothing within so many metres of a model's root.
+constexpr float kLeastLampIrradiance = 0.01f;
+constexpr float kModelReach = 1.5f;
+
+// The unit after the sun's; the composite has another kind of texture there.
+constexpr uint32_t kGlossyUnit = SunPass::kFirstUnit + SunPass::kUnits;
 
 constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
                                                                          "CLOTH", "EYE"};
@@ -80,12 +88,28 @@ const SceneVertices* FindVertices(const ModelDraw& draw, size_t part) {
   return nullptr;
 }
 
+GlTexture CreateGlossyTexture() {
+  constexpr GLsizei kSize = light::GlossyMap::kSize;
+  GlTexture texture = GlTexture::Generate();
+  glBindTexture(GL_TEXTURE_3D, texture.id());
+  glTexImage3D(GL_TEXTURE_3D, 0, GL_R11F_G11F_B10F, kSize, kSize, light::GlossyMap::kLayers, 0,
+               GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV, nullptr);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+    glTexParameteri(GL_TEXTURE_3D, filter, GL_LINEAR);
+  }
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+    glTexParameteri(GL_TEXTURE_3D, wrap, GL_CLAMP_TO_EDGE);
+  }
+  return texture;
+}
+
 }  // namespace
 
 Result<ModelPass> ModelPass::Create() {
   ModelPass pass;
   pass.skin_ = GlBuffer::Generate();
   pass.white_ = CreateWhiteTexture();
+  pass.glossy_ = CreateGlossyTexture();
   for (size_t covered = 0; covered < 2; ++covered) {
     LARARIUM_ASSIGN_OR_RETURN(pass.casters_[covered],
                               ShaderProgram::Create("model.vert", "caster.frag",
@@ -138,12 +162,14 @@ void ModelPass::UploadSkins(std::span<const ModelDraw> draws) {
 void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const SunMask& sun_mask) {
   const Eigen::Vector3d eye = scene.camera_from_stage->Inverse().translation;
   scene_light_ = {scene.light, scene.sun};
+  scene_lamps_ = scene.lamps;
+  UploadGlossy(scene);
   for (Program& program : programs_) {
     if (!program.ready) {
       continue;
     }
     const ShaderProgram& shaders = program.shaders;
-    program.light = nullptr;
+    program.lit_for = nullptr;
     shaders.Use();
     shaders.Set("matte_only", scene.matte ? 1 : 0);
     shaders.Set("eye_in_stage", glm::vec3(eye.x(), eye.y(), eye.z()));
@@ -151,6 +177,8 @@ void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const S
     shaders.Set("knee", std::max(scene.knee, 0.0f));
     shaders.Set("colour_texture", 0);
     shaders.Set("normal_texture", 1);
+    shaders.Set("has_glossy", scene.glossy.empty() ? 0 : 1);
+    shaders.Set("glossy", static_cast<int>(kGlossyUnit));
     sun.BindFor(shaders);
     sun_mask.BindFor(shaders);
   }
@@ -163,20 +191,39 @@ KeyLight ModelPass::KeyLightOf(const light::ProbeLight& light) const {
   return {scene_light_.sun->direction, light.sun ? light.sun->irradiance : glm::vec3(0.0f)};
 }
 
+void ModelPass::UploadGlossy(const RenderScene& scene) {
+  glActiveTexture(GL_TEXTURE0 + kGlossyUnit);
+  glBindTexture(GL_TEXTURE_3D, glossy_.id());
+  if (!scene.glossy.empty() && scene.glossy_number != glossy_number_) {
+    constexpr GLsizei kSize = light::GlossyMap::kSize;
+    glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, kSize, kSize, light::GlossyMap::kLayers, GL_RGB,
+                    GL_UNSIGNED_INT_10F_11F_11F_REV, scene.glossy.data());
+    glossy_number_ = scene.glossy_number;
+  }
+  glActiveTexture(GL_TEXTURE0);
+}
+
 // Of the program in use.
-void ModelPass::SetLight(const light::ProbeLight& light, Program& program, bool skin) const {
-  if (program.light == &light) {
+void ModelPass::SetLight(const ModelDraw& draw, Program& program, bool skin) {
+  if (program.lit_for == &draw) {
     return;
   }
-  program.light = &light;
+  program.lit_for = &draw;
+  const light::ProbeLight& light = draw.light != nullptr ? *draw.light : scene_light_;
+  const ShaderProgram& shaders = program.shaders;
   const std::array irradiance = IrradianceCoefficients(light.sky);
   std::array scattered = irradiance;
   ScatterInSkin(scattered);
   const KeyLight key = KeyLightOf(light);
-  program.shaders.Set("irradiance", skin ? scattered : irradiance);
-  program.shaders.Set("unscattered", irradiance);
-  program.shaders.Set("key_direction", key.direction);
-  program.shaders.Set("key_irradiance", key.irradiance);
+  shaders.Set("irradiance", skin ? scattered : irradiance);
+  shaders.Set("unscattered", irradiance);
+  shaders.Set("key_direction", key.direction);
+  shaders.Set("key_irradiance", key.irradiance);
+  shaders.Set("glossy_scale",
+              glm::max(light.sky[0], 0.0f) / glm::max(scene_light_.sky[0], glm::vec3(1e-4f)));
+  const glm::vec3 middle(draw.stage_from_model * draw.skin[0][3]);
+  lamps_.Choose(scene_lamps_, middle, kModelReach, kLeastLampIrradiance);
+  lamps_.Set(shaders);
 }
 
 void ModelPass::BindTextures(const GpuModel& model, const GpuModel::Part& part) const {
@@ -208,8 +255,7 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   const ShaderProgram& shaders = only_depth ? casters_[part.covered() ? 1 : 0] : program.shaders;
   shaders.Use();
   if (!only_depth) {
-    SetLight(draw.light != nullptr ? *draw.light : scene_light_, program,
-             part.surface == human::Surface::kSkin);
+    SetLight(draw, program, part.surface == human::Surface::kSkin);
   }
   shaders.Set("has_transfer", draw.irradiance.empty() ? 0 : 1);
   shaders.Set("stage_from_model", draw.stage_from_model);
@@ -217,7 +263,7 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   shaders.Set("posed", vertices != nullptr && vertices->posed ? 1 : 0);
   shaders.Set("dual_quaternions", draw.model->skinning == human::Skinning::kDualQuaternion ? 1 : 0);
   shaders.Set("colour_factor", part.colour);
-  shaders.Set("emission", part.emission);
+  shaders.Set("emission", draw.glow * part.emission);
   shaders.Set("roughness", part.roughness);
   shaders.Set("alpha_cutoff", part.alpha_cutoff);
   shaders.Set("has_normal_texture", part.normal_texture == GpuModel::kNoTexture ? 0 : 1);

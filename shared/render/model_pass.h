@@ -18,6 +18,7 @@
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_model.h"
 #include "shared/render/key_light.h"
+#include "shared/render/lamp_uniforms.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/shader_program.h"
 
@@ -36,6 +37,7 @@ struct ModelDraw {
   float detail = 0.0f;                       // metres that may be off
   std::span<const uint8_t> shown;            // of a prop's parts; empty: all
   const light::ProbeLight* light = nullptr;  // nullptr: the scene's
+  float glow = 1.0f;                         // times emission
 
   bool Shows(size_t prop_part) const { return shown.empty() || shown[prop_part] != 0; }
 };
@@ -63,7 +65,8 @@ class ModelPass {
   struct Program {
     ShaderProgram shaders;
     bool ready = false;
-    const light::ProbeLight* light = nullptr;  // that its uniforms hold in this picture
+    // Whose light and lamps its uniforms hold in this picture.
+    const ModelDraw* lit_for = nullptr;
   };
   static constexpr size_t kPrograms = 2 * human::kSurfaceCount;
   static size_t ProgramIndex(const GpuModel::Part& part);
@@ -71,7 +74,8 @@ class ModelPass {
   void UploadSkins(std::span<const ModelDraw> draws);
   void BeginFrame(const RenderScene& scene, const SunPass& sun, const SunMask& sun_mask);
   KeyLight KeyLightOf(const light::ProbeLight& light) const;
-  void SetLight(const light::ProbeLight& light, Program& program, bool skin) const;
+  void SetLight(const ModelDraw& draw, Program& program, bool skin);
+  void UploadGlossy(const RenderScene& scene);
   void DrawPhase(Phase phase, const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
   void DrawPart(const ModelDraw& draw, size_t part, Phase phase, const glm::mat4& clip_from_stage);
   void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;
@@ -81,6 +85,10 @@ class ModelPass {
   GlBuffer skin_;  // matrices or dual quaternions of all models in the picture
   GlTexture white_;
   light::ProbeLight scene_light_;
+  LampUniforms lamps_;
+  std::span<const light::Lamp> scene_lamps_;
+  GlTexture glossy_;
+  uint64_t glossy_number_ = 0;     // of what glossy_ holds; 0: of nothing
   std::vector<glm::mat4> packed_;  // dual quaternions of one model, as the shader takes them
 };
 

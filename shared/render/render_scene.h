@@ -13,6 +13,7 @@
 #include "shared/core/id.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
+#include "shared/light/lamp.h"
 #include "shared/light/probe_light.h"
 
 namespace lararium::render {
@@ -62,6 +63,7 @@ struct SceneProp {
   const light::ProbeLight* light = nullptr;         // as of people
   // What falls on each vertex, all meshes in a row, as of SceneHuman.
   std::span<const glm::vec3> irradiance = {};
+  float glow = 1.0f;                                // times the emission of its meshes
 };
 
 // What the camera does to its image and people would lack: all off unless set.
@@ -105,6 +107,13 @@ struct RenderScene {
   // Apart from light: casts shadows with edges, from people and props on each other and on
   // occluders that receive shadows, and from occluders on people.
   std::optional<light::Sun> sun = std::nullopt;
+  // Small lights, at most light::kMaxLamps. They light props, glint on people, whose
+  // irradiance has them already, and brighten occluders that receive shadows.
+  std::span<const light::Lamp> lamps = {};
+  // What rough surfaces mirror of light: light::GlossyMap::texels, which stay the same while
+  // the number does. Empty: highlights come from the harmonics.
+  std::span<const uint32_t> glossy = {};
+  uint64_t glossy_number = 0;
   float exposure = 1.0f;
   glm::vec3 gain = glm::vec3(1.0f);
   // How the camera renders highlights (the background has it already): linear up

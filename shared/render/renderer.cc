@@ -202,7 +202,8 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
                  prop.irradiance,
                  0.0f,
                  prop.shown,
-                 prop.light},
+                 prop.light,
+                 prop.glow},
                 view, bounds);
   }
   for (const SceneHuman& human : scene.humans) {

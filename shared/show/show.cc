@@ -7,6 +7,7 @@
 #include "shared/core/check.h"
 #include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/light/probe_weights.h"
 
 namespace lararium::show {
 namespace {
@@ -214,6 +215,12 @@ void Show::BlendProbes(StagedFrame& staged) const {
     viewed = geometry::ToGlm(stage_from_camera * Eigen::Vector3d(0.0, 0.0, kViewedDistance));
   }
   staged.light = LightAt(staged, viewed);
+  const std::vector<light::PlacedProbe>& probes = content_.places[staged.place].stage.probes;
+  staged.probe_weights.resize(probes.size());
+  if (!probes.empty()) {
+    light::ComputeProbeWeights(probes, viewed, drawn_.hour.value_or(probes.front().hour),
+                               staged.probe_weights);
+  }
   for (StagedActor& actor : staged.actors) {
     const glm::vec4 middle(0.0f, 0.5f * kPersonHeight, 0.0f, 1.0f);
     actor.light = LightAt(staged, actor.stage_from_actor * middle);

@@ -73,7 +73,8 @@ struct StagedFrame {
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};     // of tracked, steadied by GainFilter
   std::optional<CameraMotion> motion;                 // none: not known
   double time = 0.0;                                  // of the drama, seconds
-  light::ProbeLight light;  // on real surfaces in view, stage axes; its sun is everybody's
+  light::ProbeLight light;           // on real surfaces in view, stage axes; its sun is everybody's
+  std::vector<float> probe_weights;  // of each probe of the place, likewise
   std::chrono::steady_clock::time_point arrival;  // when the image was there
   std::vector<StagedActor> actors;
   // Of all actors and objects, one after the other.

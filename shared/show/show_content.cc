@@ -51,6 +51,14 @@ Result<ShowPlace> LoadPlace(const bundle::Bundle& bundle, const bundle::PlaceEnt
                             vision::ParseSceneDatabase(scene, bundle.place() + ": " + entry.scene));
   place.map = std::make_shared<const vision::SceneDatabase>(std::move(map));
   LARARIUM_ASSIGN_OR_RETURN(place.stage, LoadStage(bundle, entry));
+  for (const std::string& member : entry.glossy) {
+    place.glossy.emplace_back();
+    if (!member.empty()) {
+      LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member));
+      LARARIUM_ASSIGN_OR_RETURN(place.glossy.back(),
+                                light::ParseGlossyMap(bytes, bundle.place() + ": " + member));
+    }
+  }
   return place;
 }
 

@@ -12,6 +12,7 @@
 #include "shared/core/status.h"
 #include "shared/human/face.h"
 #include "shared/human/human.h"
+#include "shared/light/glossy_map.h"
 #include "shared/stage/object_use.h"
 #include "shared/stage/place.h"
 #include "shared/vision/scene_database.h"
@@ -41,6 +42,8 @@ struct Speech {
 struct ShowPlace {
   stage::Place stage;
   std::shared_ptr<const vision::SceneDatabase> map;
+  // What rough surfaces mirror of each of the stage's probes; may be empty.
+  std::vector<light::GlossyMap> glossy = {};
 };
 
 struct ShowContent {

@@ -1,6 +1,7 @@
 #include "shared/show/show_renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -9,6 +10,12 @@
 #include "shared/show/camera_look.h"
 
 namespace lararium::show {
+namespace {
+
+// Of the weights between probes with which reflections are blended.
+constexpr float kWeightSteps = 32.0f;
+
+}  // namespace
 
 Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& content,
                                                            const render::RendererOptions& options) {
@@ -21,6 +28,7 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
   LARARIUM_RETURN_IF_ERROR(show->AddObjects(content));
   show->places_.resize(content.places.size());
   for (size_t i = 0; i < content.places.size(); ++i) {
+    show->places_[i].glossy = content.places[i].glossy;
     show->SetPlace(i, content.places[i].stage);
   }
   return show;
@@ -80,7 +88,32 @@ void ShowRenderer::CollectProps(const StagedFrame& staged) {
         {objects_[object.object],
          std::span(staged.stage_from_part).subspan(object.part_begin, object.part_count),
          std::span(staged.part_shown).subspan(object.part_begin, object.part_count), &object.light,
-         std::span(staged.irradiance).subspan(object.light_begin, object.light_count)});
+         std::span(staged.irradiance).subspan(object.light_begin, object.light_count), object.glow});
+  }
+}
+
+void ShowRenderer::BlendReflections(const StagedFrame& staged) {
+  const PlaceScene& place = places_[staged.place];
+  const size_t count = std::min(place.glossy.size(), staged.probe_weights.size());
+  new_weights_.clear();
+  glossy_maps_.clear();
+  bool any = false;
+  for (size_t i = 0; i < count; ++i) {
+    new_weights_.push_back(std::round(kWeightSteps * staged.probe_weights[i]) / kWeightSteps);
+    glossy_maps_.push_back(&place.glossy[i]);
+    any = any || !place.glossy[i].empty();
+  }
+  if (!any) {
+    glossy_.clear();
+    glossy_weights_.clear();
+    return;
+  }
+  if (glossy_.empty() || staged.place != glossy_place_ || new_weights_ != glossy_weights_) {
+    glossy_.resize(light::GlossyMap::kTexels);
+    light::BlendGlossyMaps(glossy_maps_, new_weights_, glossy_);
+    glossy_place_ = staged.place;
+    glossy_weights_ = new_weights_;
+    ++glossy_number_;
   }
 }
 
@@ -101,6 +134,10 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.light = staged.light.sky;
   scene.sun = staged.light.sun;
   scene.blockers = staged.blockers;
+  scene.lamps = staged.lamps;
+  BlendReflections(staged);
+  scene.glossy = glossy_;
+  scene.glossy_number = glossy_number_;
   scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
   scene.matte = matte_;
   if (place.camera && !matte_) {

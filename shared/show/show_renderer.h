@@ -37,6 +37,7 @@ class ShowRenderer {
   struct PlaceScene {
     std::vector<render::SceneOccluder> occluders;
     std::optional<light::CameraTraits> camera;
+    std::vector<light::GlossyMap> glossy;  // of each probe
   };
 
   explicit ShowRenderer(std::unique_ptr<render::Renderer> renderer)
@@ -45,6 +46,7 @@ class ShowRenderer {
   Status AddObjects(const ShowContent& content);
   void CollectHumans(const StagedFrame& staged);
   void CollectProps(const StagedFrame& staged);
+  void BlendReflections(const StagedFrame& staged);
 
   std::unique_ptr<render::Renderer> renderer_;
   std::vector<render::ModelHandle> cast_;
@@ -55,6 +57,13 @@ class ShowRenderer {
   std::vector<render::SceneHuman> humans_;
   std::vector<render::SceneVertices> vertices_;
   std::vector<render::SceneProp> props_;
+  // What is mirrored, blended for a place and for weights in steps that are not seen.
+  std::vector<uint32_t> glossy_;
+  uint64_t glossy_number_ = 0;
+  uint32_t glossy_place_ = 0;
+  std::vector<float> glossy_weights_;
+  std::vector<float> new_weights_;
+  std::vector<const light::GlossyMap*> glossy_maps_;
 };
 
 }  // namespace lararium::show

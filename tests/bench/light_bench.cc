@@ -9,6 +9,8 @@
 #include "shared/core/random.h"
 #include "shared/light/blocker_table.h"
 #include "shared/light/key_poses.h"
+#include "shared/light/lamp.h"
+#include "shared/light/probe_blend.h"
 #include "shared/light/receivers.h"
 #include "shared/light/shadow_ratio.h"
 #include "shared/light/transfer.h"
@@ -56,6 +58,36 @@ ShRgb SomeLight() {
 ShRowsRgb RgbRows(int count) {
   return {ShRows(count, kReceivers), ShRows(count, kReceivers), ShRows(count, kReceivers)};
 }
+
+// A brazier amid the crowd, whose light the balls hide in part.
+void BenchLamp(benchmark::State& bench) {
+  const Crowd crowd;
+  const auto count = static_cast<int>(bench.range(0));
+  const ShRows own_log(count, kReceivers);
+  ShRowsRgb radiance = RgbRows(count);
+  const Lamp lamp = {{0.0f, 0.4f, 0.0f}, {2.0f, 1.0f, 0.3f}, 0.14f};
+  for (auto _ : bench) {
+    for (size_t person = 0; person < 5; ++person) {
+      const ReceiverRange range = {person * kReceivers / 5, (person + 1) * kReceivers / 5};
+      AddLamps({&lamp, 1}, crowd.points(), own_log, crowd.spheres(), range, radiance);
+    }
+    benchmark::DoNotOptimize(radiance[0].at(0, 0));
+  }
+}
+BENCHMARK(BenchLamp)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+
+void BenchBlendProbes(benchmark::State& bench) {
+  std::vector<PlacedProbe> probes(static_cast<size_t>(bench.range(0)));
+  for (size_t i = 0; i < probes.size(); ++i) {
+    probes[i].position.x = static_cast<float>(i / 2);
+    probes[i].hour = i % 2 == 0 ? 9.0 : 17.0;
+    probes[i].light.sky = SomeLight();
+  }
+  for (auto _ : bench) {
+    benchmark::DoNotOptimize(Blend(probes, {0.7f, 0.0f, 1.0f}, 11.0));
+  }
+}
+BENCHMARK(BenchBlendProbes)->Arg(1)->Arg(8)->Unit(benchmark::kMicrosecond);
 
 void BenchLogVisibility(benchmark::State& bench) {
   const Crowd crowd;

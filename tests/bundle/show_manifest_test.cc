@@ -71,6 +71,17 @@ TEST(ShowManifest, BundlesOfSchemaOneHaveOneProbe) {
   EXPECT_TRUE(parsed->places[0].probes[0].light.sun);
 }
 
+TEST(ShowManifest, ProbesMayHaveReflections) {
+  ShowManifest manifest = Listed();
+  manifest.places[0].glossy = {"places/0/probe0.gloss"};
+  EXPECT_THAT(ParseShowManifest(FormatShowManifest(manifest), "m").message(),
+              HasSubstr("'places/0/probe0.gloss' is used but not listed"));
+  manifest.members.push_back({"places/0/probe0.gloss", 1, ComputeSha256({})});
+  const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "m");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(parsed->places[0].glossy, manifest.places[0].glossy);
+}
+
 TEST(ShowManifest, OlderBundlesHaveNoSun) {
   Json json = OfSchemaOne();
   json["places"][0].erase("sun");

@@ -63,7 +63,7 @@ TEST(Lamp, FacingItsIrradianceIsThatOfABallOfEvenRadiance) {
     for (const SphereNode& node : SphereQuadrature(8, std::cos(seen.angular_radius), 1.0)) {
       irradiance += node.weight * radiance * node.direction.z;
     }
-    EXPECT_NEAR(seen.irradiance.r / irradiance, 1.0, 1e-5) << distance;
+    EXPECT_NEAR(seen.irradiance.r / irradiance, 1.0, 5e-5) << distance;
     EXPECT_LT(glm::distance(seen.direction, glm::vec3(0, 0, -1)), 1e-6f);
   }
 }
@@ -136,7 +136,7 @@ TEST(Lamp, HalfOfItIsHiddenByABallWhoseRimIsAtItsMiddle) {
   const glm::vec3 point = kLamp.position + glm::vec3(0.0f, 0.0f, 2.0f);
   Receivers lit({point}, 16), shaded({point}, 16);
   lit.Light(kLamp);
-  shaded.Light(kLamp, {{kLamp.position + glm::vec3(5.0f, 0.0f, 1.0f), 5.0f}});
+  shaded.Light(kLamp, {{kLamp.position + glm::vec3(0.6f, 0.0f, 1.0f), 0.6f}});
   EXPECT_NEAR(shaded.At(0)[0].r / lit.At(0)[0].r, 0.5f, 0.02f);
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "shared/light/probe_weights.h"
+
 namespace lararium::light {
 namespace {
 
@@ -22,8 +24,8 @@ ProbeLight Sunny(const glm::vec3& direction, float irradiance) {
 
 TEST(ProbeBlend, AtAProbeItIsThatProbe) {
   const PlacedProbe probes[] = {{{0, 1, 0}, 12.0, Even(1.0f)}, {{4, 1, 0}, 12.0, Even(3.0f)}};
-  EXPECT_EQ(Blend(probes, {0, 1, 0}, 12.0).sky[0].r, 1.0f);
-  EXPECT_EQ(Blend(probes, {4, 1, 0}, 12.0).sky[0].r, 3.0f);
+  EXPECT_NEAR(Blend(probes, {0, 1, 0}, 12.0).sky[0].r, 1.0f, 1e-5f);
+  EXPECT_NEAR(Blend(probes, {4, 1, 0}, 12.0).sky[0].r, 3.0f, 1e-5f);
   EXPECT_FLOAT_EQ(Blend(probes, {2, 1, 0}, 12.0).sky[0].r, 2.0f);
   // A third of the way: weights 1 and 1/4.
   EXPECT_NEAR(Blend(probes, {4.0f / 3.0f, 1, 0}, 12.0).sky[0].r, 1.4f, 1e-5f);
@@ -65,6 +67,17 @@ TEST(ProbeBlend, ASunInOneAloneFades) {
   ASSERT_TRUE(mixed.sun);
   EXPECT_FLOAT_EQ(mixed.sun->irradiance.r, 1.0f);
   EXPECT_FALSE(Mix(Even(1.0f), Even(2.0f), 0.5f).sun);
+}
+
+TEST(ProbeBlend, WeightsAddUpToOne) {
+  const PlacedProbe probes[] = {
+      {{0, 0, 0}, 9.0, {}}, {{0, 0, 0}, 17.0, {}}, {{4, 0, 0}, 9.0, {}}, {{4, 0, 0}, 17.0, {}}};
+  float weights[4];
+  ComputeProbeWeights(probes, {1, 0, 0}, 11.0, weights);
+  EXPECT_FLOAT_EQ(weights[0], 0.9f * 0.75f);
+  EXPECT_FLOAT_EQ(weights[1], 0.9f * 0.25f);
+  EXPECT_FLOAT_EQ(weights[2], 0.1f * 0.75f);
+  EXPECT_FLOAT_EQ(weights[0] + weights[1] + weights[2] + weights[3], 1.0f);
 }
 
 TEST(ProbeBlend, NoProbesNoLight) { EXPECT_EQ(Blend({}, {0, 0, 0}, 12.0).sky[0].r, 0.0f); }

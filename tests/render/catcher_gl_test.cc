@@ -9,6 +9,7 @@
 
 #include "shared/core/random.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/light/lamp.h"
 #include "shared/light/shadow_ratio.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/renderer.h"
@@ -130,6 +131,44 @@ TEST_F(CatcherTest, OfABallUnderAnEvenSkyTheFloorKeepsWhatTheFormFactorSays) {
   std::printf("  rms %.4f of the analytic ratio, least %.3f\n", std::sqrt(squared / count), least);
   EXPECT_LT(std::sqrt(squared / count), 0.012);
   EXPECT_NEAR(least, 1.0 - 0.09 / 0.49, 0.03);
+}
+
+// Differential rendering adds a lamp's irradiance over the sky's.
+TEST_F(CatcherTest, ALampBrightensTheFloorByItsIrradianceOverTheSkys) {
+  const light::Lamp lamp = {{0.1f, 0.7f, -0.2f}, {0.5f, 0.3f, 0.1f}, 0.05f};
+  scene_.lamps = {&lamp, 1};
+  const glm::vec3 sky = light::EvaluateIrradiance(scene_.light, {0, 1, 0});
+  const cv::Mat picture = Draw();
+  for (int y = 3; y < kHeight; y += 14) {
+    for (int x = 3; x < kWidth; x += 14) {
+      const light::Sun seen = light::SeenFrom(lamp, FloorAt({x, y}));
+      for (int channel = 0; channel < 3; ++channel) {
+        const float gain = seen.irradiance[channel] * seen.direction.y / sky[channel];
+        // What is less than 2 % of the sky's light is left out, everywhere.
+        EXPECT_NEAR(Kept(picture, {x, y}, 2 - channel), 1.0 + std::max(gain - 0.02f, 0.0f), 0.025)
+            << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST_F(CatcherTest, ABallHidesALampFromTheFloorBehindIt) {
+  const light::Lamp lamp = {{0.0f, 0.7f, 0.0f}, glm::vec3(0.6f), 0.05f};
+  scene_.lamps = {&lamp, 1};
+  const cv::Point behind = PixelOf({0.6, 0.0, 0.0});
+  const cv::Point beside = PixelOf({-0.6, 0.0, 0.0});
+  const double lit = Kept(Draw(), beside);
+  EXPECT_NEAR(Kept(Draw(), behind), lit, 0.02);
+  const glm::vec4 ball(0.3f, 0.35f, 0.0f, 0.1f);
+  scene_.blockers = {&ball, 1};
+  const cv::Mat shaded = Draw();
+  EXPECT_NEAR(Kept(shaded, beside), lit, 0.03);
+  EXPECT_LT(Kept(shaded, behind), 1.0);
+  EXPECT_GT(lit, 1.1);
+  // A ball that touches the lamp holds it.
+  const glm::vec4 holder(0.0f, 0.6f, 0.0f, 0.1f);
+  scene_.blockers = {&holder, 1};
+  EXPECT_GT(Kept(Draw(), beside), 1.08);
 }
 
 // Many balls under light that has colours and directions, against sums over directions.

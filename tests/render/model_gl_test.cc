@@ -10,6 +10,7 @@
 
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/skinning.h"
+#include "shared/light/glossy_map.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/renderer.h"
 #include "tests/golden/compare_images.h"
@@ -409,6 +410,65 @@ TEST_F(ModelTest, DrawsTheCoarsestAllowedLevel) {
   shown.detail = 0.011f;
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(10, 10), cv::Vec3b(0, 0, 0));
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(70, 70), cv::Vec3b(255, 255, 255));
+}
+
+glm::dvec3 LinearAt(const cv::Mat& picture, int x, int y) {
+  const cv::Vec3b pixel = picture.at<cv::Vec3b>(y, x);
+  glm::dvec3 linear;
+  for (int channel = 0; channel < 3; ++channel) {
+    const double c = pixel[2 - channel] / 255.0;
+    linear[channel] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  }
+  return linear;
+}
+
+TEST_F(ModelTest, ALampLightsWhatHasNoTransferByTheCosineLaw) {
+  RenderScene scene = Scene();
+  scene.light = {};
+  const light::Lamp lamp = {{0.0f, 0.0f, 1.0f}, glm::vec3(1.0f, 0.8f, 0.5f), 0.05f};
+  scene.lamps = {&lamp, 1};
+  scene.display = {80, 80, 240.0, 240.0, 39.5, 39.5};
+  const cv::Mat picture = DrawHuman(MakeHuman(Square(), 1), scene);
+  const glm::dvec3 expected = glm::dvec3(lamp.intensity) / std::numbers::pi;
+  for (int channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(LinearAt(picture, 40, 40)[channel], expected[channel], 0.006) << channel;
+  }
+}
+
+std::vector<uint32_t> EvenReflections(const glm::vec3& radiance) {
+  return std::vector<uint32_t>(light::GlossyMap::kTexels, light::PackRadiance(radiance));
+}
+
+TEST_F(ModelTest, EvenReflectionsAreTheShareOfEvenLight) {
+  // Seen along the normal a dielectric of f0 0.028 and roughness 0.4 reflects 2.44 % of even
+  // light, which alone is seen of what is black.
+  human::SkinnedMesh black = Square();
+  black.albedo.assign(4, glm::vec3(0.0f));
+  human::Human human = MakeHuman(black, 1);
+  human.materials.resize(1);
+  human.materials[0].surface = human::Surface::kSkin;
+  human.materials[0].roughness = 0.4f;
+  human.meshes[0].material = 0;
+  SceneHuman shown;
+  shown.human = renderer_->AddHuman(human).value();
+  shown.skin = {&kNoMotion, 1};
+  light::ProbeLight light;
+  shown.light = &light;
+  RenderScene scene = Scene();
+  scene.light = {};
+  scene.humans = {&shown, 1};
+  const std::vector<uint32_t> reflections = EvenReflections(glm::vec3(4.0f));
+  scene.glossy = reflections;
+  scene.glossy_number = 1;
+  EXPECT_LT(LinearAt(Draw(scene), 40, 40).r, 0.002);
+  scene.light = light.sky = EvenLight();
+  const double mirrored = LinearAt(Draw(scene), 40, 40).r;
+  EXPECT_NEAR(mirrored, 4.0 * 0.0244, 0.01);
+  // Whoever stands in half of the light mirrors half of it.
+  for (glm::vec3& c : light.sky) {
+    c *= 0.5f;
+  }
+  EXPECT_NEAR(LinearAt(Draw(scene), 40, 40).r, 0.5 * mirrored, 0.005);
 }
 
 }  // namespace

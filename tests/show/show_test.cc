@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <tuple>
 
 #include "shared/core/random.h"
 #include "tests/show/small_show.h"
+#include "tests/stage/test_props.h"
 
 namespace lararium::show {
 namespace {
@@ -158,6 +160,21 @@ TEST_F(ShowTest, AnEndlessLoopDoesNotStopTheShow) {
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
   EXPECT_NEAR(PositionX(At(*show, 0.5)), 0.5, 1e-4);
   EXPECT_FALSE(show->drama().errors().empty());
+}
+
+TEST_F(ShowTest, LampsBurnWhereTheirObjectsAreAndAsTheDramaSays) {
+  ShowContent content = test::SmallContent();
+  content.objects = {{"lamp", test::Model(test::MakeLamp()), {{1.0f, 0.0f, -2.0f}}}};
+  content.drama += "function main() wait(1); light('lamp'):set{ level = 0 } end";
+  const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
+  const StagedFrame lit = At(*show, 0.5);
+  ASSERT_EQ(lit.lamps.size(), 1u);
+  EXPECT_LT(glm::distance(lit.lamps[0].position, glm::vec3(1.0f, 0.1f, -2.0f)), 1e-5f);
+  EXPECT_GT(lit.objects.at(0).glow, 0.5f);
+  EXPECT_EQ(At(*show, 0.5).lamps[0].intensity, lit.lamps[0].intensity);  // of the time alone
+  const StagedFrame out = At(*show, 1.5);
+  EXPECT_TRUE(out.lamps.empty());
+  EXPECT_EQ(out.objects.at(0).glow, 0.0f);
 }
 
 TEST_F(ShowTest, ActorsAreInTheLightOfWhereTheyStandAndOfTheDramasHour) {

@@ -14,6 +14,21 @@ struct ObjectModelEntry {
   stage::Prop (*build)();
 };
 
+// What shines more than clay and wood do: red slip, thin-walled ware, metal.
+struct Polish {
+  std::string_view name;
+  float roughness;
+};
+constexpr std::array<Polish, 9> kPolished = {{{"beaker", 0.5f},
+                                              {"brazier", 0.55f},
+                                              {"bucket", 0.35f},
+                                              {"coins", 0.4f},
+                                              {"cup", 0.3f},
+                                              {"jug", 0.55f},
+                                              {"ladle", 0.35f},
+                                              {"lamp_stand", 0.4f},
+                                              {"plate", 0.3f}}};
+
 constexpr std::array<ObjectModelEntry, 22> kModels = {{
     {"amphora", model::Amphora},  {"basket", model::Basket},
     {"beaker", model::Beaker},    {"bench", model::Bench},
@@ -46,6 +61,23 @@ void DropUnusedCoordinates(stage::Prop& prop) {
   }
 }
 
+// Gives a material to what has none.
+void PolishModel(std::string_view name, stage::Prop& prop) {
+  const auto polish = std::find_if(kPolished.begin(), kPolished.end(),
+                                   [name](const Polish& entry) { return entry.name == name; });
+  if (polish == kPolished.end()) {
+    return;
+  }
+  for (stage::PropPart& part : prop.parts) {
+    for (stage::PropMesh& mesh : part.meshes) {
+      if (mesh.material == human::Material::kNone) {
+        mesh.material = static_cast<int16_t>(prop.materials.size());
+      }
+    }
+  }
+  prop.materials.push_back({.name = "polished", .roughness = polish->roughness});
+}
+
 }  // namespace
 
 std::span<const std::string_view> ObjectModelNames() { return kNames; }
@@ -62,6 +94,7 @@ Result<stage::Prop> BuildObjectModel(std::string_view name) {
   }
   stage::Prop prop = kModels[static_cast<size_t>(entry - kNames.begin())].build();
   DropUnusedCoordinates(prop);
+  PolishModel(name, prop);
   prop.use = ObjectModelUse(name);
   prop.credits = "Modelled for Lararium after finds in Pompeii";
   return prop;

@@ -1,0 +1,30 @@
+// Small lights, balls of even radiance (shared/light/lamp.h).
+
+uniform int lamp_count;
+uniform vec4 lamp_places[8];      // centre, stage axes, and radius
+uniform vec3 lamp_intensities[8];  // irradiance of a facing surface at one metre
+
+// A lamp from a point.
+struct SeenLamp {
+  vec3 direction;
+  float distance;
+  vec3 irradiance;  // of a surface that faces it
+  float sine;       // of its angular radius
+};
+
+SeenLamp SeeLamp(int index, vec3 point) {
+  vec4 place = lamp_places[index];
+  vec3 to = place.xyz - point;
+  float away = max(length(to), 1e-6);
+  float outside = max(away, 1.02 * place.w);
+  return SeenLamp(to / away, away, lamp_intensities[index] / (outside * outside),
+                  place.w / outside);
+}
+
+// The cosine that irradiance follows, of a ball that may be partly below the horizon: a
+// parabola between where it rises and where it is wholly up.
+float LampCosine(SeenLamp lamp, vec3 normal) {
+  float cosine = dot(normal, lamp.direction);
+  float risen = max(cosine + lamp.sine, 0.0);
+  return cosine > lamp.sine ? cosine : risen * risen / (4.0 * lamp.sine);
+}

@@ -1,0 +1,123 @@
+#include "shared/light/glossy_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "shared/core/check.h"
+
+namespace lararium::light {
+namespace {
+
+// magic, version, size, layers, each four bytes, little-endian; then the texels.
+constexpr char kMagic[4] = {'L', 'G', 'L', 'S'};
+constexpr uint32_t kVersion = 1;
+constexpr size_t kHeaderBytes = 16;
+
+// The largest number of ten bits is 64512.
+constexpr float kMostRadiance = 64000.0f;
+
+// Exponents of all ones: not finite.
+bool IsFinite(uint32_t texel) {
+  return (texel >> 6 & 31u) != 31u && (texel >> 17 & 31u) != 31u && (texel >> 27 & 31u) != 31u;
+}
+
+float SignOf(float a) { return a < 0.0f ? -1.0f : 1.0f; }
+
+}  // namespace
+
+float RoughnessOfLayer(int layer) {
+  return std::lerp(GlossyMap::kLeastRoughness, 1.0f,
+                   static_cast<float>(layer) / static_cast<float>(GlossyMap::kLayers - 1));
+}
+
+glm::vec3 OctahedralDirection(int column, int row) {
+  const glm::vec2 at =
+      2.0f * glm::vec2(column, row) / static_cast<float>(GlossyMap::kSize - 1) - 1.0f;
+  glm::vec3 direction(at.x, 1.0f - std::abs(at.x) - std::abs(at.y), at.y);
+  if (direction.y < 0.0f) {
+    direction.x = (1.0f - std::abs(at.y)) * SignOf(at.x);
+    direction.z = (1.0f - std::abs(at.x)) * SignOf(at.y);
+  }
+  return glm::normalize(direction);
+}
+
+glm::vec2 OctahedralTexel(const glm::vec3& direction) {
+  const glm::vec3 d =
+      direction / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
+  glm::vec2 at(d.x, d.z);
+  if (d.y < 0.0f) {
+    at = {(1.0f - std::abs(d.z)) * SignOf(d.x), (1.0f - std::abs(d.x)) * SignOf(d.z)};
+  }
+  return (0.5f * at + 0.5f) * static_cast<float>(GlossyMap::kSize - 1);
+}
+
+uint32_t PackRadiance(const glm::vec3& radiance) {
+  return glm::packF2x11_1x10(glm::clamp(radiance, 0.0f, kMostRadiance));
+}
+
+glm::vec3 UnpackRadiance(uint32_t texel) { return glm::unpackF2x11_1x10(texel); }
+
+double GlossyWeight(double cosine, double roughness) {
+  // Seen along the normal, the half-way direction is half as far from it as the light.
+  const double half_sine2 = 0.5 * (1.0 - cosine);
+  const double alpha2 = std::pow(roughness, 4.0);
+  const double spread = alpha2 / (alpha2 + half_sine2 * (1.0 - alpha2));
+  return std::max(cosine, 0.0) * spread * spread;
+}
+
+void BlendGlossyMaps(std::span<const GlossyMap* const> maps,
+                     std::span<const float> weights,
+                     std::span<uint32_t> blended) {
+  CHECK(maps.size() == weights.size() && blended.size() == GlossyMap::kTexels);
+  for (size_t texel = 0; texel < blended.size(); ++texel) {
+    glm::vec3 sum(0.0f);
+    for (size_t i = 0; i < maps.size(); ++i) {
+      if (weights[i] > 0.0f && maps[i] != nullptr && !maps[i]->empty()) {
+        sum += weights[i] * UnpackRadiance(maps[i]->texels[texel]);
+      }
+    }
+    blended[texel] = PackRadiance(sum);
+  }
+}
+
+Result<GlossyMap> ParseGlossyMap(std::span<const std::byte> bytes, const std::string& place) {
+  uint32_t header[3] = {};
+  if (bytes.size() < kHeaderBytes || std::memcmp(bytes.data(), kMagic, sizeof(kMagic)) != 0) {
+    return Status::Error(place, "is no map of reflections", "bake the project again");
+  }
+  std::memcpy(header, bytes.data() + sizeof(kMagic), sizeof(header));
+  if (header[0] != kVersion) {
+    return Status::Error(place,
+                         "has version " + std::to_string(header[0]) + ", this program reads " +
+                             std::to_string(kVersion),
+                         "bake the project again, or update");
+  }
+  if (header[1] != GlossyMap::kSize || header[2] != GlossyMap::kLayers ||
+      bytes.size() != kHeaderBytes + GlossyMap::kTexels * sizeof(uint32_t)) {
+    return Status::Error(place, "does not have the size of a map of reflections",
+                         "bake the project again");
+  }
+  GlossyMap map;
+  map.texels.resize(GlossyMap::kTexels);
+  std::memcpy(map.texels.data(), bytes.data() + kHeaderBytes, map.texels.size() * sizeof(uint32_t));
+  if (!std::all_of(map.texels.begin(), map.texels.end(), IsFinite)) {
+    return Status::Error(place, "holds light that is not finite", "bake the project again");
+  }
+  return map;
+}
+
+std::vector<std::byte> SerializeGlossyMap(const GlossyMap& map) {
+  CHECK(map.texels.size() == GlossyMap::kTexels);
+  const uint32_t header[3] = {kVersion, GlossyMap::kSize, GlossyMap::kLayers};
+  std::vector<std::byte> bytes(kHeaderBytes + map.texels.size() * sizeof(uint32_t));
+  std::memcpy(bytes.data(), kMagic, sizeof(kMagic));
+  std::memcpy(bytes.data() + sizeof(kMagic), header, sizeof(header));
+  std::memcpy(bytes.data() + kHeaderBytes, map.texels.data(), map.texels.size() * sizeof(uint32_t));
+  return bytes;
+}
+
+}  // namespace lararium::light
