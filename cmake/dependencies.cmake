@@ -20,6 +20,7 @@ find_package(GTest REQUIRED)
 find_package(benchmark REQUIRED)
 pkg_check_modules(apriltag REQUIRED IMPORTED_TARGET apriltag)
 pkg_check_modules(libav REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
+pkg_check_modules(openal REQUIRED IMPORTED_TARGET openal)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 # Lua as Debian builds it for C++: its errors are C++ exceptions, which unwind our
@@ -27,6 +28,9 @@ pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(sodium REQUIRED IMPORTED_TARGET libsodium)
+pkg_check_modules(espeak REQUIRED IMPORTED_TARGET espeak-ng)
+pkg_check_modules(freetype REQUIRED IMPORTED_TARGET freetype2)
+pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 pkg_check_modules(flatbuffers REQUIRED IMPORTED_TARGET flatbuffers)
 find_program(FLATC flatc REQUIRED)
 
@@ -50,6 +54,16 @@ find_library(STB_LIBRARY stb)
 add_library(imgui_imported INTERFACE)
 target_include_directories(imgui_imported SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR} ${IMGUI_INCLUDE_DIR}/backends)
 target_link_libraries(imgui_imported INTERFACE ${IMGUI_LIBRARY} $<$<BOOL:${STB_LIBRARY}>:${STB_LIBRARY}> ${CMAKE_DL_LIBS})
+
+# pocketsphinx: its pkg-config file names folders that Debian has elsewhere.
+find_path(SPHINX_INCLUDE_DIR pocketsphinx.h PATH_SUFFIXES pocketsphinx REQUIRED)
+find_library(POCKETSPHINX_LIBRARY pocketsphinx REQUIRED)
+find_library(SPHINXBASE_LIBRARY sphinxbase REQUIRED)
+find_path(SPHINX_MODEL_DIR en-us/cmudict-en-us.dict PATHS /usr/share/pocketsphinx/model REQUIRED)
+add_library(sphinx_imported INTERFACE)
+target_include_directories(sphinx_imported SYSTEM INTERFACE ${SPHINX_INCLUDE_DIR} ${SPHINX_INCLUDE_DIR}/..
+  /usr/include/${CMAKE_LIBRARY_ARCHITECTURE}/sphinxbase)
+target_link_libraries(sphinx_imported INTERFACE ${POCKETSPHINX_LIBRARY} ${SPHINXBASE_LIBRARY})
 
 # FLANN: its pkg-config file names libraries that we do not want.
 find_path(FLANN_INCLUDE_DIR flann/flann.hpp REQUIRED)

@@ -15,9 +15,19 @@ std::map<std::string, vision::Smoothing> SmoothingNames() {
           {"strong", vision::Smoothing::kStrong}};
 }
 
+std::map<std::string, Listening> ListeningNames() {
+  return {{"headphones", Listening::kHeadphones},
+          {"speakers", Listening::kSpeakers},
+          {"none", Listening::kNone}};
+}
+
 void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
   app.add_option("--place", play.place, "Only this place of the bundle; all otherwise");
+  app.add_option("--language", play.language,
+                 "Language that people speak, as la or en; otherwise as the author chose");
+  app.add_option("--captions", play.captions,
+                 "Language of the captions, or off; otherwise as the author chose");
 
   CLI::Option_group* source = app.add_option_group("source", "Where images come from");
   source->add_option("--camera", play.camera, "Number of a camera (0 unless told otherwise)");
@@ -56,6 +66,11 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
                  "as well, which lags a little")
       ->transform(CLI::Transformer(SmoothingNames()));
 
+  app.add_option("--audio", play.listening,
+                 "headphones: mixed for two ears; speakers; none. What is recorded is mixed "
+                 "likewise")
+      ->transform(CLI::Transformer(ListeningNames()));
+
   CLI::Option* benchmark =
       app.add_option("--benchmark", play.benchmark,
                      "Measure the tracker on sequences with ground truth: a folder with "
@@ -69,7 +84,8 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
 
   app.add_option("--poses-out", play.poses_out, "Write the poses here (poses.json)");
   app.add_option("--stats-out", play.stats_out, "Write times and counts here (stats.json)");
-  app.add_option("--record", play.record, "Write the composite here (.mp4)");
+  app.add_option("--record", play.record, "Write the composite here, with its sound (.mp4)");
+  app.add_option("--sound", play.sound, "Write the sound here (.wav)");
   app.add_option("--log", play.log, "Write the log here too");
 }
 

@@ -15,9 +15,15 @@ namespace lararium::player {
 
 enum class Pace { kRealtime, kFast };
 
+// Where sound is heard. Headphones: mixed for two ears (HRTF).
+enum class Listening { kHeadphones, kSpeakers, kNone };
+
 struct PlayOptions {
   std::filesystem::path show;
   std::string place;  // empty: all of the bundle
+
+  std::string language;  // that people speak; empty: as the author chose
+  std::string captions;  // likewise what is to be read; "off": nothing
 
   // Where images come from; at most one is set. None: camera 0.
   std::optional<int> camera;
@@ -35,6 +41,8 @@ struct PlayOptions {
   int threads = 0;     // 0: as many as cores
   uint64_t seed = 1;
   vision::Smoothing smoothing = vision::Smoothing::kSoft;
+  // Not given: headphones, or none where nothing is shown on a screen.
+  std::optional<Listening> listening;
 
   // Instead of playing: measure the tracker on the sequences there.
   std::filesystem::path benchmark;
@@ -44,6 +52,7 @@ struct PlayOptions {
   std::filesystem::path poses_out;
   std::filesystem::path stats_out;
   std::filesystem::path record;
+  std::filesystem::path sound;  // .wav
   std::filesystem::path log;
 };
 

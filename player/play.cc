@@ -9,6 +9,7 @@
 #include "player/device_file.h"
 #include "player/recorder.h"
 #include "player/screen.h"
+#include "shared/audio/sound_player.h"
 #include "shared/bundle/bundle.h"
 #include "shared/core/json.h"
 #include "shared/core/parallel.h"
@@ -41,7 +42,7 @@ Result<std::unique_ptr<capture::FrameSource>> OpenSource(const PlayOptions& opti
 
 Result<show::ShowContent> LoadContent(const PlayOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
-  return show::LoadShowContent(bundle, options.place);
+  return show::LoadShowContent(bundle, options.place, {options.language, options.captions});
 }
 
 // Where the device says nothing of its camera, each place keeps what the bundle says.
@@ -83,6 +84,7 @@ class Performance {
     const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
     return g_end_requested == 0 && !enough && screen_->KeepGoing();
   }
+  void OpenSound();
   Status RunLockStep();
   Status RunRealtime();
   Status DrawFrame(const show::StagedFrame& staged);
@@ -97,6 +99,7 @@ class Performance {
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
   std::optional<Recorder> recorder_;
+  std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
   show::ShowStatistics statistics_;
   int64_t drawn_frames_ = 0;
 };
@@ -130,9 +133,29 @@ Status Performance::Prepare() {
   // Videos have even sides.
   LARARIUM_ASSIGN_OR_RETURN(
       target_, render::RenderTarget::Create(source_->width() & ~1, source_->height() & ~1));
-  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, *target_));
+  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, *target_, *show_));
+  OpenSound();
   statistics_.gpu = render::GraphicsDeviceName();
   return Status();
+}
+
+// A show without sound is better than none.
+void Performance::OpenSound() {
+  const Listening listening =
+      options_.listening.value_or(options_.headless ? Listening::kNone : Listening::kHeadphones);
+  if (options_.pace == Pace::kFast || listening == Listening::kNone ||
+      show_->sounds()->clips().empty()) {
+    return;
+  }
+  audio::MixerOptions mixing;
+  mixing.hrtf = listening == Listening::kHeadphones;
+  Result<std::unique_ptr<audio::Mixer>> mixer = audio::Mixer::Create(show_->sounds(), mixing);
+  if (!mixer.ok()) {
+    log_.warn("{}; the show goes on in silence", mixer.message());
+    return;
+  }
+  sound_ = std::make_unique<audio::SoundPlayer>(
+      std::move(*mixer), [] { return audio::CreateAudioOut(audio::AudioOutKind::kDevice); }, log_);
 }
 
 Status Performance::DrawFrame(const show::StagedFrame& staged) {
@@ -141,6 +164,9 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
     LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_));
     screen_->Present(*target_);
   }
+  if (sound_ != nullptr) {
+    sound_->Show(staged.sound);
+  }
   const SteadyClock::time_point now = SteadyClock::now();
   if (drawn_frames_ == 0) {
     statistics_.startup_seconds = std::chrono::duration<double>(now - started_).count();
@@ -148,7 +174,7 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
   const std::chrono::duration<double, std::milli> total = now - staged.arrival;
   statistics_.total.Add(total.count());
   ++drawn_frames_;
-  return recorder_->Add(staged.tracked, *target_);
+  return recorder_->Add(staged, *target_);
 }
 
 Status Performance::RunLockStep() {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a run leaves behind: the composite as a video, and the poses.
+// What a run leaves behind: the composite as a video with its sound, and the poses.
 
 #include <filesystem>
 #include <memory>
@@ -12,8 +12,9 @@
 #include "shared/capture/video_writer.h"
 #include "shared/core/status.h"
 #include "shared/render/render_target.h"
+#include "shared/show/show.h"
+#include "shared/show/sound_recording.h"
 #include "shared/vision/poses_file.h"
-#include "shared/vision/tracked_frame.h"
 
 namespace lararium::player {
 
@@ -22,10 +23,12 @@ class Recorder {
   // Opens what the options ask for. source and options must outlive it.
   static Result<Recorder> Create(const PlayOptions& options,
                                  const capture::FrameSource& source,
-                                 const render::RenderTarget& target);
+                                 const render::RenderTarget& target,
+                                 const show::Show& show);
 
-  // The frame that target shows.
-  Status Add(const vision::TrackedFrame& tracked, const render::RenderTarget& target);
+  // The frame that target shows, and what is heard until it. Where frames were dropped the
+  // one before is shown for longer.
+  Status Add(const show::StagedFrame& staged, const render::RenderTarget& target);
   // Puts the files in their places.
   Status Finish();
 
@@ -36,6 +39,8 @@ class Recorder {
   const PlayOptions* options_;
   const capture::FrameSource* source_;
   std::unique_ptr<capture::VideoWriter> video_;
+  int64_t video_index_ = -1;                   // of the last frame
+  std::optional<show::SoundRecording> sound_;  // set when created
   cv::Mat picture_;
   std::vector<vision::PoseRecord> poses_;
 };

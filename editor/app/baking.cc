@@ -9,8 +9,11 @@
 #include <utility>
 
 #include "editor/app/document_fields.h"
+#include "editor/app/lines.h"
+#include "editor/app/sounds.h"
 #include "editor/bake/glossy_probe.h"
 #include "editor/bake/prop_transfer.h"
+#include "editor/bake/sound_synthesis.h"
 #include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
 #include "editor/import/cast_builder.h"
@@ -27,6 +30,7 @@
 #include "shared/geometry/glm_convert.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/object_use.h"
+#include "shared/stage/viseme_file.h"
 
 namespace lararium::app {
 
@@ -405,11 +409,43 @@ BakeStep ObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
   return {"object " + object.name,
           paths.Prop(object.name),
           {},
-          "object model with lights " + object.model + PropTransferSettings(),
+          "object model with lights and sounds " + object.model + PropTransferSettings(),
           [=](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
             LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop,
                                       import::BuildObjectModel(object.model));
             return LitProp(prop, object.name);
+          }};
+}
+
+// Rendering a voice takes so little that sound and visemes each do it.
+void AddSpeechSteps(const SpokenLine& spoken, std::vector<BakeStep>& steps) {
+  const bake::SpeechSource& source = spoken.source;
+  const std::string name = spoken.line->id + " in " + spoken.language;
+  std::vector<std::filesystem::path> sources;
+  if (!source.recording.empty()) {
+    sources.push_back(source.recording);
+  }
+  const std::string settings =
+      Json::array({"speech 1", source.text, source.language, source.voice.variant,
+                   source.voice.pitch, source.voice.range, source.voice.rate})
+          .dump();
+  steps.push_back({"voice of " + name, spoken.sound, sources, settings,
+                   [source](std::vector<std::string>&) { return bake::BakeSound(source); }});
+  steps.push_back({"visemes of " + name, spoken.visemes, sources, settings,
+                   [source](std::vector<std::string>& warnings) -> Result<std::vector<std::byte>> {
+                     LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack track,
+                                               bake::BakeVisemes(source, warnings));
+                     return BytesOf(stage::FormatVisemes(track));
+                   }});
+}
+
+BakeStep SoundStep(const SoundFile& sound) {
+  return {"sound " + sound.name,
+          sound.file,
+          {},
+          "built-in sound 1 " + sound.name,
+          [name = sound.name](std::vector<std::string>&) {
+            return bake::WriteFlac(bake::SynthesizeSound(name));
           }};
 }
 
@@ -433,6 +469,16 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
   }
   for (const ObjectDocument& object : document.objects) {
     steps.push_back(ObjectStep(paths, object));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectLines lines, LoadProjectLines(paths, document));
+  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
+  for (const SpokenLine& spoken : spoken_lines) {
+    AddSpeechSteps(spoken, steps);
+  }
+  for (const SoundFile& sound : FindSounds(paths)) {
+    if (sound.built_in) {
+      steps.push_back(SoundStep(sound));
+    }
   }
   return steps;
 }

@@ -51,6 +51,35 @@ Status ParsePlainFigure(const JsonView& view, CastDocument& member) {
   return Status();
 }
 
+Result<int> ParseSetting(const JsonView& view, std::string_view key, int otherwise) {
+  if (!view.Has(key)) {
+    return otherwise;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t value, view.Integer(key, 0, 1000));
+  return static_cast<int>(value);
+}
+
+Result<bake::VoiceSettings> ParseVoice(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"variant", "pitch", "range", "rate"}));
+  bake::VoiceSettings voice;
+  if (view.Has("variant")) {
+    LARARIUM_ASSIGN_OR_RETURN(voice.variant, view.Text("variant", 32));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(voice.pitch, ParseSetting(view, "pitch", voice.pitch));
+  LARARIUM_ASSIGN_OR_RETURN(voice.range, ParseSetting(view, "range", voice.range));
+  LARARIUM_ASSIGN_OR_RETURN(voice.rate, ParseSetting(view, "rate", voice.rate));
+  LARARIUM_RETURN_IF_ERROR(voice.Validate(view.place()));
+  return voice;
+}
+
+Json FormatVoice(const bake::VoiceSettings& voice) {
+  Json json = {{"pitch", voice.pitch}, {"range", voice.range}, {"rate", voice.rate}};
+  if (!voice.variant.empty()) {
+    json["variant"] = voice.variant;
+  }
+  return json;
+}
+
 }  // namespace
 
 Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member) {
@@ -78,7 +107,7 @@ Result<import::BoneNames> GivenBoneNames(const std::filesystem::path& bone_map,
 
 Result<CastDocument> ParseCastMember(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "preset", "recipe", "model", "bone_map",
-                                              "bones", "clips", "height", "tunic"}));
+                                              "bones", "clips", "height", "tunic", "voice"}));
   CastDocument member;
   LARARIUM_ASSIGN_OR_RETURN(member.name, ParsePlainName(view, "name"));
   if (view.Has("preset") + view.Has("recipe") + view.Has("model") > 1) {
@@ -103,6 +132,10 @@ Result<CastDocument> ParseCastMember(const JsonView& view) {
   }
   if (view.Has("clips")) {
     LARARIUM_RETURN_IF_ERROR(ParseClips(view, member.clips));
+  }
+  if (view.Has("voice")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView voice, view.Field("voice"));
+    LARARIUM_ASSIGN_OR_RETURN(member.voice, ParseVoice(voice));
   }
   LARARIUM_RETURN_IF_ERROR(ParsePlainFigure(view, member));
   return member;
@@ -132,6 +165,9 @@ Json FormatCastMember(const CastDocument& member) {
       entry["loops"] = true;
     }
     json["clips"].push_back(std::move(entry));
+  }
+  if (member.voice != bake::VoiceSettings()) {
+    json["voice"] = FormatVoice(member.voice);
   }
   return json;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/bake/speech_synthesis.h"
 #include "editor/import/bone_map.h"
 #include "editor/import/cast_recipe.h"
 #include "shared/core/json.h"
@@ -36,6 +37,7 @@ struct CastDocument {
   // Joints of the model named in the window, on top of the bone map: import::BoneNames.
   import::BoneNames bones;
   std::vector<ClipDocument> clips;
+  bake::VoiceSettings voice;  // where lines are not recorded
   // Of the plain figure, which also stands in where the cast library is missing.
   double height = 1.72;                        // metres
   Eigen::Vector3d tunic = {0.60, 0.55, 0.45};  // linear RGB albedo

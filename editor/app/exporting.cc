@@ -3,7 +3,10 @@
 #include <utility>
 
 #include "editor/app/baking.h"
+#include "editor/app/lines.h"
+#include "editor/app/sounds.h"
 #include "editor/app/staging.h"
+#include "editor/bake/caption_font.h"
 #include "editor/export/export.h"
 #include "editor/train/budget.h"
 #include "shared/core/file.h"
@@ -27,6 +30,36 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
                             StagePlace(paths, place, *map.database, map.picks.map_from_picked));
   LARARIUM_ASSIGN_OR_RETURN(content.glossy, LoadBakedReflections(paths, place));
   return content;
+}
+
+Status PackLines(const ProjectPaths& paths,
+                 const ProjectDocument& document,
+                 exporter::ExportContent& content) {
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectLines lines, LoadProjectLines(paths, document));
+  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
+  for (const SpokenLine& spoken : spoken_lines) {
+    exporter::SpokenContent packed;
+    packed.line = spoken.line->id;
+    packed.speaker = spoken.line->speaker;
+    packed.language = spoken.language;
+    LARARIUM_ASSIGN_OR_RETURN(packed.visemes, ReadText(spoken.visemes));
+    LARARIUM_ASSIGN_OR_RETURN(packed.sound, ReadBytes(spoken.sound));
+    content.lines.push_back(std::move(packed));
+  }
+  for (const std::string& language : lines.spoken) {
+    LARARIUM_ASSIGN_OR_RETURN(const stage::CaptionBook book,
+                              MakeCaptions(paths, document, lines, language));
+    content.spoken.push_back({language, stage::FormatCaptions(book)});
+  }
+  content.captions = lines.captions;
+  if (!lines.captions.empty()) {
+    std::vector<std::string> ignored;  // check tells them
+    LARARIUM_ASSIGN_OR_RETURN(const render::CaptionFont font, MakeCaptionFont(lines, ignored));
+    LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFontFiles files, bake::FormatCaptionFont(font));
+    content.caption_metrics = std::move(files.metrics);
+    content.caption_atlas = std::move(files.atlas);
+  }
+  return Status();
 }
 
 }  // namespace
@@ -59,10 +92,8 @@ Status ExportProject(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> prop, ReadBytes(paths.Prop(object.name)));
     content.objects.push_back({object.name, std::move(prop), StageFromObject(object)});
   }
-  for (const std::filesystem::path& file : SpeechFiles(paths)) {
-    LARARIUM_ASSIGN_OR_RETURN(std::string visemes, ReadText(file));
-    content.speech.push_back({SpeechName(file), std::move(visemes)});
-  }
+  LARARIUM_RETURN_IF_ERROR(PackLines(paths, document, content));
+  LARARIUM_ASSIGN_OR_RETURN(content.sounds, LoadSounds(paths));
   return exporter::ExportBundle(content, out, progress);
 }
 

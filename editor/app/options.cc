@@ -142,7 +142,8 @@ void AddRender(CLI::App& app, RenderOptions& render) {
   CLI::App* command =
       AddSubcommand(app, "render", "Composite the show into a recording", render.project);
   command->add_option("--video", render.video, "Video file")->required()->check(CLI::ExistingFile);
-  command->add_option("--out", render.out, "The composite (.mp4)")->required();
+  command->add_option("--out", render.out, "The composite, with its sound (.mp4)")->required();
+  command->add_option("--sound", render.sound, "Write the sound here too (.wav)");
   command->add_option("--place", render.place, "Name of the place");
   AddIntrinsics(command, render.intrinsics);
 }

@@ -90,6 +90,7 @@ struct RenderOptions {
   std::filesystem::path video;
   std::vector<double> intrinsics;
   std::filesystem::path out;
+  std::filesystem::path sound;
 };
 
 // People in a studio; several side by side.

@@ -10,6 +10,8 @@
 #include "editor/app/document_fields.h"
 #include "editor/train/april_tags.h"
 #include "shared/core/file.h"
+#include "shared/stage/acoustics_file.h"
+#include "shared/stage/caption_file.h"
 
 namespace lararium::app {
 
@@ -126,11 +128,16 @@ Result<TagsDocument> ParseTags(const JsonView& view) {
 }
 
 Result<OccluderDocument> ParseOccluder(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "file", "translation", "rotation", "scale"}));
+  LARARIUM_RETURN_IF_ERROR(
+      CheckFields(view, {"name", "file", "translation", "rotation", "scale", "blocks_sound"}));
   OccluderDocument occluder;
   LARARIUM_ASSIGN_OR_RETURN(occluder.name, ParsePlainName(view, "name"));
   LARARIUM_ASSIGN_OR_RETURN(occluder.file, view.Text("file"));
   LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(view));
+  if (view.Has("blocks_sound")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView blocks, view.Field("blocks_sound"));
+    LARARIUM_ASSIGN_OR_RETURN(occluder.blocks_sound, blocks.Boolean());
+  }
   return occluder;
 }
 
@@ -230,13 +237,18 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("tags"));
     LARARIUM_ASSIGN_OR_RETURN(place.tags, ParseTags(field));
   }
+  if (view.Has("acoustics")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("acoustics"));
+    LARARIUM_ASSIGN_OR_RETURN(place.acoustics, stage::ParseAcoustics(field));
+  }
   return ParseProbes(view, place.probes);
 }
 
 Result<PlaceDocument> ParsePlace(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(
       CheckFields(view, {"name", "training", "preview", "intrinsics", "camera", "added", "tags",
-                         "picks", "adjust", "camera_nudge", "occluders", "probe", "probes"}));
+                         "picks", "adjust", "camera_nudge", "occluders", "probe", "probes",
+                         "acoustics"}));
   PlaceDocument place;
   LARARIUM_ASSIGN_OR_RETURN(place.name, ParsePlainName(view, "name"));
   LARARIUM_RETURN_IF_ERROR(ParseOptionalFields(view, place));
@@ -296,6 +308,9 @@ Json FormatPlace(const PlaceDocument& place) {
   for (const OccluderDocument& occluder : place.occluders) {
     Json entry = {{"name", occluder.name}, {"file", occluder.file}};
     FormatSimilarity(occluder.stage_from_mesh, entry);
+    if (!occluder.blocks_sound) {
+      entry["blocks_sound"] = false;
+    }
     json["occluders"].push_back(std::move(entry));
   }
   for (const ProbeDocument& probe : place.probes) {
@@ -308,6 +323,9 @@ Json FormatPlace(const PlaceDocument& place) {
     if (probe.balance != Eigen::Vector3d::Ones()) {
       json["probes"].back()["balance"] = FormatVector(probe.balance);
     }
+  }
+  if (place.acoustics != stage::Acoustics()) {
+    json["acoustics"] = stage::FormatAcoustics(place.acoustics);
   }
   return json;
 }
@@ -370,6 +388,36 @@ std::string ProjectPaths::Shorten(const std::filesystem::path& file) const {
   return (inside ? relative : absolute).generic_string();
 }
 
+namespace {
+
+Status ParseLanguages(const JsonView& view, std::string_view key, std::vector<std::string>& list) {
+  if (!view.Has(key)) {
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> items, field.Array(64));
+  for (const JsonView& item : items) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string language, item.Text(64));
+    if (!stage::IsLanguageTag(language) ||
+        std::find(list.begin(), list.end(), language) != list.end()) {
+      return item.Problem("'" + language + "' is no language tag, or is there twice",
+                          "use one like la, it or en");
+    }
+    list.push_back(language);
+  }
+  return Status();
+}
+
+Result<SpeechDocument> ParseSpeech(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"spoken", "captions"}));
+  SpeechDocument speech;
+  LARARIUM_RETURN_IF_ERROR(ParseLanguages(view, "spoken", speech.spoken));
+  LARARIUM_RETURN_IF_ERROR(ParseLanguages(view, "captions", speech.captions));
+  return speech;
+}
+
+}  // namespace
+
 Result<ProjectDocument> ParseProject(const Json& json, const std::string& place) {
   const JsonView view(json, place);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
@@ -380,7 +428,7 @@ Result<ProjectDocument> ParseProject(const Json& json, const std::string& place)
                          "open it with that version");
   }
   LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"schema", "title", "credits", "places", "cast", "objects"}));
+      CheckFields(view, {"schema", "title", "credits", "places", "cast", "objects", "speech"}));
   ProjectDocument document;
   LARARIUM_ASSIGN_OR_RETURN(document.title, view.Text("title"));
   LARARIUM_ASSIGN_OR_RETURN(document.credits, view.Text("credits"));
@@ -406,6 +454,10 @@ Result<ProjectDocument> ParseProject(const Json& json, const std::string& place)
     }
     LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.objects, objects.place()));
   }
+  if (view.Has("speech")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView speech, view.Field("speech"));
+    LARARIUM_ASSIGN_OR_RETURN(document.speech, ParseSpeech(speech));
+  }
   LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.places, places.place()));
   LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.cast, cast.place()));
   return document;
@@ -426,31 +478,10 @@ Json FormatProject(const ProjectDocument& document) {
   for (const ObjectDocument& object : document.objects) {
     json["objects"].push_back(FormatObject(object));
   }
-  return json;
-}
-
-namespace {
-
-constexpr std::string_view kSpeechExtension = ".visemes.json";
-
-}  // namespace
-
-std::vector<std::filesystem::path> SpeechFiles(const ProjectPaths& paths) {
-  std::vector<std::filesystem::path> files;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(paths.folder / "audio", ignored)) {
-    if (entry.path().filename().string().ends_with(kSpeechExtension)) {
-      files.push_back(entry.path());
-    }
+  if (!document.speech.empty()) {
+    json["speech"] = {{"spoken", document.speech.spoken}, {"captions", document.speech.captions}};
   }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::string SpeechName(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  name.resize(name.size() - kSpeechExtension.size());
-  return name;
+  return json;
 }
 
 Result<ProjectDocument> LoadProject(const ProjectPaths& paths) {

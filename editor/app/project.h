@@ -19,6 +19,7 @@
 #include "shared/geometry/transform.h"
 #include "shared/light/camera_traits.h"
 #include "shared/light/probe_blend.h"
+#include "shared/stage/acoustics.h"
 #include "shared/stage/picks.h"
 
 namespace lararium::app {
@@ -38,6 +39,7 @@ struct OccluderDocument {
   std::string name;
   std::string file;  // a model, any format that the editor imports
   geometry::Similarity3 stage_from_mesh;
+  bool blocks_sound = true;
 };
 
 // A recording of the place in other light, merged into the map of the first.
@@ -87,15 +89,26 @@ struct PlaceDocument {
   std::optional<light::CameraTraits> camera;
   std::vector<OccluderDocument> occluders;
   std::vector<ProbeDocument> probes;  // none: even light
+  stage::Acoustics acoustics;
 };
 
-// All that a curator edits, but the drama, which is a file of its own.
+// The languages of the drama, of those of its lines. The first of each is what visitors hear
+// and read unless they choose another.
+struct SpeechDocument {
+  std::vector<std::string> spoken;    // voices are baked in these; none: the first of the lines
+  std::vector<std::string> captions;  // none: all of the lines
+
+  bool empty() const { return spoken.empty() && captions.empty(); }
+};
+
+// All that a curator edits, but the drama and its lines, which are files of their own.
 struct ProjectDocument {
   std::string title;
   std::string credits;
   std::vector<PlaceDocument> places;
   std::vector<CastDocument> cast;
   std::vector<ObjectDocument> objects;
+  SpeechDocument speech;
 
   const PlaceDocument* FindPlace(std::string_view name) const;
   PlaceDocument* FindPlace(std::string_view name);
@@ -120,6 +133,19 @@ struct ProjectPaths {
   std::filesystem::path Prop(const std::string& object) const {
     return folder / "props" / (object + ".larprop");
   }
+  // A line as it was baked in one language: with ".flac" its sound, with ".visemes.json"
+  // what the mouth does.
+  std::filesystem::path Speech(const std::string& language, const std::string& file) const {
+    return folder / "speech" / language / file;
+  }
+  // What the author has of it: audio/LANGUAGE/LINE.wav and the like.
+  std::filesystem::path Recordings(const std::string& language) const {
+    return folder / "audio" / language;
+  }
+  // A built-in sound as it was baked.
+  std::filesystem::path Sound(const std::string& name) const {
+    return folder / "sounds" / (name + ".flac");
+  }
   std::filesystem::path Place(const std::string& name) const { return folder / "places" / name; }
   std::filesystem::path Scene(const std::string& place) const {
     return Place(place) / "scene.larscene";
@@ -129,11 +155,6 @@ struct ProjectPaths {
   std::filesystem::path Resolve(const std::string& path) const;
   std::string Shorten(const std::filesystem::path& file) const;
 };
-
-// What people of the drama can say: audio/NAME.visemes.json, in the order of their names.
-std::vector<std::filesystem::path> SpeechFiles(const ProjectPaths& paths);
-// NAME of such a file.
-std::string SpeechName(const std::filesystem::path& file);
 
 // Every field is checked; fields that this version does not know are an error,
 // so that saving never drops them. place: what errors call the text.

@@ -1,6 +1,7 @@
 #include "editor/app/rendering.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "editor/app/staging.h"
@@ -10,6 +11,7 @@
 #include "shared/render/graphics_context.h"
 #include "shared/show/frame_pipeline.h"
 #include "shared/show/show_renderer.h"
+#include "shared/show/sound_recording.h"
 #include "shared/vision/tracker.h"
 
 namespace lararium::app {
@@ -32,12 +34,16 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
       const auto target, render::RenderTarget::Create(source->width() & ~1, source->height() & ~1));
   LARARIUM_ASSIGN_OR_RETURN(const auto writer,
                             capture::VideoWriter::Create(job.out, target.width(), target.height(),
-                                                         source->frames_per_second()));
+                                                         source->frames_per_second(),
+                                                         show::SoundRecording::Sounds(*show)));
+  LARARIUM_ASSIGN_OR_RETURN(auto sound,
+                            show::SoundRecording::Create(*show, true, writer.get(), job.sound));
   RenderReport report;
   show::ShowStatistics statistics;
   show::LockStep lock_step({*source, *poses, *show, statistics});
   show::StagedFrame staged;
   cv::Mat picture;
+  int64_t video_index = -1;
   const double frame_count = static_cast<double>(source->estimated_frame_count());
   while (true) {
     if (progress.Cancelled()) {
@@ -47,13 +53,18 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
     if (!more) {
       break;
     }
+    LARARIUM_RETURN_IF_ERROR(sound.Add(staged.sound));
     LARARIUM_RETURN_IF_ERROR(renderer->Draw(staged, target));
     target.ReadPixels(picture);
-    LARARIUM_RETURN_IF_ERROR(writer->Write(picture));
+    const auto index =
+        static_cast<int64_t>(std::llround(staged.time * source->frames_per_second()));
+    video_index = std::max(index, video_index + 1);
+    LARARIUM_RETURN_IF_ERROR(writer->Write(picture, video_index));
     ++report.frames;
     report.tracked += staged.camera_from_stage.has_value() ? 1 : 0;
     progress.Report("rendering", std::min(report.frames / std::max(frame_count, 1.0), 1.0));
   }
+  LARARIUM_RETURN_IF_ERROR(sound.Finish(1.0 / source->frames_per_second()));
   LARARIUM_RETURN_IF_ERROR(writer->Finish());
   return report;
 }

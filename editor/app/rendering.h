@@ -17,7 +17,8 @@ struct RenderJob {
   show::ShowContent content;
   std::filesystem::path video;
   std::vector<double> intrinsics;  // 4 or 8 numbers, or empty: those of the training
-  std::filesystem::path out;       // .mp4
+  std::filesystem::path out;       // .mp4, with the show's sound as headphones want it
+  std::filesystem::path sound;     // .wav; empty: none
 };
 
 struct RenderReport {

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "editor/app/baking.h"
+#include "editor/app/lines.h"
+#include "editor/app/sounds.h"
 #include "shared/core/file.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/stage/object_use.h"
-#include "shared/stage/viseme_file.h"
 
 namespace lararium::app {
 
@@ -140,9 +141,11 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
   staged.camera = place.camera;
   for (const OccluderDocument& occluder : place.occluders) {
     LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh mesh, LoadBakedMesh(paths, place, occluder));
-    staged.occluders.push_back({occluder.name, std::move(mesh), occluder.stage_from_mesh});
+    staged.occluders.push_back(
+        {occluder.name, std::move(mesh), occluder.stage_from_mesh, occluder.blocks_sound});
   }
   LARARIUM_ASSIGN_OR_RETURN(staged.probes, LoadBakedProbes(paths, place, EvenRadiance(map)));
+  staged.acoustics = place.acoustics;
   return staged;
 }
 
@@ -185,21 +188,12 @@ Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
   return objects;
 }
 
-Result<std::vector<show::Speech>> LoadSpeech(const ProjectPaths& paths) {
-  std::vector<show::Speech> speech;
-  for (const std::filesystem::path& file : SpeechFiles(paths)) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
-    LARARIUM_ASSIGN_OR_RETURN(human::VisemeTrack visemes, stage::ParseVisemes(text, file.string()));
-    speech.push_back({SpeechName(file), std::move(visemes)});
-  }
-  return speech;
-}
-
 Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const ProjectDocument& document,
                                        const PlaceDocument& place,
                                        std::shared_ptr<const vision::SceneDatabase> database,
-                                       const Similarity3& map_from_picked) {
+                                       const Similarity3& map_from_picked,
+                                       const show::LanguageChoice& languages) {
   show::ShowContent content;
   content.title = document.title;
   LARARIUM_ASSIGN_OR_RETURN(stage::Place staged,
@@ -209,10 +203,12 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
   content.places.push_back({std::move(staged), std::move(database), std::move(glossy)});
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
-    content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});
+    content.cast.push_back(
+        {member.name, std::make_shared<const human::Human>(std::move(human)), {}});
   }
   LARARIUM_ASSIGN_OR_RETURN(content.objects, LoadObjects(paths, document));
-  LARARIUM_ASSIGN_OR_RETURN(content.speech, LoadSpeech(paths));
+  LARARIUM_RETURN_IF_ERROR(AddLines(paths, document, languages, content));
+  LARARIUM_ASSIGN_OR_RETURN(content.sounds, LoadSounds(paths));
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
   content.drama_file = paths.Drama().filename().string();
   return content;
@@ -220,14 +216,15 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
 
 Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
                                           const ProjectDocument& document,
-                                          const std::string& place_name) {
+                                          const std::string& place_name,
+                                          const show::LanguageChoice& languages) {
   const PlaceDocument* place = document.FindPlace(place_name);
   if (place == nullptr) {
     return Status::Error(paths.Project().string(), "has no place \"" + place_name + "\"");
   }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, *place));
   LARARIUM_RETURN_IF_ERROR(map.picks.problem);
-  return AssembleShow(paths, document, *place, map.database, map.picks.map_from_picked);
+  return AssembleShow(paths, document, *place, map.database, map.picks.map_from_picked, languages);
 }
 
 Result<StagedMap> LoadStagedMap(const ProjectPaths& paths, const PlaceDocument& place) {

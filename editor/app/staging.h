@@ -86,10 +86,9 @@ struct StagedMap {
 // that give nothing are in picks.problem.
 Result<StagedMap> LoadStagedMap(const ProjectPaths& paths, const PlaceDocument& place);
 
-// The project's objects as they were baked, and what its people can say.
+// The project's objects as they were baked.
 Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
                                                    const ProjectDocument& document);
-Result<std::vector<show::Speech>> LoadSpeech(const ProjectPaths& paths);
 
 // Everything that a show needs at one place, whose map is at hand and whose picks
 // are resolved. Fails where something was not baked.
@@ -97,13 +96,15 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const ProjectDocument& document,
                                        const PlaceDocument& place,
                                        std::shared_ptr<const vision::SceneDatabase> database,
-                                       const geometry::Similarity3& map_from_picked);
+                                       const geometry::Similarity3& map_from_picked,
+                                       const show::LanguageChoice& languages = {});
 
 // The same with the map read from the project. Picks that do not resolve are an
 // error here; a place without any is staged by the guess.
 Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
                                           const ProjectDocument& document,
-                                          const std::string& place_name);
+                                          const std::string& place_name,
+                                          const show::LanguageChoice& languages = {});
 
 Result<std::unique_ptr<capture::FrameSource>> OpenSource(const ProjectPaths& paths,
                                                          const SourceDocument& source);

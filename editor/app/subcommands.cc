@@ -10,8 +10,10 @@
 #include "editor/app/baking.h"
 #include "editor/app/document_fields.h"
 #include "editor/app/exporting.h"
+#include "editor/app/lines.h"
 #include "editor/app/project.h"
 #include "editor/app/rendering.h"
+#include "editor/app/sounds.h"
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
 #include "editor/app/thumbnail.h"
@@ -36,8 +38,14 @@ Status FillStage(const ProjectPaths& paths, const ProjectDocument& document, sta
     LARARIUM_RETURN_IF_ERROR(
         stage.AddObject(object.name, object.model, object.stage_from_object).status());
   }
-  LARARIUM_ASSIGN_OR_RETURN(const auto speeches, LoadSpeech(paths));
-  for (const show::Speech& speech : speeches) {
+  show::ShowContent said;
+  LARARIUM_RETURN_IF_ERROR(AddLines(paths, document, {"", std::string(show::kNoCaptions)}, said));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<audio::SoundData> sounds, LoadSounds(paths));
+  for (const audio::SoundData& sound : sounds) {
+    LARARIUM_ASSIGN_OR_RETURN(const auto reader, audio::SoundReader::Open(sound.bytes, sound.name));
+    LARARIUM_RETURN_IF_ERROR(stage.sounds().Add(sound.name, reader.seconds()));
+  }
+  for (const show::Speech& speech : said.speech) {
     LARARIUM_RETURN_IF_ERROR(stage.AddSpeech(speech.name, speech.visemes));
   }
   std::vector<stage::Place> places;
@@ -306,6 +314,9 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
       problems.push_back(problem.message());
     }
   }
+  for (const Status& problem : FindSilences(paths, document)) {
+    problems.push_back(problem.message());
+  }
   const DryRunReport run = DryRun(paths, document, options.seconds, progress);
   problems.insert(problems.end(), run.problems.begin(), run.problems.end());
   if (progress.Cancelled()) {
@@ -344,6 +355,7 @@ Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress
   job.video = options.video;
   job.intrinsics = options.intrinsics;
   job.out = options.out;
+  job.sound = options.sound;
   LARARIUM_ASSIGN_OR_RETURN(const RenderReport report, RenderVideo(std::move(job), progress, log));
   return CommandResult{
       options.out.string() + ": " + std::to_string(report.frames) + " frames, " +

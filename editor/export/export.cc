@@ -6,6 +6,8 @@
 #include "shared/bundle/bundle.h"
 #include "shared/bundle/bundle_writer.h"
 #include "shared/human/human.h"
+#include "shared/render/caption_font.h"
+#include "shared/stage/caption_file.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/object_use.h"
 #include "shared/stage/prop.h"
@@ -45,6 +47,7 @@ Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
       place.name,  folder + "scene.larscene", place.map_from_stage, place.camera_nudge, {},
       place.probes};
   entry.camera = place.camera;
+  entry.acoustics = place.acoustics;
   const auto scene = vision::ParseSceneDatabase(content.scene, "place '" + place.name + "'");
   LARARIUM_RETURN_IF_ERROR(scene.status());
   packing.members.push_back({entry.scene, content.scene});
@@ -54,7 +57,8 @@ Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
     const std::string member =
         folder + "occluder" + std::to_string(entry.occluders.size()) + ".larmesh";
     packing.members.push_back({member, packing.made.back()});
-    entry.occluders.push_back({occluder.name, member, occluder.stage_from_mesh});
+    entry.occluders.push_back(
+        {occluder.name, member, occluder.stage_from_mesh, occluder.blocks_sound});
   }
   for (const light::GlossyMap& glossy : content.glossy) {
     entry.glossy.emplace_back();
@@ -98,12 +102,54 @@ Status PackObject(const ObjectContent& content, size_t index, Packing& packing) 
   return Status();
 }
 
-Status PackSpeech(const SpeechContent& content, size_t index, Packing& packing) {
+Status PackSpoken(const SpokenContent& content, size_t /*index*/, Packing& packing) {
   LARARIUM_RETURN_IF_ERROR(
-      stage::ParseVisemes(content.visemes, "speech '" + content.name + "'").status());
-  const std::string member = "speech/" + std::to_string(index) + ".json";
-  packing.members.push_back({member, std::as_bytes(std::span(content.visemes))});
-  packing.manifest.speech.push_back({content.name, member});
+      stage::ParseVisemes(content.visemes, "line '" + content.line + "'").status());
+  const std::string stem = "speech/" + content.language + "/" + content.line;
+  bundle::SpokenEntry entry{stem + ".visemes.json", content.sound.empty() ? "" : stem + ".flac"};
+  packing.members.push_back({entry.visemes, std::as_bytes(std::span(content.visemes))});
+  if (!content.sound.empty()) {
+    packing.members.push_back({entry.sound, content.sound});
+  }
+  std::vector<bundle::LineEntry>& lines = packing.manifest.lines;
+  auto line = std::find_if(lines.begin(), lines.end(),
+                           [&](const auto& known) { return known.name == content.line; });
+  if (line == lines.end()) {
+    line = lines.insert(lines.end(), {content.line, content.speaker, {}});
+  }
+  line->spoken[content.language] = std::move(entry);
+  return Status();
+}
+
+Status PackCaptions(const CaptionContent& content, size_t /*index*/, Packing& packing) {
+  LARARIUM_RETURN_IF_ERROR(
+      stage::ParseCaptions(content.captions, "captions of " + content.language).status());
+  const std::string member = "speech/" + content.language + "/captions.json";
+  packing.members.push_back({member, std::as_bytes(std::span(content.captions))});
+  packing.manifest.spoken.push_back({content.language, member});
+  return Status();
+}
+
+Status PackCaptionFont(const ExportContent& content, Packing& packing) {
+  if (content.caption_metrics.empty()) {
+    return Status();
+  }
+  const auto font =
+      render::ParseCaptionFont(content.caption_metrics, content.caption_atlas, "caption font");
+  LARARIUM_RETURN_IF_ERROR(font.status());
+  packing.manifest.caption_font = {"captions/font.json", "captions/font.png"};
+  packing.members.push_back(
+      {"captions/font.json", std::as_bytes(std::span(content.caption_metrics))});
+  packing.members.push_back({"captions/font.png", content.caption_atlas});
+  return Status();
+}
+
+Status PackSound(const audio::SoundData& content, size_t index, Packing& packing) {
+  LARARIUM_RETURN_IF_ERROR(
+      audio::SoundReader::Open(content.bytes, "sound '" + content.name + "'").status());
+  const std::string member = "sounds/" + std::to_string(index);
+  packing.members.push_back({member, content.bytes});
+  packing.manifest.sounds.push_back({content.name, member});
   return Status();
 }
 
@@ -136,7 +182,11 @@ Status ExportBundle(const ExportContent& content,
   LARARIUM_RETURN_IF_ERROR(PackAll(content.places, PackPlace, packing, progress));
   LARARIUM_RETURN_IF_ERROR(PackAll(content.cast, PackCast, packing, progress));
   LARARIUM_RETURN_IF_ERROR(PackAll(content.objects, PackObject, packing, progress));
-  LARARIUM_RETURN_IF_ERROR(PackAll(content.speech, PackSpeech, packing, progress));
+  LARARIUM_RETURN_IF_ERROR(PackAll(content.lines, PackSpoken, packing, progress));
+  LARARIUM_RETURN_IF_ERROR(PackAll(content.spoken, PackCaptions, packing, progress));
+  packing.manifest.captions = content.captions;
+  LARARIUM_RETURN_IF_ERROR(PackCaptionFont(content, packing));
+  LARARIUM_RETURN_IF_ERROR(PackAll(content.sounds, PackSound, packing, progress));
   progress.Report("writing", 0.0);
   LARARIUM_RETURN_IF_ERROR(bundle::WriteBundle(path, packing.manifest, packing.members));
   progress.Report("verifying", 0.0);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "shared/audio/sound_library.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/light/glossy_map.h"
@@ -31,9 +32,19 @@ struct ObjectContent {
   geometry::Rigid3 stage_from_object;
 };
 
-struct SpeechContent {
-  std::string name;
-  std::string visemes;  // JSON: stage::ParseVisemes
+// A line as it is said in one language.
+struct SpokenContent {
+  std::string line;  // its id
+  std::string speaker;
+  std::string language;
+  std::string visemes;           // JSON: stage::ParseVisemes
+  std::vector<std::byte> sound;  // FLAC; empty: nothing is heard
+};
+
+// What is to be read while lines are said in one language.
+struct CaptionContent {
+  std::string language;  // that is spoken
+  std::string captions;  // JSON: stage::ParseCaptions
 };
 
 // Everything that goes into a bundle, as plain data.
@@ -44,7 +55,12 @@ struct ExportContent {
   std::vector<PlaceContent> places;
   std::vector<CastContent> cast;
   std::vector<ObjectContent> objects;
-  std::vector<SpeechContent> speech;
+  std::vector<SpokenContent> lines;
+  std::vector<CaptionContent> spoken;    // the first unless another is asked for
+  std::vector<std::string> captions;     // languages, likewise
+  std::string caption_metrics;           // JSON: render::ParseCaptionFont; empty: no captions
+  std::vector<std::byte> caption_atlas;  // PNG
+  std::vector<audio::SoundData> sounds;
 };
 
 // Checks the parts with the player's own parsers, writes the bundle, and opens it

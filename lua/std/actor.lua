@@ -288,15 +288,14 @@ local falls_silent = {
   end,
 }
 
--- Says something that was recorded: audio/NAME.visemes.json. Waits until it is said.
-function Actor:say(speech)
-  if type(speech) ~= "string" then
-    error("say: give the name of a speech", 2)
+-- Says a line of the project's table, in the language of the show. Waits until it is said.
+function Actor:say(line)
+  if type(line) ~= "string" then
+    error("say: give the id of a line", 2)
   end
-  local duration = host.say(self.id, speech)
+  local duration = host.say(self.id, line)
   if not duration then
-    error("say: there is no speech '" .. speech .. "'; add audio/" .. speech ..
-      ".visemes.json to the project", 2)
+    error("say: there is no line '" .. line .. "'; add it to lines.csv", 2)
   end
   local guard <close> = setmetatable({ id = self.id }, falls_silent)
   host.wait(duration)

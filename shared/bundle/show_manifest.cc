@@ -10,6 +10,7 @@
 #include "shared/bundle/zip_layout.h"
 #include "shared/core/json.h"
 #include "shared/light/probe_weights.h"
+#include "shared/stage/acoustics_file.h"
 
 namespace lararium::bundle {
 namespace {
@@ -19,7 +20,12 @@ constexpr size_t kMaxTitle = 1000;
 constexpr size_t kMaxPlaces = 64;
 constexpr size_t kMaxCast = 256;
 constexpr size_t kMaxObjects = 1024;
-constexpr size_t kMaxSpeech = 4096;
+constexpr size_t kMaxLines = 4096;
+constexpr size_t kMaxLanguages = 64;
+constexpr size_t kMaxLanguageTag = 16;
+// Lines of bundles that knew no languages.
+constexpr char kNoLanguage[] = "und";
+constexpr size_t kMaxSounds = 4096;
 constexpr size_t kMaxOccluders = 256;
 constexpr double kMaxIrradiance = 1e6;
 constexpr double kMaxProbeDistance = 1e5;  // metres
@@ -201,6 +207,10 @@ Result<OccluderEntry> ParseOccluder(const JsonView& json) {
   LARARIUM_ASSIGN_OR_RETURN(occluder.name, json.Text("name", kMaxName));
   LARARIUM_ASSIGN_OR_RETURN(occluder.mesh, ParseMemberName(json, "mesh"));
   LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(json, "stage_from_mesh"));
+  if (json.Has("blocks_sound")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView blocks, json.Field("blocks_sound"));
+    LARARIUM_ASSIGN_OR_RETURN(occluder.blocks_sound, blocks.Boolean());
+  }
   return occluder;
 }
 
@@ -218,7 +228,18 @@ Result<PlaceEntry> ParsePlace(const JsonView& json) {
   LARARIUM_ASSIGN_OR_RETURN(place.occluders,
                             ParseList(json, "occluders", kMaxOccluders, ParseOccluder));
   LARARIUM_RETURN_IF_ERROR(ParseProbes(json, place));
+  if (json.Has("acoustics")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView acoustics, json.Field("acoustics"));
+    LARARIUM_ASSIGN_OR_RETURN(place.acoustics, stage::ParseAcoustics(acoustics));
+  }
   return place;
+}
+
+Result<SoundEntry> ParseSound(const JsonView& json) {
+  SoundEntry sound;
+  LARARIUM_ASSIGN_OR_RETURN(sound.name, json.Text("name", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(sound.file, ParseMemberName(json, "file"));
+  return sound;
 }
 
 Result<CastEntry> ParseCast(const JsonView& json) {
@@ -241,11 +262,119 @@ Result<ObjectEntry> ParseObject(const JsonView& json) {
   return object;
 }
 
-Result<SpeechEntry> ParseSpeech(const JsonView& json) {
-  SpeechEntry speech;
-  LARARIUM_ASSIGN_OR_RETURN(speech.name, json.Text("name", kMaxName));
-  LARARIUM_ASSIGN_OR_RETURN(speech.visemes, ParseMemberName(json, "visemes"));
-  return speech;
+Result<SpokenEntry> ParseSpoken(const JsonView& json) {
+  SpokenEntry spoken;
+  LARARIUM_ASSIGN_OR_RETURN(spoken.visemes, ParseMemberName(json, "visemes"));
+  if (json.Has("sound")) {
+    LARARIUM_ASSIGN_OR_RETURN(spoken.sound, ParseMemberName(json, "sound"));
+  }
+  return spoken;
+}
+
+Result<LineEntry> ParseLine(const JsonView& json) {
+  LineEntry line;
+  LARARIUM_ASSIGN_OR_RETURN(line.name, json.Text("name", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(line.speaker, json.Text("speaker", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView spoken, json.Field("spoken"));
+  if (!spoken.json().is_object() || spoken.json().size() > kMaxLanguages) {
+    return spoken.Problem("must be an object of at most 64 languages");
+  }
+  for (const auto& [language, ignored] : spoken.json().items()) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView entry, spoken.Field(language));
+    LARARIUM_ASSIGN_OR_RETURN(line.spoken[language], ParseSpoken(entry));
+  }
+  return line;
+}
+
+// As bundles had them before there were languages.
+Result<LineEntry> ParsePlainSpeech(const JsonView& json) {
+  LineEntry line;
+  LARARIUM_ASSIGN_OR_RETURN(line.name, json.Text("name", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(line.spoken[kNoLanguage].visemes, ParseMemberName(json, "visemes"));
+  return line;
+}
+
+Result<SpokenLanguage> ParseSpokenLanguage(const JsonView& json) {
+  SpokenLanguage language;
+  LARARIUM_ASSIGN_OR_RETURN(language.name, json.Text("name", kMaxLanguageTag));
+  if (json.Has("captions")) {
+    LARARIUM_ASSIGN_OR_RETURN(language.captions, ParseMemberName(json, "captions"));
+  }
+  return language;
+}
+
+// Lines, the languages that they are said and written in, and the letters.
+Status ParseLines(const JsonView& json, ShowManifest& manifest) {
+  if (json.Has("speech")) {
+    LARARIUM_ASSIGN_OR_RETURN(manifest.lines,
+                              ParseList(json, "speech", kMaxLines, ParsePlainSpeech));
+    manifest.spoken = {{kNoLanguage, ""}};
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(manifest.lines, ParseOptionalList(json, "lines", kMaxLines, ParseLine));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.spoken,
+                            ParseOptionalList(json, "spoken", kMaxLanguages, ParseSpokenLanguage));
+  if (json.Has("captions")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView captions, json.Field("captions"));
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, captions.Array(kMaxLanguages));
+    for (const JsonView& language : list) {
+      LARARIUM_ASSIGN_OR_RETURN(manifest.captions.emplace_back(), language.Text(kMaxLanguageTag));
+    }
+  }
+  if (json.Has("caption_font")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView font, json.Field("caption_font"));
+    manifest.caption_font.emplace();
+    LARARIUM_ASSIGN_OR_RETURN(manifest.caption_font->metrics, ParseMemberName(font, "metrics"));
+    LARARIUM_ASSIGN_OR_RETURN(manifest.caption_font->atlas, ParseMemberName(font, "atlas"));
+  }
+  return Status();
+}
+
+void CollectLineMembers(const ShowManifest& manifest, std::vector<std::string_view>& used) {
+  for (const LineEntry& line : manifest.lines) {
+    for (const auto& [language, spoken] : line.spoken) {
+      used.push_back(spoken.visemes);
+      if (!spoken.sound.empty()) {
+        used.push_back(spoken.sound);
+      }
+    }
+  }
+  for (const SpokenLanguage& language : manifest.spoken) {
+    if (!language.captions.empty()) {
+      used.push_back(language.captions);
+    }
+  }
+  if (manifest.caption_font) {
+    used.push_back(manifest.caption_font->metrics);
+    used.push_back(manifest.caption_font->atlas);
+  }
+}
+
+void FormatLines(const ShowManifest& manifest, Json& json) {
+  json["lines"] = Json::array();
+  json["spoken"] = Json::array();
+  json["captions"] = manifest.captions;
+  for (const LineEntry& line : manifest.lines) {
+    Json spoken = Json::object();
+    for (const auto& [language, entry] : line.spoken) {
+      spoken[language] = {{"visemes", entry.visemes}};
+      if (!entry.sound.empty()) {
+        spoken[language]["sound"] = entry.sound;
+      }
+    }
+    json["lines"].push_back(
+        {{"name", line.name}, {"speaker", line.speaker}, {"spoken", std::move(spoken)}});
+  }
+  for (const SpokenLanguage& language : manifest.spoken) {
+    json["spoken"].push_back({{"name", language.name}});
+    if (!language.captions.empty()) {
+      json["spoken"].back()["captions"] = language.captions;
+    }
+  }
+  if (manifest.caption_font) {
+    json["caption_font"] = {{"metrics", manifest.caption_font->metrics},
+                            {"atlas", manifest.caption_font->atlas}};
+  }
 }
 
 Result<Member> ParseMember(const JsonView& json) {
@@ -275,8 +404,9 @@ Status CheckReferences(const ShowManifest& manifest, const JsonView& json) {
   for (const ObjectEntry& object : manifest.objects) {
     used.push_back(object.prop);
   }
-  for (const SpeechEntry& speech : manifest.speech) {
-    used.push_back(speech.visemes);
+  CollectLineMembers(manifest, used);
+  for (const SoundEntry& sound : manifest.sounds) {
+    used.push_back(sound.file);
   }
   for (const PlaceEntry& place : manifest.places) {
     used.push_back(place.scene);
@@ -318,8 +448,9 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
   LARARIUM_ASSIGN_OR_RETURN(manifest.cast, ParseList(json, "cast", kMaxCast, ParseCast));
   LARARIUM_ASSIGN_OR_RETURN(manifest.objects,
                             ParseOptionalList(json, "objects", kMaxObjects, ParseObject));
-  LARARIUM_ASSIGN_OR_RETURN(manifest.speech,
-                            ParseOptionalList(json, "speech", kMaxSpeech, ParseSpeech));
+  LARARIUM_RETURN_IF_ERROR(ParseLines(json, manifest));
+  LARARIUM_ASSIGN_OR_RETURN(manifest.sounds,
+                            ParseOptionalList(json, "sounds", kMaxSounds, ParseSound));
   LARARIUM_ASSIGN_OR_RETURN(manifest.members,
                             ParseList(json, "members", kMaxMembers - 1, ParseMember));
   if (manifest.places.empty()) {
@@ -330,16 +461,17 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
 }
 
 std::string FormatShowManifest(const ShowManifest& manifest) {
-  Json json = {
-      {"schema", ShowManifest::kSchema}, {"title", manifest.title}, {"credits", manifest.credits},
-      {"drama", manifest.drama},         {"places", Json::array()}, {"cast", Json::array()},
-      {"objects", Json::array()},        {"speech", Json::array()}, {"members", Json::array()}};
+  Json json = {{"schema", ShowManifest::kSchema}, {"title", manifest.title},
+               {"credits", manifest.credits},     {"drama", manifest.drama},
+               {"places", Json::array()},         {"cast", Json::array()},
+               {"objects", Json::array()},        {"members", Json::array()}};
   for (const PlaceEntry& place : manifest.places) {
     Json occluders = Json::array();
     for (const OccluderEntry& occluder : place.occluders) {
       occluders.push_back({{"name", occluder.name},
                            {"mesh", occluder.mesh},
-                           {"stage_from_mesh", FormatSimilarity(occluder.stage_from_mesh)}});
+                           {"stage_from_mesh", FormatSimilarity(occluder.stage_from_mesh)},
+                           {"blocks_sound", occluder.blocks_sound}});
     }
     const Eigen::Vector3d& nudge = place.camera_nudge;
     json["places"].push_back({{"name", place.name},
@@ -358,6 +490,9 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
       }
       json["places"].back()["probes"].push_back(std::move(probe));
     }
+    if (place.acoustics != stage::Acoustics()) {
+      json["places"].back()["acoustics"] = stage::FormatAcoustics(place.acoustics);
+    }
   }
   for (const CastEntry& cast : manifest.cast) {
     json["cast"].push_back({{"name", cast.name}, {"human", cast.human}});
@@ -369,8 +504,9 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
          {"prop", object.prop},
          {"stage_from_object", FormatSimilarity({1.0, pose.rotation, pose.translation})}});
   }
-  for (const SpeechEntry& speech : manifest.speech) {
-    json["speech"].push_back({{"name", speech.name}, {"visemes", speech.visemes}});
+  FormatLines(manifest, json);
+  for (const SoundEntry& sound : manifest.sounds) {
+    json["sounds"].push_back({{"name", sound.name}, {"file", sound.file}});
   }
   for (const Member& member : manifest.members) {
     json["members"].push_back(

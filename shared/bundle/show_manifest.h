@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "shared/geometry/transform.h"
 #include "shared/light/camera_traits.h"
 #include "shared/light/probe_blend.h"
+#include "shared/stage/acoustics.h"
 
 namespace lararium::bundle {
 
@@ -28,6 +30,7 @@ struct OccluderEntry {
   std::string name;
   std::string mesh;  // member, .larmesh
   geometry::Similarity3 stage_from_mesh;
+  bool blocks_sound = true;
 };
 
 struct PlaceEntry {
@@ -39,6 +42,7 @@ struct PlaceEntry {
   std::vector<light::PlacedProbe> probes;                    // light in stage axes
   std::optional<light::CameraTraits> camera = std::nullopt;  // a bundle may lack the field
   std::vector<std::string> glossy = {};  // of each probe: member, .gloss; empty: none
+  stage::Acoustics acoustics = {};
 };
 
 struct CastEntry {
@@ -53,10 +57,35 @@ struct ObjectEntry {
   geometry::Rigid3 stage_from_object;
 };
 
-// What somebody can say.
-struct SpeechEntry {
-  std::string name;
+// A line as it is said in one language.
+struct SpokenEntry {
   std::string visemes;  // member, JSON: stage::ParseVisemes
+  std::string sound;    // member, FLAC or Ogg; empty: nothing is heard
+};
+
+// What somebody can say.
+struct LineEntry {
+  std::string name;     // its id
+  std::string speaker;  // of the cast, whose voice it has; may be empty
+  std::map<std::string, SpokenEntry, std::less<>> spoken;  // by language
+};
+
+// A language that lines are said in.
+struct SpokenLanguage {
+  std::string name;      // "la"
+  std::string captions;  // member, JSON: stage::ParseCaptions; empty: it has none
+};
+
+// What a caption is drawn with.
+struct CaptionFontEntry {
+  std::string metrics;  // member, JSON: render::ParseCaptionFont
+  std::string atlas;    // member, PNG
+};
+
+// A sound that things, places or the drama make.
+struct SoundEntry {
+  std::string name;
+  std::string file;  // member: WAV, FLAC or Ogg
 };
 
 struct ShowManifest {
@@ -65,12 +94,16 @@ struct ShowManifest {
 
   std::string title;
   std::string credits;
-  std::string drama;                 // member, Lua source
-  std::vector<PlaceEntry> places;    // at least one; names are unique
-  std::vector<CastEntry> cast;       // names are unique
-  std::vector<ObjectEntry> objects;  // likewise; a bundle may lack the field
-  std::vector<SpeechEntry> speech;   // likewise
-  std::vector<Member> members;       // in their order in the file
+  std::string drama;                   // member, Lua source
+  std::vector<PlaceEntry> places;      // at least one; names are unique
+  std::vector<CastEntry> cast;         // names are unique
+  std::vector<ObjectEntry> objects;    // likewise; a bundle may lack the field
+  std::vector<LineEntry> lines;        // likewise
+  std::vector<SpokenLanguage> spoken;  // the first unless another is asked for
+  std::vector<std::string> captions;   // languages of captions, likewise
+  std::optional<CaptionFontEntry> caption_font;
+  std::vector<SoundEntry> sounds;  // names are unique
+  std::vector<Member> members;     // in their order in the file
 };
 
 // Checks every field, that names are unique, and that each member which an

@@ -30,7 +30,7 @@ inline constexpr size_t kExtraHeaderSize = 4;        // id, length
 inline constexpr uint16_t kDosTime = 0;
 inline constexpr uint16_t kDosDate = 1 << 5 | 1;
 
-inline constexpr size_t kMaxMembers = 4096;
+inline constexpr size_t kMaxMembers = 16384;
 inline constexpr uint64_t kMaxBundleBytes = (uint64_t{1} << 32) - 1;
 inline constexpr uint64_t kMaxManifestBytes = 16 << 20;
 

@@ -10,6 +10,9 @@ namespace lararium::capture {
 
 namespace {
 
+constexpr int kSoundChannels = 2;
+constexpr int64_t kSoundBits = 192'000;  // a second
+
 struct MuxerDeleter {
   void operator()(AVFormatContext* context) const {
     if (context->pb != nullptr) {
@@ -31,6 +34,12 @@ struct VideoWriter::Encoder {
   LibavPtr<SwsContext> scaler;
   AVStream* stream = nullptr;
   int64_t next_index = 0;
+  // Of the sound, where there is some.
+  LibavPtr<AVCodecContext> sound_codec;
+  LibavPtr<AVFrame> sound_frame;
+  AVStream* sound_stream = nullptr;
+  int sound_filled = 0;  // samples of sound_frame
+  int64_t sound_written = 0;
 
   ~Encoder() {
     muxer.reset();
@@ -71,6 +80,42 @@ struct VideoWriter::Encoder {
     return error < 0 ? Problem("the H.264 encoder does not start", error) : Status();
   }
 
+  Status OpenSoundCodec() {
+    const AVCodec* aac = avcodec_find_encoder(AV_CODEC_ID_AAC);
+    sound_codec.reset(aac == nullptr ? nullptr : avcodec_alloc_context3(aac));
+    if (sound_codec == nullptr) {
+      return Status::Error(file.string(), "no AAC encoder is installed", "install libavcodec");
+    }
+    sound_codec->sample_rate = VideoWriter::kSoundRate;
+    sound_codec->sample_fmt = AV_SAMPLE_FMT_FLTP;
+    sound_codec->bit_rate = kSoundBits;
+    sound_codec->time_base = {1, VideoWriter::kSoundRate};
+    sound_codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    av_channel_layout_default(&sound_codec->ch_layout, kSoundChannels);
+    if (const int error = avcodec_open2(sound_codec.get(), aac, nullptr); error < 0) {
+      return Problem("the AAC encoder does not start", error);
+    }
+    sound_frame.reset(av_frame_alloc());
+    if (sound_frame == nullptr) {
+      return Problem("cannot be written", AVERROR(ENOMEM));
+    }
+    sound_frame->format = sound_codec->sample_fmt;
+    sound_frame->nb_samples = sound_codec->frame_size;
+    sound_frame->sample_rate = VideoWriter::kSoundRate;
+    av_channel_layout_copy(&sound_frame->ch_layout, &sound_codec->ch_layout);
+    const int error = av_frame_get_buffer(sound_frame.get(), 0);
+    return error < 0 ? Problem("cannot be written", error) : Status();
+  }
+
+  Result<AVStream*> AddStream(const AVCodecContext& encoder) {
+    AVStream* added = avformat_new_stream(muxer.get(), nullptr);
+    if (added == nullptr || avcodec_parameters_from_context(added->codecpar, &encoder) < 0) {
+      return Problem("cannot be written as MP4", AVERROR(ENOMEM));
+    }
+    added->time_base = encoder.time_base;
+    return added;
+  }
+
   Status OpenMuxer() {
     const std::string url = "file:" + temporary.string();
     AVFormatContext* context = nullptr;
@@ -79,11 +124,10 @@ struct VideoWriter::Encoder {
       return Problem("cannot be written as MP4", error);
     }
     muxer.reset(context);
-    stream = avformat_new_stream(context, nullptr);
-    if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, codec.get()) < 0) {
-      return Problem("cannot be written as MP4", AVERROR(ENOMEM));
+    LARARIUM_ASSIGN_OR_RETURN(stream, AddStream(*codec));
+    if (sound_codec != nullptr) {
+      LARARIUM_ASSIGN_OR_RETURN(sound_stream, AddStream(*sound_codec));
     }
-    stream->time_base = codec->time_base;
     stream->avg_frame_rate = codec->framerate;
     if (const int error = avio_open(&context->pb, url.c_str(), AVIO_FLAG_WRITE); error < 0) {
       return Problem("cannot be written", error);
@@ -114,26 +158,65 @@ struct VideoWriter::Encoder {
     return error < 0 ? Problem("cannot be written", error) : Status();
   }
 
-  // A null picture drains the encoder.
-  Status Encode(const AVFrame* frame) {
-    if (const int error = avcodec_send_frame(codec.get(), frame); error < 0) {
+  // A null frame drains the encoder.
+  Status Encode(AVCodecContext& encoder, const AVFrame* frame, const AVStream& to) {
+    if (const int error = avcodec_send_frame(&encoder, frame); error < 0) {
       return Problem("a frame cannot be encoded", error);
     }
     while (true) {
-      const int error = avcodec_receive_packet(codec.get(), packet.get());
+      const int error = avcodec_receive_packet(&encoder, packet.get());
       if (error == AVERROR(EAGAIN) || error == AVERROR_EOF) {
         return Status();
       }
       if (error < 0) {
         return Problem("a frame cannot be encoded", error);
       }
-      packet->duration = 1;
-      av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
-      packet->stream_index = stream->index;
+      if (&to == stream) {
+        packet->duration = 1;
+      }
+      av_packet_rescale_ts(packet.get(), encoder.time_base, to.time_base);
+      packet->stream_index = to.index;
       if (const int written = av_interleaved_write_frame(muxer.get(), packet.get()); written < 0) {
         return Problem("cannot be written", written);
       }
     }
+  }
+
+  // What sound_frame holds.
+  Status EncodeSound() {
+    sound_frame->nb_samples = sound_filled;
+    sound_frame->pts = sound_written;
+    sound_written += sound_filled;
+    sound_filled = 0;
+    return Encode(*sound_codec, sound_frame.get(), *sound_stream);
+  }
+
+  Status AddSound(std::span<const float> stereo) {
+    for (size_t i = 0; i + 1 < stereo.size(); i += kSoundChannels) {
+      if (sound_filled == 0) {
+        if (const int error = av_frame_make_writable(sound_frame.get()); error < 0) {
+          return Problem("the sound cannot be encoded", error);
+        }
+      }
+      for (size_t channel = 0; channel < kSoundChannels; ++channel) {
+        reinterpret_cast<float*>(sound_frame->data[channel])[sound_filled] = stereo[i + channel];
+      }
+      if (++sound_filled == sound_codec->frame_size) {
+        LARARIUM_RETURN_IF_ERROR(EncodeSound());
+      }
+    }
+    return Status();
+  }
+
+  Status Drain() {
+    LARARIUM_RETURN_IF_ERROR(Encode(*codec, nullptr, *stream));
+    if (sound_codec == nullptr) {
+      return Status();
+    }
+    if (sound_filled > 0) {
+      LARARIUM_RETURN_IF_ERROR(EncodeSound());
+    }
+    return Encode(*sound_codec, nullptr, *sound_stream);
   }
 };
 
@@ -143,7 +226,8 @@ VideoWriter::~VideoWriter() = default;
 Result<std::unique_ptr<VideoWriter>> VideoWriter::Create(const std::filesystem::path& file,
                                                          int width,
                                                          int height,
-                                                         double frames_per_second) {
+                                                         double frames_per_second,
+                                                         bool with_sound) {
   if (width < 16 || height < 16 || width > 16384 || height > 16384 || width % 2 != 0 ||
       height % 2 != 0) {
     return Status::Error(
@@ -160,6 +244,9 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::Create(const std::filesystem::
   encoder->temporary = file;
   encoder->temporary += ".part";
   LARARIUM_RETURN_IF_ERROR(encoder->OpenCodec(width, height, frames_per_second));
+  if (with_sound) {
+    LARARIUM_RETURN_IF_ERROR(encoder->OpenSoundCodec());
+  }
   LARARIUM_RETURN_IF_ERROR(encoder->OpenMuxer());
   LARARIUM_RETURN_IF_ERROR(encoder->OpenPicture());
   return std::unique_ptr<VideoWriter>(new VideoWriter(std::move(encoder)));
@@ -167,6 +254,11 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::Create(const std::filesystem::
 
 Status VideoWriter::Write(const cv::Mat& bgr) {
   CHECK(encoder_ != nullptr);
+  return Write(bgr, encoder_->next_index);
+}
+
+Status VideoWriter::Write(const cv::Mat& bgr, int64_t index) {
+  CHECK(encoder_ != nullptr && index >= encoder_->next_index);
   Encoder& e = *encoder_;
   if (bgr.type() != CV_8UC3 || bgr.cols != e.codec->width || bgr.rows != e.codec->height) {
     return Status::Error(e.file.string(), "a frame is " + std::to_string(bgr.cols) + "x" +
@@ -180,14 +272,20 @@ Status VideoWriter::Write(const cv::Mat& bgr) {
   const uint8_t* planes[] = {bgr.data};
   const int strides[] = {static_cast<int>(bgr.step)};
   sws_scale(e.scaler.get(), planes, strides, 0, bgr.rows, e.picture->data, e.picture->linesize);
-  e.picture->pts = e.next_index++;
-  return e.Encode(e.picture.get());
+  e.picture->pts = index;
+  e.next_index = index + 1;
+  return e.Encode(*e.codec, e.picture.get(), *e.stream);
+}
+
+Status VideoWriter::WriteSound(std::span<const float> stereo) {
+  CHECK(encoder_ != nullptr && encoder_->sound_codec != nullptr);
+  return encoder_->AddSound(stereo);
 }
 
 Status VideoWriter::Finish() {
   CHECK(encoder_ != nullptr);
   const std::unique_ptr<Encoder> e = std::move(encoder_);
-  LARARIUM_RETURN_IF_ERROR(e->Encode(nullptr));
+  LARARIUM_RETURN_IF_ERROR(e->Drain());
   if (const int error = av_write_trailer(e->muxer.get()); error < 0) {
     return e->Problem("cannot be completed", error);
   }

@@ -153,6 +153,9 @@ void Run::PushHost(lua_State* lua) {
                                      {"set_light_level", Call<&Run::SetLightLevel>},
                                      {"set_light_colour", Call<&Run::SetLightColour>},
                                      {"set_light_temperature", Call<&Run::SetLightTemperature>},
+                                     {"sound", Call<&Run::PushSound>},
+                                     {"play_sound", Call<&Run::PlaySound>},
+                                     {"stop_sound", Call<&Run::StopSound>},
                                      {nullptr, nullptr}};
   lua_newtable(lua);
   lua_pushlightuserdata(lua, this);

@@ -113,6 +113,12 @@ class Run {
   int SetLightColour(lua_State* lua);
   int SetLightTemperature(lua_State* lua);
 
+  // words_sound.cc: what is played by itself
+  int CheckSound(lua_State* lua);
+  int PushSound(lua_State* lua);
+  int PlaySound(lua_State* lua);
+  int StopSound(lua_State* lua);
+
   std::vector<TrackSegment>& SegmentsOf(stage::ActorId id);
 
   std::unique_ptr<Sandbox> sandbox_;

@@ -179,7 +179,7 @@ int Run::Express(lua_State* lua) {
   return 0;
 }
 
-// say(actor, name or nil) -> duration; or nil: there is no speech of that name
+// say(actor, line or nil) -> duration; or nil: there is no line of that id
 int Run::Say(lua_State* lua) {
   CheckActor(lua);
   only_tracks_ = false;

@@ -1,6 +1,7 @@
 #include "shared/show/body.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace lararium::show {
@@ -14,6 +15,8 @@ constexpr float kHair = 100.0f;
 constexpr float kFace = 60.0f;
 // What is there stays down to this share of them.
 constexpr float kStay = 0.85f;
+// The lips of an upright person, in heights of the eyes.
+constexpr glm::vec3 kMouthFromEyes = {0.0f, -0.043f, -0.015f};
 
 bool IsWorth(float height_px, float threshold, bool has_it) {
   return height_px >= (has_it ? kStay * threshold : threshold);
@@ -56,6 +59,9 @@ Body::Body(std::shared_ptr<const human::PerformanceModel> model)
     is_cloth_[cloth.mesh] = true;
   }
   moving_.reserve(human().meshes.size());
+  const std::vector<std::string>& names = human().skeleton.names;
+  const auto head = std::find(names.begin(), names.end(), "skullbase");
+  head_ = head == names.end() ? -1 : static_cast<int>(head - names.begin());
 }
 
 void Body::Step(const stage::ActorState& state, double time, const BodyDetail& detail) {
@@ -102,6 +108,17 @@ void Body::FindMovingMeshes(const BodyDetail& detail) {
 
 human::GripFrame Body::actor_from_palm(int side) const {
   return human::ActorFromPalm(performer_.model().reach, human().skeleton, pose_, side);
+}
+
+Mouth Body::actor_from_mouth() const {
+  const human::GazeModel& gaze = performer_.model().gaze;
+  const glm::vec3 at_rest = gaze.eyes + gaze.eyes.y * kMouthFromEyes;
+  if (head_ < 0) {
+    return {at_rest};
+  }
+  const glm::mat4& posed = skin_[static_cast<size_t>(head_)];
+  return {glm::vec3(posed * glm::vec4(at_rest, 1.0f)),
+          glm::normalize(glm::mat3(posed) * glm::vec3(0.0f, 0.0f, -1.0f))};
 }
 
 void Body::ComputeVertices(const MovingMesh& moving,

@@ -34,6 +34,12 @@ struct BodyDetail {
 // the picture.
 BodyDetail ChooseBodyDetail(float height_px, bool not_seen, const BodyDetail& before);
 
+// Where a voice comes from: metres; facing is unit.
+struct Mouth {
+  glm::vec3 position = glm::vec3(0.0f);
+  glm::vec3 facing = glm::vec3(0.0f, 0.0f, -1.0f);
+};
+
 class Body {
  public:
   explicit Body(std::shared_ptr<const human::PerformanceModel> model);
@@ -47,6 +53,8 @@ class Body {
   // Of the last step.
   std::span<const glm::mat4> skin() const { return skin_; }
   human::GripFrame actor_from_palm(int side) const;
+  // Where the mouth is and points; actor frame.
+  Mouth actor_from_mouth() const;
   // Meshes whose vertices are not those of the bind pose.
   struct MovingMesh {
     uint32_t mesh = 0;    // index into Human::meshes
@@ -74,6 +82,7 @@ class Body {
   std::vector<glm::mat4> skin_;
   std::vector<MovingMesh> moving_;
   std::optional<double> time_;  // of the last step
+  int head_ = -1;               // joint; -1: it has none
 };
 
 }  // namespace lararium::show

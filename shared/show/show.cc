@@ -30,6 +30,8 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
   CHECK(!content.places.empty());
   std::unique_ptr<Show> show(new Show(std::move(content)));
   LARARIUM_RETURN_IF_ERROR(show->FillStage());
+  LARARIUM_ASSIGN_OR_RETURN(show->sound_, SoundDirector::Create(show->content_, log));
+  LARARIUM_RETURN_IF_ERROR(show->sound_->Teach(show->stage_.sounds()));
   show->PrepareFloor(log);
   LARARIUM_ASSIGN_OR_RETURN(show->drama_,
                             drama::Drama::Create(show->content_.drama, show->content_.drama_file,
@@ -345,6 +347,82 @@ void Show::StageObjects(StagedFrame& staged) {
   }
 }
 
+void Show::StageLines(double behind, StagedFrame& staged) const {
+  for (uint32_t cast = 0; cast < actor_ids_.size(); ++cast) {
+    for (const stage::StageSnapshot::ActorEntry& entry : drawn_.actors) {
+      const stage::Utterance& utterance = entry.state.utterance;
+      if (entry.actor == actor_ids_[cast] && utterance.line >= 0) {
+        const double seconds =
+            stage::Stage::UtteredSeconds(utterance) - behind * stage::Stage::kTickSeconds;
+        staged.lines.push_back({cast, static_cast<uint32_t>(utterance.line), std::max(seconds, 0.0),
+                                utterance.speaking});
+      }
+    }
+  }
+}
+
+// Who lies outside of the picture, or is not drawn, still has a mouth.
+Mouth Show::MouthOf(uint32_t cast, const stage::ActorState& state) const {
+  Mouth mouth = bodies_[cast].actor_from_mouth();
+  const glm::mat4 stage_from_actor = stage::StageFromActor(state);
+  mouth.position = glm::vec3(stage_from_actor * glm::vec4(mouth.position, 1.0f));
+  mouth.facing = glm::mat3(stage_from_actor) * mouth.facing;
+  return mouth;
+}
+
+// None: it is heard around the listener.
+std::optional<glm::vec3> Show::PlaceOf(const stage::StageSound& sound) const {
+  switch (sound.at) {
+    case stage::StageSound::At::kListener:
+      break;
+    case stage::StageSound::At::kPoint:
+      return sound.point;
+    case stage::StageSound::At::kActor:
+      for (const stage::StageSnapshot::ActorEntry& entry : drawn_.actors) {
+        if (entry.actor == sound.actor) {
+          const auto cast = std::find(actor_ids_.begin(), actor_ids_.end(), entry.actor);
+          return MouthOf(static_cast<uint32_t>(cast - actor_ids_.begin()), entry.state).position;
+        }
+      }
+      break;
+    case stage::StageSound::At::kObject:
+      for (const stage::StageSnapshot::ObjectEntry& entry : drawn_.objects) {
+        if (entry.object == sound.object) {
+          return DrawnObjectPose(entry).position;
+        }
+      }
+      break;
+  }
+  return std::nullopt;
+}
+
+// Places are as drawn, times as of the tick after it.
+void Show::StageSounds(StagedFrame& staged) {
+  const double tick_time = static_cast<double>(tick_) / kTicksPerSecond;
+  audio::SoundScene& scene = staged.sound;
+  sound_->Begin(staged.time, place_, staged.camera_from_stage, scene);
+  for (const Visible& visible : visible_) {
+    const stage::Utterance& utterance = visible.state->utterance;
+    if (utterance.line >= 0) {
+      sound_->AddLine(visible.cast, static_cast<size_t>(utterance.line),
+                      tick_time - stage::Stage::UtteredSeconds(utterance),
+                      MouthOf(visible.cast, *visible.state), scene);
+    }
+  }
+  for (size_t i = 0; i < drawn_.objects.size(); ++i) {
+    const stage::StageSnapshot::ObjectEntry& entry = drawn_.objects[i];
+    const auto object = std::find(object_ids_.begin(), object_ids_.end(), entry.object);
+    if (entry.state.visible && object != object_ids_.end()) {
+      sound_->AddObject(static_cast<size_t>(object - object_ids_.begin()),
+                        current_.objects[i].state, DrawnObjectPose(entry), tick_time, scene);
+    }
+  }
+  for (const stage::StageSound& sound : current_.sounds) {
+    sound_->AddSound(sound, PlaceOf(sound), tick_time, scene);
+  }
+  sound_->Finish(place_, scene);
+}
+
 void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged) {
   time = std::clamp(time, 0.0, drama::Drama::kMaxTime);
   Locate(std::move(tracked), staged);
@@ -358,12 +436,15 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
   staged.meshes.clear();
   staged.objects.clear();
   staged.lamps.clear();
+  staged.lines.clear();
   staged.stage_from_part.clear();
   staged.part_shown.clear();
   StageActors(time, staged);
   StageObjects(staged);
   BlendProbes(staged);
+  StageLines(behind, staged);
   LightStage(staged);
+  StageSounds(staged);
 }
 
 }  // namespace lararium::show

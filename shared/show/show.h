@@ -10,6 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "shared/audio/sound_library.h"
+#include "shared/audio/sound_scene.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 #include "shared/drama/drama.h"
@@ -20,6 +22,7 @@
 #include "shared/show/camera_motion.h"
 #include "shared/show/gain_filter.h"
 #include "shared/show/show_content.h"
+#include "shared/show/sound_director.h"
 #include "shared/show/stage_light.h"
 #include "shared/show/thing_light.h"
 #include "shared/stage/stage.h"
@@ -49,6 +52,14 @@ struct StagedMesh {
   Body::MovingMesh mesh;
   uint32_t vertex_begin = 0;  // in StagedFrame::positions and normals
   uint32_t vertex_count = 0;
+};
+
+// A line that somebody says at the moment of a frame, or that can still be read.
+struct StagedLine {
+  uint32_t cast = 0;      // index into ShowContent::cast: who says it
+  uint32_t line = 0;      // index into ShowContent::speech
+  double seconds = 0.0;   // since it began
+  bool speaking = false;  // false: said to its end
 };
 
 // A visible object at the moment of a frame.
@@ -84,10 +95,12 @@ struct StagedFrame {
   std::vector<glm::vec3> normals;
   std::vector<glm::vec3> irradiance;  // of all vertices of lit actors and objects that are drawn
   std::vector<light::Lamp> lamps;     // that burn, stage axes; the brightest of them
-  std::vector<glm::vec4> blockers;    // balls that shade: centre and radius, stage axes
+  std::vector<StagedLine> lines;
+  std::vector<glm::vec4> blockers;  // balls that shade: centre and radius, stage axes
   std::vector<StagedObject> objects;
   std::vector<glm::mat4> stage_from_part;
   std::vector<uint8_t> part_shown;
+  audio::SoundScene sound;  // what is heard
   // Processor milliseconds that other threads spent on it.
   double helpers_cpu_ms = 0.0;
 };
@@ -102,10 +115,13 @@ class Show {
 
   const ShowContent& content() const { return content_; }
   const drama::Drama& drama() const { return *drama_; }
+  // What StagedFrame::sound speaks of.
+  const std::shared_ptr<const audio::SoundLibrary>& sounds() const { return sound_->library(); }
 
   // For interactive staging: another transform, nudge, light or occluders of
   // places[index].
   void SetPlace(size_t index, stage::Place place) {
+    sound_->SetPlace(index, place);
     content_.places[index].stage = std::move(place);
     camera_motion_.Reset();  // poses of before mean another stage
   }
@@ -144,6 +160,10 @@ class Show {
   void StageVisible(uint32_t object,
                     const stage::StageSnapshot::ObjectEntry& entry,
                     StagedFrame& staged);
+  void StageLines(double behind, StagedFrame& staged) const;
+  void StageSounds(StagedFrame& staged);
+  Mouth MouthOf(uint32_t cast, const stage::ActorState& state) const;
+  std::optional<glm::vec3> PlaceOf(const stage::StageSound& sound) const;
   stage::Pose DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const;
 
   ShowContent content_;
@@ -178,6 +198,7 @@ class Show {
     ThingMemory memory;
   };
   std::vector<Thing> things_;
+  std::optional<SoundDirector> sound_;
   std::vector<LitActor> lit_;
 };
 

@@ -35,11 +35,13 @@ Result<stage::Place> LoadStage(const bundle::Bundle& bundle, const bundle::Place
   place.camera_nudge = entry.camera_nudge;
   place.camera = entry.camera;
   place.probes = entry.probes;
+  place.acoustics = entry.acoustics;
   for (const bundle::OccluderEntry& occluder : entry.occluders) {
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(occluder.mesh));
     LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh mesh,
                               stage::ParseMesh(bytes, bundle.place() + ": " + occluder.mesh));
-    place.occluders.push_back({occluder.name, std::move(mesh), occluder.stage_from_mesh});
+    place.occluders.push_back(
+        {occluder.name, std::move(mesh), occluder.stage_from_mesh, occluder.blocks_sound});
   }
   return place;
 }
@@ -126,19 +128,150 @@ Result<std::string> LoadText(const bundle::Bundle& bundle, const std::string& me
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-Status LoadSpeech(const bundle::Bundle& bundle, std::vector<Speech>& speech) {
-  for (const bundle::SpeechEntry& entry : bundle.manifest().speech) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, entry.visemes));
-    LARARIUM_ASSIGN_OR_RETURN(human::VisemeTrack track,
-                              stage::ParseVisemes(text, bundle.place() + ": " + entry.visemes));
-    speech.push_back({entry.name, std::move(track)});
+using CaptionBooks = std::map<std::string, stage::CaptionBook>;  // by spoken language
+
+Result<CaptionBooks> LoadCaptionBooks(const bundle::Bundle& bundle) {
+  CaptionBooks books;
+  for (const bundle::SpokenLanguage& language : bundle.manifest().spoken) {
+    if (!language.captions.empty()) {
+      LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, language.captions));
+      LARARIUM_ASSIGN_OR_RETURN(
+          books[language.name],
+          stage::ParseCaptions(text, bundle.place() + ": " + language.captions));
+    }
+  }
+  return books;
+}
+
+// The language in which a line is said: the wanted one, or else the first of the show's
+// that it has.
+const std::pair<const std::string, bundle::SpokenEntry>* FindSpoken(
+    const bundle::ShowManifest& manifest, const bundle::LineEntry& line, std::string_view wanted) {
+  auto found = line.spoken.find(wanted);
+  for (const bundle::SpokenLanguage& language : manifest.spoken) {
+    if (found != line.spoken.end()) {
+      break;
+    }
+    found = line.spoken.find(language.name);
+  }
+  return found == line.spoken.end() ? nullptr : &*found;
+}
+
+// nullptr: there is none.
+template <typename T>
+const T* FindIn(const stage::CaptionBook::ById<stage::CaptionBook::ByLanguage<T>>& ids,
+                std::string_view id,
+                std::string_view language) {
+  const auto languages = ids.find(id);
+  if (languages == ids.end()) {
+    return nullptr;
+  }
+  const auto found = languages->second.find(language);
+  return found == languages->second.end() ? nullptr : &found->second;
+}
+
+Result<Speech> LoadLine(const bundle::Bundle& bundle,
+                        const bundle::LineEntry& entry,
+                        const LanguageChoice& languages,
+                        const CaptionBooks& books) {
+  Speech line;
+  line.name = entry.name;
+  const auto* spoken = FindSpoken(bundle.manifest(), entry, languages.spoken);
+  if (spoken == nullptr) {
+    return line;  // nobody says it; it takes no time
+  }
+  const auto& [language, members] = *spoken;
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, members.visemes));
+  LARARIUM_ASSIGN_OR_RETURN(line.visemes,
+                            stage::ParseVisemes(text, bundle.place() + ": " + members.visemes));
+  if (!members.sound.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const auto sound, bundle.member(members.sound));
+    line.sound.assign(sound.begin(), sound.end());
+  }
+  const auto book = books.find(language);
+  if (book != books.end()) {
+    if (const auto* cues = FindIn(book->second.lines, line.name, languages.captions)) {
+      line.captions = *cues;
+    }
+  }
+  return line;
+}
+
+void NameSpeakers(const CaptionBooks& books,
+                  const LanguageChoice& languages,
+                  ShowContent& content) {
+  for (const auto& [spoken, book] : books) {
+    for (CastMember& member : content.cast) {
+      if (const auto* name = FindIn(book.names, member.name, languages.captions)) {
+        member.title = *name;
+      }
+    }
+  }
+}
+
+Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, ShowContent& content) {
+  const bundle::ShowManifest& manifest = bundle.manifest();
+  std::vector<std::string> spoken;
+  for (const bundle::SpokenLanguage& language : manifest.spoken) {
+    spoken.push_back(language.name);
+  }
+  LanguageChoice languages;
+  LARARIUM_ASSIGN_OR_RETURN(languages.spoken,
+                            ChooseLanguage(spoken, choice.spoken, "speech", bundle.place()));
+  if (choice.captions != kNoCaptions) {
+    LARARIUM_ASSIGN_OR_RETURN(languages.captions, ChooseLanguage(manifest.captions, choice.captions,
+                                                                 "captions", bundle.place()));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const CaptionBooks books, LoadCaptionBooks(bundle));
+  for (const bundle::LineEntry& entry : manifest.lines) {
+    LARARIUM_ASSIGN_OR_RETURN(content.speech.emplace_back(),
+                              LoadLine(bundle, entry, languages, books));
+  }
+  NameSpeakers(books, languages, content);
+  if (manifest.caption_font && !languages.captions.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string metrics,
+                              LoadText(bundle, manifest.caption_font->metrics));
+    LARARIUM_ASSIGN_OR_RETURN(const auto atlas, bundle.member(manifest.caption_font->atlas));
+    LARARIUM_ASSIGN_OR_RETURN(
+        content.caption_font,
+        render::ParseCaptionFont(metrics, atlas,
+                                 bundle.place() + ": " + manifest.caption_font->metrics));
+  }
+  return Status();
+}
+
+Status LoadSounds(const bundle::Bundle& bundle, std::vector<audio::SoundData>& sounds) {
+  for (const bundle::SoundEntry& entry : bundle.manifest().sounds) {
+    LARARIUM_ASSIGN_OR_RETURN(const auto member, bundle.member(entry.file));
+    const auto bytes = std::make_shared<const std::vector<std::byte>>(member.begin(), member.end());
+    sounds.push_back({entry.name, *bytes, bytes});
   }
   return Status();
 }
 
 }  // namespace
 
-Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle, std::string_view place) {
+Result<std::string> ChooseLanguage(std::span<const std::string> languages,
+                                   const std::string& chosen,
+                                   const std::string& kind,
+                                   const std::string& place) {
+  if (chosen.empty()) {
+    return languages.empty() ? std::string() : languages.front();
+  }
+  std::string known;
+  for (const std::string& language : languages) {
+    if (language == chosen) {
+      return chosen;
+    }
+    known += (known.empty() ? "" : ", ") + language;
+  }
+  return Status::Error(place, "has no " + kind + " in the language '" + chosen + "'",
+                       known.empty() ? "it has none at all" : "choose one of: " + known);
+}
+
+Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
+                                    std::string_view place,
+                                    const LanguageChoice& languages) {
   const bundle::ShowManifest& manifest = bundle.manifest();
   ShowContent content;
   content.title = manifest.title;
@@ -148,11 +281,13 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle, std::string_vi
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.human));
     LARARIUM_ASSIGN_OR_RETURN(human::Human human,
                               human::ParseHuman(bytes, bundle.place() + ": " + member.human));
-    content.cast.push_back({member.name, std::make_shared<const human::Human>(std::move(human))});
+    content.cast.push_back(
+        {member.name, std::make_shared<const human::Human>(std::move(human)), {}});
   }
 
   LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, content.objects));
-  LARARIUM_RETURN_IF_ERROR(LoadSpeech(bundle, content.speech));
+  LARARIUM_RETURN_IF_ERROR(LoadLines(bundle, languages, content));
+  LARARIUM_RETURN_IF_ERROR(LoadSounds(bundle, content.sounds));
   LARARIUM_ASSIGN_OR_RETURN(content.drama, LoadText(bundle, manifest.drama));
   content.drama_file = manifest.drama;
   return content;

@@ -3,16 +3,20 @@
 // All that one show needs at its places, ready to run.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "shared/audio/sound_library.h"
 #include "shared/bundle/bundle.h"
 #include "shared/core/status.h"
 #include "shared/human/face.h"
 #include "shared/human/human.h"
 #include "shared/light/glossy_map.h"
+#include "shared/render/caption_font.h"
+#include "shared/stage/caption_file.h"
 #include "shared/stage/object_use.h"
 #include "shared/stage/place.h"
 #include "shared/vision/scene_database.h"
@@ -23,6 +27,7 @@ namespace lararium::show {
 struct CastMember {
   std::string name;  // as the drama calls the actor
   std::shared_ptr<const human::Human> human;
+  std::string title = {};  // as captions call the actor; empty: they do not
 };
 
 // A thing that people use, or scenery.
@@ -32,11 +37,29 @@ struct StageObject {
   stage::Pose stage_from_object;  // at the beginning
 };
 
-// What somebody can say.
+// A line that somebody can say, as it is said and to be read in the languages of a show.
+// Its index is that of stage::Utterance::line.
 struct Speech {
-  std::string name;  // as the drama calls it
+  std::string name;  // its id, as the drama calls it
   human::VisemeTrack visemes;
+  // FLAC or Ogg; empty: nothing is heard. It begins with the visemes.
+  std::vector<std::byte> sound = {};
+  std::vector<stage::CaptionCue> captions = {};  // empty: nothing is to be read
 };
+
+// What a show is to be heard and read in; empty: as its author chose. No captions: "off".
+struct LanguageChoice {
+  std::string spoken;
+  std::string captions;
+};
+inline constexpr std::string_view kNoCaptions = "off";
+
+// The one of the languages that there are that is meant by a choice; the first where
+// nothing was chosen, "" where there is none. kind: "speech" or "captions", for the error.
+Result<std::string> ChooseLanguage(std::span<const std::string> languages,
+                                   const std::string& chosen,
+                                   const std::string& kind,
+                                   const std::string& place);
 
 // A trained place and how the drama is staged there.
 struct ShowPlace {
@@ -52,8 +75,10 @@ struct ShowContent {
   std::vector<CastMember> cast;
   std::vector<StageObject> objects;
   std::vector<Speech> speech;
-  std::string drama;       // Lua source
-  std::string drama_file;  // what messages call it
+  std::optional<render::CaptionFont> caption_font;
+  std::vector<audio::SoundData> sounds;  // that things, places and the drama make
+  std::string drama;                     // Lua source
+  std::string drama_file;                // what messages call it
 };
 
 // What the tracker is created with: TrackedFrame::map is then an index into places.
@@ -70,7 +95,10 @@ Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
                                               std::string_view place = {});
 
 // The content of a bundle at all of its places, or only at the named one. Every
-// member is checked by its own reader.
-Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle, std::string_view place = {});
+// member is checked by its own reader. A line that lacks the chosen language is in the
+// show's first.
+Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
+                                    std::string_view place = {},
+                                    const LanguageChoice& languages = {});
 
 }  // namespace lararium::show

@@ -26,6 +26,7 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
     LARARIUM_ASSIGN_OR_RETURN(show->cast_.emplace_back(), show->renderer_->AddHuman(*member.human));
   }
   LARARIUM_RETURN_IF_ERROR(show->AddObjects(content));
+  LARARIUM_ASSIGN_OR_RETURN(show->captions_, ShowCaptions::Create(content));
   show->places_.resize(content.places.size());
   for (size_t i = 0; i < content.places.size(); ++i) {
     show->places_[i].glossy = content.places[i].glossy;
@@ -144,7 +145,9 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
     scene.knee = place.camera->knee;
     scene.look = LookOf(*place.camera, staged, picture);
   }
-  return renderer_->Draw(scene, target);
+  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
+  captions_->Draw(staged, target);
+  return Status();
 }
 
 }  // namespace lararium::show

@@ -9,13 +9,14 @@
 #include "shared/core/status.h"
 #include "shared/render/renderer.h"
 #include "shared/show/show.h"
+#include "shared/show/show_captions.h"
 
 namespace lararium::show {
 
 class ShowRenderer {
  public:
-  // Uploads cast, objects and the occluders of all places. Fails where a texture
-  // cannot be decoded.
+  // Uploads cast, objects, the occluders of all places and the letters of captions. Fails
+  // where a texture cannot be decoded.
   static Result<std::unique_ptr<ShowRenderer>> Create(const ShowContent& content,
                                                       const render::RendererOptions& options = {});
 
@@ -27,7 +28,7 @@ class ShowRenderer {
   void SetMatte(bool matte) { matte_ = matte; }
 
   // Fills the target with the composite: image, the occluders of the frame's
-  // place, people in its light.
+  // place, people in its light, captions.
   Status Draw(const StagedFrame& staged, const render::RenderTarget& target);
 
   // Of the frame drawn last: how much of each pixel people and props cover, CV_8UC1.
@@ -49,6 +50,7 @@ class ShowRenderer {
   void BlendReflections(const StagedFrame& staged);
 
   std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<ShowCaptions> captions_;
   std::vector<render::ModelHandle> cast_;
   std::vector<render::ModelHandle> objects_;  // of each object
   std::vector<PlaceScene> places_;

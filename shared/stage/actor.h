@@ -17,12 +17,23 @@
 
 namespace lararium::stage {
 
-// All that is to be seen of an actor; plain values.
+// What an actor says, or has just said: whoever plays it or shows it as text needs nothing
+// else, so that jumping into the middle of a line is as playing until there.
+struct Utterance {
+  int line = -1;          // index of the stage's lines; -1: none
+  int64_t ticks = 0;      // of Stage::kTickSeconds since it began
+  bool speaking = false;  // false: said to its end, and still to be read
+
+  friend bool operator==(const Utterance&, const Utterance&) = default;
+};
+
+// All that is to be seen and heard of an actor; plain values.
 struct ActorState {
   glm::vec3 position = glm::vec3(0.0f);  // stage, metres; the ground between the feet
   float heading = 0.0f;                  // radians about +Y; 0 faces -Z, a quarter turn faces -X
   bool visible = false;
   human::Performance performance;
+  Utterance utterance;
 
   friend bool operator==(const ActorState&, const ActorState&) = default;
 };
@@ -76,8 +87,6 @@ struct Actor {
   Walk walk;
   int walker = -1;  // in the navigation; -1: not there
   Attention attention;
-  int speech = -1;  // what it is saying: index into Stage's; -1: nothing
-  double speech_time = 0.0;
   double clip_ends = -1.0;                     // seconds until a gesture ends; below 0: none
   int clip_after = human::Animation::kNoClip;  // what plays when gesture or walk has ended
   bool in_gait = false;                        // the clip is that of walking

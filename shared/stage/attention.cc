@@ -33,7 +33,8 @@ ActorId SpeakerFor(const World& world, ActorId listener) {
   for (const ActorId id : world.actor_ids) {
     const Actor& other = *world.actors.Find(id);
     const float away = glm::distance(other.place(), actor.place());
-    if (id != listener && other.state.visible && other.speech >= 0 && away < distance) {
+    if (id != listener && other.state.visible && other.state.utterance.speaking &&
+        away < distance) {
       nearest = id;
       distance = away;
     }
@@ -56,7 +57,7 @@ Choice Choose(const World& world, ActorId id, Random& random) {
       total += weight;
     }
   };
-  add({}, actor.speech >= 0 ? 0.3f : 1.0f);
+  add({}, actor.state.utterance.speaking ? 0.3f : 1.0f);
   for (const ActorId other_id : world.actor_ids) {
     const Actor& other = *world.actors.Find(other_id);
     if (other_id != id && other.state.visible && IsInView(actor, EyesOf(other), kNotice)) {
@@ -91,7 +92,7 @@ Choice Decide(const World& world, const Tasks& tasks, ActorId id, Actor& actor, 
   if (actor.walk.phase == Walk::Phase::kGo) {
     return {};  // where it goes
   }
-  if (actor.speech < 0) {
+  if (!actor.state.utterance.speaking) {
     if (const ActorId speaker = SpeakerFor(world, id)) {
       return {Target::kActor, {}, speaker, {}};
     }
@@ -137,7 +138,7 @@ void DirectAttention(World& world, const Tasks& tasks, float seconds) {
     }
     human::Gaze& gaze = actor.state.performance.gaze;
     LookAt(world, Decide(world, tasks, id, actor, seconds), gaze);
-    gaze.speaking = actor.speech >= 0;
+    gaze.speaking = actor.state.utterance.speaking;
   }
 }
 

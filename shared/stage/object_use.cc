@@ -112,7 +112,7 @@ class UseReader {
   Result<ObjectUse> Read() {
     LARARIUM_RETURN_IF_ERROR(
         CheckFields(root_, {"schema", "states", "parts", "grips", "places", "surfaces", "actions",
-                            "footprint", "carry", "capacity", "queue", "lights"}));
+                            "sounds", "footprint", "carry", "capacity", "queue", "lights"}));
     LARARIUM_RETURN_IF_ERROR(root_.Integer("schema", 1, 1).status());
     LARARIUM_RETURN_IF_ERROR(ReadStates());
     LARARIUM_RETURN_IF_ERROR(ForEach("parts", Prop::kMaxParts, &UseReader::ReadPart));
@@ -121,6 +121,7 @@ class UseReader {
     LARARIUM_RETURN_IF_ERROR(ForEach("places", ObjectUse::kMaxPlaces, &UseReader::ReadPlace));
     LARARIUM_RETURN_IF_ERROR(ForEach("surfaces", ObjectUse::kMaxSpots, &UseReader::ReadSurface));
     LARARIUM_RETURN_IF_ERROR(ForEach("actions", ObjectUse::kMaxActions, &UseReader::ReadAction));
+    LARARIUM_RETURN_IF_ERROR(ReadSounds());
     LARARIUM_RETURN_IF_ERROR(ReadFootprint());
     LARARIUM_RETURN_IF_ERROR(ReadCarry());
     LARARIUM_RETURN_IF_ERROR(ReadQueue());
@@ -439,7 +440,7 @@ class UseReader {
                               ReadNumber(view, "release", kMaxSeconds, 0.0, kMaxSeconds));
     action.release = static_cast<float>(release);
     LARARIUM_ASSIGN_OR_RETURN(action.clip, ReadName(view, "clip"));
-    LARARIUM_ASSIGN_OR_RETURN(action.sound, ReadName(view, "sound"));
+    LARARIUM_RETURN_IF_ERROR(ReadActionSound(view, action));
     LARARIUM_RETURN_IF_ERROR(ReadMoves(view, action));
     LARARIUM_RETURN_IF_ERROR(ReadPath(view, action));
     if (view.Has("seat")) {
@@ -454,6 +455,59 @@ class UseReader {
       action.seat = place;
     }
     use_.actions.push_back(std::move(action));
+    return Status();
+  }
+
+  // A name, or an object.
+  Status ReadActionSound(const JsonView& view, ObjectAction& action) {
+    if (!view.Has("sound")) {
+      return Status();
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("sound"));
+    ActionSound& sound = action.sound;
+    if (field.json().is_string()) {
+      LARARIUM_ASSIGN_OR_RETURN(sound.name, ReadName(view, "sound"));
+      return Status();
+    }
+    LARARIUM_RETURN_IF_ERROR(CheckFields(field, {"name", "begin", "end", "loop", "gain_db"}));
+    LARARIUM_ASSIGN_OR_RETURN(sound.name, field.Text("name", kMaxNameBytes));
+    LARARIUM_ASSIGN_OR_RETURN(const double begin,
+                              ReadNumber(field, "begin", 0.0, 0.0, kMaxSeconds));
+    LARARIUM_ASSIGN_OR_RETURN(const double end,
+                              ReadNumber(field, "end", kMaxSeconds, begin, kMaxSeconds));
+    sound.begin = static_cast<float>(begin);
+    sound.end = static_cast<float>(end);
+    if (field.Has("loop")) {
+      LARARIUM_ASSIGN_OR_RETURN(const JsonView loop, field.Field("loop"));
+      LARARIUM_ASSIGN_OR_RETURN(sound.loops, loop.Boolean());
+    }
+    return ReadGain(field, sound.gain_db);
+  }
+
+  Status ReadGain(const JsonView& view, float& gain_db) {
+    LARARIUM_ASSIGN_OR_RETURN(const double gain, ReadNumber(view, "gain_db", 0.0, -60.0, 12.0));
+    gain_db = static_cast<float>(gain);
+    return Status();
+  }
+
+  Status ReadSounds() {
+    if (!root_.Has("sounds")) {
+      return Status();
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView list, root_.Field("sounds"));
+    LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxSounds));
+    for (const JsonView& item : items) {
+      LARARIUM_RETURN_IF_ERROR(CheckFields(item, {"name", "states", "at", "gain_db"}));
+      StateSound sound;
+      LARARIUM_ASSIGN_OR_RETURN(sound.name, item.Text("name", kMaxNameBytes));
+      LARARIUM_ASSIGN_OR_RETURN(sound.states, ReadStateSet(item, "states"));
+      if (item.Has("at")) {
+        LARARIUM_ASSIGN_OR_RETURN(const JsonView at, item.Field("at"));
+        LARARIUM_ASSIGN_OR_RETURN(sound.position, ReadVector(at));
+      }
+      LARARIUM_RETURN_IF_ERROR(ReadGain(item, sound.gain_db));
+      use_.sounds.push_back(std::move(sound));
+    }
     return Status();
   }
 

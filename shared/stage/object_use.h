@@ -77,6 +77,23 @@ struct Footprint {
 using HandGrips = std::array<int, 2>;
 inline constexpr HandGrips kNoHands = {-1, -1};
 
+// A sound that is heard while something is done with the object.
+struct ActionSound {
+  std::string name;  // of a sound of the project; empty: silent
+  float begin = 0.0f;
+  float end = 1e9f;  // seconds of the action
+  bool loops = false;
+  float gain_db = 0.0f;
+};
+
+// A sound that never ends while the object is in some states: a flame.
+struct StateSound {
+  std::string name;
+  uint32_t states = ~0u;                 // bit i: in state i
+  glm::vec3 position = glm::vec3(0.0f);  // object frame
+  float gain_db = 0.0f;
+};
+
 struct ObjectAction {
   // A joint goes to a value while seconds begin..end of the action pass.
   struct Move {
@@ -105,9 +122,9 @@ struct ObjectAction {
   float duration = 1.0f;  // seconds
   float release = 1e9f;   // seconds of the action after which the hands let go
   std::vector<Move> moves;
-  std::vector<Key> path;     // times increase
-  std::string clip;          // that the actor plays meanwhile; empty: none
-  std::string sound;         // name of a sound of the project; empty: silent
+  std::vector<Key> path;  // times increase
+  std::string clip;       // that the actor plays meanwhile; empty: none
+  ActionSound sound;
   std::optional<Seat> seat;  // the actor sits down there and stays until its next task
 };
 
@@ -142,6 +159,7 @@ struct ObjectUse {
   static constexpr size_t kMaxActions = 32;
   static constexpr size_t kMaxSpots = 32;  // of all surfaces
   static constexpr size_t kMaxKeys = 32;   // of moves and path
+  static constexpr size_t kMaxSounds = 8;  // of states
 
   std::vector<ObjectJoint> joints;
   std::vector<ShownPart> shown;
@@ -151,6 +169,7 @@ struct ObjectUse {
   std::vector<Surface> surfaces;
   std::vector<std::string> states = {"as is"};  // the first is that of the beginning
   std::vector<ObjectAction> actions;
+  std::vector<StateSound> sounds;
   Footprint footprint;
   std::optional<Carry> carry;  // none: it stays where it is
   int capacity = 1;            // how many may use it at once

@@ -12,6 +12,7 @@
 #include "shared/geometry/triangle_mesh.h"
 #include "shared/light/camera_traits.h"
 #include "shared/light/probe_blend.h"
+#include "shared/stage/acoustics.h"
 
 namespace lararium::stage {
 
@@ -20,6 +21,7 @@ struct Occluder {
   std::string name;
   geometry::TriangleMesh mesh;
   geometry::Similarity3 stage_from_mesh;  // the mesh may be modelled in any unit
+  bool blocks_sound = true;
 };
 
 struct Place {
@@ -32,6 +34,7 @@ struct Place {
   std::vector<light::PlacedProbe> probes;  // light in stage axes; none: dark
   // Of the camera that films it, where it was measured: people are made alike.
   std::optional<light::CameraTraits> camera = std::nullopt;
+  Acoustics acoustics;
 };
 
 // The pose from which the stage is drawn: rigid and metric, nudge applied.

@@ -140,7 +140,7 @@ bool Stage::Remove(ObjectId id) {
 Status Stage::AddSpeech(std::string name, human::VisemeTrack track) {
   LARARIUM_RETURN_IF_ERROR(track.Validate(name));
   if (FindSpeech(name)) {
-    return Status::Error("stage", "two speeches are called '" + name + "'", "rename one of them");
+    return Status::Error("stage", "two lines are called '" + name + "'", "rename one of them");
   }
   world_->speeches.push_back({std::move(name), std::move(track)});
   return Status();
@@ -349,12 +349,35 @@ void Stage::SetState(ObjectId id, int state) {
 }
 
 void Stage::Say(ActorId id, int speech) {
-  if (Actor* actor = Find(id)) {
-    actor->speech = speech;
-    actor->speech_time = 0.0;
-    if (speech < 0) {
-      actor->state.performance.face.visemes = {};
-    }
+  Actor* actor = Find(id);
+  if (actor == nullptr) {
+    return;
+  }
+  Utterance& utterance = actor->state.utterance;
+  if (speech >= 0) {
+    utterance = {speech, 0, true};
+    return;
+  }
+  actor->state.performance.face.visemes = {};
+  // Whoever waited for the end may be a tick early; what was broken off is not read on.
+  constexpr double kEarly = 1.5 * kTickSeconds;
+  if (utterance.speaking && UtteredSeconds(utterance) < SpeechSeconds(utterance.line) - kEarly) {
+    utterance = {};
+  }
+  utterance.speaking = false;
+}
+
+void Stage::AdvanceUtterance(ActorId id) {
+  Utterance& utterance = world_->actor(id).state.utterance;
+  if (utterance.line < 0) {
+    return;
+  }
+  ++utterance.ticks;
+  const double over = UtteredSeconds(utterance) - SpeechSeconds(utterance.line);
+  if (utterance.speaking && over >= 0.0) {
+    Say(id, -1);
+  } else if (over > kReadOnSeconds) {
+    utterance = {};
   }
 }
 
@@ -467,6 +490,7 @@ void Stage::Advance() {
     tasks_.Advance(kTick);
   }
   AdvanceObjects(*world_, kTick);
+  sounds_.Advance();
   for (const ActorId id : world_->actor_ids) {
     Actor& actor = world_->actor(id);
     AnimateWalk(actor);
@@ -478,11 +502,7 @@ void Stage::Advance() {
                          actor.in_gait ? actor.walk_clip : actor.clip_after, 1.0, kClipFade);
       }
     }
-    actor.speech_time += kTickSeconds;
-    if (actor.speech >= 0 &&
-        actor.speech_time >= world_->speeches[static_cast<size_t>(actor.speech)].track.duration) {
-      Say(id, -1);
-    }
+    AdvanceUtterance(id);
   }
 }
 
@@ -494,9 +514,9 @@ void Stage::Perform() {
       continue;
     }
     human::Performance& performance = actor.state.performance;
-    if (actor.speech >= 0) {
+    if (const Utterance& utterance = actor.state.utterance; utterance.speaking) {
       performance.face.visemes = human::SampleVisemes(
-          world_->speeches[static_cast<size_t>(actor.speech)].track, actor.speech_time);
+          world_->speeches[static_cast<size_t>(utterance.line)].track, UtteredSeconds(utterance));
     }
     // Clips run in Advance(): what the drama began in this tick is at its beginning.
     const human::Animation animation = performance.animation;
@@ -509,6 +529,7 @@ void Stage::Perform() {
 void Stage::Reset() {
   tasks_.Reset();
   daylight_ = {};
+  sounds_.Reset();
   for (const ActorId id : world_->actor_ids) {
     ResetActor(world_->actor(id));
   }
@@ -539,6 +560,7 @@ void Stage::Capture(StageSnapshot& snapshot) const {
       snapshot.objects.back().state.visible &= holder->state.visible;
     }
   }
+  snapshot.sounds.assign(sounds_.playing().begin(), sounds_.playing().end());
 }
 
 Stage::Checkpoint Stage::Save() const {
@@ -550,6 +572,7 @@ Stage::Checkpoint Stage::Save() const {
     checkpoint.objects.push_back(*Find(id));
   }
   checkpoint.daylight = daylight_;
+  checkpoint.sounds = sounds_.Save();
   return checkpoint;
 }
 
@@ -564,6 +587,7 @@ void Stage::Restore(const Checkpoint& checkpoint) {
   for (size_t i = 0; i < checkpoint.objects.size(); ++i) {
     world_->object(world_->object_ids[i]) = checkpoint.objects[i];
   }
+  sounds_.Restore(checkpoint.sounds);
 }
 
 namespace {
@@ -608,6 +632,7 @@ void Interpolate(const StageSnapshot& previous,
       result.hour = OnTheClock(*current.hour - (1.0 - static_cast<double>(alpha)) * moved);
     }
   }
+  result.sounds = current.sounds;
 }
 
 }  // namespace lararium::stage

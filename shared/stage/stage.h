@@ -19,6 +19,7 @@
 #include "shared/stage/navigation.h"
 #include "shared/stage/object.h"
 #include "shared/stage/place.h"
+#include "shared/stage/sounds.h"
 #include "shared/stage/tasks.h"
 
 namespace lararium::stage {
@@ -37,7 +38,8 @@ struct StageSnapshot {
   };
   std::vector<ActorEntry> actors;
   std::vector<ObjectEntry> objects;
-  std::optional<double> hour;  // Daylight::hour
+  std::optional<double> hour;      // Daylight::hour
+  std::vector<StageSound> sounds;  // that the drama plays
 
   friend bool operator==(const StageSnapshot&, const StageSnapshot&) = default;
 };
@@ -53,7 +55,12 @@ struct Daylight {
 
 class Stage {
  public:
-  static constexpr double kTickSeconds = 1.0 / Navigation::kTicksPerSecond;
+  static constexpr double kTickSeconds = Sounds::kTickSeconds;
+  // How long an utterance outlives its end, so that its captions can be read.
+  static constexpr double kReadOnSeconds = 4.0;
+  static double UtteredSeconds(const Utterance& utterance) {
+    return static_cast<double>(utterance.ticks) * kTickSeconds;
+  }
 
   Stage();
   ~Stage();
@@ -71,7 +78,7 @@ class Stage {
   // False when the id is stale.
   bool Remove(ActorId id);
   bool Remove(ObjectId id);
-  // What somebody can say, by name.
+  // A line that somebody can say, by its id.
   Status AddSpeech(std::string name, human::VisemeTrack track);
   // The floor, and what of all places is in the way: a drama runs alike wherever it is
   // staged, so that nobody may walk where any of its places has something solid.
@@ -94,6 +101,8 @@ class Stage {
 
   Tasks& tasks() { return tasks_; }
   const Tasks& tasks() const { return tasks_; }
+  Sounds& sounds() { return sounds_; }
+  const Sounds& sounds() const { return sounds_; }
   // At once. An actor stops whatever it was doing; an object leaves whoever had it.
   void Place(ActorId id, const glm::vec3& position, float heading);
   void Show(ActorId id, bool visible);
@@ -135,6 +144,7 @@ class Stage {
     std::vector<Actor> actors;
     std::vector<Object> objects;
     Daylight daylight;
+    Sounds::Checkpoint sounds;
   };
   Checkpoint Save() const;
   void Restore(const Checkpoint& checkpoint);
@@ -147,10 +157,12 @@ class Stage {
   void AnimateWalk(Actor& actor) const;
   void AdvanceDaylight();
   void AdvanceLights();
+  void AdvanceUtterance(ActorId id);
 
   std::unique_ptr<World> world_;
   Tasks tasks_;
   Daylight daylight_;
+  Sounds sounds_;
   NavigationOptions floor_;
   std::vector<std::pair<geometry::TriangleMesh, geometry::Similarity3>> solids_;
   struct Gate {

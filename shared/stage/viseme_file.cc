@@ -1,5 +1,7 @@
 #include "shared/stage/viseme_file.h"
 
+#include <cmath>
+
 #include "shared/core/json.h"
 
 namespace lararium::stage {
@@ -51,6 +53,20 @@ Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string
   }
   LARARIUM_RETURN_IF_ERROR(track.Validate(place));
   return track;
+}
+
+std::string FormatVisemes(const human::VisemeTrack& track) {
+  // To a tenth of a millisecond, as it reads best.
+  const auto rounded = [](float seconds) { return std::round(seconds * 1e4) / 1e4; };
+  Json json = {{"schema", 1}, {"duration", rounded(track.duration)}, {"visemes", Json::array()}};
+  for (const human::VisemeTrack::Key& key : track.keys) {
+    Json item = {{"t", rounded(key.time)}, {"viseme", human::NameOf(key.viseme)}};
+    if (key.strength != 1.0f) {
+      item["strength"] = rounded(key.strength);
+    }
+    json["visemes"].push_back(std::move(item));
+  }
+  return json.dump(1) + "\n";
 }
 
 }  // namespace lararium::stage

@@ -1,7 +1,6 @@
 #pragma once
 
-// audio/NAME.visemes.json: what a mouth does while something is said
-// (docs/file-formats.md).
+// LINE.visemes.json: what a mouth does while a line is said (docs/file-formats.md).
 
 #include <string>
 #include <string_view>
@@ -13,5 +12,6 @@ namespace lararium::stage {
 
 // place: what errors call the text; they name the field.
 Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string& place);
+std::string FormatVisemes(const human::VisemeTrack& track);
 
 }  // namespace lararium::stage

@@ -172,7 +172,7 @@ TEST_F(BundleTest, HostileArchivesAreRefused) {
   EXPECT_THAT(with(4, [](ZipEntry& e) { e.in_directory = false; }),
               HasSubstr("belong to no member"));
   EXPECT_THAT(with(2, [](ZipEntry& e) { e.in_directory = false; }), HasSubstr("is wrong"));
-  EXPECT_THAT(Open(MakeZip(GoodEntries(), 60000)), HasSubstr("more than 4096 members"));
+  EXPECT_THAT(Open(MakeZip(GoodEntries(), 60000)), HasSubstr("more than 16384 members"));
   EXPECT_THAT(Open(MakeZip(GoodEntries(), 4000)), HasSubstr("directory is too short"));
   EXPECT_THAT(Open(MakeZip({})), HasSubstr("has no members"));
 }

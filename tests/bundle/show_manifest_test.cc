@@ -117,13 +117,13 @@ TEST(ShowManifest, RefusesEveryMissingField) {
   for (const auto& [key, value] : json.items()) {
     Json without = json;
     without.erase(key);
-    if (key != "objects" && key != "speech") {
+    if (key != "objects" && key != "lines" && key != "spoken" && key != "captions") {
       EXPECT_THAT(Parse(without).message(), HasSubstr(key));
     }
   }
 }
 
-TEST(ShowManifest, KeepsObjectsAndSpeech) {
+TEST(ShowManifest, KeepsObjectsLinesAndLanguages) {
   ShowManifest manifest = Listed();
   manifest.members.push_back({"props/0.larprop", 1, ComputeSha256({})});
   manifest.members.push_back({"speech/0.json", 1, ComputeSha256({})});
@@ -131,20 +131,54 @@ TEST(ShowManifest, KeepsObjectsAndSpeech) {
   pose.rotation = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
   pose.translation = {1.0, 0.5, -2.0};
   manifest.objects = {{"jar", "props/0.larprop", pose}, {"jar2", "props/0.larprop", {}}};
-  manifest.speech = {{"greeting", "speech/0.json"}};
+  manifest.members.push_back({"speech/0.flac", 1, ComputeSha256({})});
+  manifest.members.push_back({"captions.json", 1, ComputeSha256({})});
+  manifest.members.push_back({"font.json", 1, ComputeSha256({})});
+  manifest.members.push_back({"font.png", 1, ComputeSha256({})});
+  manifest.lines = {{"greeting",
+                     "keeper",
+                     {{"la", {"speech/0.json", "speech/0.flac"}}, {"en", {"speech/0.json", ""}}}}};
+  manifest.spoken = {{"la", "captions.json"}, {"en", ""}};
+  manifest.captions = {"it", "en"};
+  manifest.caption_font = {"font.json", "font.png"};
   const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "manifest.json");
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   ASSERT_EQ(parsed->objects.size(), 2u);
   EXPECT_EQ(parsed->objects[0].stage_from_object.translation, pose.translation);
   EXPECT_EQ(parsed->objects[0].stage_from_object.rotation.coeffs(), pose.rotation.coeffs());
   EXPECT_EQ(parsed->objects[1].prop, "props/0.larprop");
-  EXPECT_EQ(parsed->speech.at(0).name, "greeting");
+  const LineEntry& line = parsed->lines.at(0);
+  EXPECT_EQ(line.name, "greeting");
+  EXPECT_EQ(line.speaker, "keeper");
+  EXPECT_EQ(line.spoken.at("la").sound, "speech/0.flac");
+  EXPECT_EQ(line.spoken.at("en").sound, "");
+  EXPECT_EQ(parsed->spoken.at(0).captions, "captions.json");
+  EXPECT_EQ(parsed->captions, manifest.captions);
+  EXPECT_EQ(parsed->caption_font->atlas, "font.png");
+  for (const char* missing : {"speech/0.flac", "captions.json", "font.png"}) {
+    ShowManifest without = manifest;
+    std::erase_if(without.members, [&](const Member& member) { return member.name == missing; });
+    EXPECT_THAT(ParseShowManifest(FormatShowManifest(without), "m").message(),
+                HasSubstr("is used but not listed"));
+  }
+}
+
+TEST(ShowManifest, SpeechOfBundlesOfBeforeIsOfNoLanguage) {
+  ShowManifest manifest = Listed();
+  manifest.members.push_back({"speech/0.json", 1, ComputeSha256({})});
+  Json json = Json::parse(FormatShowManifest(manifest));
+  json["speech"] = Json::array({{{"name", "greeting"}, {"visemes", "speech/0.json"}}});
+  const auto parsed = Parse(json);
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(parsed->lines.at(0).spoken.at(parsed->spoken.at(0).name).visemes, "speech/0.json");
 }
 
 TEST(ShowManifest, ABundleOfBeforeHasNoObjects) {
   Json json = Json::parse(FormatShowManifest(Listed()));
   json.erase("objects");
-  json.erase("speech");
+  json.erase("lines");
+  json.erase("spoken");
+  json.erase("captions");
   const auto parsed = Parse(json);
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   EXPECT_TRUE(parsed->objects.empty());
@@ -231,6 +265,24 @@ TEST(ShowManifest, HoldsSeveralPlacesUnderDifferentNames) {
 
 TEST(ShowManifest, SurvivesDeepNesting) {
   EXPECT_FALSE(ParseShowManifest(std::string(100'000, '['), "manifest.json").ok());
+}
+
+TEST(ShowManifest, KeepsSoundsAndAcoustics) {
+  ShowManifest manifest = Listed();
+  manifest.members.push_back({"sounds/0", 1, ComputeSha256({})});
+  manifest.sounds = {{"bell", "sounds/0"}};
+  manifest.places[0].acoustics.reverb = stage::Reverb::kVault;
+  manifest.places[0].acoustics.ambience = {{"bell", -6.0f, std::nullopt}};
+  manifest.places[0].occluders[0].blocks_sound = false;
+  const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "manifest.json");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(parsed->sounds.at(0).name, "bell");
+  EXPECT_EQ(parsed->sounds.at(0).file, "sounds/0");
+  EXPECT_EQ(parsed->places[0].acoustics, manifest.places[0].acoustics);
+  EXPECT_FALSE(parsed->places[0].occluders[0].blocks_sound);
+  manifest.members.pop_back();
+  EXPECT_THAT(ParseShowManifest(FormatShowManifest(manifest), "m").message(),
+              HasSubstr("'sounds/0' is used but not listed"));
 }
 
 }  // namespace

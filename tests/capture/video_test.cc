@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "shared/capture/frame_source.h"
+#include "shared/capture/libav.h"
 #include "shared/capture/video_writer.h"
 #include "shared/core/file.h"
 #include "shared/core/random.h"
@@ -183,6 +184,87 @@ TEST(VideoWriter, KeepsColours) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(mean[c], colours[i][c], 3.0) << "colour " << i << " channel " << c;
     }
+  }
+}
+
+// The samples of a file's sound (left ear, 48000 a second), each at its time.
+std::vector<float> DecodeSound(const std::filesystem::path& file) {
+  std::vector<float> left;
+  AVFormatContext* format = nullptr;
+  EXPECT_GE(avformat_open_input(&format, file.c_str(), nullptr, nullptr), 0);
+  EXPECT_GE(avformat_find_stream_info(format, nullptr), 0);
+  const AVCodec* aac = nullptr;
+  const int stream = av_find_best_stream(format, AVMEDIA_TYPE_AUDIO, -1, -1, &aac, 0);
+  EXPECT_GE(stream, 0) << "there is no sound";
+  if (stream >= 0) {
+    const LibavPtr<AVCodecContext> codec(avcodec_alloc_context3(aac));
+    avcodec_parameters_to_context(codec.get(), format->streams[stream]->codecpar);
+    codec->pkt_timebase = format->streams[stream]->time_base;
+    EXPECT_EQ(codec->sample_rate, VideoWriter::kSoundRate);
+    EXPECT_GE(avcodec_open2(codec.get(), aac, nullptr), 0);
+    const LibavPtr<AVPacket> packet(av_packet_alloc());
+    const LibavPtr<AVFrame> frame(av_frame_alloc());
+    for (bool more = true; more;) {
+      more = av_read_frame(format, packet.get()) >= 0;
+      if (more && packet->stream_index != stream) {
+        av_packet_unref(packet.get());
+        continue;
+      }
+      avcodec_send_packet(codec.get(), more ? packet.get() : nullptr);
+      av_packet_unref(packet.get());
+      while (avcodec_receive_frame(codec.get(), frame.get()) >= 0) {
+        const int64_t begin = av_rescale_q(frame->pts, codec->pkt_timebase, {1, 48'000});
+        left.resize(static_cast<size_t>(std::max<int64_t>(begin, 0)));
+        const float* samples = reinterpret_cast<const float*>(frame->data[0]);
+        left.insert(left.end(), samples, samples + frame->nb_samples);
+      }
+    }
+  }
+  avformat_close_input(&format);
+  return left;
+}
+
+TEST(VideoWriter, AClickIsHeardWithItsFrame) {
+  const test::TemporaryFolder folder;
+  const auto file = folder / "click.mp4";
+  for (const int clicked : {0, 1, 37, 58}) {
+    auto writer = VideoWriter::Create(file, kWidth, kHeight, 30.0, true);
+    ASSERT_TRUE(writer.ok()) << writer.message();
+    std::vector<float> interval(2 * 1600);
+    for (int i = 0; i < 60; ++i) {
+      ASSERT_TRUE((*writer)->Write(NumberedImage(i)).ok());
+      std::fill(interval.begin(), interval.end(), 0.0f);
+      interval[0] = interval[1] = i == clicked ? 0.9f : 0.0f;
+      ASSERT_TRUE((*writer)->WriteSound(interval).ok());
+    }
+    ASSERT_TRUE((*writer)->Finish().ok());
+    const std::vector<float> left = DecodeSound(file);
+    EXPECT_NEAR(static_cast<double>(left.size()), 60 * 1600, 2048.0);
+    const auto loudest = std::max_element(
+        left.begin(), left.end(), [](float a, float b) { return std::abs(a) < std::abs(b); });
+    EXPECT_GT(*loudest, 0.1f);
+    EXPECT_NEAR(static_cast<double>(loudest - left.begin()) / 48'000.0, clicked / 30.0, 0.002)
+        << "frame " << clicked;
+  }
+}
+
+TEST(VideoWriter, FramesThatWereLeftOutLeaveTheirTime) {
+  const test::TemporaryFolder folder;
+  const auto file = folder / "gaps.mp4";
+  const int indices[] = {0, 1, 5, 6, 20};
+  auto writer = VideoWriter::Create(file, kWidth, kHeight, 30.0);
+  ASSERT_TRUE(writer.ok());
+  for (const int index : indices) {
+    ASSERT_TRUE((*writer)->Write(NumberedImage(index), index).ok());
+  }
+  ASSERT_TRUE((*writer)->Finish().ok());
+  const auto source = OpenVideo(file);
+  ASSERT_TRUE(source.ok()) << source.message();
+  for (const int index : indices) {
+    const auto frame = (*source)->Next();
+    ASSERT_TRUE(frame.ok() && frame->has_value());
+    EXPECT_EQ(ReadNumber((*frame)->grey), index);
+    EXPECT_NEAR((*frame)->capture_time, index / 30.0, 1e-3);
   }
 }
 

@@ -263,7 +263,7 @@ TEST_F(WordsTest, MistakesAreBlamedOnTheScript) {
        "'table' has no surface 'underside'"},
       {"actor('keeper'):place{} actor('keeper'):give('cup', 'keeper')", "to itself"},
       {"actor('keeper'):sit('table', 'wipe') actor('keeper'):sit('chest')", "not on the stage"},
-      {"actor('keeper'):say('poem')", "there is no speech 'poem'; add audio/poem.visemes.json"},
+      {"actor('keeper'):say('poem')", "there is no line 'poem'; add it to lines.csv"},
       {"actor('keeper'):express('hunger')", "there is no expression 'hunger'"},
       {"actor('keeper'):express('joy', 2)", "between 0 and 1"},
       {"actor('keeper'):gesture('fly')", "has no clip 'fly'"},

@@ -100,7 +100,11 @@ TEST(Export, ObjectsOfOneModelShareItsMember) {
   content.objects = {{"cup", bytes, {}},
                      {"other_cup", bytes, there},
                      {"table", stage::SerializeProp(test::MakeTable()), {}}};
-  content.speech = {{"greeting", R"({"schema": 1, "duration": 0.5, "visemes": []})"}};
+  const std::string visemes = R"({"schema": 1, "duration": 0.5, "visemes": []})";
+  content.lines = {{"greeting", "keeper", "la", visemes, {std::byte{1}}},
+                   {"greeting", "keeper", "en", visemes, {}}};
+  content.spoken = {{"la", R"({"schema": 1, "names": {}, "lines": {}})"}};
+  content.captions = {"en"};
   NoProgress progress;
   const Status status = ExportBundle(content, folder / "a.larshow", progress);
   ASSERT_TRUE(status.ok()) << status.message();
@@ -112,7 +116,11 @@ TEST(Export, ObjectsOfOneModelShareItsMember) {
   EXPECT_NE(objects[0].prop, objects[2].prop);
   EXPECT_EQ(objects[1].stage_from_object.translation.y(), 0.8);
   EXPECT_TRUE(stage::ParseProp(*opened->member(objects[2].prop), "prop").ok());
-  EXPECT_EQ(opened->manifest().speech.size(), 1u);
+  ASSERT_EQ(opened->manifest().lines.size(), 1u);
+  const bundle::LineEntry& line = opened->manifest().lines[0];
+  EXPECT_EQ(line.spoken.at("la").sound, "speech/la/greeting.flac");
+  EXPECT_EQ(line.spoken.at("en").visemes, "speech/en/greeting.visemes.json");
+  EXPECT_EQ(opened->manifest().captions, content.captions);
   EXPECT_THAT(opened->manifest().credits, HasSubstr("a potter"));
 
   content.objects[2].prop.resize(40);

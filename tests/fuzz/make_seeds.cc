@@ -40,6 +40,39 @@ std::string Manifest() {
   return text;
 }
 
+// A WAV of 16 bits and one channel, little-endian.
+std::vector<std::byte> Wave() {
+  std::vector<std::byte> bytes;
+  const auto add = [&bytes](uint32_t value, int size) {
+    for (int i = 0; i < size; ++i) {
+      bytes.push_back(static_cast<std::byte>(value >> (8 * i)));
+    }
+  };
+  const auto add_text = [&bytes](std::string_view text) {
+    for (const char c : text) {
+      bytes.push_back(static_cast<std::byte>(c));
+    }
+  };
+  constexpr uint32_t kSamples = 64;
+  constexpr uint32_t kRate = 8000;
+  add_text("RIFF");
+  add(36 + 2 * kSamples, 4);
+  add_text("WAVEfmt ");
+  add(16, 4);
+  add(1, 2);  // linear
+  add(1, 2);  // channels
+  add(kRate, 4);
+  add(2 * kRate, 4);
+  add(2, 2);
+  add(16, 2);
+  add_text("data");
+  add(2 * kSamples, 4);
+  for (uint32_t i = 0; i < kSamples; ++i) {
+    add(500 * (i % 16), 2);
+  }
+  return bytes;
+}
+
 Status WriteSeeds(const std::filesystem::path& folder) {
   const human::Human human = human::RichHuman();
   CHECK(human.Validate("seed").ok());
@@ -50,6 +83,7 @@ Status WriteSeeds(const std::filesystem::path& folder) {
   LARARIUM_RETURN_IF_ERROR(
       WriteFileAtomically(folder / "prop.larprop", stage::SerializeProp(RichProp(human))));
   LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", Manifest()));
+  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(folder / "sound.wav", Wave()));
   geometry::TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.normals.assign(3, {0, 0, 1});

@@ -56,6 +56,17 @@ TEST_F(OptionsTest, ABenchmarkTakesItsImagesFromItsOwnFolder) {
   EXPECT_EQ(ExitCode({show_, "--smoothing", "much"}), 2);
 }
 
+TEST_F(OptionsTest, SoundGoesWhereItIsTold) {
+  const Command plain = Parse({show_});
+  EXPECT_FALSE(std::get<PlayOptions>(plain).listening.has_value());
+  const Command command = Parse({show_, "--audio", "speakers", "--sound", "mix.wav"});
+  const auto* play = std::get_if<PlayOptions>(&command);
+  ASSERT_NE(play, nullptr);
+  EXPECT_EQ(play->listening, Listening::kSpeakers);
+  EXPECT_EQ(play->sound, "mix.wav");
+  EXPECT_EQ(ExitCode({show_, "--audio", "loud"}), 2);
+}
+
 TEST_F(OptionsTest, InfoTakesABundle) {
   const Command command = Parse({"info", show_});
   ASSERT_NE(std::get_if<InfoOptions>(&command), nullptr);

@@ -63,7 +63,8 @@ TEST_F(ShowContentTest, ObjectsOfOneMemberShareTheirModel) {
   geometry::Rigid3 there;
   there.translation = {0.0, 0.8, -1.0};
   manifest_.objects = {{"cup", "cup.larprop", {}}, {"other_cup", "cup.larprop", there}};
-  manifest_.speech = {{"hello", "hello.json"}};
+  manifest_.lines = {{"hello", "", {{"la", {"hello.json", ""}}}}};
+  manifest_.spoken = {{"la", ""}};
   const auto content = Load();
   ASSERT_TRUE(content.ok()) << content.message();
   ASSERT_EQ(content->objects.size(), 2u);
@@ -78,7 +79,8 @@ TEST_F(ShowContentTest, ObjectsOfOneMemberShareTheirModel) {
 }
 
 TEST_F(ShowContentTest, BrokenSpeechIsNamed) {
-  manifest_.speech = {{"hello", "hello.json"}};
+  manifest_.lines = {{"hello", "", {{"la", {"hello.json", ""}}}}};
+  manifest_.spoken = {{"la", ""}};
   hello_ = "{}";
   EXPECT_THAT(Load().message(), HasSubstr("hello.json"));
 }

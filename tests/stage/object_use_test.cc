@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "shared/stage/caption_file.h"
 #include "shared/stage/object.h"
 #include "shared/stage/viseme_file.h"
 #include "tests/stage/test_props.h"
@@ -111,6 +112,30 @@ TEST(ObjectUse, ErrorsNameTheFieldAndTheRemedy) {
   }
 }
 
+TEST(ObjectUse, SoundsOfActionsAndStates) {
+  const auto parsed = Parse(R"("states": ["cold", "lit"],
+      "places": {"front": {"at": [0, -0.5]}},
+      "sounds": [{"name": "fire", "states": ["lit"], "at": [0, 0.4, 0], "gain_db": -3}],
+      "actions": {"knock": {"sound": "knock"},
+                  "stir": {"sound": {"name": "stir", "begin": 0.2, "end": 0.8, "loop": true}}})");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(parsed->actions[0].sound.name, "knock");
+  EXPECT_FALSE(parsed->actions[0].sound.loops);
+  EXPECT_EQ(parsed->actions[1].sound.name, "stir");
+  EXPECT_FLOAT_EQ(parsed->actions[1].sound.end, 0.8f);
+  EXPECT_TRUE(parsed->actions[1].sound.loops);
+  ASSERT_EQ(parsed->sounds.size(), 1u);
+  EXPECT_EQ(parsed->sounds[0].states, 2u);
+  EXPECT_FLOAT_EQ(parsed->sounds[0].gain_db, -3.0f);
+  EXPECT_FLOAT_EQ(parsed->sounds[0].position.y, 0.4f);
+
+  EXPECT_THAT(Parse(R"("sounds": [{"name": "fire", "states": ["lit"]}])").message(),
+              HasSubstr("lit"));
+  EXPECT_THAT(Parse(R"("sounds": [{"name": "fire", "volume": 3}])").message(), HasSubstr("volume"));
+  EXPECT_FALSE(Parse(R"("sounds": [{"name": "fire", "gain_db": 90}])").ok());
+  EXPECT_FALSE(Parse(R"("sounds": [{}])").ok());
+}
+
 TEST(ObjectUse, AHingeTurnsAboutItsPartsOrigin) {
   const auto model = test::Model(test::MakeChest());
   const float quarter[] = {kPi / 2.0f};
@@ -171,6 +196,33 @@ TEST(ObjectLight, SaysWhatIsWrongWithIt) {
   EXPECT_THAT(problem(R"({"part": "wick", "at": [0, 1, 0], "temperature": 1900, "intensity": 1,
                           "radius": 0.1})"),
               HasSubstr("wick"));
+}
+
+TEST(Visemes, AreReadAsTheyWereWritten) {
+  human::VisemeTrack track;
+  track.duration = 1.25f;
+  track.keys = {{0.0f, human::Viseme::kPP, 1.0f}, {0.5f, human::Viseme::kOu, 0.6f}};
+  const auto read = ParseVisemes(FormatVisemes(track), "a.visemes.json");
+  ASSERT_TRUE(read.ok()) << read.message();
+  EXPECT_FLOAT_EQ(read->duration, track.duration);
+  ASSERT_EQ(read->keys.size(), 2u);
+  EXPECT_EQ(read->keys[1].viseme, human::Viseme::kOu);
+  EXPECT_FLOAT_EQ(read->keys[1].strength, 0.6f);
+}
+
+TEST(Captions, AreReadAsTheyWereWrittenOrRefusedWithTheirPlace) {
+  CaptionBook book;
+  book.names["keeper"] = {{"en", "The keeper"}};
+  book.lines["salvete"]["en"] = {{0.0, 1.5, "Greetings!"}, {1.5, 3.0, "What will\nyou have?"}};
+  const auto read = ParseCaptions(FormatCaptions(book), "captions.json");
+  ASSERT_TRUE(read.ok()) << read.message();
+  EXPECT_EQ(*read, book);
+  book.lines["salvete"]["en"][1].begin = 1.0;
+  EXPECT_THAT(ParseCaptions(FormatCaptions(book), "captions.json").message(),
+              HasSubstr("lines.salvete.en[1]: its time is empty or lies before"));
+  book.lines["salvete"]["en"] = {{0.0, 1.0, "three\nrows\nthere"}};
+  EXPECT_THAT(ParseCaptions(FormatCaptions(book), "captions.json").message(),
+              HasSubstr("one or two lines"));
 }
 
 TEST(Visemes, ReadsTracksAndSaysWhatIsWrongWithThem) {

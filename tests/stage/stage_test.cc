@@ -90,6 +90,38 @@ TEST(Stage, AQuarterTurnFacesMinusX) {
   EXPECT_NEAR(ahead.z, 3.0f, 1e-6);
 }
 
+TEST(Stage, AnUtteranceIsSpokenThenReadOnThenGone) {
+  Stage stage;
+  const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
+  human::VisemeTrack track;
+  track.duration = 1.0f;
+  ASSERT_TRUE(stage.AddSpeech("salvete", track).ok());
+  const auto utterance = [&]() -> const Utterance& { return stage.Find(id)->state.utterance; };
+  const auto advance = [&stage](double seconds) {
+    for (double t = 0.0; t < seconds - 1e-9; t += Stage::kTickSeconds) {
+      stage.Advance();
+      stage.Perform();
+    }
+  };
+  EXPECT_EQ(utterance(), Utterance());
+  stage.Say(id, *stage.FindSpeech("salvete"));
+  advance(0.5);
+  EXPECT_TRUE(utterance().speaking);
+  EXPECT_NEAR(Stage::UtteredSeconds(utterance()), 0.5, 1e-9);
+  advance(0.5);
+  EXPECT_FALSE(utterance().speaking);
+  EXPECT_EQ(utterance().line, 0) << "still to be read";
+  stage.Say(id, -1);
+  EXPECT_EQ(utterance().line, 0) << "it was said to its end";
+  advance(Stage::kReadOnSeconds + 0.1);
+  EXPECT_EQ(utterance(), Utterance());
+
+  stage.Say(id, 0);
+  advance(0.5);
+  stage.Say(id, -1);
+  EXPECT_EQ(utterance(), Utterance()) << "broken off";
+}
+
 TEST(Place, TheNudgeMovesTheCameraAlongItsAxes) {
   Place place;
   place.map_from_stage.scale = 0.5;

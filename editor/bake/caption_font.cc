@@ -1,0 +1,198 @@
+#include "editor/bake/caption_font.h"
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_MODULE_H
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+
+namespace lararium::bake {
+namespace {
+
+constexpr int kEmPx = 48;  // captions are drawn at 20 to 100 pixels
+constexpr int kRimPx = 6;  // distances reach as far
+constexpr int kAtlasWidth = 1024;
+constexpr int kApart = 1;  // pixels between letters
+
+class Face {
+ public:
+  static Result<Face> Open(const std::filesystem::path& file) {
+    Face face;
+    if (FT_Init_FreeType(&face.library_) != 0) {
+      return Status::Error("FreeType", "cannot be started");
+    }
+    FT_UInt spread = kRimPx;
+    for (const char* module : {"sdf", "bsdf"}) {
+      FT_Property_Set(face.library_, module, "spread", &spread);
+    }
+    if (FT_New_Face(face.library_, file.c_str(), 0, &face.face_) != 0) {
+      return Status::Error(file.string(), "is no font that can be opened", "install fonts-inter");
+    }
+    FT_Set_Pixel_Sizes(face.face_, 0, kEmPx);
+    return face;
+  }
+  Face(Face&& other) noexcept
+      : library_(std::exchange(other.library_, nullptr)),
+        face_(std::exchange(other.face_, nullptr)) {}
+  Face(const Face&) = delete;
+  Face& operator=(const Face&) = delete;
+  ~Face() {
+    if (face_ != nullptr) {
+      FT_Done_Face(face_);
+    }
+    if (library_ != nullptr) {
+      FT_Done_FreeType(library_);
+    }
+  }
+
+  FT_Face get() const { return face_; }
+
+ private:
+  Face() = default;
+
+  FT_Library library_ = nullptr;
+  FT_Face face_ = nullptr;
+};
+
+// Puts pictures beside one another in rows, the tallest first.
+class Shelves {
+ public:
+  cv::Point Place(const cv::Size& size) {
+    if (x_ + size.width > kAtlasWidth) {
+      x_ = 0;
+      y_ += row_height_ + kApart;
+      row_height_ = 0;
+    }
+    const cv::Point place(x_, y_);
+    x_ += size.width + kApart;
+    row_height_ = std::max(row_height_, size.height);
+    return place;
+  }
+  int height() const { return y_ + row_height_; }
+
+ private:
+  int x_ = 0;
+  int y_ = 0;
+  int row_height_ = 0;
+};
+
+struct Letter {
+  render::CaptionGlyph glyph;
+  cv::Mat distances;  // empty: a space
+};
+
+Result<Letter> RenderLetter(FT_Face face, uint32_t character, FT_UInt index) {
+  // Without hints: letters are drawn at any size.
+  if (FT_Load_Glyph(face, index, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) {
+    return Status::Error("caption font", "a letter cannot be read");
+  }
+  Letter letter;
+  const FT_GlyphSlot slot = face->glyph;
+  constexpr float kEm = kEmPx;
+  letter.glyph.character = character;
+  letter.glyph.advance = static_cast<float>(slot->linearHoriAdvance) / 65536.0f / kEm;
+  if (slot->outline.n_points == 0) {
+    return letter;
+  }
+  if (FT_Render_Glyph(slot, FT_RENDER_MODE_SDF) != 0) {
+    return Status::Error("caption font", "a letter has no outline");
+  }
+  const FT_Bitmap& bitmap = slot->bitmap;
+  const cv::Mat view(static_cast<int>(bitmap.rows), static_cast<int>(bitmap.width), CV_8UC1,
+                     bitmap.buffer, static_cast<size_t>(bitmap.pitch));
+  letter.distances = view.clone();
+  const glm::vec2 from(slot->bitmap_left, -slot->bitmap_top);
+  letter.glyph.from = from / kEm;
+  letter.glyph.to = (from + glm::vec2(bitmap.width, bitmap.rows)) / kEm;
+  return letter;
+}
+
+}  // namespace
+
+std::filesystem::path CaptionFontFile() {
+  return "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf";
+}
+
+void AddCharacters(std::string_view text, std::set<uint32_t>& characters) {
+  for (size_t at = 0; at < text.size();) {
+    const uint32_t character = render::NextCharacter(text, at);
+    if (character >= 0x20) {
+      characters.insert(character);
+    }
+  }
+}
+
+std::set<uint32_t> CommonCharacters() {
+  std::set<uint32_t> characters;
+  for (uint32_t character = 0x20; character < 0x7F; ++character) {
+    characters.insert(character);
+  }
+  AddCharacters("←→–—‘’“”«»…¡¿", characters);
+  return characters;
+}
+
+Result<CaptionFontBake> BakeCaptionFont(const std::filesystem::path& file,
+                                        const std::set<uint32_t>& characters) {
+  LARARIUM_ASSIGN_OR_RETURN(const Face face, Face::Open(file));
+  CaptionFontBake bake;
+  std::vector<Letter> letters;
+  for (const uint32_t character : characters) {
+    const FT_UInt index = FT_Get_Char_Index(face.get(), character);
+    if (index == 0) {
+      bake.missing.push_back(character);
+      continue;
+    }
+    LARARIUM_ASSIGN_OR_RETURN(letters.emplace_back(), RenderLetter(face.get(), character, index));
+  }
+  std::vector<Letter*> by_height;
+  for (Letter& letter : letters) {
+    if (!letter.distances.empty()) {
+      by_height.push_back(&letter);
+    }
+  }
+  std::stable_sort(by_height.begin(), by_height.end(), [](const Letter* a, const Letter* b) {
+    return a->distances.rows > b->distances.rows;
+  });
+  Shelves shelves;
+  std::vector<cv::Point> places;
+  for (const Letter* letter : by_height) {
+    places.push_back(shelves.Place(letter->distances.size()));
+  }
+  render::CaptionFont& font = bake.font;
+  font.em_px = kEmPx;
+  font.rim_px = kRimPx;
+  const auto em = static_cast<float>(face.get()->units_per_EM);
+  font.ascent = static_cast<float>(face.get()->ascender) / em;
+  font.descent = -static_cast<float>(face.get()->descender) / em;
+  font.atlas = cv::Mat::zeros(std::max(shelves.height(), 1), kAtlasWidth, CV_8UC1);
+  for (size_t i = 0; i < by_height.size(); ++i) {
+    Letter& letter = *by_height[i];
+    const cv::Rect place(places[i], letter.distances.size());
+    letter.distances.copyTo(font.atlas(place));
+    letter.glyph.atlas_from = glm::vec2(place.x, place.y);
+    letter.glyph.atlas_to = glm::vec2(place.x + place.width, place.y + place.height);
+  }
+  for (const Letter& letter : letters) {
+    font.glyphs.push_back(letter.glyph);
+  }
+  return bake;
+}
+
+Result<CaptionFontFiles> FormatCaptionFont(const render::CaptionFont& font) {
+  CaptionFontFiles files;
+  files.metrics = render::FormatCaptionMetrics(font);
+  std::vector<uchar> png;
+  if (!cv::imencode(".png", font.atlas, png)) {
+    return Status::Error("caption font", "the atlas cannot be written");
+  }
+  const auto bytes = std::as_bytes(std::span(png));
+  files.atlas.assign(bytes.begin(), bytes.end());
+  return files;
+}
+
+}  // namespace lararium::bake

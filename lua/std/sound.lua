@@ -1,0 +1,82 @@
+-- Sounds that the drama plays by itself. Those of people and objects follow from what
+-- they do.
+
+local host = ...
+
+local Sound = {}
+Sound.__index = Sound
+Sound.__metatable = false
+Sound.__tostring = function(self)
+  return "sound '" .. self.name .. "'"
+end
+
+local known = {}
+
+-- The sound of that name: audio/NAME.wav (.flac, .ogg, .opus) of the project, or one that
+-- is built in.
+function sound(name)
+  if type(name) ~= "string" then
+    error("sound: give the name of a sound", 2)
+  end
+  if not known[name] then
+    local id, seconds = host.sound(name)
+    if not id then
+      error("sound: there is no sound '" .. name .. "'; add audio/" .. name ..
+        ".wav to the project", 2)
+    end
+    known[name] = setmetatable({ name = name, id = id, seconds = seconds, is_sound = true }, Sound)
+  end
+  return known[name]
+end
+
+local function number(options, key, default, least, most)
+  local value = options[key]
+  if value == nil then
+    value = default
+  end
+  if type(value) ~= "number" or not (value >= least and value <= most) then
+    error("play: " .. key .. " must be a number from " .. least .. " to " .. most, 3)
+  end
+  return value
+end
+
+-- Begins it now, once: play{at = {x=, y=, z=}} at a place, play{on = actor or object} there
+-- and wherever they go, play() all around the visitor. gain: decibels. loop = true: until
+-- it is stopped. Does not wait for its end.
+function Sound:play(options)
+  options = options or {}
+  if type(options) ~= "table" then
+    error("play: give a table like {at = {x = 1, z = -2}}", 2)
+  end
+  local gain = number(options, "gain", 0, -60, 12)
+  local loop = options.loop == true
+  local on, at = options.on, options.at
+  local started
+  if type(on) == "table" and on.is_object then
+    started = host.play_sound(self.id, loop, gain, "object", on.id)
+  elseif type(on) == "table" and on.id then
+    started = host.play_sound(self.id, loop, gain, "actor", on.id)
+  elseif on ~= nil then
+    error("play: on must be an actor or an object", 2)
+  elseif type(at) == "table" then
+    started = host.play_sound(self.id, loop, gain, "point", number(at, "x", 0, -1e6, 1e6),
+      number(at, "y", 1.5, -1e6, 1e6), number(at, "z", 0, -1e6, 1e6))
+  elseif at ~= nil then
+    error("play: at must be a point like {x = 1, z = -2}", 2)
+  else
+    started = host.play_sound(self.id, loop, gain, "listener")
+  end
+  if not started then
+    host.warn("play: too many sounds are heard at once")
+  end
+end
+
+-- Stops it wherever it is heard.
+function Sound:stop()
+  host.stop_sound(self.id)
+end
+
+-- Seconds.
+function Sound:length()
+  return self.seconds
+end

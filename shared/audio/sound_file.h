@@ -1,0 +1,53 @@
+#pragma once
+
+// Decoding of sound files that lie in memory: WAV, FLAC, and Ogg with Vorbis or Opus,
+// by libsndfile.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "shared/core/status.h"
+
+namespace lararium::audio {
+
+// One sound, decoded piece by piece. Borrows the bytes. Threads: one at a time.
+class SoundReader {
+ public:
+  static constexpr int kMinRate = 8'000;
+  static constexpr int kMaxRate = 192'000;
+  static constexpr int kMaxChannels = 2;
+  static constexpr int64_t kMaxSeconds = 3600;
+  static constexpr size_t kMaxBytes = size_t{1} << 29;
+
+  // Only the header is read. Refuses other formats before any library sees them, and
+  // what is longer, faster or wider than the limits above. place: what errors call it.
+  static Result<SoundReader> Open(std::span<const std::byte> bytes, const std::string& place);
+  SoundReader(SoundReader&&) noexcept;
+  SoundReader& operator=(SoundReader&&) noexcept;
+  ~SoundReader();
+
+  int rate() const { return rate_; }          // samples a second
+  int channels() const { return channels_; }  // 1 or 2
+  int64_t frames() const { return frames_; }  // samples of each channel
+  double seconds() const { return static_cast<double>(frames_) / rate_; }
+
+  // The next frame to be read. False where the file is damaged.
+  bool Seek(int64_t frame);
+  // Interleaved samples. Gives the frames that were read: fewer only at the end, or
+  // where the file is damaged.
+  size_t Read(std::span<int16_t> samples);
+
+ private:
+  struct File;
+  explicit SoundReader(std::unique_ptr<File> file);
+
+  std::unique_ptr<File> file_;
+  int rate_ = 0;
+  int channels_ = 0;
+  int64_t frames_ = 0;
+};
+
+}  // namespace lararium::audio

@@ -1,0 +1,386 @@
+#include "shared/audio/sound_graph.h"
+
+#define AL_ALEXT_PROTOTYPES
+#include <AL/al.h>
+#include <AL/alc.h>
+#include <AL/alext.h>
+#include <AL/efx-presets.h>
+#include <AL/efx.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "shared/core/check.h"
+
+namespace lararium::audio {
+namespace {
+
+constexpr size_t kPieceFrames = 4096;  // of a streamed sound that OpenAL is given at a time
+constexpr size_t kPieces = 3;          // that it has in advance
+constexpr float kReferenceDistance = 1.0f;
+constexpr float kMaxDistance = 200.0f;
+constexpr float kMaxGain = 8.0f;
+// What reaches an ear around and through something solid, decibels: over all, and at
+// 5 kHz besides. Reverberation suffers half of it.
+constexpr float kObstructedDb = -9.0f;
+constexpr float kObstructedHighDb = -18.0f;
+// A voice behind its speaker's back (Chu & Warnock, "Detailed directivity of sound
+// fields around human talkers", NRC-IRC RR-104, 2002: a few decibels at speech's
+// middle, more than ten at 5 kHz).
+constexpr float kBehindDb = -4.0f;
+constexpr float kBehindHighDb = -10.0f;
+constexpr float kMouthConeDeg = 90.0f;  // full level within
+
+float FromDb(float db) { return std::pow(10.0f, db / 20.0f); }
+
+const EFXEAXREVERBPROPERTIES& PresetOf(stage::Reverb reverb) {
+  static constexpr std::array<EFXEAXREVERBPROPERTIES, 9> kPresets = {{
+      EFX_REVERB_PRESET_GENERIC,  // none: not used
+      EFX_REVERB_PRESET_LIVINGROOM,
+      EFX_REVERB_PRESET_WOODEN_SMALLROOM,
+      EFX_REVERB_PRESET_CASTLE_SMALLROOM,
+      EFX_REVERB_PRESET_CASTLE_SHORTPASSAGE,
+      EFX_REVERB_PRESET_CASTLE_MEDIUMROOM,
+      EFX_REVERB_PRESET_CASTLE_HALL,
+      EFX_REVERB_PRESET_CASTLE_COURTYARD,
+      EFX_REVERB_PRESET_CITY_STREETS,
+  }};
+  return kPresets[static_cast<size_t>(reverb)];
+}
+
+// Each calling thread has its own current context; ours is current only within.
+class Entered {
+ public:
+  explicit Entered(ALCcontext* context) { alcSetThreadContext(context); }
+  ~Entered() { alcSetThreadContext(nullptr); }
+  Entered(const Entered&) = delete;
+  Entered& operator=(const Entered&) = delete;
+};
+
+void SetEffect(ALuint effect, const EFXEAXREVERBPROPERTIES& p, float db) {
+  alEffecti(effect, AL_EFFECT_TYPE, AL_EFFECT_EAXREVERB);
+  alEffectf(effect, AL_EAXREVERB_DENSITY, p.flDensity);
+  alEffectf(effect, AL_EAXREVERB_DIFFUSION, p.flDiffusion);
+  alEffectf(effect, AL_EAXREVERB_GAIN, std::min(p.flGain * FromDb(db), 1.0f));
+  alEffectf(effect, AL_EAXREVERB_GAINHF, p.flGainHF);
+  alEffectf(effect, AL_EAXREVERB_GAINLF, p.flGainLF);
+  alEffectf(effect, AL_EAXREVERB_DECAY_TIME, p.flDecayTime);
+  alEffectf(effect, AL_EAXREVERB_DECAY_HFRATIO, p.flDecayHFRatio);
+  alEffectf(effect, AL_EAXREVERB_DECAY_LFRATIO, p.flDecayLFRatio);
+  alEffectf(effect, AL_EAXREVERB_REFLECTIONS_GAIN, p.flReflectionsGain);
+  alEffectf(effect, AL_EAXREVERB_REFLECTIONS_DELAY, p.flReflectionsDelay);
+  alEffectfv(effect, AL_EAXREVERB_REFLECTIONS_PAN, p.flReflectionsPan);
+  alEffectf(effect, AL_EAXREVERB_LATE_REVERB_GAIN, p.flLateReverbGain);
+  alEffectf(effect, AL_EAXREVERB_LATE_REVERB_DELAY, p.flLateReverbDelay);
+  alEffectfv(effect, AL_EAXREVERB_LATE_REVERB_PAN, p.flLateReverbPan);
+  alEffectf(effect, AL_EAXREVERB_ECHO_TIME, p.flEchoTime);
+  alEffectf(effect, AL_EAXREVERB_ECHO_DEPTH, p.flEchoDepth);
+  alEffectf(effect, AL_EAXREVERB_MODULATION_TIME, p.flModulationTime);
+  alEffectf(effect, AL_EAXREVERB_MODULATION_DEPTH, p.flModulationDepth);
+  alEffectf(effect, AL_EAXREVERB_AIR_ABSORPTION_GAINHF, p.flAirAbsorptionGainHF);
+  alEffectf(effect, AL_EAXREVERB_HFREFERENCE, p.flHFReference);
+  alEffectf(effect, AL_EAXREVERB_LFREFERENCE, p.flLFReference);
+  alEffectf(effect, AL_EAXREVERB_ROOM_ROLLOFF_FACTOR, p.flRoomRolloffFactor);
+  alEffecti(effect, AL_EAXREVERB_DECAY_HFLIMIT, p.iDecayHFLimit);
+}
+
+// Both ears hear a mono sound at the level of a stereo one; a stereo sound becomes one
+// point.
+void Convert(std::span<const int16_t> samples,
+             int channels,
+             bool to_stereo,
+             std::vector<int16_t>& converted) {
+  converted.clear();
+  if (to_stereo) {
+    for (const int16_t sample : samples) {
+      converted.insert(converted.end(), channels == 1 ? 2 : 1, sample);
+    }
+    return;
+  }
+  for (size_t i = 0; i < samples.size(); i += static_cast<size_t>(channels)) {
+    converted.push_back(channels == 1 ? samples[i]
+                                      : static_cast<int16_t>((samples[i] + samples[i + 1]) / 2));
+  }
+}
+
+void GiveSamples(ALuint buffer,
+                 std::span<const int16_t> samples,
+                 const Clip& clip,
+                 bool to_stereo,
+                 std::vector<int16_t>& scratch) {
+  Convert(samples, clip.channels, to_stereo, scratch);
+  alBufferData(buffer, to_stereo ? AL_FORMAT_STEREO16 : AL_FORMAT_MONO16, scratch.data(),
+               static_cast<ALsizei>(scratch.size() * sizeof(int16_t)), clip.rate);
+}
+
+}  // namespace
+
+struct SoundGraph::Device {
+  ALCdevice* device = nullptr;
+  ALCcontext* context = nullptr;
+  ALuint direct_filter = 0;
+  ALuint send_filter = 0;
+  ALuint effect = 0;
+  ALuint effect_slot = 0;
+  std::optional<std::pair<stage::Reverb, float>> reverb;
+
+  ~Device() {
+    if (context != nullptr) {
+      alcDestroyContext(context);  // with all that belongs to it
+    }
+    if (device != nullptr) {
+      alcCloseDevice(device);
+    }
+  }
+};
+
+struct SoundGraph::Source {
+  ALuint id = 0;
+  int clip = -1;
+  bool loops = false;
+  bool head_locked = false;
+  // Of a streamed clip.
+  std::optional<SoundReader> reader;
+  std::array<ALuint, kPieces> pieces = {};
+  bool drained = false;  // nothing more is to be read
+};
+
+SoundGraph::SoundGraph(std::shared_ptr<const SoundLibrary> library, std::unique_ptr<Device> device)
+    : library_(std::move(library)),
+      device_(std::move(device)),
+      buffers_(library_->clips().size()),
+      sources_(kSources),
+      piece_(2 * kPieceFrames) {
+  widened_.reserve(2 * kPieceFrames);
+}
+
+// OpenAL's objects go with their device.
+SoundGraph::~SoundGraph() = default;
+
+Result<std::unique_ptr<SoundGraph>> SoundGraph::Create(std::shared_ptr<const SoundLibrary> library,
+                                                       bool hrtf) {
+  constexpr const char* kWhat = "sound";
+  constexpr const char* kRemedy = "install libopenal1 1.19 or later";
+  auto device = std::make_unique<Device>();
+  if (alcIsExtensionPresent(nullptr, "ALC_SOFT_loopback") == ALC_FALSE) {
+    return Status::Error(kWhat, "this OpenAL cannot render into memory", kRemedy);
+  }
+  device->device = alcLoopbackOpenDeviceSOFT(nullptr);
+  if (device->device == nullptr) {
+    return Status::Error(kWhat, "OpenAL does not start", kRemedy);
+  }
+  const ALCint attributes[] = {ALC_FORMAT_CHANNELS_SOFT,
+                               ALC_STEREO_SOFT,
+                               ALC_FORMAT_TYPE_SOFT,
+                               ALC_FLOAT_SOFT,
+                               ALC_FREQUENCY,
+                               kRate,
+                               ALC_HRTF_SOFT,
+                               hrtf ? ALC_TRUE : ALC_FALSE,
+                               ALC_OUTPUT_LIMITER_SOFT,
+                               ALC_TRUE,
+                               ALC_MAX_AUXILIARY_SENDS,
+                               1,
+                               ALC_MONO_SOURCES,
+                               static_cast<ALCint>(kSources),
+                               ALC_STEREO_SOURCES,
+                               static_cast<ALCint>(kSources),
+                               0};
+  device->context = alcCreateContext(device->device, attributes);
+  if (device->context == nullptr) {
+    return Status::Error(kWhat, "OpenAL cannot mix stereo at 48 kHz", kRemedy);
+  }
+  std::unique_ptr<SoundGraph> graph(new SoundGraph(std::move(library), std::move(device)));
+  Device& d = *graph->device_;
+  ALCint heads = ALC_FALSE;
+  alcGetIntegerv(d.device, ALC_HRTF_SOFT, 1, &heads);
+  graph->hrtf_ = heads == ALC_TRUE;
+
+  const Entered entered(d.context);
+  alDistanceModel(AL_INVERSE_DISTANCE_CLAMPED);
+  alDopplerFactor(0.0f);  // poses jump where the tracker corrects itself
+  alGenFilters(1, &d.direct_filter);
+  alGenFilters(1, &d.send_filter);
+  alFilteri(d.direct_filter, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
+  alFilteri(d.send_filter, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
+  alGenEffects(1, &d.effect);
+  alGenAuxiliaryEffectSlots(1, &d.effect_slot);
+  // The best that is not wasteful: resampling happens only for clips of other rates.
+  const ALint resamplers = alGetInteger(AL_NUM_RESAMPLERS_SOFT);
+  const ALint resampler = std::clamp(3, 0, std::max(resamplers - 1, 0));
+  for (Source& source : graph->sources_) {
+    alGenSources(1, &source.id);
+    alSourcef(source.id, AL_REFERENCE_DISTANCE, kReferenceDistance);
+    alSourcef(source.id, AL_MAX_DISTANCE, kMaxDistance);
+    alSourcef(source.id, AL_MAX_GAIN, kMaxGain);
+    alSourcei(source.id, AL_SOURCE_RESAMPLER_SOFT, resampler);
+    alGenBuffers(kPieces, source.pieces.data());
+  }
+  if (alGetError() != AL_NO_ERROR) {
+    return Status::Error(kWhat, "OpenAL lacks sources, filters or effects", kRemedy);
+  }
+  return graph;
+}
+
+uint32_t SoundGraph::BufferOf(int clip, bool head_locked) {
+  Buffers& buffers = buffers_[static_cast<size_t>(clip)];
+  uint32_t& buffer = head_locked ? buffers.stereo : buffers.mono;
+  if (buffer == 0) {
+    const Clip& source = library_->clips()[static_cast<size_t>(clip)];
+    std::vector<int16_t> scratch;
+    alGenBuffers(1, &buffer);
+    GiveSamples(buffer, source.samples, source, head_locked, scratch);
+  }
+  return buffer;
+}
+
+bool SoundGraph::FillBuffer(Source& source, uint32_t buffer) {
+  const Clip& clip = library_->clips()[static_cast<size_t>(source.clip)];
+  const auto channels = static_cast<size_t>(clip.channels);
+  const std::span<int16_t> piece = std::span(piece_).first(kPieceFrames * channels);
+  size_t frames = source.reader->Read(piece);
+  if (frames < kPieceFrames && source.loops) {
+    // Over the seam. A file that gives nothing even from its beginning is damaged.
+    if (source.reader->Seek(0)) {
+      frames += source.reader->Read(piece.subspan(frames * channels));
+    }
+  }
+  if (frames == 0) {
+    return false;
+  }
+  GiveSamples(buffer, piece.first(frames * channels), clip, source.head_locked, widened_);
+  alSourceQueueBuffers(source.id, 1, &buffer);
+  return true;
+}
+
+bool SoundGraph::StartStream(Source& source, const Clip& clip, int64_t frame) {
+  Result<SoundReader> reader = SoundReader::Open(clip.data.bytes, clip.name);
+  if (!reader.ok() || (frame > 0 && !reader->Seek(frame))) {
+    return false;
+  }
+  source.reader = std::move(*reader);
+  source.drained = false;
+  for (const ALuint piece : source.pieces) {
+    if (!source.drained) {
+      source.drained = !FillBuffer(source, piece);
+    }
+  }
+  return true;
+}
+
+bool SoundGraph::Start(size_t index, int clip, int64_t frame, bool loops, bool head_locked) {
+  CHECK(clip >= 0 && static_cast<size_t>(clip) < library_->clips().size());
+  Stop(index);
+  const Entered entered(device_->context);
+  Source& source = sources_[index];
+  const Clip& played = library_->clips()[static_cast<size_t>(clip)];
+  source.clip = clip;
+  source.loops = loops;
+  source.head_locked = head_locked;
+  const bool streamed = played.samples.empty();
+  alSourcei(source.id, AL_SOURCE_RELATIVE, head_locked ? AL_TRUE : AL_FALSE);
+  alSourcei(source.id, AL_DIRECT_CHANNELS_SOFT, head_locked ? AL_TRUE : AL_FALSE);
+  alSourcei(source.id, AL_LOOPING, loops && !streamed ? AL_TRUE : AL_FALSE);
+  if (streamed) {
+    if (!StartStream(source, played, frame)) {
+      return false;
+    }
+  } else {
+    alSourcei(source.id, AL_BUFFER, static_cast<ALint>(BufferOf(clip, head_locked)));
+    if (frame > 0) {
+      alSourcei(source.id, AL_SAMPLE_OFFSET, static_cast<ALint>(frame));
+    }
+  }
+  alSourcePlay(source.id);
+  return true;
+}
+
+void SoundGraph::Stop(size_t index) {
+  const Entered entered(device_->context);
+  Source& source = sources_[index];
+  alSourceRewind(source.id);
+  alSourcei(source.id, AL_BUFFER, 0);
+  source.reader.reset();
+  source.clip = -1;
+}
+
+bool SoundGraph::Playing(size_t index) {
+  const Entered entered(device_->context);
+  ALint state = AL_STOPPED;
+  alGetSourcei(sources_[index].id, AL_SOURCE_STATE, &state);
+  return state == AL_PLAYING;
+}
+
+void SoundGraph::Set(size_t index, const SourceState& state) {
+  const Entered entered(device_->context);
+  const Source& source = sources_[index];
+  const Device& d = *device_;
+  alSourcef(source.id, AL_GAIN, std::clamp(state.gain, 0.0f, kMaxGain));
+  if (source.head_locked) {
+    alSource3f(source.id, AL_POSITION, 0.0f, 0.0f, 0.0f);
+    alSource3f(source.id, AL_DIRECTION, 0.0f, 0.0f, 0.0f);
+    alSourcei(source.id, AL_DIRECT_FILTER, AL_FILTER_NULL);
+    alSource3i(source.id, AL_AUXILIARY_SEND_FILTER, AL_EFFECTSLOT_NULL, 0, AL_FILTER_NULL);
+    return;
+  }
+  alSourcefv(source.id, AL_POSITION, &state.position.x);
+  const bool faces = state.facing != glm::vec3(0.0f);
+  alSourcefv(source.id, AL_DIRECTION, &state.facing.x);
+  alSourcef(source.id, AL_CONE_INNER_ANGLE, faces ? kMouthConeDeg : 360.0f);
+  alSourcef(source.id, AL_CONE_OUTER_GAIN, FromDb(kBehindDb));
+  alSourcef(source.id, AL_CONE_OUTER_GAINHF, FromDb(kBehindHighDb));
+  const float blocked = std::clamp(state.obstruction, 0.0f, 1.0f);
+  alFilterf(d.direct_filter, AL_LOWPASS_GAIN, FromDb(blocked * kObstructedDb));
+  alFilterf(d.direct_filter, AL_LOWPASS_GAINHF, FromDb(blocked * kObstructedHighDb));
+  alSourcei(source.id, AL_DIRECT_FILTER, static_cast<ALint>(d.direct_filter));
+  alFilterf(d.send_filter, AL_LOWPASS_GAIN, FromDb(0.5f * blocked * kObstructedDb));
+  alFilterf(d.send_filter, AL_LOWPASS_GAINHF, FromDb(0.5f * blocked * kObstructedHighDb));
+  alSource3i(source.id, AL_AUXILIARY_SEND_FILTER, static_cast<ALint>(d.effect_slot), 0,
+             static_cast<ALint>(d.send_filter));
+}
+
+void SoundGraph::SetListener(const Listener& listener) {
+  const Entered entered(device_->context);
+  const float orientation[] = {listener.forward.x, listener.forward.y, listener.forward.z,
+                               listener.up.x,      listener.up.y,      listener.up.z};
+  alListenerfv(AL_POSITION, &listener.position.x);
+  alListenerfv(AL_ORIENTATION, orientation);
+}
+
+void SoundGraph::SetReverb(stage::Reverb reverb, float db) {
+  Device& d = *device_;
+  if (d.reverb == std::pair(reverb, db)) {
+    return;
+  }
+  const Entered entered(d.context);
+  d.reverb = {reverb, db};
+  if (reverb == stage::Reverb::kNone) {
+    alAuxiliaryEffectSloti(d.effect_slot, AL_EFFECTSLOT_EFFECT, AL_EFFECT_NULL);
+    return;
+  }
+  SetEffect(d.effect, PresetOf(reverb), db);
+  alAuxiliaryEffectSloti(d.effect_slot, AL_EFFECTSLOT_EFFECT, static_cast<ALint>(d.effect));
+}
+
+void SoundGraph::Feed(Source& source) {
+  ALint played = 0;
+  alGetSourcei(source.id, AL_BUFFERS_PROCESSED, &played);
+  for (; played > 0; --played) {
+    ALuint buffer = 0;
+    alSourceUnqueueBuffers(source.id, 1, &buffer);
+    source.drained = source.drained || !FillBuffer(source, buffer);
+  }
+}
+
+void SoundGraph::Render(std::span<float> stereo) {
+  const Entered entered(device_->context);
+  for (Source& source : sources_) {
+    if (source.reader) {
+      Feed(source);
+    }
+  }
+  alcRenderSamplesSOFT(device_->device, stereo.data(), static_cast<ALCsizei>(stereo.size() / 2));
+}
+
+}  // namespace lararium::audio

@@ -1,0 +1,61 @@
+#include "shared/audio/sound_library.h"
+
+#include <algorithm>
+
+#include "shared/core/parallel.h"
+
+namespace lararium::audio {
+namespace {
+
+Status Hold(Clip& clip) {
+  LARARIUM_ASSIGN_OR_RETURN(SoundReader reader, SoundReader::Open(clip.data.bytes, clip.name));
+  clip.samples.resize(static_cast<size_t>(clip.frames * clip.channels));
+  if (reader.Read(clip.samples) != static_cast<size_t>(clip.frames)) {
+    return Status::Error(clip.name, "ends too early: the file is damaged", "put it back");
+  }
+  clip.data = {};
+  return Status();
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const SoundLibrary>> SoundLibrary::Load(std::vector<SoundData> sounds) {
+  std::shared_ptr<SoundLibrary> library(new SoundLibrary);
+  std::sort(sounds.begin(), sounds.end(),
+            [](const SoundData& a, const SoundData& b) { return a.name < b.name; });
+  std::vector<size_t> held;
+  size_t samples = 0;
+  for (SoundData& sound : sounds) {
+    if (!library->clips_.empty() && library->clips_.back().name == sound.name) {
+      return Status::Error(sound.name, "is the name of two sounds", "rename one of them");
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const SoundReader reader, SoundReader::Open(sound.bytes, sound.name));
+    Clip& clip = library->clips_.emplace_back();
+    clip.name = sound.name;
+    clip.rate = reader.rate();
+    clip.channels = reader.channels();
+    clip.frames = reader.frames();
+    clip.data = std::move(sound);
+    const auto size = static_cast<size_t>(clip.frames * clip.channels);
+    if (clip.seconds() <= kMaxHeldSeconds && samples + size <= kMaxHeldSamples) {
+      held.push_back(library->clips_.size() - 1);
+      samples += size;
+    }
+  }
+  std::vector<Status> statuses(held.size());
+  ParallelFor(held.size(), [&](size_t i) { statuses[i] = Hold(library->clips_[held[i]]); });
+  for (const Status& status : statuses) {
+    LARARIUM_RETURN_IF_ERROR(status);
+  }
+  return std::shared_ptr<const SoundLibrary>(std::move(library));
+}
+
+int SoundLibrary::Find(std::string_view name) const {
+  const auto found =
+      std::lower_bound(clips_.begin(), clips_.end(), name,
+                       [](const Clip& clip, std::string_view n) { return clip.name < n; });
+  return found != clips_.end() && found->name == name ? static_cast<int>(found - clips_.begin())
+                                                      : -1;
+}
+
+}  // namespace lararium::audio

@@ -1,0 +1,57 @@
+#pragma once
+
+// All sounds of one show, by name. Short ones are decoded once, long ones while they
+// are played.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shared/audio/sound_file.h"
+#include "shared/core/status.h"
+
+namespace lararium::audio {
+
+// An encoded sound and whoever keeps its bytes.
+struct SoundData {
+  std::string name;
+  std::span<const std::byte> bytes;
+  std::shared_ptr<const void> owner;
+};
+
+struct Clip {
+  std::string name;
+  int rate = 0;
+  int channels = 1;
+  int64_t frames = 0;
+  std::vector<int16_t> samples;  // interleaved; empty: data is decoded while it plays
+  SoundData data;                // empty where samples are
+
+  double seconds() const { return static_cast<double>(frames) / rate; }
+};
+
+// Immutable; shared by threads.
+class SoundLibrary {
+ public:
+  // What is longer is streamed.
+  static constexpr double kMaxHeldSeconds = 5.0;
+  static constexpr size_t kMaxHeldSamples = size_t{48} << 20;  // of all clips
+
+  // Names are unique. Errors name the sound.
+  static Result<std::shared_ptr<const SoundLibrary>> Load(std::vector<SoundData> sounds);
+
+  std::span<const Clip> clips() const { return clips_; }
+  // Index of a clip; -1: there is none of that name.
+  int Find(std::string_view name) const;
+
+ private:
+  SoundLibrary() = default;
+
+  std::vector<Clip> clips_;  // in the order of their names
+};
+
+}  // namespace lararium::audio

@@ -1,0 +1,109 @@
+#include "shared/audio/sound_player.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lararium::audio {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kAskAgain(2);
+constexpr std::chrono::milliseconds kStale(333);
+// A difference of clocks beyond which the drama has jumped, and the share of a smaller
+// one that is put right in each block.
+constexpr double kJumpSeconds = 0.25;
+constexpr double kEvenOut = 0.02;
+
+}  // namespace
+
+double SoundClock::Next(double scene_time,
+                        Clock::time_point shown,
+                        Clock::time_point heard,
+                        double block_seconds) {
+  const double wanted = scene_time + std::chrono::duration<double>(heard - shown).count();
+  if (!next_ || std::abs(wanted - *next_) > kJumpSeconds) {
+    next_ = wanted;
+  }
+  const double now = *next_ + kEvenOut * (wanted - *next_);
+  next_ = now + block_seconds;
+  return now;
+}
+
+SoundPlayer::SoundPlayer(std::unique_ptr<Mixer> mixer, OpenOut open, Log& log)
+    : mixer_(std::move(mixer)),
+      open_(std::move(open)),
+      log_(log),
+      thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+
+SoundPlayer::~SoundPlayer() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+void SoundPlayer::Show(const SoundScene& scene) {
+  const std::lock_guard lock(mutex_);
+  newest_ = scene;
+  newest_shown_ = Clock::now();
+  any_ = true;
+}
+
+bool SoundPlayer::TakeScene(Clock::time_point now) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!any_) {
+      return false;
+    }
+    scene_ = newest_;
+    shown_ = newest_shown_;
+  }
+  if (now - shown_ > kStale) {
+    std::erase_if(scene_.voices, [](const Voice& voice) { return !voice.head_locked; });
+  }
+  return true;
+}
+
+void SoundPlayer::Open() {
+  asked_ = Clock::now();
+  Result<std::unique_ptr<AudioOut>> opened = open_();
+  silent_ = !opened.ok();
+  if (opened.ok()) {
+    out_ = std::move(*opened);
+    told_silent_ = false;
+    log_.info("sound goes to {}", out_->name());
+    return;
+  }
+  if (out_ == nullptr) {
+    out_ = std::move(*CreateAudioOut(AudioOutKind::kNone));
+  }
+  if (!told_silent_) {
+    log_.warn("{}; the show goes on in silence", opened.message());
+    told_silent_ = true;
+  }
+}
+
+void SoundPlayer::Run(const std::stop_token& stop) {
+  std::array<float, 2 * Mixer::kBlockFrames> block = {};
+  constexpr double kBlockSeconds = static_cast<double>(Mixer::kBlockFrames) / Mixer::kRate;
+  while (!stop.stop_requested()) {
+    if (out_ == nullptr || (silent_ && Clock::now() - asked_ > kAskAgain)) {
+      Open();
+    }
+    const Clock::time_point now = Clock::now();
+    const auto heard = now + std::chrono::duration_cast<Clock::duration>(
+                                 std::chrono::duration<double>(out_->latency()));
+    if (TakeScene(now)) {
+      mixer_->Render(scene_, clock_.Next(scene_.time, shown_, heard, kBlockSeconds), block);
+    }
+    if (const Status status = out_->Write(block); !status.ok()) {
+      log_.warn("{}; the show goes on in silence", status.message());
+      told_silent_ = true;
+      silent_ = true;
+      asked_ = now;
+      out_ = std::move(*CreateAudioOut(AudioOutKind::kNone));
+    }
+  }
+}
+
+}  // namespace lararium::audio

@@ -1,0 +1,36 @@
+#include "shared/audio/sound_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lararium::audio {
+
+Result<std::unique_ptr<SoundTrack>> SoundTrack::Create(std::shared_ptr<const SoundLibrary> library,
+                                                       bool hrtf,
+                                                       Take take) {
+  MixerOptions options = MixerOptions::ForFiles();
+  options.hrtf = hrtf;
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Mixer> mixer,
+                            Mixer::Create(std::move(library), options));
+  return std::unique_ptr<SoundTrack>(new SoundTrack(std::move(mixer), std::move(take)));
+}
+
+Status SoundTrack::RenderUntil(const SoundScene& scene) {
+  last_ = scene;
+  const auto end = static_cast<int64_t>(std::llround(scene.time * Mixer::kRate));
+  while (frames_ < end) {
+    const auto count = static_cast<size_t>(std::min<int64_t>(end - frames_, int64_t{kPieceFrames}));
+    const std::span<float> piece = std::span(piece_).first(2 * count);
+    mixer_->Render(scene, static_cast<double>(frames_) / Mixer::kRate, piece);
+    LARARIUM_RETURN_IF_ERROR(take_(piece));
+    frames_ += static_cast<int64_t>(count);
+  }
+  return Status();
+}
+
+Status SoundTrack::RenderOn(double seconds) {
+  last_.time += seconds;
+  return RenderUntil(SoundScene(last_));
+}
+
+}  // namespace lararium::audio

@@ -1,0 +1,44 @@
+#pragma once
+
+// The sound of a show for files: every sample once, in step with the drama's time.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "shared/audio/mixer.h"
+#include "shared/audio/sound_scene.h"
+
+namespace lararium::audio {
+
+class SoundTrack {
+ public:
+  using Take = std::function<Status(std::span<const float> stereo)>;
+
+  // The first sample is that of the drama's beginning. take gets the samples, 48000
+  // frames a second, piece by piece.
+  static Result<std::unique_ptr<SoundTrack>> Create(std::shared_ptr<const SoundLibrary> library,
+                                                    bool hrtf,
+                                                    Take take);
+
+  // What was to be heard since the last call, until scene.time. Going back gives nothing.
+  // The same scenes give the same samples.
+  Status RenderUntil(const SoundScene& scene);
+  // The same scene for some seconds more, as the last picture is shown.
+  Status RenderOn(double seconds);
+
+ private:
+  SoundTrack(std::unique_ptr<Mixer> mixer, Take take)
+      : mixer_(std::move(mixer)), take_(std::move(take)), piece_(2 * kPieceFrames) {}
+
+  static constexpr size_t kPieceFrames = 16 * Mixer::kBlockFrames;
+
+  std::unique_ptr<Mixer> mixer_;
+  Take take_;
+  SoundScene last_;
+  int64_t frames_ = 0;  // that were rendered
+  std::vector<float> piece_;
+};
+
+}  // namespace lararium::audio

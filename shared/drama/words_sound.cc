@@ -1,0 +1,58 @@
+// What a script plays by itself.
+
+#include "shared/drama/lua_binding.h"
+#include "shared/drama/run.h"
+
+namespace lararium::drama {
+
+// sound(name) -> id, seconds; or nil
+int Run::PushSound(lua_State* lua) {
+  const auto sound = stage_.sounds().Find(CheckText(lua, 1));
+  if (!sound) {
+    lua_pushnil(lua);
+    return 1;
+  }
+  lua_pushinteger(lua, *sound);
+  lua_pushnumber(lua, stage_.sounds().seconds(*sound));
+  return 2;
+}
+
+int Run::CheckSound(lua_State* lua) {
+  const lua_Integer sound = luaL_checkinteger(lua, 1);
+  if (sound < 0 || sound >= static_cast<lua_Integer>(stage_.sounds().size())) {
+    luaL_error(lua, "there is no such sound");
+  }
+  return static_cast<int>(sound);
+}
+
+// play_sound(sound, loops, gain, "listener" | "point", x, y, z | "actor", id | "object", id)
+//   -> whether it is heard
+int Run::PlaySound(lua_State* lua) {
+  stage::StageSound sound;
+  sound.sound = CheckSound(lua);
+  sound.loops = lua_toboolean(lua, 2) != 0;
+  sound.gain_db = static_cast<float>(CheckFinite(lua, 3, "gain"));
+  constexpr const char* kPlaces[] = {"listener", "point", "actor", "object", nullptr};
+  sound.at = static_cast<stage::StageSound::At>(luaL_checkoption(lua, 4, nullptr, kPlaces));
+  if (sound.at == stage::StageSound::At::kPoint) {
+    sound.point = {CheckFinite(lua, 5, "x"), CheckFinite(lua, 6, "y"), CheckFinite(lua, 7, "z")};
+  } else if (sound.at == stage::StageSound::At::kActor) {
+    CheckActor(lua, 5);
+    sound.actor = CheckActorId(lua, 5);
+  } else if (sound.at == stage::StageSound::At::kObject) {
+    CheckObject(lua, 5);
+    sound.object = CheckObjectId(lua, 5);
+  }
+  only_tracks_ = false;
+  lua_pushboolean(lua, stage_.sounds().Play(sound) != 0);
+  return 1;
+}
+
+// stop_sound(sound)
+int Run::StopSound(lua_State* lua) {
+  stage_.sounds().StopAll(CheckSound(lua));
+  only_tracks_ = false;
+  return 0;
+}
+
+}  // namespace lararium::drama

@@ -1,0 +1,71 @@
+#pragma once
+
+// Captions over a finished picture: who speaks and what, on a dark ground, in the middle of
+// the lower edge.
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "shared/core/status.h"
+#include "shared/render/caption_font.h"
+#include "shared/render/render_target.h"
+
+namespace lararium::render {
+
+enum class CaptionSide { kHere, kLeft, kRight };
+
+struct Caption {
+  std::string_view speaker;               // UTF-8; may be empty
+  glm::vec3 colour = glm::vec3(1.0f);     // of the speaker's name, sRGB-encoded
+  CaptionSide side = CaptionSide::kHere;  // where to look for a speaker who is out of view
+  std::string_view text;                  // rows apart by '\n'
+};
+
+// Where the rows of captions come to lie; pixels of the target from its top-left corner.
+// Letters are 4.6 % of the height, at least 14 px, and smaller where a row would leave the
+// middle nine tenths of the width. The first caption is lowest.
+struct CaptionLayout {
+  struct Row {
+    std::string_view text;
+    glm::vec2 baseline;  // its left end
+    float em = 0.0f;     // pixels
+    glm::vec3 colour;
+    CaptionSide side = CaptionSide::kHere;  // of a name: which arrow stands beside it
+  };
+  struct Ground {
+    glm::vec2 from;
+    glm::vec2 to;
+  };
+  std::vector<Row> rows;
+  std::vector<Ground> grounds;
+};
+// Allocates nothing once the layout has held as many.
+void LayOut(const CaptionFont& font,
+            std::span<const Caption> captions,
+            int width,
+            int height,
+            CaptionLayout& layout);
+
+class CaptionPainter {
+ public:
+  // Uploads the font's atlas; needs the context that it draws with.
+  static Result<std::unique_ptr<CaptionPainter>> Create(CaptionFont font);
+  ~CaptionPainter();
+  CaptionPainter(const CaptionPainter&) = delete;
+  CaptionPainter& operator=(const CaptionPainter&) = delete;
+
+  // Over what the target holds.
+  void Draw(std::span<const Caption> captions, const RenderTarget& target);
+
+ private:
+  struct State;
+  explicit CaptionPainter(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lararium::render

@@ -1,0 +1,110 @@
+#include "shared/show/show_captions.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lararium::show {
+namespace {
+
+constexpr size_t kMostAtOnce = 2;
+
+// Light colours that differ at a glance on a dark ground, also for the colour-blind (after
+// Okabe & Ito, Color Universal Design, 2008, lightened), by the order of the cast.
+constexpr std::array<glm::vec3, 6> kColours = {{{0.98f, 0.80f, 0.36f},
+                                                {0.52f, 0.80f, 0.98f},
+                                                {0.60f, 0.90f, 0.68f},
+                                                {0.98f, 0.70f, 0.56f},
+                                                {0.90f, 0.74f, 0.94f},
+                                                {0.96f, 0.94f, 0.60f}}};
+
+}  // namespace
+
+CaptionTexts TextsOf(const ShowContent& content) {
+  CaptionTexts texts;
+  for (const Speech& line : content.speech) {
+    texts.lines.push_back(line.captions);
+  }
+  for (const CastMember& member : content.cast) {
+    texts.speakers.push_back(member.title);
+  }
+  return texts;
+}
+
+const stage::CaptionCue* FindCue(std::span<const stage::CaptionCue> cues, double seconds) {
+  const auto found = std::find_if(cues.begin(), cues.end(), [seconds](const auto& cue) {
+    return seconds >= cue.begin && seconds < cue.end;
+  });
+  return found == cues.end() ? nullptr : &*found;
+}
+
+render::CaptionSide SideOf(const StagedFrame& staged, uint32_t cast) {
+  const auto actor = std::find_if(staged.actors.begin(), staged.actors.end(),
+                                  [cast](const StagedActor& a) { return a.cast == cast; });
+  if (!staged.camera_from_stage || actor == staged.actors.end()) {
+    return render::CaptionSide::kHere;
+  }
+  constexpr float kHead = 1.5f;  // metres
+  const glm::vec4 head = actor->stage_from_actor * glm::vec4(0.0f, kHead, 0.0f, 1.0f);
+  const Eigen::Vector3d in_camera =
+      *staged.camera_from_stage * Eigen::Vector3d(head.x, head.y, head.z);
+  const geometry::CameraModel display = staged.tracked.camera.DisplayPinhole();
+  const double across = display.fx * in_camera.x() + display.cx * in_camera.z();
+  if (in_camera.z() <= 0.0) {
+    return in_camera.x() < 0.0 ? render::CaptionSide::kLeft : render::CaptionSide::kRight;
+  }
+  if (across < 0.0) {
+    return render::CaptionSide::kLeft;
+  }
+  return across > display.width * in_camera.z() ? render::CaptionSide::kRight
+                                                : render::CaptionSide::kHere;
+}
+
+void CollectCaptions(const CaptionTexts& texts,
+                     const StagedFrame& staged,
+                     std::vector<render::Caption>& captions) {
+  captions.clear();
+  // By how long ago the line began: few people speak at once.
+  double after = -1.0;
+  uint32_t after_cast = 0;
+  while (captions.size() < kMostAtOnce) {
+    const StagedLine* next = nullptr;
+    for (const StagedLine& line : staged.lines) {
+      const bool is_later =
+          line.seconds > after || (line.seconds == after && line.cast > after_cast);
+      if (is_later && FindCue(texts.lines[line.line], line.seconds) != nullptr &&
+          (next == nullptr || line.seconds < next->seconds)) {
+        next = &line;
+      }
+    }
+    if (next == nullptr) {
+      return;
+    }
+    after = next->seconds;
+    after_cast = next->cast;
+    render::Caption& caption = captions.emplace_back();
+    caption.speaker = texts.speakers[next->cast];
+    caption.colour = kColours[next->cast % kColours.size()];
+    caption.side = SideOf(staged, next->cast);
+    caption.text = FindCue(texts.lines[next->line], next->seconds)->text;
+  }
+}
+
+Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& content) {
+  std::unique_ptr<ShowCaptions> captions(new ShowCaptions());
+  captions->texts_ = TextsOf(content);
+  if (content.caption_font) {
+    LARARIUM_ASSIGN_OR_RETURN(captions->painter_,
+                              render::CaptionPainter::Create(*content.caption_font));
+  }
+  captions->captions_.reserve(kMostAtOnce);
+  return captions;
+}
+
+void ShowCaptions::Draw(const StagedFrame& staged, const render::RenderTarget& target) {
+  if (painter_ != nullptr && !staged.lines.empty()) {
+    CollectCaptions(texts_, staged, captions_);
+    painter_->Draw(captions_, target);
+  }
+}
+
+}  // namespace lararium::show

@@ -1,0 +1,120 @@
+// The drama's words for sounds.
+
+#include <gmock/gmock.h>
+
+#include "tests/drama/drama_fixture.h"
+#include "tests/stage/test_props.h"
+
+namespace lararium::drama {
+namespace {
+
+using ::testing::HasSubstr;
+using At = stage::StageSound::At;
+
+class SoundWords : public DramaTest {
+ protected:
+  SoundWords() {
+    EXPECT_TRUE(stage_.AddObject("chest", test::Model(test::MakeChest()), {}).ok());
+    EXPECT_TRUE(stage_.sounds().Add("bell", 1.5).ok());
+    EXPECT_TRUE(stage_.sounds().Add("flute", 20.0).ok());
+  }
+  std::span<const stage::StageSound> Playing() const { return stage_.sounds().playing(); }
+};
+
+TEST_F(SoundWords, PlayBeginsAtOnceAndDoesNotWait) {
+  const auto drama = Make(R"(
+    function main()
+      wait(1)
+      sound("bell"):play{ on = object("chest"), gain = -6 }
+      sound("flute"):play{ at = { x = 1, z = -2 }, loop = true }
+      sound("bell"):play{ on = actor("guest") }
+      sound("bell"):play()
+    end)");
+  PlayTo(*drama, 0.9);
+  EXPECT_TRUE(Playing().empty());
+  PlayTo(*drama, 1.5);
+  EXPECT_EQ(FirstError(*drama), "");
+  ASSERT_EQ(Playing().size(), 4u);
+  EXPECT_EQ(Playing()[0].at, At::kObject);
+  EXPECT_EQ(Playing()[0].object, *stage_.FindObject("chest"));
+  EXPECT_EQ(Playing()[0].gain_db, -6.0f);
+  EXPECT_EQ(Playing()[0].ticks, 60);
+  EXPECT_EQ(Playing()[1].point, glm::vec3(1.0f, 1.5f, -2.0f));
+  EXPECT_TRUE(Playing()[1].loops);
+  EXPECT_EQ(Playing()[2].actor, *stage_.Find("guest"));
+  EXPECT_EQ(Playing()[3].at, At::kListener);
+  // What does not loop is over after its length.
+  PlayTo(*drama, 2.6);
+  EXPECT_EQ(Playing().size(), 1u);
+  PlayTo(*drama, 30.0);
+  EXPECT_EQ(Playing().size(), 1u);
+}
+
+TEST_F(SoundWords, StopEndsItWhereverItIsHeard) {
+  const auto drama = Make(R"(
+    function main()
+      local flute = sound("flute")
+      flute:play{ loop = true }
+      flute:play{ on = actor("keeper") }
+      sound("bell"):play()
+      wait(0.5)
+      flute:stop()
+    end)");
+  PlayTo(*drama, 0.4);
+  EXPECT_EQ(Playing().size(), 3u);
+  PlayTo(*drama, 0.6);
+  ASSERT_EQ(Playing().size(), 1u);
+  EXPECT_EQ(Playing()[0].sound, *stage_.sounds().Find("bell"));
+}
+
+TEST_F(SoundWords, SeekingIsPlayingThere) {
+  const auto drama = Make(R"(
+    function main()
+      while true do
+        sound("bell"):play{ on = actor("keeper") }
+        wait(1.1)
+      end
+    end)");
+  PlayTo(*drama, 4.6);
+  const stage::StageSnapshot played = Snapshot();
+  EXPECT_EQ(played.sounds.size(), 2u);
+  PlayTo(*drama, 8.0);
+  ASSERT_TRUE(drama->Seek(4.6).ok());
+  EXPECT_EQ(Snapshot().sounds, played.sounds);
+}
+
+TEST_F(SoundWords, ErrorsSayWhatToDo) {
+  const char* scripts[][2] = {
+      {"sound('horn')", "there is no sound 'horn'; add audio/horn.wav"},
+      {"sound(3)", "give the name"},
+      {"sound('bell'):play{ gain = 90 }", "gain must be a number from -60 to 12"},
+      {"sound('bell'):play{ on = 'keeper' }", "on must be an actor or an object"},
+      {"sound('bell'):play{ at = 3 }", "at must be a point"},
+      {"sound('bell'):play(3)", "give a table"},
+  };
+  for (const auto& [script, problem] : scripts) {
+    const auto drama = Make(std::string("function main() ") + script + " end");
+    EXPECT_THAT(FirstError(*drama), HasSubstr(problem)) << script;
+    EXPECT_THAT(FirstError(*drama), HasSubstr("drama.lua:1")) << script;
+  }
+}
+
+TEST_F(SoundWords, TooManyAtOnceAreAWarning) {
+  const auto drama =
+      Make("function main() for _ = 1, 100 do sound('flute'):play{ loop = true } end end");
+  EXPECT_EQ(Playing().size(), stage::Sounds::kMaxPlaying);
+  EXPECT_THAT(FirstError(*drama), HasSubstr("too many sounds"));
+}
+
+TEST_F(SoundWords, LengthIsInSeconds) {
+  const auto drama = Make(
+      "function main() wait(sound('bell'):length()) "
+      "sound('flute'):play() end");
+  PlayTo(*drama, 1.4);
+  EXPECT_TRUE(Playing().empty());
+  PlayTo(*drama, 1.6);
+  EXPECT_EQ(Playing().size(), 1u);
+}
+
+}  // namespace
+}  // namespace lararium::drama

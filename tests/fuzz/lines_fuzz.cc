@@ -1,0 +1,28 @@
+// libFuzzer harness: whatever the text is, reading it as a table of lines or as a catalogue
+// ends, and a table that is accepted is the same again after writing it.
+
+#include <string_view>
+
+#include "editor/bake/line_table.h"
+#include "shared/core/check.h"
+
+using namespace lararium;  // NOLINT(google-build-using-namespace)
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  auto table = bake::ParseLinesCsv(text, "lines.csv");
+  if (table.ok()) {
+    const auto csv = bake::ParseLinesCsv(bake::FormatLinesCsv(*table), "again.csv");
+    CHECK(csv.ok() && *csv == *table);
+    const auto json = bake::ParseLinesJson(bake::FormatLinesJson(*table), "again.json");
+    CHECK(json.ok() && *json == *table);
+  }
+  (void)bake::ParseLinesJson(text, "lines.json").ok();
+  const auto po = bake::ParsePo(text, "it.po");
+  if (po.ok()) {
+    bake::LineTable lines;
+    lines.lines = {{"salvete", "keeper", "", {{"la", "Salve"}}}};
+    bake::ImportPo(*po, "it", lines);
+  }
+  return 0;
+}
