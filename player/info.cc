@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstdio>
+#include <string>
 
 #include "shared/bundle/bundle.h"
 #include "shared/vision/scene_database.h"
@@ -40,6 +41,15 @@ Status PrintInfo(const InfoOptions& options) {
   for (const bundle::CastEntry& member : manifest.cast) {
     std::printf("cast    %s\n", member.name.c_str());
   }
+  std::string spoken, captions;
+  for (const bundle::SpokenLanguage& language : manifest.spoken) {
+    spoken += " " + language.name;
+  }
+  for (const std::string& language : manifest.captions) {
+    captions += " " + language;
+  }
+  std::printf("lines   %zu, spoken:%s, captions:%s\n", manifest.lines.size(), spoken.c_str(),
+              captions.c_str());
   for (const bundle::Member& member : manifest.members) {
     std::printf("member  %-32s %12llu bytes\n", member.name.c_str(),
                 static_cast<unsigned long long>(member.size));

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "editor/bake/caption_file.h"
 #include "editor/bake/caption_font.h"
 #include "editor/bake/caption_layout.h"
 #include "shared/core/file.h"
@@ -38,6 +39,27 @@ Result<human::VisemeTrack> LoadVisemes(const SpokenLine& spoken) {
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(spoken.visemes));
   return stage::ParseVisemes(text, spoken.visemes.string());
+}
+
+// Captions that were placed by hand, as LINE.LANGUAGE.srt or .vtt; empty where there are none.
+Result<std::vector<stage::CaptionCue>> LoadPlacedCaptions(const std::filesystem::path& folder,
+                                                          const std::string& stem) {
+  std::vector<stage::CaptionCue> cues;
+  for (const char* extension : {".srt", ".vtt"}) {
+    const std::filesystem::path file = folder / (stem + extension);
+    std::error_code ignored;
+    if (!cues.empty() || !std::filesystem::exists(file, ignored)) {
+      continue;
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<bake::FileCue> placed,
+                              bake::ParseCaptionFile(text, file.string()));
+    for (const bake::FileCue& cue : placed) {
+      cues.push_back({cue.begin, cue.end, cue.text});
+    }
+    LARARIUM_RETURN_IF_ERROR(stage::CheckCues(cues, file.string()));
+  }
+  return cues;
 }
 
 Result<show::Speech> LoadLine(const SpokenLine& spoken,
@@ -127,8 +149,13 @@ Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
     }
     LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
     for (const std::string& captions : lines.captions) {
+      const std::string stem = spoken.line->id + "." + captions;
+      LARARIUM_ASSIGN_OR_RETURN(std::vector<stage::CaptionCue> placed,
+                                LoadPlacedCaptions(paths.Recordings(language), stem));
       const auto text = spoken.line->text.find(captions);
-      if (text != spoken.line->text.end()) {
+      if (!placed.empty()) {
+        book.lines[spoken.line->id][captions] = std::move(placed);
+      } else if (text != spoken.line->text.end()) {
         book.lines[spoken.line->id][captions] = bake::LayOutCaptions(text->second, visemes);
       }
     }

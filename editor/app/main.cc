@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "editor/app/camera_measure.h"
+#include "editor/app/line_commands.h"
 #include "editor/app/options.h"
 #include "editor/app/portrait.h"
 #include "editor/app/probe_commands.h"
@@ -54,6 +55,10 @@ struct Runner {
   }
   Result<CommandResult> operator()(const CheckOptions& options) {
     return RunCheck(options, progress);
+  }
+  Result<CommandResult> operator()(const LinesOptions& options) { return RunLines(options); }
+  Result<CommandResult> operator()(const CaptionsOptions& options) {
+    return RunCaptions(options, progress);
   }
   Result<CommandResult> operator()(const RenderOptions& options) {
     return RunRender(options, progress, log);

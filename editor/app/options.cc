@@ -24,6 +24,8 @@ struct AllOptions {
   CastOptions cast;
   BakeOptions bake;
   CheckOptions check;
+  LinesOptions lines;
+  CaptionsOptions captions;
   RenderOptions render;
   PortraitOptions portrait;
   std::string portrait_size;
@@ -136,6 +138,27 @@ void AddPrune(CLI::App& app, PruneOptions& prune) {
   command->add_option("--points", prune.points, "Points that stay; only the table otherwise")
       ->check(CLI::Range(100, 10'000'000));
   command->add_option("--place", prune.place, "Name of the place");
+}
+
+void AddLines(CLI::App& app, AllOptions& options) {
+  LinesOptions& in = options.lines;
+  CLI::App* lines = AddSubcommand(app, "lines", "Take over translations or a table", in.project);
+  lines
+      ->add_option("--import", in.import,
+                   "A gettext catalogue (.po) to translate by, or a table (.csv, .json) to replace "
+                   "the project's")
+      ->required()
+      ->check(CLI::ExistingFile);
+  lines->add_option("--language", in.language, "Of the catalogue; otherwise as it says");
+
+  CaptionsOptions& out = options.captions;
+  CLI::App* captions =
+      AddSubcommand(app, "captions", "Write the drama's captions by its time", out.project);
+  captions->add_option("--out", out.out, "SubRip (.srt) or WebVTT (.vtt)")->required();
+  captions->add_option("--language", out.language, "Of the captions; otherwise the first");
+  captions->add_option("--spoken", out.spoken, "That is spoken; otherwise the first");
+  captions->add_option("--seconds", out.seconds, "Of the drama that are run")
+      ->check(CLI::Range(0.0, 36000.0));
 }
 
 void AddRender(CLI::App& app, RenderOptions& render) {
@@ -348,6 +371,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
 
+  AddLines(app, options);
   AddRender(app, options.render);
   AddPortrait(app, options.portrait, options.portrait_size);
   AddReference(app, options.reference);
@@ -368,6 +392,8 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("cast")) return options.cast;
   if (app.got_subcommand("bake")) return options.bake;
   if (app.got_subcommand("check")) return options.check;
+  if (app.got_subcommand("lines")) return options.lines;
+  if (app.got_subcommand("captions")) return options.captions;
   if (app.got_subcommand("render")) return options.render;
   if (app.got_subcommand("portrait")) return options.portrait;
   if (app.got_subcommand("reference")) return options.reference;

@@ -84,6 +84,20 @@ struct CheckOptions {
   double seconds = 60.0;  // of the drama that are run
 };
 
+struct LinesOptions {
+  std::filesystem::path project;
+  std::filesystem::path import;  // .po, .csv or .json
+  std::string language;          // of a .po; empty: as it says
+};
+
+struct CaptionsOptions {
+  std::filesystem::path project;
+  std::filesystem::path out;  // .srt or .vtt
+  std::string language;       // empty: the project's first
+  std::string spoken;         // likewise
+  double seconds = 60.0;      // of the drama that are run
+};
+
 struct RenderOptions {
   std::filesystem::path project;
   std::string place;
@@ -178,6 +192,8 @@ using Subcommand = std::variant<WindowOptions,
                                 CastOptions,
                                 BakeOptions,
                                 CheckOptions,
+                                LinesOptions,
+                                CaptionsOptions,
                                 RenderOptions,
                                 PortraitOptions,
                                 ReferenceOptions,

@@ -10,6 +10,7 @@
 #include "editor/app/baking.h"
 #include "editor/app/document_fields.h"
 #include "editor/app/exporting.h"
+#include "editor/app/line_checks.h"
 #include "editor/app/lines.h"
 #include "editor/app/project.h"
 #include "editor/app/rendering.h"
@@ -24,10 +25,11 @@
 
 namespace lararium::app {
 
-namespace {
-
-// The stage with everybody and everything on it.
-Status FillStage(const ProjectPaths& paths, const ProjectDocument& document, stage::Stage& stage) {
+Status FillStage(const ProjectPaths& paths,
+                 const ProjectDocument& document,
+                 const std::string& spoken,
+                 stage::Stage& stage,
+                 show::ShowContent& content) {
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
     LARARIUM_RETURN_IF_ERROR(
@@ -38,14 +40,14 @@ Status FillStage(const ProjectPaths& paths, const ProjectDocument& document, sta
     LARARIUM_RETURN_IF_ERROR(
         stage.AddObject(object.name, object.model, object.stage_from_object).status());
   }
-  show::ShowContent said;
-  LARARIUM_RETURN_IF_ERROR(AddLines(paths, document, {"", std::string(show::kNoCaptions)}, said));
+  LARARIUM_RETURN_IF_ERROR(
+      AddLines(paths, document, {spoken, std::string(show::kNoCaptions)}, content));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<audio::SoundData> sounds, LoadSounds(paths));
   for (const audio::SoundData& sound : sounds) {
     LARARIUM_ASSIGN_OR_RETURN(const auto reader, audio::SoundReader::Open(sound.bytes, sound.name));
     LARARIUM_RETURN_IF_ERROR(stage.sounds().Add(sound.name, reader.seconds()));
   }
-  for (const show::Speech& speech : said.speech) {
+  for (const show::Speech& speech : content.speech) {
     LARARIUM_RETURN_IF_ERROR(stage.AddSpeech(speech.name, speech.visemes));
   }
   std::vector<stage::Place> places;
@@ -56,6 +58,8 @@ Status FillStage(const ProjectPaths& paths, const ProjectDocument& document, sta
   }
   return stage.SetFloor({}, places);
 }
+
+namespace {
 
 std::string AtTime(std::string problem, double seconds) {
   char time[32];
@@ -108,16 +112,19 @@ Json TasksJson(std::span<const drama::TaskRecord> tasks) {
 struct DryRunReport {
   std::vector<std::string> problems;
   Json tasks = Json::array();  // TasksJson()
+  std::vector<SaidLine> said = {};
 };
 
 // Runs the drama without drawing. On a stage that lacks anything it would tell nothing
 // that is true, and is not run.
 DryRunReport DryRun(const ProjectPaths& paths,
                     const ProjectDocument& document,
+                    const std::string& spoken,
                     double seconds,
                     Progress& progress) {
   stage::Stage stage;
-  if (const Status filled = FillStage(paths, document, stage); !filled.ok()) {
+  show::ShowContent content;
+  if (const Status filled = FillStage(paths, document, spoken, stage, content); !filled.ok()) {
     return {{filled.message(), paths.Drama().string() + ": was not run: the stage is not complete"},
             Json::array()};
   }
@@ -131,12 +138,55 @@ DryRunReport DryRun(const ProjectPaths& paths,
   if (!drama.ok()) {
     return {{drama.message()}, Json::array()};
   }
+  LineListener listener(stage, content);
   const auto ticks = static_cast<int64_t>(seconds * drama::Drama::kTicksPerSecond);
   for (int64_t tick = 0; tick < ticks && !progress.Cancelled(); ++tick) {
     (*drama)->Tick();
+    listener.Listen((*drama)->time());
     progress.Report("running the drama", static_cast<double>(tick + 1) / ticks);
   }
-  return {DramaProblems(**drama), TasksJson((*drama)->tasks())};
+  return {DramaProblems(**drama), TasksJson((*drama)->tasks()), listener.said()};
+}
+
+// Lines that cannot be read are a problem, and none.
+ProjectLines CheckLines(const ProjectPaths& paths,
+                        const ProjectDocument& document,
+                        std::vector<std::string>& problems) {
+  Result<ProjectLines> lines = LoadProjectLines(paths, document);
+  if (!lines.ok()) {
+    problems.push_back(lines.message());
+    return {};
+  }
+  for (std::string& problem : CheckTable(paths, document, *lines)) {
+    problems.push_back(std::move(problem));
+  }
+  if (const Result<std::string> script = ReadText(paths.Drama()); script.ok()) {
+    for (std::string& problem : CheckScriptLines(paths, document, *lines, *script)) {
+      problems.push_back(std::move(problem));
+    }
+  }
+  return *std::move(lines);
+}
+
+// A drama goes another way in time where its lines last longer. The tasks are those of the
+// first language.
+DryRunReport RunInEachLanguage(const ProjectPaths& paths,
+                               const ProjectDocument& document,
+                               const ProjectLines& lines,
+                               double seconds,
+                               Progress& progress) {
+  DryRunReport report = DryRun(paths, document, "", seconds, progress);
+  for (size_t i = 0; i < lines.spoken.size(); ++i) {
+    DryRunReport again;
+    if (i > 0) {
+      again = DryRun(paths, document, lines.spoken[i], seconds, progress);
+      report.problems.insert(report.problems.end(), again.problems.begin(), again.problems.end());
+    }
+    for (std::string& problem : CheckSaid(paths, lines, i > 0 ? again.said : report.said)) {
+      report.problems.push_back(std::move(problem));
+    }
+  }
+  return report;
 }
 
 // What is wrong with a place's probes, each with its file; adds to warnings what was mended.
@@ -317,7 +367,8 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   for (const Status& problem : FindSilences(paths, document)) {
     problems.push_back(problem.message());
   }
-  const DryRunReport run = DryRun(paths, document, options.seconds, progress);
+  const ProjectLines lines = CheckLines(paths, document, problems);
+  const DryRunReport run = RunInEachLanguage(paths, document, lines, options.seconds, progress);
   problems.insert(problems.end(), run.problems.begin(), run.problems.end());
   if (progress.Cancelled()) {
     return Status::Error("check", "cancelled");

@@ -11,6 +11,8 @@
 #include "shared/core/log.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
+#include "shared/show/show_content.h"
+#include "shared/stage/stage.h"
 
 namespace lararium::app {
 
@@ -19,6 +21,14 @@ struct CommandResult {
   Json json = Json::object();
   bool failed = false;  // the work was done, and its result is bad (check found problems)
 };
+
+// The stage with everybody and everything on it, as a show spoken in a language has it; ""
+// is its first. content: gets its lines.
+Status FillStage(const ProjectPaths& paths,
+                 const ProjectDocument& document,
+                 const std::string& spoken,
+                 stage::Stage& stage,
+                 show::ShowContent& content);
 
 // The place that an option names, or the only one.
 Result<std::string> ChoosePlace(const ProjectPaths& paths,

@@ -24,24 +24,23 @@ bool IsLineId(std::string_view id) {
   });
 }
 
+// Well-formed: shortest forms only, no surrogates, nothing above U+10FFFF (Unicode 15, table
+// 3-7).
 bool IsUtf8(std::string_view text) {
-  size_t i = 0;
-  while (i < text.size()) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const int more = lead < 0x80                   ? 0
-                     : lead >= 0xC2 && lead < 0xE0 ? 1
-                     : lead >= 0xE0 && lead < 0xF0 ? 2
-                     : lead >= 0xF0 && lead < 0xF5 ? 3
-                                                   : -1;
-    if (more < 0 || i + static_cast<size_t>(more) >= text.size()) {
+  for (size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i++]);
+    const int more = lead < 0x80 ? 0 : lead < 0xC2 ? -1 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
+    if (more < 0 || lead > 0xF4) {
       return false;
     }
-    for (int k = 1; k <= more; ++k) {
-      if ((static_cast<unsigned char>(text[i + static_cast<size_t>(k)]) & 0xC0) != 0x80) {
+    unsigned char least = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+    unsigned char most = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+    for (int k = 0; k < more; ++k, least = 0x80, most = 0xBF) {
+      const auto next = i < text.size() ? static_cast<unsigned char>(text[i++]) : 0;
+      if (next < least || next > most) {
         return false;
       }
     }
-    i += static_cast<size_t>(more) + 1;
   }
   return true;
 }
@@ -69,6 +68,9 @@ class TableBuilder {
     if (!IsLineId(line.id)) {
       return Status::Error(where, "'" + line.id + "' cannot be a line's id",
                            "use 1 to 64 letters, digits, '_' and '-'");
+    }
+    if (line.speaker.size() > 64) {
+      return Status::Error(where, "the speaker's name is longer than 64 bytes");
     }
     if (!ids_.insert(line.id).second) {
       return Status::Error(where, "the id '" + line.id + "' is there twice", "rename one");

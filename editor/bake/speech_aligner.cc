@@ -32,6 +32,7 @@ constexpr float kLongest = 5.0f;      // times what is expected
 constexpr double kBand = 2.0;         // seconds by which a boundary may be off a steady pace
 constexpr double kBandShare = 0.25;   // likewise, of the whole
 constexpr double kWidestBand = 10.0;
+constexpr float kSilence = 1e-4f;  // full scale 1
 
 // ---- what is aligned ----
 
@@ -408,6 +409,11 @@ std::vector<Phoneme> PhonemesOf(const std::vector<Segment>& segments,
 Result<std::vector<Phoneme>> AlignSpeech(const Sound& recording,
                                          const SpokenText& reference,
                                          const WordTimes& words) {
+  const bool silent = std::all_of(recording.samples.begin(), recording.samples.end(),
+                                  [](float sample) { return std::abs(sample) < kSilence; });
+  if (silent) {
+    return Status::Error("speech", "the recording is silent", "record the line again");
+  }
   std::vector<float> spoken;
   for (const int16_t sample : reference.samples) {
     spoken.push_back(static_cast<float>(sample) / 32768.0f);

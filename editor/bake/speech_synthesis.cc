@@ -1,10 +1,13 @@
 #include "editor/bake/speech_synthesis.h"
 
 #include <espeak-ng/speak_lib.h>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
-#include <mutex>
 #include <utility>
 
 namespace lararium::bake {
@@ -27,7 +30,7 @@ struct Collected {
   int rate = 0;
 };
 
-Collected* g_collected = nullptr;  // guarded by the engine's mutex
+Collected* g_collected = nullptr;  // of the child
 
 int Collect(short* samples, int count, espeak_EVENT* events) {
   Collected& collected = *g_collected;
@@ -47,62 +50,169 @@ int Collect(short* samples, int count, espeak_EVENT* events) {
   return seconds > kMaxSeconds ? 1 : 0;
 }
 
-// The engine, which there is one of.
-class Engine {
- public:
-  static Engine& Get() {
-    static Engine engine;
-    return engine;
+enum class Outcome : int32_t { kSpoken, kNoEngine, kNoLanguage, kNoVariant };
+
+Outcome SetVoice(const std::string& language, const VoiceSettings& voice) {
+  if (espeak_SetVoiceByName(language.c_str()) != EE_OK) {
+    return Outcome::kNoLanguage;
   }
-
-  std::mutex& mutex() { return mutex_; }
-
-  Status SetVoice(const std::string& language, const VoiceSettings& voice) {
-    if (rate_ <= 0) {
-      return Status::Error("espeak-ng", "cannot be started", "install espeak-ng-data");
-    }
-    if (espeak_SetVoiceByName(language.c_str()) != EE_OK) {
-      return Status::Error("espeak-ng", "does not speak the language '" + language + "'",
-                           "record its lines, or leave it out of \"spoken\"");
-    }
-    if (!voice.variant.empty() &&
+  if (!voice.variant.empty()) {
+    // The engine takes any variant, and ignores those that it has not.
+    const char* data = nullptr;
+    espeak_Info(&data);
+    const std::string file = std::string(data != nullptr ? data : "") + "/voices/!v/";
+    if (access((file + voice.variant).c_str(), R_OK) != 0 ||
         espeak_SetVoiceByName((language + "+" + voice.variant).c_str()) != EE_OK) {
-      return Status::Error("espeak-ng", "has no voice '" + voice.variant + "'",
-                           "use m1 to m8, f1 to f5 or another of its variants");
+      return Outcome::kNoVariant;
     }
-    espeak_SetParameter(espeakRATE, voice.rate, 0);
-    espeak_SetParameter(espeakPITCH, voice.pitch, 0);
-    espeak_SetParameter(espeakRANGE, voice.range, 0);
-    espeak_SetParameter(espeakVOLUME, 100, 0);
-    return Status();
   }
+  espeak_SetParameter(espeakRATE, voice.rate, 0);
+  espeak_SetParameter(espeakPITCH, voice.pitch, 0);
+  espeak_SetParameter(espeakRANGE, voice.range, 0);
+  espeak_SetParameter(espeakVOLUME, 100, 0);
+  return Outcome::kSpoken;
+}
 
-  Collected Speak(const std::string& text) {
-    Collected collected;
-    collected.rate = rate_;
-    g_collected = &collected;
+Outcome Speak(const std::string& text,
+              const std::string& language,
+              const VoiceSettings& voice,
+              Collected& collected) {
+  collected.rate = espeak_Initialize(
+      AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr,
+      espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
+  if (collected.rate <= 0) {
+    return Outcome::kNoEngine;
+  }
+  g_collected = &collected;
+  espeak_SetSynthCallback(Collect);
+  const Outcome outcome = SetVoice(language, voice);
+  if (outcome == Outcome::kSpoken) {
     espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0,
                  espeakCHARS_UTF8 | espeakENDPAUSE, nullptr, nullptr);
     espeak_Synchronize();
-    g_collected = nullptr;
-    return collected;
+  }
+  return outcome;
+}
+
+// ---- from the child to the parent ----
+
+class Pipe {
+ public:
+  explicit Pipe(int file) : file_(file) {}
+
+  template <typename T>
+  void Put(const T& value) {
+    PutBytes(&value, sizeof(T));
+  }
+  void PutBytes(const void* data, size_t size) {
+    const char* at = static_cast<const char*>(data);
+    while (size > 0 && good_) {
+      const ssize_t written = write(file_, at, size);
+      if (written < 0 && errno == EINTR) {
+        continue;
+      }
+      good_ = written > 0;
+      at += good_ ? written : 0;
+      size -= good_ ? static_cast<size_t>(written) : 0;
+    }
   }
 
-  bool Knows(const std::string& language) {
-    return rate_ > 0 && espeak_SetVoiceByName(language.c_str()) == EE_OK;
+  template <typename T>
+  T Take() {
+    T value = {};
+    TakeBytes(&value, sizeof(T));
+    return value;
   }
+  void TakeBytes(void* data, size_t size) {
+    char* at = static_cast<char*>(data);
+    while (size > 0 && good_) {
+      const ssize_t taken = read(file_, at, size);
+      if (taken < 0 && errno == EINTR) {
+        continue;
+      }
+      good_ = taken > 0;
+      at += good_ ? taken : 0;
+      size -= good_ ? static_cast<size_t>(taken) : 0;
+    }
+  }
+  bool good() const { return good_; }
 
  private:
-  Engine() {
-    rate_ = espeak_Initialize(AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr,
-                              espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA |
-                                  espeakINITIALIZE_DONT_EXIT);
-    espeak_SetSynthCallback(Collect);
-  }
-
-  std::mutex mutex_;
-  int rate_ = 0;
+  int file_;
+  bool good_ = true;
 };
+
+void Send(Outcome outcome, const Collected& collected, Pipe pipe) {
+  pipe.Put(outcome);
+  pipe.Put(collected.rate);
+  pipe.Put(collected.samples.size());
+  pipe.PutBytes(collected.samples.data(), collected.samples.size() * sizeof(int16_t));
+  pipe.Put(collected.events.size());
+  for (const Collected::Event& event : collected.events) {
+    pipe.Put(event.is_word);
+    pipe.Put(event.sample);
+    pipe.Put(event.text_position);
+    pipe.Put(event.length);
+    pipe.Put(event.ipa.size());
+    pipe.PutBytes(event.ipa.data(), event.ipa.size());
+  }
+}
+
+// False where the child did not live to tell.
+bool Receive(Pipe pipe, Outcome& outcome, Collected& collected) {
+  outcome = pipe.Take<Outcome>();
+  collected.rate = pipe.Take<int>();
+  collected.samples.resize(pipe.Take<size_t>());
+  pipe.TakeBytes(collected.samples.data(), collected.samples.size() * sizeof(int16_t));
+  collected.events.resize(pipe.Take<size_t>());
+  for (Collected::Event& event : collected.events) {
+    event.is_word = pipe.Take<bool>();
+    event.sample = pipe.Take<int64_t>();
+    event.text_position = pipe.Take<int>();
+    event.length = pipe.Take<int>();
+    event.ipa.resize(pipe.Take<size_t>());
+    pipe.TakeBytes(event.ipa.data(), event.ipa.size());
+  }
+  return pipe.good();
+}
+
+// In a process of its own: the engine remembers what it said before, down to the phase of
+// the voice, and cannot be started twice in one process.
+Result<Collected> SpeakApart(const std::string& text,
+                             const std::string& language,
+                             const VoiceSettings& voice) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    return Status::Error("espeak-ng", "cannot be started: no pipe is to be had");
+  }
+  const pid_t child = fork();
+  if (child == 0) {
+    close(ends[0]);
+    Collected collected;
+    Send(Speak(text, language, voice, collected), collected, Pipe(ends[1]));
+    _exit(0);
+  }
+  close(ends[1]);
+  Collected collected;
+  Outcome outcome = Outcome::kNoEngine;
+  const bool told = child > 0 && Receive(Pipe(ends[0]), outcome, collected);
+  close(ends[0]);
+  if (child > 0) {
+    waitpid(child, nullptr, 0);
+  }
+  if (!told || outcome == Outcome::kNoEngine) {
+    return Status::Error("espeak-ng", "cannot be started", "install espeak-ng-data");
+  }
+  if (outcome == Outcome::kNoLanguage) {
+    return Status::Error("espeak-ng", "does not speak the language '" + language + "'",
+                         "record its lines, or leave it out of \"spoken\"");
+  }
+  if (outcome == Outcome::kNoVariant) {
+    return Status::Error("espeak-ng", "has no voice '" + voice.variant + "'",
+                         "use m1 to m8, f1 to f5 or another of its variants");
+  }
+  return collected;
+}
 
 // The characters [first, first + count) of a text, first from 0.
 std::string Characters(const std::string& text, int first, int count) {
@@ -186,10 +296,7 @@ Result<SpokenText> Synthesize(const std::string& text,
   if (text.size() > kMaxText) {
     return Status::Error("speech", "the text is longer than 4000 bytes", "split the line");
   }
-  Engine& engine = Engine::Get();
-  const std::lock_guard lock(engine.mutex());
-  LARARIUM_RETURN_IF_ERROR(engine.SetVoice(language, voice));
-  Collected collected = engine.Speak(text);
+  LARARIUM_ASSIGN_OR_RETURN(Collected collected, SpeakApart(text, language, voice));
   SpokenText spoken;
   spoken.rate = collected.rate;
   spoken.phonemes = JoinPhonemes(text, collected, spoken.words);
@@ -203,12 +310,6 @@ Result<SpokenText> Synthesize(const std::string& text,
   }
   spoken.samples = std::move(collected.samples);
   return spoken;
-}
-
-bool CanSynthesize(const std::string& language) {
-  Engine& engine = Engine::Get();
-  const std::lock_guard lock(engine.mutex());
-  return engine.Knows(language);
 }
 
 }  // namespace lararium::bake

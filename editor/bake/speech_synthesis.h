@@ -42,12 +42,9 @@ struct SpokenText {
 
 // Deterministic: the same text, language and voice give the same samples. Fails where
 // espeak-ng has no such language or variant, and where there is nothing to say.
-// Threads: calls wait for one another, as espeak-ng is one engine for the process.
+// espeak-ng runs in a child process of its own each time: it keeps state between texts.
 Result<SpokenText> Synthesize(const std::string& text,
                               const std::string& language,
                               const VoiceSettings& voice);
-
-// Whether espeak-ng speaks a language.
-bool CanSynthesize(const std::string& language);
 
 }  // namespace lararium::bake

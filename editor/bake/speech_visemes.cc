@@ -83,7 +83,7 @@ std::vector<Shape> ShapesOf(std::string_view ipa) {
 }
 
 // Whether the sound is a breath that takes the next vowel's shape.
-bool IsBreath(std::string_view ipa) { return ipa == "h" || ipa == "ɦ" || ipa == "ʔ"; }
+bool IsBreath(std::string_view ipa) { return ipa == "h" || ipa == "ɦ" || ipa == "ʔ" || ipa == "ʰ"; }
 
 Shape NextVowel(std::span<const Phoneme> following) {
   for (const Phoneme& phoneme : following) {

@@ -1,16 +1,15 @@
 // A rectangle with round corners.
 
+uniform float radius_px;
+
 in vec2 at;  // pixels from the middle
 in vec4 paint;
 in vec2 half_px;
 
 layout(location = 0) out vec4 colour;
 
-const float kRadius = 0.22;  // of half the height
-
 void main() {
-  float radius = kRadius * half_px.y;
-  vec2 beyond = abs(at) - half_px + radius;
-  float away = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0) - radius;
+  vec2 beyond = abs(at) - half_px + radius_px;
+  float away = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0) - radius_px;
   colour = vec4(paint.rgb, paint.a * clamp(0.5 - away, 0.0, 1.0));
 }

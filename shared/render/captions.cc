@@ -25,6 +25,7 @@ constexpr float kPadding = 0.5f;    // em
 constexpr float kMargin = 0.05f;    // of the height, below
 constexpr float kGap = 0.35f;       // em, between captions
 constexpr float kGroundOpacity = 0.66f;
+constexpr float kRadius = 0.014f;                          // of the height: of the ground's corners
 constexpr std::string_view kArrowLeft = "\xE2\x86\x90 ";   // U+2190
 constexpr std::string_view kArrowRight = " \xE2\x86\x92";  // U+2192
 
@@ -235,6 +236,8 @@ void CaptionPainter::Draw(std::span<const Caption> captions, const RenderTarget&
     const glm::vec2 half = 0.5f * (ground.to - ground.from);
     state.AddQuad(ground.from, ground.to, -half, half, glm::vec4(0.0f, 0.0f, 0.0f, kGroundOpacity));
   }
+  state.ground_pass.Use();
+  state.ground_pass.Set("radius_px", kRadius * size.y);
   state.Flush(state.ground_pass, size);
 
   glActiveTexture(GL_TEXTURE0);

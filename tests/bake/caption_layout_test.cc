@@ -72,7 +72,7 @@ TEST(CaptionLayout, CaptionsChangeInThePauseOfTheVoice) {
   const auto cues = LayOutCaptions(
       "They came to the bar in the morning and they drank. "
       "Then they all went home to their wives and their children again.",
-      track, {.letters = 30});
+      track, {.letters = 36});
   ASSERT_THAT(cues, SizeIs(2));
   EXPECT_NEAR(cues[0].end, 2.75, 1e-6);
 }

@@ -1,0 +1,228 @@
+#include "editor/app/line_checks.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <set>
+
+#include "editor/bake/caption_layout.h"
+#include "shared/core/file.h"
+#include "shared/drama/lua_tokens.h"
+#include "shared/drama/timeline_text.h"
+#include "shared/stage/viseme_file.h"
+
+namespace lararium::app {
+namespace {
+
+// Captions are laid out for 17 letters a second; above this nobody keeps up.
+constexpr double kFastestReading = 24.0;
+
+std::string Seconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f s", seconds);
+  return text;
+}
+
+bool Has(const std::vector<std::string>& list, std::string_view item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+struct WrittenLine {
+  std::string id;
+  size_t offset = 0;
+};
+
+// name:say("id") and name:say "id"
+std::vector<WrittenLine> FindSayings(const std::string& script) {
+  std::vector<WrittenLine> found;
+  drama::LuaTokens tokens(script);
+  bool colon = false, say = false;
+  for (drama::LuaToken token = tokens.Next();
+       token.kind != drama::LuaToken::Kind::kEnd && token.kind != drama::LuaToken::Kind::kBad;
+       token = tokens.Next()) {
+    const std::string_view text =
+        std::string_view(script).substr(token.begin, token.end - token.begin);
+    if (say && token.kind == drama::LuaToken::Kind::kText) {
+      if (const std::optional<std::string> id = drama::TextOf(text)) {
+        found.push_back({*id, token.begin});
+      }
+    }
+    say = (colon && text == "say") || (say && token.Is('('));
+    colon = token.Is(':');
+  }
+  return found;
+}
+
+std::string UnknownLine(const std::string& id) {
+  return "there is no line '" + id + "'; add it to lines.csv";
+}
+
+// The longest that a line takes in any of the spoken languages.
+std::optional<double> SecondsOf(const std::vector<SpokenLine>& spoken, std::string_view id) {
+  std::optional<double> longest;
+  for (const SpokenLine& line : spoken) {
+    if (line.line->id != id) {
+      continue;
+    }
+    const Result<std::string> text = ReadText(line.visemes);
+    const auto track = text.ok() ? stage::ParseVisemes(*text, line.visemes.string())
+                                 : Result<human::VisemeTrack>(text.status());
+    if (track.ok()) {
+      longest = std::max(longest.value_or(0.0), static_cast<double>(track->duration));
+    }
+  }
+  return longest;
+}
+
+void CheckTexts(const std::string& place,
+                const ProjectDocument& document,
+                const ProjectLines& lines,
+                std::vector<std::string>& problems) {
+  std::set<std::string> cast;
+  for (const CastDocument& member : document.cast) {
+    cast.insert(member.name);
+  }
+  for (const bake::Line& line : lines.table.lines) {
+    const std::string where = place + ": line '" + line.id + "'";
+    const bool name = ProjectLines::IsName(line, document);
+    if (!name && line.speaker.empty()) {
+      problems.push_back(where + ": it has no speaker; whoever says it has the plain voice");
+    } else if (!name && !cast.contains(line.speaker)) {
+      problems.push_back(where + ": nobody of the cast is called '" + line.speaker + "'");
+    }
+    for (const std::string& language : lines.table.languages) {
+      const bool spoken = !name && Has(lines.spoken, language);
+      const bool read = Has(lines.captions, language);
+      if ((spoken || read) && !line.text.contains(language)) {
+        problems.push_back(where + ": it has no text in '" + language + "', which is " +
+                           (spoken ? "spoken" : "a language of captions"));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void LineListener::Listen(double time) {
+  stage_.Capture(snapshot_);
+  for (const auto& [actor, state] : snapshot_.actors) {
+    const auto known = std::find_if(open_.begin(), open_.end(),
+                                    [id = actor](const Open& open) { return open.actor == id; });
+    const stage::Utterance& now = state.utterance;
+    if (known != open_.end()) {
+      const stage::Utterance& before = known->utterance;
+      SaidLine& said = said_[known->said];
+      if (now.line == before.line && now.ticks > before.ticks && now.speaking) {
+        known->utterance = now;
+        said.seconds = stage::Stage::UtteredSeconds(now);
+        continue;
+      }
+      const double whole = stage_.SpeechSeconds(before.line);
+      const bool ended = now.line == before.line && now.ticks > before.ticks;
+      said.seconds = ended ? whole : said.seconds;
+      said.cut = !ended && said.seconds < whole - 2.0 * stage::Stage::kTickSeconds;
+      open_.erase(known);
+    }
+    if (now.speaking) {
+      const double begin = time - stage::Stage::UtteredSeconds(now);
+      said_.push_back({content_.speech[static_cast<size_t>(now.line)].name,
+                       stage_.Find(actor)->name, std::max(begin, 0.0)});
+      open_.push_back({actor, now, said_.size() - 1});
+    }
+  }
+}
+
+std::vector<std::string> CheckScriptLines(const ProjectPaths& paths,
+                                          const ProjectDocument& document,
+                                          const ProjectLines& lines,
+                                          const std::string& script) {
+  std::vector<std::string> problems;
+  const std::string file = paths.Drama().filename().string();
+  for (const WrittenLine& written : FindSayings(script)) {
+    if (lines.table.Find(written.id) == nullptr) {
+      const drama::LuaPosition position = drama::PositionOf(script, written.offset);
+      problems.push_back(file + ":" + std::to_string(position.line) + ": " +
+                         UnknownLine(written.id));
+    }
+  }
+  const auto timeline = drama::TimelineText::Read(script, file);
+  const auto spoken = SpokenLines(paths, document, lines);
+  if (!timeline.ok() || !spoken.ok()) {
+    return problems;  // told by whoever runs the script, or bakes
+  }
+  for (size_t l = 0; l < timeline->lanes().size(); ++l) {
+    const drama::TimelineLane& lane = timeline->lanes()[l];
+    for (size_t i = 0; lane.kind == drama::LaneKind::kSpeech && i < lane.size(); ++i) {
+      const std::optional<Json> id = timeline->Field({l, i}, "line");
+      if (!id || !id->is_string()) {
+        continue;
+      }
+      const std::string where = file + ":" + std::to_string(timeline->LineOf({l, i})) + ": ";
+      if (lines.table.Find(id->get<std::string>()) == nullptr) {
+        problems.push_back(where + UnknownLine(id->get<std::string>()));
+      }
+      const std::optional<double> seconds = SecondsOf(*spoken, id->get<std::string>());
+      if (seconds && lane.length[i] > 0.0 && *seconds > lane.length[i] + 0.01) {
+        problems.push_back(where + "the line '" + id->get<std::string>() + "' lasts " +
+                           Seconds(*seconds) + ", its place " + Seconds(lane.length[i]));
+      }
+    }
+  }
+  return problems;
+}
+
+std::vector<std::string> CheckTable(const ProjectPaths& paths,
+                                    const ProjectDocument& document,
+                                    const ProjectLines& lines) {
+  std::vector<std::string> problems;
+  const std::string place = "lines";
+  CheckTexts(place, document, lines, problems);
+  for (const std::string& language : lines.spoken) {
+    const Result<stage::CaptionBook> book = MakeCaptions(paths, document, lines, language);
+    if (!book.ok()) {
+      problems.push_back(book.message());
+      continue;
+    }
+    for (const auto& [id, languages] : book->lines) {
+      for (const auto& [captions, cues] : languages) {
+        const double speed = bake::ReadingSpeed(cues);
+        if (speed > kFastestReading) {
+          char text[160];
+          std::snprintf(text, sizeof(text),
+                        ": its captions in '%s' leave time for %.0f letters a second where it is "
+                        "said in '%s'; shorten them",
+                        captions.c_str(), speed, language.c_str());
+          problems.push_back(place + ": line '" + id + "'" + text);
+        }
+      }
+    }
+  }
+  if (!lines.captions.empty()) {
+    if (const auto font = MakeCaptionFont(lines, problems); !font.ok()) {
+      problems.push_back(font.message());
+    }
+  }
+  return problems;
+}
+
+std::vector<std::string> CheckSaid(const ProjectPaths& paths,
+                                   const ProjectLines& lines,
+                                   const std::vector<SaidLine>& said) {
+  std::vector<std::string> problems;
+  const std::string file = paths.Drama().filename().string();
+  for (const SaidLine& line : said) {
+    const bake::Line* known = lines.table.Find(line.line);
+    if (known != nullptr && !known->speaker.empty() && known->speaker != line.actor) {
+      problems.push_back(file + ": '" + line.actor + "' says '" + line.line +
+                         "', which has the voice of '" + known->speaker + "' (at " +
+                         Seconds(line.begin) + ")");
+    }
+    if (line.cut) {
+      problems.push_back(file + ": '" + line.actor + "' does not finish '" + line.line + "' (at " +
+                         Seconds(line.begin + line.seconds) + ")");
+    }
+  }
+  return problems;
+}
+
+}  // namespace lararium::app

@@ -1,0 +1,147 @@
+#include "editor/app/line_checks.h"
+
+#include <gmock/gmock.h>
+
+#include "editor/bake/speech.h"
+#include "shared/core/file.h"
+#include "shared/stage/viseme_file.h"
+#include "tests/stage/test_human.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::app {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class LineChecksTest : public ::testing::Test {
+ protected:
+  LineChecksTest() {
+    document_.cast = {{}, {}};
+    document_.cast[0].name = "keeper";
+    document_.cast[1].name = "girl";
+    document_.speech = {{"la"}, {"en"}};
+    SetTable(
+        "id,speaker,la,en\n"
+        "keeper,,Placidus,Placidus\n"
+        "salvete,keeper,Salvēte!,Greetings!\n"
+        "vale,keeper,Valē!,Farewell!\n");
+  }
+
+  void SetTable(std::string_view csv) {
+    ASSERT_TRUE(WriteFileAtomically(folder_ / "lines.csv", csv).ok());
+    auto lines = LoadProjectLines(paths_, document_);
+    ASSERT_TRUE(lines.ok()) << lines.message();
+    lines_ = *std::move(lines);
+    const auto spoken = SpokenLines(paths_, document_, lines_);
+    ASSERT_TRUE(spoken.ok()) << spoken.message();
+    for (const SpokenLine& line : *spoken) {  // as baked: a second each
+      std::filesystem::create_directories(line.visemes.parent_path());
+      human::VisemeTrack track;
+      track.duration = 1.0f;
+      ASSERT_TRUE(WriteFileAtomically(line.visemes, stage::FormatVisemes(track)).ok());
+    }
+  }
+
+  test::TemporaryFolder folder_;
+  ProjectPaths paths_{folder_.path()};
+  ProjectDocument document_;
+  ProjectLines lines_;
+};
+
+TEST_F(LineChecksTest, AWholeTableHasNoProblems) {
+  EXPECT_THAT(CheckTable(paths_, document_, lines_), IsEmpty());
+  EXPECT_THAT(CheckScriptLines(paths_, document_, lines_,
+                               "-- keeper:say('nothing')\nkeeper:say('salvete')\nx:say\"vale\""),
+              IsEmpty());
+}
+
+TEST_F(LineChecksTest, MissingTextsSpeakersAndTimeToReadAreTold) {
+  SetTable(
+      "id,speaker,la,en\n"
+      "salvete,nobody,,Greetings!\n"
+      "longa,keeper,Longa.,"
+      "It takes far longer to read all of these words than it took to say that one word aloud "
+      "just now in the bar of Placidus and then there are even more of them for the visitor\n"
+      "vale,,Valē!,\n");
+  const auto problems = CheckTable(paths_, document_, lines_);
+  EXPECT_THAT(problems, Contains(HasSubstr("line 'salvete': it has no text in 'la', which is")));
+  EXPECT_THAT(problems, Contains(HasSubstr("nobody of the cast is called 'nobody'")));
+  EXPECT_THAT(problems, Contains(HasSubstr("line 'vale': it has no text in 'en'")));
+  EXPECT_THAT(problems, Contains(HasSubstr("line 'vale': it has no speaker")));
+  EXPECT_THAT(problems, Contains(HasSubstr("letters a second")));
+}
+
+TEST_F(LineChecksTest, UnknownLinesOfTheScriptAreToldWithTheirPlace) {
+  const auto problems = CheckScriptLines(paths_, document_, lines_,
+                                         "function main()\n"
+                                         "  keeper:say(\"salve\")\n"
+                                         "end\n"
+                                         "track{actor = \"girl\", speech = {\n"
+                                         "  {at = 1, length = 0.5, line = \"salvete\"},\n"
+                                         "  {at = 3, length = 2, line = \"ave\"},\n"
+                                         "}}\n");
+  EXPECT_THAT(problems, Contains("drama.lua:2: there is no line 'salve'; add it to lines.csv"));
+  EXPECT_THAT(problems,
+              Contains(HasSubstr("drama.lua:5: the line 'salvete' lasts 1.00 s, its place 0.50")));
+  EXPECT_THAT(problems, Contains(HasSubstr("drama.lua:6: there is no line 'ave'")));
+}
+
+TEST_F(LineChecksTest, WhoSaysWhatIsHeardAndWhatIsBrokenOff) {
+  stage::Stage stage;
+  const stage::ActorId keeper = *stage.Add("keeper", test::MakeTestHuman());
+  const stage::ActorId girl = *stage.Add("girl", test::MakeTestHuman());
+  show::ShowContent content;
+  human::VisemeTrack track;
+  track.duration = 1.0f;
+  for (const char* name : {"salvete", "vale"}) {
+    content.speech.push_back({name, track});
+    ASSERT_TRUE(stage.AddSpeech(name, track).ok());
+  }
+  LineListener listener(stage, content);
+  for (int tick = 1; tick <= 400; ++tick) {
+    stage.Advance();
+    if (tick == 60) {
+      stage.Say(keeper, 0);
+    } else if (tick == 200) {
+      stage.Say(girl, 1);
+    } else if (tick == 260) {
+      stage.Say(girl, 0);
+    }
+    listener.Listen(tick * stage::Stage::kTickSeconds);
+  }
+  const std::vector<SaidLine>& said = listener.said();
+  ASSERT_EQ(said.size(), 3u);
+  EXPECT_EQ(said[0].line, "salvete");
+  EXPECT_EQ(said[0].actor, "keeper");
+  EXPECT_NEAR(said[0].begin, 0.5, 1e-9);
+  EXPECT_NEAR(said[0].seconds, 1.0, 1e-9);
+  EXPECT_FALSE(said[0].cut);
+  EXPECT_TRUE(said[1].cut);
+  EXPECT_NEAR(said[1].seconds, 0.5, 0.02);
+  EXPECT_FALSE(said[2].cut);
+  const auto problems = CheckSaid(paths_, lines_, said);
+  EXPECT_THAT(problems, Contains(HasSubstr("'girl' says 'vale', which has the voice of 'keeper'")));
+  EXPECT_THAT(problems, Contains(HasSubstr("'girl' does not finish 'vale'")));
+  EXPECT_THAT(problems, Not(Contains(HasSubstr("'keeper' says"))));
+}
+
+TEST_F(LineChecksTest, CaptionsPlacedByHandCountMore) {
+  std::filesystem::create_directories(paths_.Recordings("la"));
+  ASSERT_TRUE(WriteFileAtomically(paths_.Recordings("la") / "salvete.en.srt",
+                                  std::string_view("1\n00:00:00,250 --> 00:00:01,500\nHail!\n"))
+                  .ok());
+  const auto book = MakeCaptions(paths_, document_, lines_, "la");
+  ASSERT_TRUE(book.ok()) << book.message();
+  const auto& cues = book->lines.at("salvete").at("en");
+  ASSERT_EQ(cues.size(), 1u);
+  EXPECT_EQ(cues[0].text, "Hail!");
+  EXPECT_EQ(cues[0].begin, 0.25);
+  EXPECT_EQ(book->names.at("keeper").at("en"), "Placidus");
+  EXPECT_EQ(book->lines.at("vale").at("en")[0].text, "Farewell!");
+}
+
+}  // namespace
+}  // namespace lararium::app

@@ -1,0 +1,127 @@
+#include "shared/render/captions.h"
+
+#include <gmock/gmock.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "shared/core/json.h"
+
+namespace lararium::render {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Every letter of "abc" is a box of half an em, every other character nothing.
+CaptionFont BoxFont() {
+  CaptionFont font;
+  font.em_px = 32.0f;
+  font.rim_px = 4.0f;
+  font.ascent = 0.8f;
+  font.descent = 0.2f;
+  font.atlas = cv::Mat(32, 16, CV_8UC1, cv::Scalar(255));
+  for (const char letter : {'a', 'b', 'c'}) {
+    font.glyphs.push_back({static_cast<uint32_t>(letter),
+                           0.5f,
+                           {0.0f, -0.5f},
+                           {0.5f, 0.0f},
+                           {0.0f, 0.0f},
+                           {16.0f, 32.0f}});
+  }
+  return font;
+}
+
+std::vector<std::byte> Png(const cv::Mat& image) {
+  std::vector<uchar> png;
+  cv::imencode(".png", image, png);
+  const auto bytes = std::as_bytes(std::span(png));
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(CaptionFont, IsReadAsItWasWritten) {
+  const CaptionFont font = BoxFont();
+  const auto read = ParseCaptionFont(FormatCaptionMetrics(font), Png(font.atlas), "font.json");
+  ASSERT_TRUE(read.ok()) << read.message();
+  EXPECT_EQ(read->em_px, font.em_px);
+  EXPECT_EQ(read->atlas.size(), font.atlas.size());
+  ASSERT_NE(read->Find('b'), nullptr);
+  EXPECT_EQ(read->Find('b')->atlas_to, glm::vec2(16.0f, 32.0f));
+  EXPECT_EQ(read->Find('d'), nullptr);
+}
+
+TEST(CaptionFont, RefusesLettersOutsideOfTheAtlasOrOutOfOrder) {
+  const CaptionFont font = BoxFont();
+  const auto problem = [&](const char* key, const Json& value) {
+    Json json = Json::parse(FormatCaptionMetrics(font));
+    json["glyphs"][1][key] = value;
+    return ParseCaptionFont(json.dump(), Png(font.atlas), "font.json").message();
+  };
+  EXPECT_THAT(problem("atlas_to", {17.0, 32.0}), HasSubstr("does not lie in the atlas"));
+  EXPECT_THAT(problem("atlas_from", {-1.0, 0.0}), HasSubstr("atlas_from"));
+  EXPECT_THAT(problem("character", 'a'), HasSubstr("do not ascend"));
+  EXPECT_THAT(problem("advance", 1e9), HasSubstr("advance"));
+  EXPECT_FALSE(ParseCaptionFont(FormatCaptionMetrics(font), {}, "font.json").ok());
+}
+
+TEST(CaptionFont, CharactersOfBadUtf8AreReplacedAndEnd) {
+  const auto characters = [](std::string_view text) {
+    std::vector<uint32_t> found;
+    for (size_t at = 0; at < text.size();) {
+      found.push_back(NextCharacter(text, at));
+    }
+    return found;
+  };
+  EXPECT_THAT(characters("aē→\xF0\x9F\x8D\xB7"),
+              ::testing::ElementsAre('a', 0x113, 0x2192, 0x1F377));
+  EXPECT_THAT(characters("\x80"
+                         "a"),
+              ::testing::ElementsAre(0xFFFD, 'a'));
+  EXPECT_THAT(characters("\xE2\x86"), ::testing::ElementsAre(0xFFFD));
+}
+
+TEST(CaptionLayout, RowsAreCentredOneBelowTheOtherInsideTheirGround) {
+  const CaptionFont font = BoxFont();
+  const Caption caption = {"a", glm::vec3(1.0f, 0.0f, 0.0f), CaptionSide::kHere, "abc\nab"};
+  CaptionLayout layout;
+  LayOut(font, {&caption, 1}, 1280, 720, layout);
+  ASSERT_EQ(layout.rows.size(), 3u);
+  ASSERT_EQ(layout.grounds.size(), 1u);
+  EXPECT_EQ(layout.rows[0].text, "a");
+  EXPECT_EQ(layout.rows[0].colour, caption.colour);
+  float above = 0.0f;
+  for (const CaptionLayout::Row& row : layout.rows) {
+    const float width = row.em * TextWidth(font, row.text);
+    EXPECT_NEAR(row.baseline.x + 0.5f * width, 640.0f, 1.0f);
+    EXPECT_GT(row.baseline.y, above);
+    above = row.baseline.y;
+    EXPECT_GT(row.baseline.x, layout.grounds[0].from.x);
+    EXPECT_LT(row.baseline.x + width, layout.grounds[0].to.x);
+  }
+  EXPECT_LT(above, layout.grounds[0].to.y);
+  EXPECT_LT(layout.grounds[0].to.y, 720.0f);
+}
+
+TEST(CaptionLayout, LongRowsAreSmallerSoThatTheyStayInThePicture) {
+  const CaptionFont font = BoxFont();
+  const std::string text(100, 'a');
+  const Caption caption = {"", glm::vec3(1.0f), CaptionSide::kHere, text};
+  CaptionLayout layout;
+  LayOut(font, {&caption, 1}, 640, 480, layout);
+  ASSERT_EQ(layout.grounds.size(), 1u);
+  EXPECT_GE(layout.grounds[0].from.x, 0.0f);
+  EXPECT_LE(layout.grounds[0].to.x, 640.0f);
+}
+
+TEST(CaptionLayout, TheSecondCaptionStandsAboveTheFirst) {
+  const CaptionFont font = BoxFont();
+  const Caption captions[] = {{"a", glm::vec3(1.0f), CaptionSide::kHere, "abc"},
+                              {"b", glm::vec3(1.0f), CaptionSide::kLeft, "abc\nabc"}};
+  CaptionLayout layout;
+  LayOut(font, captions, 640, 480, layout);
+  ASSERT_EQ(layout.grounds.size(), 2u);
+  EXPECT_LT(layout.grounds[1].to.y, layout.grounds[0].from.y);
+  LayOut(font, {}, 640, 480, layout);
+  EXPECT_TRUE(layout.rows.empty());
+}
+
+}  // namespace
+}  // namespace lararium::render
