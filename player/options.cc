@@ -82,6 +82,13 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
       ->needs(benchmark);
   app.add_flag("--first-pose", play.first_pose, "Find every frame anew")->needs(benchmark);
 
+  CLI::Option* visitor = app.add_option("--visitor", play.visitor,
+                                        "Play again what a visitor did: a file of --visitor-log")
+                             ->check(CLI::ExistingFile);
+  app.add_option("--visitor-log", play.visitor_log,
+                 "Write down here what the visitor does, as far as the drama hears of it")
+      ->excludes(visitor);
+
   app.add_option("--poses-out", play.poses_out, "Write the poses here (poses.json)");
   app.add_option("--stats-out", play.stats_out, "Write times and counts here (stats.json)");
   app.add_option("--record", play.record, "Write the composite here, with its sound (.mp4)");

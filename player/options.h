@@ -49,6 +49,10 @@ struct PlayOptions {
   std::vector<std::filesystem::path> foreign;  // images of other places
   bool first_pose = false;                     // find every frame anew
 
+  // What the visitor does: recorded there, or played again from there.
+  std::filesystem::path visitor_log;
+  std::filesystem::path visitor;
+
   std::filesystem::path poses_out;
   std::filesystem::path stats_out;
   std::filesystem::path record;

@@ -1,6 +1,7 @@
 #include "player/play.h"
 
 #include <csignal>
+#include <ctime>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "player/screen.h"
 #include "shared/audio/sound_player.h"
 #include "shared/bundle/bundle.h"
+#include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/core/parallel.h"
 #include "shared/show/frame_pipeline.h"
@@ -29,6 +31,15 @@ constexpr std::chrono::milliseconds kInputInterval(10);
 volatile std::sig_atomic_t g_end_requested = 0;
 
 void RequestEnd(int /*signal*/) { g_end_requested = 1; }
+
+// Of the day, where the player stands.
+float HourNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local = {};
+  localtime_r(&now, &local);
+  return static_cast<float>(local.tm_hour) + static_cast<float>(local.tm_min) / 60.0f +
+         static_cast<float>(local.tm_sec) / 3600.0f;
+}
 
 Result<std::unique_ptr<capture::FrameSource>> OpenSource(const PlayOptions& options) {
   if (!options.video.empty()) {
@@ -82,7 +93,14 @@ class Performance {
   show::FrameStages stages() { return {*source_, *poses_, *show_, statistics_}; }
   bool KeepGoing() {
     const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
-    return g_end_requested == 0 && !enough && screen_->KeepGoing();
+    const bool keep_going = g_end_requested == 0 && !enough && screen_->KeepGoing();
+    for (const std::string& key : screen_->TakeKeys()) {
+      show_->PressKey(key);
+    }
+    if (options_.pace == Pace::kRealtime) {
+      show_->SetHour(HourNow());
+    }
+    return keep_going;
   }
   void OpenSound();
   Status RunLockStep();
@@ -127,6 +145,11 @@ Status Performance::Prepare() {
   drama::DramaOptions drama;
   drama.seed = options_.seed;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
+
+  if (!options_.visitor.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(drama::VisitorLog visitor, drama::VisitorLog::Load(options_.visitor));
+    show_->drama().SetVisitorLog(std::move(visitor));
+  }
 
   LARARIUM_ASSIGN_OR_RETURN(screen_, Screen::Open(options_, show_->content().title));
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(show_->content()));
@@ -207,6 +230,10 @@ Status Performance::Run() {
   LARARIUM_RETURN_IF_ERROR(recorder_->Finish());
   if (!options_.stats_out.empty()) {
     LARARIUM_RETURN_IF_ERROR(SaveJson(options_.stats_out, statistics_.ToJson()));
+  }
+  if (!options_.visitor_log.empty()) {
+    LARARIUM_RETURN_IF_ERROR(
+        WriteFileAtomically(options_.visitor_log, show_->drama().visitor_log().Write()));
   }
   log_.info("{} frames shown, {:.1f} % tracked", drawn_frames_,
             100.0 * statistics_.tracking.tracked_fraction());

@@ -16,6 +16,14 @@ Result<Screen> Screen::Open(const PlayOptions& options, const std::string& title
     window.monitor = options.monitor;
   }
   LARARIUM_ASSIGN_OR_RETURN(screen.window_, render::Window::Create(window));
+  render::WindowCallbacks callbacks;
+  callbacks.key = [keys = screen.keys_.get()](int key, int action, int /*modifiers*/) {
+    const std::string name = render::KeyName(key);
+    if (action == render::kKeyPressed && !name.empty()) {
+      keys->push_back(name);
+    }
+  };
+  screen.window_->SetCallbacks(std::move(callbacks));
   return screen;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "player/options.h"
 #include "shared/core/status.h"
@@ -21,10 +24,14 @@ class Screen {
 
   // Handles input; false once the visitor wants the end.
   bool KeepGoing();
+  // The names of keys pressed since it was last asked.
+  std::vector<std::string> TakeKeys() { return std::exchange(*keys_, {}); }
 
  private:
   std::optional<render::OffscreenContext> offscreen_;
   std::optional<render::Window> window_;
+  // On the heap: the window keeps its address.
+  std::unique_ptr<std::vector<std::string>> keys_ = std::make_unique<std::vector<std::string>>();
 };
 
 }  // namespace lararium::player

@@ -370,6 +370,10 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   check->add_option("--seconds", options.check.seconds, "How long to run the drama")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
+  check
+      ->add_option("--seeks", options.check.seeks,
+                   "Then go to this many random times, and say whether all is as it was")
+      ->check(CLI::Range(0, 10'000));
 
   AddLines(app, options);
   AddRender(app, options.render);

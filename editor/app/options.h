@@ -82,6 +82,7 @@ struct BakeOptions {
 struct CheckOptions {
   std::filesystem::path project;
   double seconds = 60.0;  // of the drama that are run
+  int seeks = 0;          // to random times of them afterwards, compared with what was there
 };
 
 struct LinesOptions {

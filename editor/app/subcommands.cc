@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
@@ -20,7 +22,10 @@
 #include "editor/app/thumbnail.h"
 #include "editor/bake/probe.h"
 #include "shared/core/file.h"
+#include "shared/core/random.h"
+#include "shared/core/statistics.h"
 #include "shared/drama/drama.h"
+#include "shared/drama/timeline_text.h"
 #include "shared/stage/stage.h"
 
 namespace lararium::app {
@@ -104,6 +109,7 @@ Json TasksJson(std::span<const drama::TaskRecord> tasks) {
                     {"object", task.object},
                     {"failed", task.failed},
                     {"expected", task.expected},
+                    {"from_timeline", task.from_timeline},
                     {"message", task.message}});
   }
   return json;
@@ -113,6 +119,49 @@ struct DryRunReport {
   std::vector<std::string> problems;
   Json tasks = Json::array();  // TasksJson()
   std::vector<SaidLine> said = {};
+  Json seeks = Json::object();
+};
+
+// Moments of a dry run, to be gone to again.
+class SeekCheck {
+ public:
+  SeekCheck(int count, int64_t ticks) {
+    Random random(1);
+    for (int i = 0; i < count && ticks > 0; ++i) {
+      wanted_.push_back(random.Below(static_cast<uint32_t>(std::min<int64_t>(ticks, 1 << 30))));
+    }
+  }
+
+  // While the drama is played.
+  void See(int64_t tick, const stage::Stage& stage) {
+    if (std::find(wanted_.begin(), wanted_.end(), tick) != wanted_.end()) {
+      stage.Capture(seen_[tick]);
+    }
+  }
+
+  // Goes to each in the order in which they were drawn.
+  void Run(drama::Drama& drama, const stage::Stage& stage, DryRunReport& report) {
+    StageTimes times;
+    stage::StageSnapshot now;
+    int differ = 0;
+    for (const int64_t tick : wanted_) {
+      const double time = static_cast<double>(tick) / drama::Drama::kTicksPerSecond;
+      const Status status = [&] {
+        const ScopedStageTimer timer(times);
+        return drama.Seek(time);
+      }();
+      stage.Capture(now);
+      if (!status.ok() || now != seen_[tick]) {
+        ++differ;
+        report.problems.push_back(AtTime("the stage is not as it was when it is sought", time));
+      }
+    }
+    report.seeks = {{"differ", differ}, {"milliseconds", times.ToJson()}};
+  }
+
+ private:
+  std::vector<int64_t> wanted_;
+  std::map<int64_t, stage::StageSnapshot> seen_;
 };
 
 // Runs the drama without drawing. On a stage that lacks anything it would tell nothing
@@ -120,32 +169,47 @@ struct DryRunReport {
 DryRunReport DryRun(const ProjectPaths& paths,
                     const ProjectDocument& document,
                     const std::string& spoken,
-                    double seconds,
+                    const CheckOptions& options,
                     Progress& progress) {
   stage::Stage stage;
   show::ShowContent content;
   if (const Status filled = FillStage(paths, document, spoken, stage, content); !filled.ok()) {
-    return {{filled.message(), paths.Drama().string() + ": was not run: the stage is not complete"},
-            Json::array()};
+    return {.problems = {filled.message(),
+                         paths.Drama().string() + ": was not run: the stage is not complete"}};
   }
   const Result<std::string> script = ReadText(paths.Drama());
   if (!script) {
-    return {{script.message()}, Json::array()};
+    return {.problems = {script.message()}};
   }
   const std::shared_ptr<Log> silent = MakeSilentLog();
   const auto drama =
       drama::Drama::Create(*script, paths.Drama().filename().string(), stage, {}, *silent);
   if (!drama.ok()) {
-    return {{drama.message()}, Json::array()};
+    return {.problems = {drama.message()}};
   }
   LineListener listener(stage, content);
-  const auto ticks = static_cast<int64_t>(seconds * drama::Drama::kTicksPerSecond);
+  const auto ticks = static_cast<int64_t>(options.seconds * drama::Drama::kTicksPerSecond);
+  SeekCheck seeks(options.seeks, ticks);
+  seeks.See(0, stage);
   for (int64_t tick = 0; tick < ticks && !progress.Cancelled(); ++tick) {
     (*drama)->Tick();
     listener.Listen((*drama)->time());
+    seeks.See(tick + 1, stage);
     progress.Report("running the drama", static_cast<double>(tick + 1) / ticks);
   }
-  return {DramaProblems(**drama), TasksJson((*drama)->tasks()), listener.said()};
+  DryRunReport report = {.problems = DramaProblems(**drama),
+                         .tasks = TasksJson((*drama)->tasks()),
+                         .said = listener.said()};
+  const Result<drama::TimelineText> timeline =
+      drama::TimelineText::Read(*script, paths.Drama().filename().string());
+  if (timeline.ok()) {
+    report.problems.insert(report.problems.end(), timeline->problems().begin(),
+                           timeline->problems().end());
+  }
+  if (!progress.Cancelled()) {
+    seeks.Run(**drama, stage, report);
+  }
+  return report;
 }
 
 // Lines that cannot be read are a problem, and none.
@@ -173,14 +237,20 @@ ProjectLines CheckLines(const ProjectPaths& paths,
 DryRunReport RunInEachLanguage(const ProjectPaths& paths,
                                const ProjectDocument& document,
                                const ProjectLines& lines,
-                               double seconds,
+                               const CheckOptions& options,
                                Progress& progress) {
-  DryRunReport report = DryRun(paths, document, "", seconds, progress);
+  DryRunReport report = DryRun(paths, document, "", options, progress);
   for (size_t i = 0; i < lines.spoken.size(); ++i) {
     DryRunReport again;
     if (i > 0) {
-      again = DryRun(paths, document, lines.spoken[i], seconds, progress);
-      report.problems.insert(report.problems.end(), again.problems.begin(), again.problems.end());
+      CheckOptions other = options;
+      other.seeks = 0;
+      again = DryRun(paths, document, lines.spoken[i], other, progress);
+      std::copy_if(again.problems.begin(), again.problems.end(),
+                   std::back_inserter(report.problems), [&](const std::string& problem) {
+                     return std::find(report.problems.begin(), report.problems.end(), problem) ==
+                            report.problems.end();
+                   });
     }
     for (std::string& problem : CheckSaid(paths, lines, i > 0 ? again.said : report.said)) {
       report.problems.push_back(std::move(problem));
@@ -368,7 +438,7 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
     problems.push_back(problem.message());
   }
   const ProjectLines lines = CheckLines(paths, document, problems);
-  const DryRunReport run = RunInEachLanguage(paths, document, lines, options.seconds, progress);
+  const DryRunReport run = RunInEachLanguage(paths, document, lines, options, progress);
   problems.insert(problems.end(), run.problems.begin(), run.problems.end());
   if (progress.Cancelled()) {
     return Status::Error("check", "cancelled");
@@ -390,7 +460,11 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   result.json = {{"problems", problems},
                  {"warnings", warnings},
                  {"stages", stages.json},
-                 {"tasks", run.tasks}};
+                 {"tasks", run.tasks},
+                 {"seeks", run.seeks}};
+  if (options.seeks > 0) {
+    result.text += "seeks: " + run.seeks.dump() + "\n";
+  }
   result.failed = !problems.empty();
   return result;
 }

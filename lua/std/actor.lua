@@ -10,6 +10,8 @@ Actor.__tostring = function(self)
   return "actor '" .. self.name .. "'"
 end
 
+host.actor_class = Actor -- for visitor.lua
+
 local FADE = 0.3 -- seconds from one clip to the next
 
 local known = {}
@@ -147,18 +149,13 @@ local function await(does, task, problem)
     error(does.what .. ": " .. problem, 3)
   end
   local guard <close> = setmetatable({ task = task }, stops)
-  while true do
-    local state, message = host.task(task)
-    if state == "done" or state == "failed" then
-      host.note_task(does.id, does.action, does.name, does.began, state == "failed", message)
-    end
-    if state == "done" then
-      return message
-    elseif state == "failed" then
-      error(does.what .. ": " .. message, 3)
-    end
-    host.wait(0)
+  host.await(task)
+  local state, message = host.task(task)
+  host.note_task(does.id, does.action, does.name, does.began, state ~= "done", message)
+  if state ~= "done" then
+    error(does.what .. ": " .. message, 3)
   end
+  return message
 end
 
 -- Turns to a heading the shorter way: turn_to(90, {speed = degrees per second}).
@@ -243,10 +240,16 @@ function Actor:stand()
   await(doing(self, "stand"), host.stand_up(self.id))
 end
 
--- Looks at an actor, an object, "visitor" or a point {x=, y=, z=}; false: straight
--- ahead; nothing: wherever it likes.
+-- Looks at an actor, an object, the name of one, "visitor" or a point {x=, y=, z=}; false:
+-- straight ahead; nothing: wherever it likes.
 function Actor:look_at(target)
-  if target == nil then
+  local actor_named = type(target) == "string" and host.actor(target)
+  local object_named = type(target) == "string" and host.object(target)
+  if actor_named then
+    host.look(self.id, "actor", actor_named)
+  elseif object_named then
+    host.look(self.id, "object", object_named)
+  elseif target == nil then
     host.look(self.id, "self")
   elseif target == false then
     host.look(self.id, "nothing")

@@ -9,6 +9,27 @@ local function check_function(value, name)
   end
 end
 
+local function check_seconds(value, name)
+  if type(value) ~= "number" or not (value >= -86400 and value <= 86400) then
+    error(name .. ": give a number of seconds", 3)
+  end
+end
+
+-- Settles the drama as a whole, while the script loads: {when_lost = "hold"}, time stands
+-- still while tracking is lost for longer than {patience = seconds}; "go_on": it runs on.
+function drama(settings)
+  if type(settings) ~= "table" then
+    error("drama: give a table like {when_lost = \"hold\"}", 2)
+  end
+  local lost = settings.when_lost or "go_on"
+  if lost ~= "hold" and lost ~= "go_on" then
+    error("drama: when_lost is \"hold\" or \"go_on\"", 2)
+  end
+  local patience = settings.patience or 1
+  check_seconds(patience, "drama")
+  host.configure(lost == "hold", patience)
+end
+
 -- Seconds since the drama began.
 function now()
   return host.time()
@@ -22,10 +43,36 @@ function wait(seconds)
   host.wait(seconds)
 end
 
--- Runs f beside everything else.
-function start(f)
+-- What start gives: a task that runs, to be waited for or stopped.
+local Handle = {}
+Handle.__index = Handle
+Handle.__metatable = false
+Handle.__tostring = function()
+  return "task"
+end
+
+-- Runs f beside everything else, with whatever else is given. Its handle has
+-- handle:stop() and handle:is_over(), and can be given to wait_for, at and after.
+function start(f, ...)
   check_function(f, "start")
-  host.start(f)
+  local run = f
+  if select("#", ...) > 0 then
+    local given = table.pack(...)
+    run = function()
+      f(table.unpack(given, 1, given.n)) -- no tail call: errors are blamed on this level
+    end
+  end
+  return setmetatable({ task = host.start(run) }, Handle)
+end
+
+-- Ends the task wherever it is; one that has ended is left alone.
+function Handle:stop()
+  host.stop(self.task)
+end
+
+-- Whether the task has ended.
+function Handle:is_over()
+  return (host.outcome(self.task))
 end
 
 -- Stops every task of a list when its owner ends or is stopped itself.
@@ -47,10 +94,18 @@ local function start_all(name, ...)
   return tasks
 end
 
--- Runs all functions at once and goes on when the last of them is done.
+-- Runs all functions at once and goes on when the last of them is done: true, or false
+-- and why where one of them failed.
 function together(...)
   local tasks <close> = start_all("together", ...)
   host.join(tasks, false)
+  for _, task in ipairs(tasks) do
+    local _, done, why = host.outcome(task)
+    if not done then
+      return false, why
+    end
+  end
+  return true
 end
 
 local fails_again = {
@@ -61,16 +116,217 @@ local fails_again = {
 
 -- Runs f, in which what people do may fail without anybody hearing of it: whether all
 -- of it was done, and if not why.
-function attempt(f)
+function attempt(f, ...)
   check_function(f, "attempt")
   local guard <close> = setmetatable({ number = host.attempt() }, fails_again)
-  return pcall(f)
+  return pcall(f, ...)
 end
 
--- Runs all functions at once, goes on when the first is done and stops the others.
+-- Runs all functions at once, goes on when the first is done and stops the others: which
+-- one it was, counted from 1.
 function race(...)
   local tasks <close> = start_all("race", ...)
-  if #tasks > 0 then
-    host.join(tasks, true)
+  if #tasks == 0 then
+    return
   end
+  host.join(tasks, true)
+  for i, task in ipairs(tasks) do
+    if host.outcome(task) then
+      return i
+    end
+  end
+end
+
+-- ---- triggers: what makes others begin --------------------------------------
+
+local Trigger = {}
+Trigger.__index = Trigger
+Trigger.__metatable = false
+Trigger.__tostring = function(self)
+  return "trigger '" .. self.kind .. "'"
+end
+
+-- For other parts of lua/std: a trigger of a kind, with what it needs.
+function host.make_trigger(kind, spec)
+  spec.kind = kind
+  spec.is_trigger = true
+  return setmetatable(spec, Trigger)
+end
+
+local drops = {
+  __close = function(self)
+    for _, id in ipairs(self) do
+      host.drop_trigger(id)
+    end
+  end,
+}
+
+local function arm(trigger)
+  local target = trigger.target or { "none" }
+  return host.trigger(trigger.kind, trigger.metres or 0, trigger.leave or 0, trigger.angle or 0,
+    trigger.seconds or 0, trigger.text or "", table.unpack(target))
+end
+
+-- So many seconds from when it is waited for.
+function timeout(seconds)
+  check_seconds(seconds, "timeout")
+  return host.make_trigger("timeout", { seconds = seconds })
+end
+
+-- "lost": the visitor's camera has not been tracked for so many seconds (0.5); "back": it
+-- is again.
+function tracking(state, seconds)
+  if state ~= "lost" and state ~= "back" then
+    error("tracking: give \"lost\" or \"back\"", 2)
+  end
+  seconds = seconds or 0.5
+  check_seconds(seconds, "tracking")
+  return host.make_trigger(state, { seconds = seconds })
+end
+
+-- A key of the keyboard is pressed: "space", "a", "enter", ...
+function key(name)
+  if type(name) ~= "string" then
+    error("key: give the name of a key", 2)
+  end
+  return host.make_trigger("key", { text = name })
+end
+
+-- It is that time of day where the visitor is: clock("9:30").
+function clock(time)
+  local hour, minute = tostring(time):match("^(%d%d?):(%d%d)$")
+  hour, minute = tonumber(hour), tonumber(minute)
+  if not hour or hour > 23 or minute > 59 then
+    error("clock: give a time like \"9:30\"", 2)
+  end
+  return host.make_trigger("clock", { seconds = hour * 3600 + minute * 60 })
+end
+
+-- The timeline passes a marker: track{markers = {{at = 10, name = "noon"}}}.
+function marker(name)
+  if type(name) ~= "string" then
+    error("marker: give the name of a marker", 2)
+  end
+  return host.make_trigger("marker", { text = name })
+end
+
+-- Runs f each time that something happens; not again while it runs. Until the handle that
+-- it gives is stopped.
+function on(trigger, f)
+  if type(trigger) ~= "table" or not trigger.is_trigger then
+    error("on: give a trigger like visitor:near(\"keeper\", 2)", 2)
+  end
+  check_function(f, "on")
+  local id = arm(trigger)
+  return start(function()
+    local guard <close> = setmetatable({ id }, drops)
+    while true do
+      host.await_fired({ id }, { host.fired(id) })
+      local tasks <close> = start_all("on", f)
+      host.join(tasks, false)
+    end
+  end)
+end
+
+-- Waits for the first of several triggers: which one it was, counted from 1.
+function first(...)
+  local armed <close> = setmetatable({}, drops)
+  local counts = {}
+  for i = 1, select("#", ...) do
+    local trigger = select(i, ...)
+    if type(trigger) ~= "table" or not trigger.is_trigger then
+      error("first: give triggers like visitor:near(\"keeper\", 2)", 2)
+    end
+    armed[i] = arm(trigger)
+    counts[i] = 0
+  end
+  if #armed == 0 then
+    return
+  end
+  host.await_fired(armed, counts)
+  for i, id in ipairs(armed) do
+    if host.fired(id) > 0 then
+      return i
+    end
+  end
+end
+
+-- ---- points of a task ---------------------------------------------------------
+
+-- Waits until a task that was started reaches a point of the first thing that is done in
+-- it: "start", "ready", "stroke_start", "stroke", "stroke_end", "relax", "end" (of the whole
+-- task; what is left out), or so many seconds later. Also before it, where gestures and
+-- speech say ahead when that will be. Or waits for a trigger.
+-- Gives true; or false and why, where the task has failed.
+function wait_for(what, point, seconds)
+  if type(what) == "table" and what.is_trigger then
+    first(what)
+    return true
+  end
+  if type(what) ~= "table" or not what.task then
+    error("wait_for: give what start gave, or a trigger", 2)
+  end
+  seconds = seconds or 0
+  check_seconds(seconds, "wait_for")
+  host.await_point(what.task, point or "end", seconds)
+  local over, done, why = host.outcome(what.task)
+  if over and not done then
+    return false, why
+  end
+  return true
+end
+
+-- Runs f when a task reaches a point, or so many seconds later: at(line, "stroke", f),
+-- at(line, "stroke", 0.2, f). Not where the task fails before.
+function at(handle, point, seconds, f)
+  if f == nil then
+    seconds, f = 0, seconds
+  end
+  check_function(f, "at")
+  return start(function()
+    if wait_for(handle, point, seconds) then
+      f()
+    end
+  end)
+end
+
+-- Runs f when a task has ended well.
+function after(handle, f)
+  check_function(f, "after")
+  return at(handle, "end", 0, f)
+end
+
+local points = {
+  start = 1,
+  ready = 2,
+  stroke_start = 3,
+  stroke = 4,
+  stroke_end = 5,
+  relax = 6,
+  ["end"] = 7,
+}
+
+-- Gestures and speech of several people whose points fall together:
+-- meet("stroke", {keeper, "gesture", "wave"}, {guest, "say", "salvete"}). Each may have
+-- another point of its own: {guest, "say", "salvete", point = "end"}. Waits for all.
+function meet(point, ...)
+  local delays, latest = {}, 0
+  local acts = { ... }
+  for i, act in ipairs(acts) do
+    local who = type(act) == "table" and act[1]
+    local index = type(act) == "table" and points[act.point or point]
+    if type(who) ~= "table" or not index or (act[2] ~= "gesture" and act[2] ~= "say") then
+      error("meet: give a point and things like {keeper, \"gesture\", \"wave\"}", 2)
+    end
+    delays[i] = select(index, host.foretell(who.id, act[2], act[3]))
+    latest = math.max(latest, delays[i])
+  end
+  local all = {}
+  for i, act in ipairs(acts) do
+    all[i] = function()
+      host.wait(latest - delays[i])
+      act[1][act[2]](act[1], act[3], act[4])
+    end
+  end
+  return together(table.unpack(all))
 end

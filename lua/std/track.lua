@@ -1,5 +1,5 @@
--- Tracks: what an actor does, written down against the drama's time, so that a
--- curator can jump to any moment of it.
+-- Tracks: the declarative part of a drama, written down against its time, which the
+-- editor's timeline shows and edits.
 
 local host = ...
 
@@ -35,26 +35,10 @@ local function point(value, index, key, default)
   }
 end
 
--- track{ actor = "keeper", clips = {
---   { at = 0, length = 4, clip = "idle", from = {x = 0, z = -2}, heading = 180 },
---   { at = 4, length = 6, clip = "walk", to = {x = 3, z = -2} },
--- } }
--- Each entry begins at a time and lasts length seconds, over which the actor
--- moves from one point to the other; then it plays "idle" until the next begins.
--- Before the first entry it is hidden. A clip that walks keeps step with the
--- motion. Left out: from is where the entry before ended, heading is that of the
--- motion, or else of the entry before; fade is 0.3 s.
-function track(spec)
-  if type(spec) ~= "table" or type(spec.clips) ~= "table" then
-    error("track: give {actor = name, clips = {...}}", 2)
-  end
-  local name = type(spec.actor) == "table" and spec.actor.name or spec.actor
-  local id = type(name) == "string" and host.actor(name)
-  if not id then
-    error("track: there is no '" .. tostring(name) .. "' in the cast", 2)
-  end
+-- The clips that lead an actor; name: its name, id: its id.
+local function lead(clips, name, id)
   local position, heading, time = { x = 0, y = 0, z = 0 }, 0, 0
-  for index, entry in ipairs(spec.clips) do
+  for index, entry in ipairs(clips) do
     if type(entry) ~= "table" then
       fail(index, "must be a table like {at = 0, length = 4, clip = \"idle\"}")
     end
@@ -85,10 +69,107 @@ function track(spec)
     if entry.heading ~= nil then
       heading = math.rad(number(entry, index, "heading", nil, -1e6))
     end
-    host.segment(id, at, length, entry.clip, rate, fade, from, to, heading)
+    host.segment(id, at, length, entry.clip, rate, fade, from, to, heading, entry.ease)
     position, time = to, at + length
   end
   if time > 0 and host.clip(id, "idle") then
     host.segment(id, time, 0, "idle", 1, FADE, position, position, heading)
+  end
+end
+
+-- Lanes that are played by the host, in this order.
+local of_actor = { "gestures", "speech", "walks", "uses", "gaze", "expressions" }
+
+-- Lanes that are played by words of lua/std: what begins an item, and what ends it.
+local by_words = {}
+
+-- Says how lanes of a name are played: begin(item) at its time, stop(item) at its end.
+function host.play_lane(name, begin, stop)
+  by_words[name] = { begin = begin, stop = stop }
+end
+
+local function by_time(a, b)
+  return a.at < b.at
+end
+
+-- Plays the items of a lane one after the other.
+local function play(name, items)
+  local lane = by_words[name]
+  local sorted = {}
+  for index, item in ipairs(items) do
+    if type(item) ~= "table" then
+      error("track: " .. name .. "[" .. index .. "]: an item {at = 0, ...} belongs here", 3)
+    end
+    number(item, index, "at", nil, 0)
+    number(item, index, "length", 0, 0)
+    sorted[index] = item
+  end
+  table.sort(sorted, by_time)
+  start(function()
+    for _, item in ipairs(sorted) do
+      host.wait_until(item.at)
+      start(function()
+        lane.begin(item)
+        if lane.stop and item.length then
+          host.wait(item.length)
+          lane.stop(item)
+        end
+      end)
+    end
+  end)
+end
+
+host.play_lane("lights", function(item)
+  light(item.light):set(item)
+end, function(item)
+  light(item.light):set{ level = 1, seconds = item.seconds }
+end)
+
+local known = { actor = true, clips = true, markers = true }
+for _, name in ipairs(of_actor) do
+  known[name] = true
+end
+
+-- track{ actor = "keeper", speech = {{at = 2, line = "salvete"}}, ... }
+-- Lanes of items. Each item has a time `at`, in seconds of the drama, and may have a
+-- length, an id and an ease. Of an actor: clips that lead its whole body, or gestures,
+-- speech, walks, uses, gaze, expressions; of the stage: lights, markers.
+function track(spec)
+  if type(spec) ~= "table" then
+    error("track: give {actor = name, speech = {...}}", 2)
+  end
+  for key, items in pairs(spec) do
+    if not known[key] and not by_words[key] then
+      error("track: knows no '" .. tostring(key) .. "'", 2)
+    elseif key ~= "actor" and type(items) ~= "table" then
+      error("track: " .. key .. " must be a list of items {at = 0, ...}", 2)
+    end
+  end
+  local name = type(spec.actor) == "table" and spec.actor.name or spec.actor
+  local id = type(name) == "string" and host.actor(name)
+  if spec.actor ~= nil and not id then
+    error("track: there is no '" .. tostring(name) .. "' in the cast", 2)
+  end
+  if spec.clips then
+    if not id then
+      error("track: clips need an actor", 2)
+    end
+    lead(spec.clips, name, id)
+  end
+  for _, lane in ipairs(of_actor) do
+    if spec[lane] then
+      if not id then
+        error("track: " .. lane .. " need an actor", 2)
+      end
+      host.lane(lane, id, spec[lane])
+    end
+  end
+  if spec.markers then
+    host.lane("markers", nil, spec.markers)
+  end
+  for lane in pairs(by_words) do
+    if spec[lane] then
+      play(lane, spec[lane])
+    end
   end
 end

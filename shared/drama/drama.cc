@@ -3,18 +3,60 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/drama/recording.h"
 #include "shared/drama/run.h"
 #include "shared/drama/sandbox.h"
 
 namespace lararium::drama {
 namespace {
 
-constexpr size_t kMaxScriptBytes = 1 << 20;
+constexpr size_t kMaxScriptBytes = 16 << 20;
 constexpr size_t kMaxErrors = 100;  // kept; the log has them all
-// Of a drama of tracks: how often the stage is kept for seeking, and how many.
-constexpr int64_t kCheckpointTicks = int64_t{10} * Drama::kTicksPerSecond;
-constexpr size_t kMaxCheckpoints = 1000;
-constexpr size_t kMaxTaskRecords = 4096;
+constexpr size_t kMaxTaskRecords = 100'000;
+// How often the stage is kept for seeking, at first, and how many are kept: when there
+// are more, every other one is dropped and they are kept half as often.
+constexpr int64_t kSaveTicks = int64_t{2} * Drama::kTicksPerSecond;
+constexpr size_t kMaxSaved = 1200;
+
+// A list of what happened that survives going back: what is behind the present is hidden,
+// and found again when it happens again.
+template <typename T>
+class History {
+ public:
+  explicit History(size_t limit) : limit_(limit) {}
+
+  // False: it had happened before.
+  bool Add(T item) {
+    if (count_ < items_.size()) {
+      ++count_;
+      return false;
+    }
+    if (items_.size() < limit_) {
+      items_.push_back(std::move(item));
+      ++count_;
+    }
+    return true;
+  }
+  size_t count() const { return count_; }
+  void GoTo(size_t count) { count_ = count; }
+  void Truncate() { items_.resize(count_); }
+  std::span<const T> items() const { return std::span(items_).first(count_); }
+
+ private:
+  std::vector<T> items_;
+  size_t count_ = 0;
+  size_t limit_;
+};
+
+// A moment to come back to.
+struct Moment {
+  int64_t tick = 0;
+  stage::Stage::Checkpoint stage;
+  RunState run;
+  Recording::Position script;
+  size_t errors = 0;
+  size_t tasks = 0;
+};
 
 class LuaDrama : public Drama {
  public:
@@ -25,35 +67,60 @@ class LuaDrama : public Drama {
            Log& log)
       : script_(script), place_(std::move(place)), stage_(stage), options_(options), log_(log) {}
 
-  // From the beginning.
+  // From the beginning, and nothing is known of what was before.
   Status Begin() {
-    LARARIUM_ASSIGN_OR_RETURN(
-        std::unique_ptr<Sandbox> sandbox,
-        Sandbox::Create(options_.memory_limit, options_.instruction_limit, options_.seed));
+    LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Sandbox> sandbox, MakeSandbox());
     stage_.Reset();
-    errors_.clear();
-    tasks_.clear();
-    auto run = std::make_unique<Run>(
-        std::move(sandbox), stage_,
-        [this](int64_t tick, const LuaError& error) { Report(tick, error); },
-        [this](TaskRecord record) {
-          if (tasks_.size() < kMaxTaskRecords) {
-            tasks_.push_back(std::move(record));
-          }
-        });
-    LARARIUM_RETURN_IF_ERROR(run->Begin(script_, place_));
-    run_ = std::move(run);
-    played_until_ = std::max(played_until_, run_->tick());
-    checkpoints_.clear();
-    KeepCheckpoint();
+    recording_ = {};
+    changes_ = 0;
+    errors_ = History<ScriptError>(kMaxErrors);
+    tasks_ = History<TaskRecord>(kMaxTaskRecords);
+    moments_.clear();
+    save_ticks_ = kSaveTicks;
+    run_ = MakeRun(std::move(sandbox));
+    if (const Status status = run_->Begin(script_, place_); !status.ok()) {
+      run_.reset();
+      return status;
+    }
+    played_until_ = std::max<int64_t>(played_until_, 0);
+    Save();
     return Status();
   }
 
   void Tick() override {
-    run_->Tick();
+    run_->Tick(VisitorOf(run_->tick() + 1));
+    ++ticks_;
+    if (recording_.changes() != changes_) {
+      changes_ = recording_.changes();
+      ForgetFuture();
+    }
     played_until_ = std::max(played_until_, run_->tick());
-    KeepCheckpoint();
+    Save();
   }
+
+  void SetVisitor(const Visitor& visitor) override {
+    std::string keys = visitor_.keys;  // not yet seen by the drama
+    visitor_ = visitor;
+    if (!visitor.tracked) {
+      visitor_.position = last_seen_.position;
+      visitor_.direction = last_seen_.direction;
+    }
+    last_seen_ = visitor_;
+    if (!keys.empty() && !visitor.keys.empty()) {
+      keys += ' ';
+    }
+    visitor_.keys = keys + visitor.keys;
+  }
+
+  void SetVisitorLog(VisitorLog log) override {
+    visitors_ = std::move(log);
+    follows_log_ = true;
+    const double now = time();
+    if (Begin().ok()) {
+      (void)Seek(now).ok();
+    }
+  }
+  const VisitorLog& visitor_log() const override { return visitors_; }
 
   Status Seek(double time) override {
     if (!(time >= 0.0 && time <= kMaxTime)) {
@@ -61,49 +128,158 @@ class LuaDrama : public Drama {
                            "choose one from 0 s to 24 h");
     }
     const int64_t target = std::llround(time * kTicksPerSecond);
-    if (run_->only_tracks()) {
-      GoToCheckpoint(target);
-    } else if (target < run_->tick()) {
-      LARARIUM_RETURN_IF_ERROR(Begin());
+    const auto behind =
+        std::upper_bound(moments_.begin(), moments_.end(), target,
+                         [](int64_t tick, const Moment& moment) { return tick < moment.tick; });
+    const Moment& moment = *(behind - 1);  // there is one of tick 0
+    if (target < run_->tick() || moment.tick > run_->tick()) {
+      if (!GoTo(moment)) {
+        // Must not be; then all is played again.
+        log_.warn("{}: seeking plays the drama again from its beginning", place_);
+        LARARIUM_RETURN_IF_ERROR(Begin());
+      }
     }
+    seeking_ = true;
     while (run_->tick() < target) {
       Tick();
     }
+    seeking_ = false;
     return Status();
   }
 
+  Status Reload(std::string_view script) override {
+    LARARIUM_RETURN_IF_ERROR(CheckSize(script, place_));
+    const double now = time();
+    const std::string old = std::exchange(script_, std::string(script));
+    played_until_ = -1;
+    Status status = Begin();
+    if (!status.ok()) {
+      script_ = old;
+      LARARIUM_RETURN_IF_ERROR(Begin());  // it began before
+    }
+    LARARIUM_RETURN_IF_ERROR(Seek(now));
+    return status;
+  }
+
+  bool holds() const override {
+    const double lost = TimeOf(run_->state().lost_ticks);
+    return settings().hold_when_lost && !follows_log_ && !visitor_.tracked &&
+           lost >= settings().patience;
+  }
+  const DramaSettings& settings() const override { return run_->declared()->settings; }
+
+  int64_t played_ticks() const override { return ticks_; }
   double time() const override { return TimeOf(run_->tick()); }
-  std::span<const ScriptError> errors() const override { return errors_; }
-  std::span<const TaskRecord> tasks() const override { return tasks_; }
+  std::span<const ScriptError> errors() const override { return errors_.items(); }
+  std::span<const TaskRecord> tasks() const override { return tasks_.items(); }
+
+  static Status CheckSize(std::string_view script, const std::string& place) {
+    return script.size() <= kMaxScriptBytes
+               ? Status()
+               : Status::Error(place, "the script is longer than 16 MiB");
+  }
 
  private:
-  // Tracks say at any tick what is to be seen, but bodies remember: feet stand where
-  // they were put. Coroutines cannot be kept; a drama with tasks is played again.
-  void KeepCheckpoint() {
-    if (run_->only_tracks() && checkpoints_.size() < kMaxCheckpoints &&
-        run_->tick() == static_cast<int64_t>(checkpoints_.size()) * kCheckpointTicks) {
-      checkpoints_.push_back(stage_.Save());
+  Result<std::unique_ptr<Sandbox>> MakeSandbox() const {
+    return Sandbox::Create(options_.memory_limit, options_.instruction_limit, options_.seed);
+  }
+  std::unique_ptr<Run> MakeRun(std::unique_ptr<Sandbox> sandbox) {
+    return std::make_unique<Run>(
+        std::move(sandbox), stage_, recording_,
+        [this](int64_t tick, const LuaError& error) { Report(tick, error); },
+        [this](TaskRecord record) { tasks_.Add(std::move(record)); });
+  }
+
+  // The visitor of a tick: of the log, of the past that is kept, or as they are now, which
+  // begins a new future where they did something else then.
+  Visitor VisitorOf(int64_t tick) {
+    const bool is_known = tick <= visited_until_;
+    if (follows_log_ || (is_known && (options_.keep_past || seeking_))) {
+      return visitors_.At(tick);
+    }
+    Visitor visitor = visitor_;
+    visitor_.keys.clear();
+    if (is_known && visitors_.At(tick) != visitor) {
+      ForgetFuture();
+    }
+    if (tick > visited_until_) {
+      visitors_.Set(tick, visitor);
+      visited_until_ = tick;
+    }
+    return visitor;
+  }
+
+  // What was played later than now is not what will come.
+  void ForgetFuture() {
+    const int64_t now = run_->tick();
+    recording_.Truncate();
+    errors_.Truncate();
+    tasks_.Truncate();
+    if (!follows_log_) {
+      visitors_.Truncate(now);
+      visited_until_ = std::min(visited_until_, now);
+    }
+    while (moments_.size() > 1 && moments_.back().tick > now) {
+      moments_.pop_back();
+    }
+    played_until_ = std::min(played_until_, now);
+  }
+
+  void Save() {
+    const int64_t now = run_->tick();
+    if (now % kSaveTicks != 0) {
+      return;
+    }
+    stage_.Settle();  // also where nothing is kept, so that keeping changes nothing
+    const bool is_known = !moments_.empty() && moments_.back().tick >= now;
+    if (now % save_ticks_ != 0 || is_known || recording_.closed()) {
+      return;
+    }
+    moments_.push_back(
+        {now, stage_.Save(), run_->state(), run_->followed(), errors_.count(), tasks_.count()});
+    if (moments_.size() > kMaxSaved) {
+      save_ticks_ *= 2;
+      std::erase_if(moments_,
+                    [this](const Moment& moment) { return moment.tick % save_ticks_ != 0; });
     }
   }
 
-  // The last one before target, unless the drama has come nearer.
-  void GoToCheckpoint(int64_t target) {
-    const int64_t index =
-        std::min(target / kCheckpointTicks, static_cast<int64_t>(checkpoints_.size()) - 1);
-    const int64_t tick = index * kCheckpointTicks;
-    if (run_->tick() > target || run_->tick() < tick) {
-      stage_.Restore(checkpoints_[static_cast<size_t>(index)]);
-      run_->ContinueFrom(tick);
+  // Coroutines only go forward: to go back the script begins anew.
+  bool BringScriptTo(const Recording::Position& position) {
+    if (run_->followed() == position) {
+      recording_.GoTo(position);
+      return true;
     }
+    if (run_->followed().resumes < position.resumes && run_->FollowTo(position)) {
+      return true;
+    }
+    Result<std::unique_ptr<Sandbox>> sandbox = MakeSandbox();
+    if (!sandbox.ok()) {
+      return false;
+    }
+    std::unique_ptr<Run> run = MakeRun(*std::move(sandbox));
+    if (!run->BeginAgain(script_, place_, run_->declared()).ok() || !run->FollowTo(position)) {
+      return false;
+    }
+    run_ = std::move(run);
+    return true;
+  }
+
+  bool GoTo(const Moment& moment) {
+    if (!BringScriptTo(moment.script)) {
+      return false;
+    }
+    stage_.Restore(moment.stage);
+    run_->Restore(moment.run, moment.tick);
+    errors_.GoTo(moment.errors);
+    tasks_.GoTo(moment.tasks);
+    return true;
   }
 
   void Report(int64_t tick, const LuaError& error) {
-    // Playing again to seek meets the same errors: they were logged before.
-    if (tick > played_until_) {
+    const bool is_new = errors_.Add({TimeOf(tick), error.message, error.traceback});
+    if (is_new && tick > played_until_) {
       log_.error("{}\n{}", error.message, error.traceback);
-    }
-    if (errors_.size() < kMaxErrors) {
-      errors_.push_back({TimeOf(tick), error.message, error.traceback});
     }
   }
 
@@ -112,11 +288,21 @@ class LuaDrama : public Drama {
   stage::Stage& stage_;
   DramaOptions options_;
   Log& log_;
+  Recording recording_;
+  int changes_ = 0;  // of the recording that are known
   std::unique_ptr<Run> run_;
-  std::vector<stage::Stage::Checkpoint> checkpoints_;  // one for each kCheckpointTicks
-  std::vector<ScriptError> errors_;
-  std::vector<TaskRecord> tasks_;
-  int64_t played_until_ = -1;  // the last tick whose errors were logged
+  std::vector<Moment> moments_;  // ascending
+  int64_t save_ticks_ = kSaveTicks;
+  History<ScriptError> errors_{kMaxErrors};
+  History<TaskRecord> tasks_{kMaxTaskRecords};
+  int64_t ticks_ = 0;          // played_ticks()
+  int64_t played_until_ = -1;  // the last tick that is known
+  Visitor visitor_;            // as they are now
+  Visitor last_seen_;
+  VisitorLog visitors_;        // of each tick so far, or all that follow
+  int64_t visited_until_ = 0;  // the last tick that they are known of
+  bool follows_log_ = false;
+  bool seeking_ = false;
 };
 
 }  // namespace
@@ -137,9 +323,7 @@ Result<std::unique_ptr<Drama>> Drama::Create(std::string_view script,
                                              const DramaOptions& options,
                                              Log& log) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
-  if (script.size() > kMaxScriptBytes) {
-    return Status::Error(place, "the script is longer than 1 MiB");
-  }
+  LARARIUM_RETURN_IF_ERROR(LuaDrama::CheckSize(script, place));
   auto drama = std::make_unique<LuaDrama>(script, std::move(place), stage, options, log);
   LARARIUM_RETURN_IF_ERROR(drama->Begin());
   return std::unique_ptr<Drama>(std::move(drama));

@@ -13,6 +13,7 @@
 
 #include "shared/core/log.h"
 #include "shared/core/status.h"
+#include "shared/drama/visitor.h"
 #include "shared/stage/stage.h"
 
 namespace lararium::drama {
@@ -21,6 +22,9 @@ struct DramaOptions {
   uint64_t seed = 1;                    // of math.random
   size_t memory_limit = 64 << 20;       // bytes that the script may hold
   int64_t instruction_limit = 1 << 20;  // that the script may run in one tick
+  // After going back: whether the visitor does again what they did, until the last moment
+  // that was played (for whoever edits), or what they do now.
+  bool keep_past = false;
 
   Status Validate() const;
 };
@@ -33,18 +37,26 @@ struct ScriptError {
   std::string traceback;  // one call per line; may be empty
 };
 
-// One thing that somebody was told to do with its body, and how it ended. What was
-// stopped before its end is not told.
+// What a script says of its drama as a whole: drama{...}.
+struct DramaSettings {
+  bool hold_when_lost = false;  // time stands still while tracking is lost
+  double patience = 1.0;        // seconds that it may be lost before that
+};
+
+// One thing that somebody was told to do, and how it ended: what a timeline shows of the
+// scripted part. What was stopped before its end is told only where its length is known
+// when it begins (speech, gestures, looks).
 struct TaskRecord {
   double began = 0.0;  // of the drama, seconds
   double ended = 0.0;
   std::string where;   // "drama.lua:12"
   std::string actor;   // who
-  std::string action;  // "walk_to", "take", "use stir", ...
+  std::string action;  // "walk_to", "take", "use stir", "say salvete", ...
   std::string object;  // with what; may be empty
   bool failed = false;
-  bool expected = false;  // within attempt(): it may fail
-  std::string message;    // why it failed; of a done one, what was not quite as asked
+  bool expected = false;       // within attempt(): it may fail
+  std::string message;         // why it failed; of a done one, what was not quite as asked
+  bool from_timeline = false;  // an item of track{...} told it; else the script
 };
 
 class Drama {
@@ -66,11 +78,28 @@ class Drama {
   // The next tick.
   virtual void Tick() = 0;
 
-  // To the tick nearest to a time: the stage is then exactly as if the drama had
-  // played until there, but for gazes at a visitor who moved. What coroutines did is
-  // played again without drawing; a drama of tracks alone goes on from a checkpoint.
+  // What the visitor does from the next tick on. Keys count in one tick.
+  virtual void SetVisitor(const Visitor& visitor) = 0;
+  // Instead of all that: a recorded visitor, from the beginning on.
+  virtual void SetVisitorLog(VisitorLog log) = 0;
+  // What they have done so far.
+  virtual const VisitorLog& visitor_log() const = 0;
+
+  // To the tick nearest to a time: the stage is then exactly as it was, or as if the drama
+  // had played until there. What was played before is not played again but for the last
+  // seconds before a time: the stage is restored, and the script's coroutines are run
+  // again against what they were told (recording.h).
   virtual Status Seek(double time) = 0;
 
+  // Another script, sought to the same time. On an error the old one goes on.
+  virtual Status Reload(std::string_view script) = 0;
+
+  // Whether time is to stand still: tracking is lost, and the author wants that.
+  virtual bool holds() const = 0;
+  virtual const DramaSettings& settings() const = 0;
+
+  // How often the stage went on by a tick since it was made: what playing and seeking cost.
+  virtual int64_t played_ticks() const = 0;
   virtual double time() const = 0;                          // seconds since the beginning
   virtual std::span<const ScriptError> errors() const = 0;  // until time(), oldest first
   // Likewise, in the order in which they ended; those that the script caught too.

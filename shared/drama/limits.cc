@@ -13,8 +13,8 @@ constexpr size_t kBytesPerInstruction = 64;
 
 }  // namespace
 
-void Limits::Refill() {
-  instructions_left_ = instruction_limit_;
+void Limits::Refill(int ticks) {
+  instructions_left_ = instruction_limit_ * ticks;
   refused_ = false;
   tripped_ = nullptr;
 }

@@ -26,8 +26,8 @@ class Limits {
   Limits(const Limits&) = delete;
   Limits& operator=(const Limits&) = delete;
 
-  // Grants the instructions of another tick.
-  void Refill();
+  // Grants the instructions of another tick, or of so many.
+  void Refill(int ticks = 1);
   // False when no instructions are left; the limits are then tripped.
   bool Charge(int64_t instructions);
   // After an error was caught: it counts as tripped if want of memory caused it.

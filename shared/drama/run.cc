@@ -9,59 +9,86 @@
 namespace lararium::drama {
 namespace {
 
-constexpr size_t kMaxSegments = 10'000;
+constexpr int kLoadingTicks = 64;             // whose instructions a script may use while it loads
+constexpr Scheduler::TaskId kMainBegins = 0;  // in the recording, instead of a task
 
 Status TooLittleMemory() {
   return Status::Error("drama", "the limits are too low to begin with", "raise them");
 }
 
-glm::vec3 CheckPoint(lua_State* lua, int argument) {
-  constexpr const char* kAxes[] = {"x", "y", "z"};
-  luaL_checktype(lua, argument, LUA_TTABLE);
-  glm::vec3 point;
-  for (int axis = 0; axis < 3; ++axis) {
-    lua_getfield(lua, argument, kAxes[axis]);
-    point[axis] = static_cast<float>(CheckFinite(lua, -1, kAxes[axis]));
-    lua_pop(lua, 1);
-  }
-  return point;
-}
-
 }  // namespace
 
-Run::Run(std::unique_ptr<Sandbox> sandbox, stage::Stage& stage, OnError on_error, OnTask on_task)
+Run::Run(std::unique_ptr<Sandbox> sandbox,
+         stage::Stage& stage,
+         Recording& recording,
+         OnError on_error,
+         OnTask on_task)
     : sandbox_(std::move(sandbox)),
       stage_(stage),
+      recording_(recording),
       on_error_(std::move(on_error)),
       on_task_(std::move(on_task)),
-      scheduler_(*sandbox_, [this](const LuaError& error) { on_error_(tick_, error); }) {}
+      scheduler_(
+          *sandbox_,
+          [this](const LuaError& error) {
+            if (!following_) {
+              on_error_(tick_, error);
+            }
+          },
+          [this](Scheduler::TaskId id) {
+            if (!following_) {
+              recording_.NoteResume(tick_, id);
+            }
+          }),
+      timeline_player_(
+          stage_,
+          [this](TaskRecord record) { on_task_(std::move(record)); },
+          [this](const std::string& problem) {
+            on_error_(tick_, {problem, ""});
+          }) {}
+
+// ---- playing ----
 
 Status Run::Begin(std::string_view script, const std::string& place) {
-  for (const EmbeddedText& std_script : StdScripts()) {
-    LARARIUM_RETURN_IF_ERROR(LoadStd(std_script));
-  }
+  LARARIUM_RETURN_IF_ERROR(LoadStd());
+  declaring_ = std::make_shared<Declared>();
+  declared_ = declaring_;
   LARARIUM_RETURN_IF_ERROR(StartChunk(script, place));
   loading_ = true;
   scheduler_.Run(0);
   loading_ = false;
+  declaring_.reset();
+  recording_.NoteResume(0, kMainBegins);
   StartMain();
+  timeline_player_.Advance(declared_->timeline, 0.0, state_.timeline, passed_);
+  UpdateTriggers();
   scheduler_.Run(0);
   ApplyTracks();
   stage_.Perform();
+  followed_ = recording_.position();
   return Status();
 }
 
-void Run::Tick() {
+void Run::Tick(const Visitor& visitor) {
   ++tick_;
   sandbox_->limits().Refill();
+  state_.visitor = visitor;
+  state_.lost_ticks = visitor.tracked ? 0 : state_.lost_ticks + 1;
+  stage_.SetVisitor(visitor.tracked ? std::optional(visitor.position) : std::nullopt);
   stage_.Advance();
+  passed_.clear();
+  timeline_player_.Advance(declared_->timeline, TimeOf(tick_), state_.timeline, passed_);
+  UpdateTriggers();
+  UpdateSync();
   scheduler_.Run(tick_);
   ApplyTracks();
   stage_.Perform();
+  followed_ = recording_.position();
 }
 
 Status Run::StartChunk(std::string_view script, const std::string& place) {
   Status status;
+  sandbox_->limits().Refill(kLoadingTicks);
   const bool done = Protected(sandbox_->lua(), [&](lua_State* lua) {
     status = sandbox_->Compile(script, place);
     if (status.ok()) {
@@ -72,50 +99,148 @@ Status Run::StartChunk(std::string_view script, const std::string& place) {
 }
 
 void Run::StartMain() {
+  sandbox_->limits().Refill();
   Protected(sandbox_->lua(), [this](lua_State* lua) {
     if (lua_getglobal(lua, "main") == LUA_TFUNCTION) {
-      only_tracks_ = false;
       scheduler_.Start(lua);
     }
   });
 }
 
-Status Run::LoadStd(const EmbeddedText& script) {
-  Status status;
-  const bool done = Protected(sandbox_->lua(), [&](lua_State* lua) {
-    status = sandbox_->Compile(script.text, "std/" + std::string(script.name));
-    if (status.ok()) {
-      PushHost(lua);
-      lua_call(lua, 1, 0);
-    }
+Status Run::LoadStd() {
+  // One table for all of lua/std, whose files hand each other functions in it.
+  constexpr const char* kHost = "lararium.host";
+  const bool made = Protected(sandbox_->lua(), [&](lua_State* lua) {
+    PushHost(lua);
+    lua_setfield(lua, LUA_REGISTRYINDEX, kHost);
   });
-  return done ? status : TooLittleMemory();
+  if (!made) {
+    return TooLittleMemory();
+  }
+  for (const EmbeddedText& script : StdScripts()) {
+    Status status;
+    const bool done = Protected(sandbox_->lua(), [&](lua_State* lua) {
+      status = sandbox_->Compile(script.text, "std/" + std::string(script.name));
+      if (status.ok()) {
+        lua_getfield(lua, LUA_REGISTRYINDEX, kHost);
+        lua_call(lua, 1, 0);
+      }
+    });
+    LARARIUM_RETURN_IF_ERROR(done ? status : TooLittleMemory());
+  }
+  return Status();
 }
 
 void Run::ApplyTracks() {
-  for (const Track& track : tracks_) {
+  for (const Track& track : declared_->timeline.tracks) {
     if (stage::Actor* actor = stage_.Find(track.actor)) {
       ApplyTrack(track.segments, TimeOf(tick_), actor->state);
     }
   }
 }
 
+void Run::UpdateTriggers() {
+  const Happenings now = {stage_, state_.visitor, static_cast<float>(TimeOf(state_.lost_ticks)),
+                          passed_,
+                          tick_ > 0 ? static_cast<float>(stage::Stage::kTickSeconds) : 0.0f};
+  for (Trigger& trigger : state_.triggers) {
+    UpdateTrigger(now, trigger);
+  }
+}
+
+// ---- running again ----
+
+Status Run::BeginAgain(std::string_view script,
+                       const std::string& place,
+                       std::shared_ptr<const Declared> declared) {
+  LARARIUM_RETURN_IF_ERROR(LoadStd());
+  declared_ = std::move(declared);
+  LARARIUM_RETURN_IF_ERROR(StartChunk(script, place));
+  loading_ = true;
+  return Status();
+}
+
+bool Run::FollowTo(const Recording::Position& position) {
+  following_ = true;
+  recording_.ForgetDivergence();
+  recording_.GoTo(followed_);
+  bool follows = true;
+  while (follows && recording_.position().resumes < position.resumes) {
+    const Recording::Resume resume = recording_.NextResume();
+    if (resume.task == kMainBegins) {
+      scheduler_.EndTick();
+      loading_ = false;
+      StartMain();
+      continue;
+    }
+    if (resume.tick != tick_) {
+      scheduler_.EndTick();
+      tick_ = resume.tick;
+      sandbox_->limits().Refill();
+    }
+    follows = scheduler_.RunAgain(tick_, resume.task) && !recording_.diverged();
+  }
+  scheduler_.EndTick();
+  following_ = false;
+  followed_ = recording_.position();
+  return follows && followed_ == position;
+}
+
+void Run::Restore(const RunState& state, int64_t tick) {
+  state_ = state;
+  tick_ = tick;
+}
+
+// ---- the host ----
+
 template <int (Run::*kMethod)(lua_State*)>
 int Run::Call(lua_State* lua) {
+  auto* self = static_cast<Run*>(lua_touserdata(lua, lua_upvalueindex(1)));
+  const auto function = static_cast<int>(lua_tointeger(lua, lua_upvalueindex(2)));
+  if (self->following_) {
+    return self->recording_.Replay(lua, function);
+  }
+  int results = 0;
+  try {
+    results = (self->*kMethod)(lua);
+  } catch (...) {  // Lua's way to raise an error
+    self->recording_.NoteError(lua, function);
+    throw;
+  }
+  self->recording_.NoteCall(lua, function, results);
+  return results;
+}
+
+template <int (Run::*kMethod)(lua_State*)>
+int Run::Own(lua_State* lua) {
   auto* self = static_cast<Run*>(lua_touserdata(lua, lua_upvalueindex(1)));
   return (self->*kMethod)(lua);
 }
 
 void Run::PushHost(lua_State* lua) {
-  constexpr luaL_Reg kFunctions[] = {{"time", Call<&Run::PushTime>},
-                                     {"wait", Call<&Run::Wait>},
-                                     {"start", Call<&Run::Start>},
-                                     {"stop", Call<&Run::Stop>},
-                                     {"join", Call<&Run::Join>},
-                                     {"warn", Call<&Run::Warn>},
-                                     {"attempt", Call<&Run::Attempt>},
+  constexpr luaL_Reg kFunctions[] = {{"time", Own<&Run::PushTime>},
+                                     {"wait", Own<&Run::Wait>},
+                                     {"wait_until", Own<&Run::WaitUntilTime>},
+                                     {"start", Own<&Run::Start>},
+                                     {"stop", Own<&Run::Stop>},
+                                     {"join", Own<&Run::Join>},
+                                     {"await", Own<&Run::Await>},
+                                     {"await_point", Own<&Run::AwaitPoint>},
+                                     {"await_fired", Own<&Run::AwaitFired>},
+                                     {"outcome", Own<&Run::PushOutcome>},
+                                     {"attempt", Own<&Run::Attempt>},
+                                     {"warn", Call<&Run::WarnAuthor>},
                                      {"note_task", Call<&Run::NoteTask>},
+                                     {"configure", Call<&Run::Configure>},
                                      {"segment", Call<&Run::AddSegment>},
+                                     {"lane", Call<&Run::AddLane>},
+                                     {"trigger", Call<&Run::AddTrigger>},
+                                     {"drop_trigger", Call<&Run::DropTrigger>},
+                                     {"fired", Call<&Run::PushFired>},
+                                     {"visitor", Call<&Run::PushVisitor>},
+                                     {"distance", Call<&Run::PushDistance>},
+                                     {"aside", Call<&Run::PushAside>},
+                                     {"foretell", Call<&Run::Foretell>},
                                      {"actor", Call<&Run::PushActor>},
                                      {"clip", Call<&Run::PushClip>},
                                      {"playing", Call<&Run::PushPlaying>},
@@ -157,9 +282,14 @@ void Run::PushHost(lua_State* lua) {
                                      {"play_sound", Call<&Run::PlaySound>},
                                      {"stop_sound", Call<&Run::StopSound>},
                                      {nullptr, nullptr}};
+  static_assert(std::size(kFunctions) <= 255, "the recording has a byte for them");
   lua_newtable(lua);
-  lua_pushlightuserdata(lua, this);
-  luaL_setfuncs(lua, kFunctions, 1);
+  for (size_t i = 0; kFunctions[i].name != nullptr; ++i) {
+    lua_pushlightuserdata(lua, this);
+    lua_pushinteger(lua, static_cast<lua_Integer>(i));
+    lua_pushcclosure(lua, kFunctions[i].func, 2);
+    lua_setfield(lua, -2, kFunctions[i].name);
+  }
 }
 
 // time() -> seconds
@@ -177,10 +307,15 @@ int Run::Wait(lua_State* lua) {
   return scheduler_.Wait(lua, std::llround(seconds * Drama::kTicksPerSecond));
 }
 
+// wait_until(seconds): of the drama
+int Run::WaitUntilTime(lua_State* lua) {
+  const double seconds = std::clamp(CheckFinite(lua, 1, "the time"), 0.0, Drama::kMaxTime);
+  return scheduler_.Wait(lua, std::llround(seconds * Drama::kTicksPerSecond) - tick_);
+}
+
 // start(function) -> task
 int Run::Start(lua_State* lua) {
   lua_settop(lua, 1);
-  only_tracks_ = false;
   lua_pushinteger(lua, scheduler_.Start(lua));
   return 1;
 }
@@ -202,11 +337,123 @@ int Run::Join(lua_State* lua) {
   return scheduler_.Join(lua, std::move(tasks), lua_toboolean(lua, 2) != 0);
 }
 
-// warn(message): to the author, about the line that called the function that calls this
-int Run::Warn(lua_State* lua) {
-  luaL_where(lua, 2);
-  const std::string where(CheckText(lua, -1));
-  on_error_(tick_, {where + std::string(CheckText(lua, 1)), ""});
+// await(number of a task of the stage): until it is over
+int Run::Await(lua_State* lua) {
+  const auto task = static_cast<stage::TaskId>(luaL_checkinteger(lua, 1));
+  return scheduler_.WaitUntil(lua, "a task", [this, task] {
+    const stage::TaskReport report = stage_.tasks().report(task);
+    return report.over() || report.state == stage::TaskReport::State::kUnknown;
+  });
+}
+
+// outcome(task) -> whether it is over, whether it was done, why not
+int Run::PushOutcome(lua_State* lua) {
+  const Scheduler::TaskId id = luaL_checkinteger(lua, 1);
+  const Scheduler::Outcome* outcome = scheduler_.OutcomeOf(id);
+  lua_pushboolean(lua, scheduler_.Alive(id) ? 0 : 1);
+  lua_pushboolean(lua, outcome == nullptr || !outcome->failed ? 1 : 0);
+  PushText(lua, outcome == nullptr ? std::string_view() : outcome->message);
+  return 3;
+}
+
+// await_point(task, point, seconds): until so long after the point (or before it, where
+// that is known ahead)
+int Run::AwaitPoint(lua_State* lua) {
+  const Scheduler::TaskId id = luaL_checkinteger(lua, 1);
+  const auto point = SyncPointNamed(CheckText(lua, 2));
+  if (!point) {
+    return luaL_error(lua,
+                      "there is no point '%s'; use start, ready, stroke_start, stroke, "
+                      "stroke_end, relax or end",
+                      lua_tostring(lua, 2));
+  }
+  const double seconds = CheckFinite(lua, 3, "the time");
+  if (std::abs(seconds) > Drama::kMaxTime) {
+    return luaL_error(lua, "the time is out of range");
+  }
+  const int64_t offset = std::llround(seconds * Drama::kTicksPerSecond);
+  return scheduler_.WaitUntil(lua, "wait_for", [this, id, point = *point, offset] {
+    const int64_t tick = PointTick(id, point);
+    return tick != SyncRecord::kUnknown && tick + offset <= tick_;
+  });
+}
+
+// When a coroutine reaches a point; kUnknown: nobody knows yet.
+int64_t Run::PointTick(Scheduler::TaskId id, SyncPoint point) const {
+  const auto began = scheduler_.Began(id);
+  if (!began) {
+    const Scheduler::Outcome* outcome = scheduler_.OutcomeOf(id);
+    return outcome == nullptr ? 0 : outcome->tick;
+  }
+  if (point == SyncPoint::kStart) {
+    return *began;
+  }
+  const auto record = std::find_if(state_.sync.begin(), state_.sync.end(),
+                                   [id](const SyncRecord& r) { return r.coroutine == id; });
+  return record == state_.sync.end() || point == SyncPoint::kEnd
+             ? SyncRecord::kUnknown
+             : record->ticks[static_cast<size_t>(point)];
+}
+
+// Of the running coroutine; nullptr: it has one already, or none runs.
+SyncRecord* Run::BeginSync() {
+  const Scheduler::TaskId id = scheduler_.running();
+  const bool has_one = std::any_of(state_.sync.begin(), state_.sync.end(),
+                                   [id](const SyncRecord& r) { return r.coroutine == id; });
+  if (has_one || id == 0) {
+    return nullptr;
+  }
+  SyncRecord& record = state_.sync.emplace_back();
+  record.coroutine = id;
+  return &record;
+}
+
+// It does something whose points are known ...
+void Run::NoteSync(const SyncTimes& times) {
+  if (SyncRecord* record = BeginSync()) {
+    for (size_t i = 0; i < times.size(); ++i) {
+      record->ticks[i] = tick_ + std::llround(times[i] * Drama::kTicksPerSecond);
+    }
+  }
+}
+
+// ... or come as the stage's task goes on.
+void Run::NoteTaskSync(stage::TaskId task) {
+  if (SyncRecord* record = BeginSync()) {
+    record->task = task;
+    record->ticks.fill(SyncRecord::kUnknown);
+  }
+}
+
+void Run::UpdateSync() {
+  std::erase_if(state_.sync,
+                [this](const SyncRecord& record) { return !scheduler_.Alive(record.coroutine); });
+  for (SyncRecord& record : state_.sync) {
+    if (record.task == 0) {
+      continue;
+    }
+    const stage::TaskReport report = stage_.tasks().report(record.task);
+    const bool is_over = report.over() || report.state == stage::TaskReport::State::kUnknown;
+    for (size_t point = 0; point < record.ticks.size(); ++point) {
+      const bool reached =
+          is_over || (report.reached && point <= static_cast<size_t>(*report.reached));
+      if (reached && record.ticks[point] == SyncRecord::kUnknown) {
+        record.ticks[point] = tick_;
+      }
+    }
+  }
+}
+
+// The script's line that runs, or that started what runs.
+std::string Run::PlaceNow(lua_State* lua) const {
+  std::string place = PlaceOf(lua);
+  return place.empty() ? scheduler_.StartedAt() : place;
+}
+
+// warn(message): to the author, about the script's line
+int Run::WarnAuthor(lua_State* lua) {
+  const std::string where = PlaceNow(lua);
+  on_error_(tick_, {where + ": " + std::string(CheckText(lua, 1)), ""});
   return 0;
 }
 
@@ -226,58 +473,46 @@ int Run::Attempt(lua_State* lua) {
 }
 
 // note_task(actor, action, object's name or nil, when it began, whether it failed, message):
-// one has ended, of the line that called the function that calls the function that calls this
+// one has ended, of the script's line
 int Run::NoteTask(lua_State* lua) {
   const stage::Actor& actor = CheckActor(lua);
   const std::string_view action = CheckText(lua, 2);
   const std::string_view object = lua_isnil(lua, 3) ? std::string_view() : CheckText(lua, 3);
   const double began = CheckFinite(lua, 4, "the time");
   const std::string_view message = CheckText(lua, 6);
-  luaL_where(lua, 3);
-  std::string_view where = CheckText(lua, -1);  // "drama.lua:12: "
-  where = where.substr(0, where.find_last_not_of(": ") + 1);
   const bool expected =
       std::find(attempts_.begin(), attempts_.end(), scheduler_.running()) != attempts_.end();
-  on_task_({began, TimeOf(tick_), std::string(where), actor.name, std::string(action),
-            std::string(object), lua_toboolean(lua, 5) != 0, expected, std::string(message)});
+  TaskRecord record = {began,
+                       TimeOf(tick_),
+                       PlaceNow(lua),
+                       actor.name,
+                       std::string(action),
+                       std::string(object),
+                       lua_toboolean(lua, 5) != 0,
+                       expected,
+                       std::string(message)};
+  on_task_(std::move(record));
   return 0;
 }
 
-std::vector<TrackSegment>& Run::SegmentsOf(stage::ActorId id) {
-  const auto found = std::find_if(tracks_.begin(), tracks_.end(),
-                                  [id](const Track& track) { return track.actor == id; });
-  if (found != tracks_.end()) {
-    return found->segments;
-  }
-  tracks_.push_back({id, {}});
-  return tracks_.back().segments;
+// Something whose length is known when it begins.
+void Run::NoteBlock(lua_State* lua, const stage::Actor& actor, std::string action, double seconds) {
+  TaskRecord record;
+  record.began = TimeOf(tick_);
+  record.ended = record.began + seconds;
+  record.where = PlaceNow(lua);
+  record.actor = actor.name;
+  record.action = std::move(action);
+  on_task_(std::move(record));
 }
 
-// segment(actor, begin, length, clip, rate, fade, from, to, heading)
-int Run::AddSegment(lua_State* lua) {
-  if (!loading_) {
-    return luaL_error(lua, "track: only while the script loads, not within main()");
+// configure(whether it holds while tracking is lost, seconds)
+int Run::Configure(lua_State* lua) {
+  if (!declaring_) {
+    return luaL_error(lua, "drama: only while the script loads, not within main()");
   }
-  stage::Actor& actor = CheckActor(lua);
-  TrackSegment segment;
-  segment.begin = CheckFinite(lua, 2, "at");
-  segment.length = CheckFinite(lua, 3, "length");
-  segment.clip = CheckClip(lua, actor, 4);
-  segment.rate = CheckFinite(lua, 5, "rate");
-  segment.fade = CheckFinite(lua, 6, "fade");
-  segment.from = CheckPoint(lua, 7);
-  segment.to = CheckPoint(lua, 8);
-  segment.heading = static_cast<float>(CheckFinite(lua, 9, "heading"));
-  std::vector<TrackSegment>& segments = SegmentsOf(CheckActorId(lua, 1));
-  if (segments.size() >= kMaxSegments) {
-    return luaL_error(lua, "track: too many clips");
-  }
-  if (!segments.empty() && segment.begin < segments.back().begin) {
-    return luaL_error(lua, "track: '%s' has a track already, and this one begins before its end",
-                      actor.name.c_str());
-  }
-  segments.push_back(segment);
-  actor.led = true;
+  declaring_->settings.hold_when_lost = lua_toboolean(lua, 1) != 0;
+  declaring_->settings.patience = CheckFinite(lua, 2, "patience");
   return 0;
 }
 

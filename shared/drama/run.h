@@ -1,8 +1,9 @@
 #pragma once
 
-// One run of a script from its beginning: the Lua state, its tasks and tracks, and the
+// One run of a script from its beginning: the Lua state, its coroutines, and the
 // functions that lua/std calls. Private to the room.
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -12,60 +13,143 @@
 #include "shared/core/embedded_text.h"
 #include "shared/core/status.h"
 #include "shared/drama/drama.h"
+#include "shared/drama/recording.h"
 #include "shared/drama/sandbox.h"
 #include "shared/drama/scheduler.h"
+#include "shared/drama/sync_points.h"
+#include "shared/drama/timeline.h"
 #include "shared/drama/track.h"
+#include "shared/drama/triggers.h"
+#include "shared/drama/visitor.h"
 #include "shared/stage/stage.h"
 
 namespace lararium::drama {
 
-// Its private functions are the table `host` of lua/std, and raise Lua errors.
+// When a coroutine's first behaviour reaches its points.
+struct SyncRecord {
+  Scheduler::TaskId coroutine = 0;
+  stage::TaskId task = 0;  // of the stage, which decides; 0: the ticks are known
+  std::array<int64_t, stage::kSyncPoints> ticks = {};  // kUnknown: not yet
+  static constexpr int64_t kUnknown = -1;
+};
+
+// All that a run remembers besides its coroutines; plain values.
+struct RunState {
+  TimelineState timeline;
+  std::vector<Trigger> triggers;
+  int64_t last_trigger = 0;
+  std::vector<SyncRecord> sync;
+  Visitor visitor;
+  int64_t lost_ticks = 0;  // since when tracking is lost
+};
+
+// What a script says of itself while it loads. The same whenever it is run.
+struct Declared {
+  Timeline timeline;
+  DramaSettings settings;
+};
+
+// Its private functions are the table `host` of lua/std, and raise Lua errors. Those that
+// ask or change anything but coroutines are recorded, and not called when the script is
+// only run again.
 class Run {
  public:
   using OnError = std::function<void(int64_t tick, const LuaError&)>;
-
   using OnTask = std::function<void(TaskRecord)>;
 
-  Run(std::unique_ptr<Sandbox> sandbox, stage::Stage& stage, OnError on_error, OnTask on_task);
+  // Borrows stage, recording.
+  Run(std::unique_ptr<Sandbox> sandbox,
+      stage::Stage& stage,
+      Recording& recording,
+      OnError on_error,
+      OnTask on_task);
   Run(const Run&) = delete;  // Lua knows its address
   Run& operator=(const Run&) = delete;
 
   // Compiles the script and plays tick 0.
   Status Begin(std::string_view script, const std::string& place);
-  void Tick();
-  // The stage has been brought to a tick at which only tracks decide what is to be seen.
-  void ContinueFrom(int64_t tick) { tick_ = tick; }
+  void Tick(const Visitor& visitor);
 
-  bool only_tracks() const { return only_tracks_; }
+  // Compiles the script, to be run again up to a position by FollowTo(). declared: of the
+  // run that was recorded.
+  Status BeginAgain(std::string_view script,
+                    const std::string& place,
+                    std::shared_ptr<const Declared> declared);
+  // Runs coroutines as recorded, without the stage; false where they do not do again
+  // what they did. The recording's position is then anywhere.
+  bool FollowTo(const Recording::Position& position);
+  Recording::Position followed() const { return followed_; }
+
+  const RunState& state() const { return state_; }
+  // The stage has been brought to a tick, and the coroutines to its position.
+  void Restore(const RunState& state, int64_t tick);
+
+  std::shared_ptr<const Declared> declared() const { return declared_; }
   int64_t tick() const { return tick_; }
 
  private:
+  Status LoadStd();
   Status StartChunk(std::string_view script, const std::string& place);
   void StartMain();
-  Status LoadStd(const EmbeddedText& script);
   void ApplyTracks();
+  void UpdateTriggers();
+  void UpdateSync();
 
   // ---- the table `host`; what each takes and gives is written where it is defined ----
 
   template <int (Run::*kMethod)(lua_State*)>
-  static int Call(lua_State* lua);
+  static int Call(lua_State* lua);  // recorded
+  template <int (Run::*kMethod)(lua_State*)>
+  static int Own(lua_State* lua);  // only coroutines and time: run again
   void PushHost(lua_State* lua);
 
   // run.cc: time and tasks
   int PushTime(lua_State* lua);
   int Wait(lua_State* lua);
+  int WaitUntilTime(lua_State* lua);
   int Start(lua_State* lua);
   int Stop(lua_State* lua);
   int Join(lua_State* lua);
-  int Warn(lua_State* lua);
+  int Await(lua_State* lua);
+  int AwaitPoint(lua_State* lua);
+  int PushOutcome(lua_State* lua);
+  int WarnAuthor(lua_State* lua);
   int Attempt(lua_State* lua);
   int NoteTask(lua_State* lua);
+  int Configure(lua_State* lua);
+  void NoteBlock(lua_State* lua, const stage::Actor& actor, std::string action, double seconds);
+  void NoteSync(const SyncTimes& times);
+  void NoteTaskSync(stage::TaskId task);
+  SyncRecord* BeginSync();
+  std::string PlaceNow(lua_State* lua) const;
+  int64_t PointTick(Scheduler::TaskId id, SyncPoint point) const;
+
+  // words_timeline.cc
   int AddSegment(lua_State* lua);
+  int AddLane(lua_State* lua);
+  std::vector<TrackSegment>& SegmentsOf(stage::ActorId id);
+  Cue CheckItem(lua_State* lua, const CueLane& lane, int64_t index);
+  Cue CheckCue(lua_State* lua, const CueLane& lane);
+  void CheckMotion(lua_State* lua, Cue& cue);
+  void CheckUse(lua_State* lua, Cue& cue);
+  stage::ObjectId CheckObjectNamed(lua_State* lua, const char* key);
+  stage::Attention::Choice CheckGaze(lua_State* lua);
+
+  // words_visitor.cc
+  TriggerSpec CheckTrigger(lua_State* lua, int argument);
+  int AddTrigger(lua_State* lua);
+  int DropTrigger(lua_State* lua);
+  int PushFired(lua_State* lua);
+  int AwaitFired(lua_State* lua);
+  int PushVisitor(lua_State* lua);
+  int PushDistance(lua_State* lua);
+  int PushAside(lua_State* lua);
+  const Trigger* FindTrigger(int64_t id) const;
 
   // words_actor.cc: what people do by themselves
   stage::ActorId CheckActorId(lua_State* lua, int argument);
   stage::Actor& CheckActor(lua_State* lua, int argument = 1);
-  stage::Actor& CheckFreeActor(lua_State* lua);
+  stage::Actor& CheckFreeActor(lua_State* lua, int argument = 1);
   int CheckClip(lua_State* lua, const stage::Actor& actor, int argument);
   int PushActor(lua_State* lua);
   int PushClip(lua_State* lua);
@@ -80,6 +164,7 @@ class Run {
   int Express(lua_State* lua);
   int Say(lua_State* lua);
   int SetGait(lua_State* lua);
+  int Foretell(lua_State* lua);
 
   // words_object.cc: what they do with objects and each other
   stage::ObjectId CheckObjectId(lua_State* lua, int argument);
@@ -119,19 +204,23 @@ class Run {
   int PlaySound(lua_State* lua);
   int StopSound(lua_State* lua);
 
-  std::vector<TrackSegment>& SegmentsOf(stage::ActorId id);
-
   std::unique_ptr<Sandbox> sandbox_;
   stage::Stage& stage_;
+  Recording& recording_;
   OnError on_error_;
   OnTask on_task_;
   Scheduler scheduler_;
+  TimelinePlayer timeline_player_;
   std::vector<Scheduler::TaskId> attempts_;  // tasks within attempt(), once for each
-  std::vector<Track> tracks_;
+  std::shared_ptr<Declared> declaring_;      // while the script loads for the first time
+  std::shared_ptr<const Declared> declared_;
+  RunState state_;
+  std::vector<std::string> passed_;  // markers of this tick
   int64_t tick_ = 0;
   bool loading_ = false;
+  bool following_ = false;  // the recording
+  Recording::Position followed_;
   Scheduler::TaskId chunk_ = 0;
-  bool only_tracks_ = true;  // no task and no command has changed the stage
 };
 
 inline double TimeOf(int64_t tick) { return static_cast<double>(tick) / Drama::kTicksPerSecond; }

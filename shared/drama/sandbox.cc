@@ -15,33 +15,38 @@ void CountInstructions(lua_State* lua, lua_Debug* /*activation*/) {
   }
 }
 
-// "drama.lua:12: " of the innermost function that is not one of lua/std, or "".
-std::string Where(lua_State* coroutine) {
+// The same, or where it was started, with ": " behind it.
+std::string Where(lua_State* coroutine, const std::string& started_at) {
+  const std::string place = PlaceOf(coroutine);
+  return place.empty() && started_at.empty() ? "" : (place.empty() ? started_at : place) + ": ";
+}
+
+// The message on top of a coroutine's stack. What lua/std found wrong is told
+// with the place in the script that called it.
+std::string TopAsText(lua_State* coroutine, const std::string& started_at) {
+  if (lua_type(coroutine, -1) == LUA_TSTRING) {
+    const std::string text = lua_tostring(coroutine, -1);
+    const size_t position_end = text.starts_with("std/") ? text.find(": ") : std::string::npos;
+    return position_end == std::string::npos
+               ? text
+               : Where(coroutine, started_at) + text.substr(position_end + 2);
+  }
+  return Where(coroutine, started_at) + "error object is a " + luaL_typename(coroutine, -1);
+}
+
+}  // namespace
+
+std::string PlaceOf(lua_State* coroutine) {
   lua_Debug activation;
   for (int level = 0; lua_getstack(coroutine, level, &activation) != 0; ++level) {
     lua_getinfo(coroutine, "Sl", &activation);
     const bool is_std = std::string_view(activation.source).starts_with("@std/");
     if (activation.currentline > 0 && !is_std) {
-      return std::string(activation.short_src) + ":" + std::to_string(activation.currentline) +
-             ": ";
+      return std::string(activation.short_src) + ":" + std::to_string(activation.currentline);
     }
   }
   return "";
 }
-
-// The message on top of a coroutine's stack. What lua/std found wrong is told
-// with the place in the script that called it.
-std::string TopAsText(lua_State* coroutine) {
-  if (lua_type(coroutine, -1) == LUA_TSTRING) {
-    const std::string text = lua_tostring(coroutine, -1);
-    const size_t position_end = text.starts_with("std/") ? text.find(": ") : std::string::npos;
-    return position_end == std::string::npos ? text
-                                             : Where(coroutine) + text.substr(position_end + 2);
-  }
-  return Where(coroutine) + "error object is a " + luaL_typename(coroutine, -1);
-}
-
-}  // namespace
 
 Result<std::unique_ptr<Sandbox>> Sandbox::Create(size_t memory_limit,
                                                  int64_t instruction_limit,
@@ -87,10 +92,11 @@ Status Sandbox::Compile(std::string_view text, const std::string& place) {
                            : Status::Error("drama", problem, "mend the script");
 }
 
-LuaError Sandbox::Describe(lua_State* coroutine) {
+LuaError Sandbox::Describe(lua_State* coroutine, const std::string& started_at) {
   limits_.TripIfRefused();
   LuaError error;
-  error.message = limits_.tripped() ? Where(coroutine) + limits_.Reason() : TopAsText(coroutine);
+  error.message = limits_.tripped() ? Where(coroutine, started_at) + limits_.Reason()
+                                    : TopAsText(coroutine, started_at);
   Protected(lua_, [&](lua_State* lua) {
     luaL_traceback(lua, coroutine, nullptr, 0);
     error.traceback = lua_tostring(lua, -1);

@@ -22,6 +22,9 @@ struct LuaError {
   std::string traceback;
 };
 
+// "drama.lua:12" of the innermost function that is not one of lua/std, or "".
+std::string PlaceOf(lua_State* coroutine);
+
 class Sandbox {
  public:
   static Result<std::unique_ptr<Sandbox>> Create(size_t memory_limit,
@@ -39,8 +42,9 @@ class Sandbox {
   // carry place and line. Binary chunks are refused.
   Status Compile(std::string_view text, const std::string& place);
 
-  // Of a coroutine that lua_resume() ended with an error.
-  LuaError Describe(lua_State* coroutine);
+  // Of a coroutine that lua_resume() ended with an error. started_at: what to blame where
+  // none of the script's functions runs in it.
+  LuaError Describe(lua_State* coroutine, const std::string& started_at);
 
  private:
   Sandbox(size_t memory_limit, int64_t instruction_limit, uint64_t seed)

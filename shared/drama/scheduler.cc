@@ -17,8 +17,17 @@ Scheduler::TaskId Scheduler::Start(lua_State* lua) {
   lua_xmove(lua, task->thread, 1);
   task->anchor = luaL_ref(lua, LUA_REGISTRYINDEX);
   task->id = ++last_id_;
+  task->began = tick_;
+  task->started_at = PlaceOf(lua);
   tasks_.push_back(std::move(task));
   return last_id_;
+}
+
+void Scheduler::KeepOutcome(Outcome outcome) {
+  outcomes_.push_back(std::move(outcome));
+  if (outcomes_.size() > kMaxOutcomes) {
+    outcomes_.pop_front();
+  }
 }
 
 void Scheduler::Stop(lua_State* lua, TaskId id) {
@@ -29,6 +38,7 @@ void Scheduler::Stop(lua_State* lua, TaskId id) {
   if (id == running_) {
     luaL_error(lua, "a task cannot stop itself; return from its function");
   }
+  KeepOutcome({id, tick_, true, "was stopped"});
   End(*task);
   RaiseIfTripped(lua);
 }
@@ -46,6 +56,41 @@ int Scheduler::Join(lua_State* lua, std::vector<TaskId> tasks, bool any) {
   return lua_yield(lua, 0);
 }
 
+int Scheduler::WaitUntil(lua_State* lua, const char* function, std::function<bool()> holds) {
+  CheckRunning(lua, function).until = std::move(holds);
+  return lua_yield(lua, 0);
+}
+
+std::string Scheduler::StartedAt() const {
+  const Task* task = Find(running_);
+  return task == nullptr ? "" : task->started_at;
+}
+
+std::optional<int64_t> Scheduler::Began(TaskId id) const {
+  const Task* task = Find(id);
+  return task == nullptr ? std::nullopt : std::optional(task->began);
+}
+
+const Scheduler::Outcome* Scheduler::OutcomeOf(TaskId id) const {
+  const auto found = std::find_if(outcomes_.rbegin(), outcomes_.rend(),
+                                  [id](const Outcome& outcome) { return outcome.id == id; });
+  return found == outcomes_.rend() ? nullptr : &*found;
+}
+
+bool Scheduler::RunAgain(int64_t tick, TaskId id) {
+  tick_ = tick;
+  Task* task = Find(id);
+  if (task == nullptr) {
+    return false;
+  }
+  Resume(*task);
+  return true;
+}
+
+void Scheduler::EndTick() {
+  std::erase_if(tasks_, [](const std::unique_ptr<Task>& task) { return task->ended; });
+}
+
 void Scheduler::Run(int64_t tick) {
   tick_ = tick;
   for (bool progress = true; progress;) {
@@ -58,7 +103,7 @@ void Scheduler::Run(int64_t tick) {
       }
     }
   }
-  std::erase_if(tasks_, [](const std::unique_ptr<Task>& task) { return task->ended; });
+  EndTick();
 }
 
 Scheduler::Task* Scheduler::Find(TaskId id) const {
@@ -83,6 +128,9 @@ bool Scheduler::Ready(const Task& task) const {
   if (task.ended || task.wake_tick > tick_) {
     return false;
   }
+  if (task.until) {
+    return task.until();
+  }
   const auto alive = [this](TaskId id) { return Alive(id); };
   return task.join_any ? !std::all_of(task.joined.begin(), task.joined.end(), alive)
                        : std::none_of(task.joined.begin(), task.joined.end(), alive);
@@ -91,6 +139,8 @@ bool Scheduler::Ready(const Task& task) const {
 void Scheduler::Resume(Task& task) {
   task.joined.clear();
   task.join_any = false;
+  task.until = nullptr;
+  on_resume_(task.id);
   running_ = task.id;
   sandbox_.limits().Charge(Limits::kHookInterval);
   int results = 0;
@@ -98,14 +148,18 @@ void Scheduler::Resume(Task& task) {
   running_ = 0;
   if (status == LUA_YIELD) {
     lua_pop(task.thread, results);
-    if (task.wake_tick <= tick_ && task.joined.empty() && !task.join_any) {
+    if (task.wake_tick <= tick_ && task.joined.empty() && !task.join_any && !task.until) {
       task.wake_tick = tick_ + 1;  // a bare coroutine.yield()
     }
     return;
   }
-  if (status != LUA_OK) {
-    on_error_(sandbox_.Describe(task.thread));
+  Outcome outcome = {task.id, tick_, status != LUA_OK, {}};
+  if (outcome.failed) {
+    const LuaError error = sandbox_.Describe(task.thread, task.started_at);
+    outcome.message = error.message;
+    on_error_(error);
   }
+  KeepOutcome(std::move(outcome));
   // A task that used everything up ends here. Closing it, and the tasks after
   // it, get the means of a fresh tick.
   Limits& limits = sandbox_.limits();

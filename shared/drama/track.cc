@@ -29,7 +29,8 @@ void ApplyTrack(std::span<const TrackSegment> segments, double time, stage::Acto
   const TrackSegment* before = next - 1 == segments.begin() ? nullptr : &*(next - 2);
   const double elapsed = time - now.begin;
 
-  state.position = glm::mix(now.from, now.to, static_cast<float>(Fraction(elapsed, now.length)));
+  const double way = Eased(now.ease, Fraction(elapsed, now.length));
+  state.position = glm::mix(now.from, now.to, static_cast<float>(way));
   state.heading = now.heading;
   human::Animation& animation = state.performance.animation;
   animation = human::Animation();

@@ -7,12 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "shared/drama/timeline_lanes.h"
 #include "shared/stage/stage.h"
 
 namespace lararium::drama {
 
 // From begin on until the next segment begins. Over length the actor moves from
-// one point to the other in a straight line, and then stays.
+// one point to the other in a straight line, as its ease says, and then stays.
 struct TrackSegment {
   double begin = 0.0;   // seconds of the drama
   double length = 0.0;  // seconds
@@ -21,7 +22,8 @@ struct TrackSegment {
   double fade = 0.0;  // seconds, from the segment before
   glm::vec3 from = glm::vec3(0.0f);
   glm::vec3 to = glm::vec3(0.0f);
-  float heading = 0.0f;  // radians
+  float heading = 0.0f;       // radians
+  Ease ease = Ease::kLinear;  // of the way from one point to the other
 };
 
 struct Track {

@@ -21,12 +21,11 @@ stage::Actor& Run::CheckActor(lua_State* lua, int argument) {
 }
 
 // The same, for commands: a track would undo them.
-stage::Actor& Run::CheckFreeActor(lua_State* lua) {
-  stage::Actor& actor = CheckActor(lua);
+stage::Actor& Run::CheckFreeActor(lua_State* lua, int argument) {
+  stage::Actor& actor = CheckActor(lua, argument);
   if (actor.led) {
     luaL_error(lua, "'%s' is led by a track", actor.name.c_str());
   }
-  only_tracks_ = false;
   return actor;
 }
 
@@ -88,6 +87,7 @@ int Run::Play(lua_State* lua) {
   }
   actor.clip_after = clip;
   actor.clip_ends = -1.0;
+  NoteBlock(lua, actor, lua_isnil(lua, 2) ? "play" : "play " + std::string(CheckText(lua, 2)), 0.0);
   return 0;
 }
 
@@ -98,7 +98,10 @@ int Run::Gesture(lua_State* lua) {
   constexpr const char* kParts[] = {"whole", "upper", "arms", "head", nullptr};
   const int part = luaL_checkoption(lua, 3, nullptr, kParts);
   stage_.Gesture(CheckActorId(lua, 1), clip, static_cast<human::BodyPart>(part));
-  lua_pushnumber(lua, actor.human().clips[static_cast<size_t>(clip)].duration);
+  const human::Clip& played = actor.human().clips[static_cast<size_t>(clip)];
+  NoteSync(GestureTimes(actor.human().skeleton, played, stage::Stage::kClipFade));
+  NoteBlock(lua, actor, "gesture " + played.name, played.duration);
+  lua_pushnumber(lua, played.duration);
   return 1;
 }
 
@@ -134,7 +137,6 @@ int Run::Look(lua_State* lua) {
   constexpr const char* kTargets[] = {"nothing", "point", "actor", "object",
                                       "visitor", "self",  nullptr};
   const int target = luaL_checkoption(lua, 2, nullptr, kTargets);
-  only_tracks_ = false;
   if (std::string_view(kTargets[target]) == "self") {
     attention.told.reset();
     attention.seconds_left = 0.0f;
@@ -152,13 +154,13 @@ int Run::Look(lua_State* lua) {
     choice.object = CheckObjectId(lua, 3);
   }
   attention.told = choice;
+  NoteBlock(lua, CheckActor(lua), "look_at", 0.0);
   return 0;
 }
 
 // attend(actor, on): whether it looks about by itself
 int Run::Attend(lua_State* lua) {
   CheckActor(lua).attention.automatic = lua_toboolean(lua, 2) != 0;
-  only_tracks_ = false;
   return 0;
 }
 
@@ -172,17 +174,16 @@ int Run::Express(lua_State* lua) {
                       "disgust, surprise or neutral",
                       lua_tostring(lua, 2));
   }
-  only_tracks_ = false;
   human::SetExpression(actor.state.performance.face, *expression,
                        static_cast<float>(CheckFinite(lua, 3, "intensity")),
                        static_cast<float>(CheckFinite(lua, 4, "fade")));
+  NoteBlock(lua, actor, "express " + std::string(CheckText(lua, 2)), CheckFinite(lua, 4, "fade"));
   return 0;
 }
 
 // say(actor, line or nil) -> duration; or nil: there is no line of that id
 int Run::Say(lua_State* lua) {
   CheckActor(lua);
-  only_tracks_ = false;
   if (lua_isnil(lua, 2)) {
     stage_.Say(CheckActorId(lua, 1), -1);
     return 0;
@@ -193,8 +194,33 @@ int Run::Say(lua_State* lua) {
     return 1;
   }
   stage_.Say(CheckActorId(lua, 1), *speech);
+  NoteSync(SpeechTimes(stage_.SpeechTrack(*speech)));
+  NoteBlock(lua, CheckActor(lua), "say " + std::string(CheckText(lua, 2)),
+            stage_.SpeechSeconds(*speech));
   lua_pushnumber(lua, stage_.SpeechSeconds(*speech));
   return 1;
+}
+
+// foretell(actor, "gesture" | "say", clip or line) -> seconds to each of its points
+int Run::Foretell(lua_State* lua) {
+  const stage::Actor& actor = CheckActor(lua);
+  constexpr const char* kWhat[] = {"gesture", "say", nullptr};
+  SyncTimes times = {};
+  if (luaL_checkoption(lua, 2, nullptr, kWhat) == 0) {
+    const int clip = CheckClip(lua, actor, 3);
+    times = GestureTimes(actor.human().skeleton, actor.human().clips[static_cast<size_t>(clip)],
+                         stage::Stage::kClipFade);
+  } else {
+    const auto speech = stage_.FindSpeech(CheckText(lua, 3));
+    if (!speech) {
+      return luaL_error(lua, "there is no line '%s'", lua_tostring(lua, 3));
+    }
+    times = SpeechTimes(stage_.SpeechTrack(*speech));
+  }
+  for (const double time : times) {
+    lua_pushnumber(lua, time);
+  }
+  return stage::kSyncPoints;
 }
 
 // gait(actor, style) -> whether there is such a style; gait(actor, name, value)
@@ -203,7 +229,6 @@ int Run::SetGait(lua_State* lua) {
   if (lua_isnoneornil(lua, 3)) {
     const auto named = human::GaitStyleNamed(CheckText(lua, 2));
     style = named.value_or(style);
-    only_tracks_ = false;
     lua_pushboolean(lua, named.has_value());
     return 1;
   }
@@ -212,7 +237,6 @@ int Run::SetGait(lua_State* lua) {
   float* const values[] = {&style.cadence,    &style.step_width, &style.stoop, &style.arm_swing,
                            &style.arm_spread, &style.sway,       &style.lift};
   const int which = luaL_checkoption(lua, 2, nullptr, kNames);
-  only_tracks_ = false;
   *values[which] = static_cast<float>(CheckFinite(lua, 3, kNames[which]));
   return 0;
 }

@@ -10,7 +10,6 @@ namespace lararium::drama {
 
 // set_hour(hour, seconds)
 int Run::SetHour(lua_State* lua) {
-  only_tracks_ = false;
   stage_.SetHour(CheckFinite(lua, 1, "hour"), CheckFinite(lua, 2, "seconds"));
   return 0;
 }
@@ -41,7 +40,6 @@ int Run::PushLightLevel(lua_State* lua) {
 int Run::SetLightLevel(lua_State* lua) {
   const stage::ObjectId id = CheckObjectId(lua, 1);
   CheckObject(lua);
-  only_tracks_ = false;
   stage_.SetLightLevel(id, static_cast<float>(CheckFinite(lua, 2, "level")),
                        static_cast<float>(CheckFinite(lua, 3, "seconds")));
   return 0;
@@ -51,7 +49,6 @@ int Run::SetLightLevel(lua_State* lua) {
 int Run::SetLightColour(lua_State* lua) {
   const stage::ObjectId id = CheckObjectId(lua, 1);
   CheckObject(lua);
-  only_tracks_ = false;
   const glm::vec3 colour(CheckFinite(lua, 2, "red"), CheckFinite(lua, 3, "green"),
                          CheckFinite(lua, 4, "blue"));
   const float luminance = glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f));
@@ -63,7 +60,6 @@ int Run::SetLightColour(lua_State* lua) {
 int Run::SetLightTemperature(lua_State* lua) {
   const stage::ObjectId id = CheckObjectId(lua, 1);
   CheckObject(lua);
-  only_tracks_ = false;
   stage_.SetLightColour(id, light::ColourOfTemperature(CheckFinite(lua, 2, "temperature")));
   return 0;
 }

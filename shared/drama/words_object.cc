@@ -52,8 +52,8 @@ int Run::CheckSurface(lua_State* lua, const stage::Object& object, int argument)
 
 // A task's number; or nil and why it cannot be.
 int Run::PushTask(lua_State* lua, const Result<stage::TaskId>& task) {
-  only_tracks_ = false;
   if (task.ok()) {
+    NoteTaskSync(*task);
     lua_pushinteger(lua, static_cast<lua_Integer>(*task));
     return 1;
   }
@@ -168,7 +168,6 @@ int Run::PushObjectPose(lua_State* lua) {
 // place_object(object, x, y, z, heading)
 int Run::PlaceObject(lua_State* lua) {
   CheckObject(lua);
-  only_tracks_ = false;
   const glm::vec3 position = {CheckFinite(lua, 2, "x"), CheckFinite(lua, 3, "y"),
                               CheckFinite(lua, 4, "z")};
   stage_.Place(CheckObjectId(lua, 1),
@@ -181,7 +180,6 @@ int Run::PlaceObject(lua_State* lua) {
 int Run::PlaceObjectOn(lua_State* lua) {
   const stage::Object& base = CheckObject(lua, 2);
   CheckObject(lua);
-  only_tracks_ = false;
   const int wanted_surface = CheckSurface(lua, base, 3);
   const lua_Integer wanted_spot = luaL_optinteger(lua, 4, 0);
   const std::vector<stage::Surface>& surfaces = base.use().surfaces;
@@ -206,7 +204,6 @@ int Run::PlaceObjectOn(lua_State* lua) {
 // show_object(object, visible)
 int Run::ShowObject(lua_State* lua) {
   CheckObject(lua).state.visible = lua_toboolean(lua, 2) != 0;
-  only_tracks_ = false;
   return 0;
 }
 
@@ -229,7 +226,6 @@ int Run::SetObjectState(lua_State* lua) {
     return luaL_error(lua, "'%s' has no state '%s'; it has %s", object.name.c_str(),
                       lua_tostring(lua, 2), known.c_str());
   }
-  only_tracks_ = false;
   stage_.SetState(CheckObjectId(lua, 1), state);
   return 0;
 }

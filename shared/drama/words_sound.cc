@@ -43,7 +43,6 @@ int Run::PlaySound(lua_State* lua) {
     CheckObject(lua, 5);
     sound.object = CheckObjectId(lua, 5);
   }
-  only_tracks_ = false;
   lua_pushboolean(lua, stage_.sounds().Play(sound) != 0);
   return 1;
 }
@@ -51,7 +50,6 @@ int Run::PlaySound(lua_State* lua) {
 // stop_sound(sound)
 int Run::StopSound(lua_State* lua) {
   stage_.sounds().StopAll(CheckSound(lua));
-  only_tracks_ = false;
   return 0;
 }
 

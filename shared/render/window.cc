@@ -52,6 +52,38 @@ Result<GLFWmonitor*> FindMonitor(int number) {
 
 }  // namespace
 
+std::string KeyName(int key) {
+  if ((key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9)) {
+    return {static_cast<char>(key >= GLFW_KEY_A ? key - GLFW_KEY_A + 'a' : key)};
+  }
+  switch (key) {
+    case GLFW_KEY_SPACE:
+      return "space";
+    case GLFW_KEY_ENTER:
+      return "enter";
+    case GLFW_KEY_ESCAPE:
+      return "escape";
+    case GLFW_KEY_TAB:
+      return "tab";
+    case GLFW_KEY_LEFT:
+      return "left";
+    case GLFW_KEY_RIGHT:
+      return "right";
+    case GLFW_KEY_UP:
+      return "up";
+    case GLFW_KEY_DOWN:
+      return "down";
+    case GLFW_KEY_PAGE_UP:
+      return "page_up";
+    case GLFW_KEY_PAGE_DOWN:
+      return "page_down";
+    default:
+      return "";
+  }
+}
+
+static_assert(kKeyPressed == GLFW_PRESS);
+
 struct Window::State {
   std::shared_ptr<GlfwLibrary> library;
   std::unique_ptr<GLFWwindow, WindowDeleter> window;

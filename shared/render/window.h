@@ -31,6 +31,10 @@ struct WindowCallbacks {
   std::function<void(int width, int height)> resize;  // framebuffer, pixels
 };
 
+inline constexpr int kKeyPressed = 1;
+// "a", "1", "space", "enter", "left", "page_down", ...; empty: a key without a name.
+std::string KeyName(int key);
+
 // Move-only. Use it on the main thread only.
 class Window {
  public:

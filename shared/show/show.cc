@@ -106,6 +106,45 @@ void Show::AdvanceTo(double time) {
   }
 }
 
+void Show::TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage) {
+  drama::Visitor visitor;
+  {
+    const std::lock_guard lock(input_mutex_);
+    visitor.keys = std::exchange(keys_, {});
+    visitor.hour = hour_;
+  }
+  if (camera_from_stage) {
+    visitor.tracked = true;
+    visitor.position = geometry::ToGlm(camera_from_stage->Center());
+    const Eigen::Vector3d ahead =
+        camera_from_stage->rotation.conjugate() * Eigen::Vector3d::UnitZ();
+    visitor.direction = geometry::ToGlm(ahead);
+  }
+  drama_->SetVisitor(visitor);
+}
+
+double Show::DramaTime(double time) {
+  const double passed = time - last_time_;
+  last_time_ = time;
+  if (passed < 0.0) {
+    held_seconds_ = 0.0;  // somebody goes back
+  } else if (drama_->holds()) {
+    held_seconds_ += passed;
+  }
+  return std::max(time - held_seconds_, 0.0);
+}
+
+void Show::SetHour(float hour) {
+  const std::lock_guard lock(input_mutex_);
+  hour_ = hour;
+}
+
+void Show::PressKey(std::string_view key) {
+  const std::lock_guard lock(input_mutex_);
+  keys_ += keys_.empty() ? "" : " ";
+  keys_ += key;
+}
+
 void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
   staged.camera_from_stage.reset();
   staged.motion.reset();
@@ -120,12 +159,11 @@ void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
         stage::CameraFromStage(content_.places[place_].stage, *tracked.camera_from_map);
     staged.motion = camera_motion_.Update(tracked.frame.index, *staged.camera_from_stage);
     staged.gain = gain_filter_.Update(tracked.gain, tracked.frame.capture_time);
-    stage_.SetVisitor(geometry::ToGlm(staged.camera_from_stage->Center()));
   } else {
     gain_filter_.Reset();
     camera_motion_.Reset();
-    stage_.SetVisitor(std::nullopt);
   }
+  TellOfVisitor(staged.camera_from_stage);
   staged.place = place_;
   staged.tracked = std::move(tracked);
 }
@@ -426,6 +464,7 @@ void Show::StageSounds(StagedFrame& staged) {
 void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged) {
   time = std::clamp(time, 0.0, drama::Drama::kMaxTime);
   Locate(std::move(tracked), staged);
+  time = DramaTime(time);
   AdvanceTo(time);
   const double behind = static_cast<double>(tick_) - time * kTicksPerSecond;  // 0..1 ticks
   stage::Interpolate(previous_, current_, static_cast<float>(std::clamp(1.0 - behind, 0.0, 1.0)),

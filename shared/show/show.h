@@ -7,7 +7,10 @@
 #include <chrono>
 #include <glm/mat4x4.hpp>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "shared/audio/sound_library.h"
@@ -117,6 +120,13 @@ class Show {
   const drama::Drama& drama() const { return *drama_; }
   // What StagedFrame::sound speaks of.
   const std::shared_ptr<const audio::SoundLibrary>& sounds() const { return sound_->library(); }
+  drama::Drama& drama() { return *drama_; }
+
+  // What the drama hears of its visitor besides where they are: a key that was pressed
+  // ("space", "a", ...), the hour of the day there.
+  // From any thread.
+  void PressKey(std::string_view key);
+  void SetHour(float hour);
 
   // For interactive staging: another transform, nudge, light or occluders of
   // places[index].
@@ -133,7 +143,8 @@ class Show {
   // Brings the drama to time (seconds, at least 0) and fills staged. The drama
   // runs in ticks of 1/120 s; what lies between two ticks is interpolated. Going
   // back, or far ahead, seeks. The drama does not depend on the place: it runs on
-  // while frames go from one to another, or to none.
+  // while frames go from one to another, or to none; there its author may have it hold,
+  // and its time is then behind.
   void StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged);
 
  private:
@@ -143,6 +154,9 @@ class Show {
   void PrepareFloor(Log& log);
   void AdvanceTo(double time);
   void TickOnce();
+  void TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage);
+  // The drama's time at a time of the frames: less what it was held.
+  double DramaTime(double time);
   // Fills what of staged depends on where the camera is.
   void Locate(vision::TrackedFrame tracked, StagedFrame& staged);
   // What of each visible actor is simulated, and how finely it is drawn, by how it is seen.
@@ -178,6 +192,11 @@ class Show {
   std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
+  std::mutex input_mutex_;
+  std::string keys_;        // pressed since the last frame
+  float hour_ = -1.0f;      // of the day; below 0: unknown
+  double last_time_ = 0.0;  // of the frames
+  double held_seconds_ = 0.0;
   GainFilter gain_filter_;
   CameraMotionTracker camera_motion_;
   int64_t tick_ = 0;               // that current_ shows

@@ -278,22 +278,64 @@ struct MeshPoint {
   glm::vec2 point = glm::vec2(0.0f);
 };
 
+struct Walker {
+  bool goes = false;                  // by itself
+  glm::vec2 from = glm::vec2(0.0f);   // at the last step of the crowd
+  glm::vec2 to = glm::vec2(0.0f);     // at the next one
+  glm::vec2 speed = glm::vec2(0.0f);  // velocity; of who is held, as it was placed
+};
+
+// All of a settled agent but its way and what it knows of its surroundings.
+void CopyAgent(const dtCrowdAgent& from, dtCrowdAgent& to) {
+  to.active = from.active;
+  to.state = from.state;
+  to.partial = from.partial;
+  to.topologyOptTime = from.topologyOptTime;
+  std::copy(std::begin(from.neis), std::end(from.neis), std::begin(to.neis));
+  to.nneis = from.nneis;
+  to.desiredSpeed = from.desiredSpeed;
+  dtVcopy(to.npos, from.npos);
+  dtVcopy(to.disp, from.disp);
+  dtVcopy(to.dvel, from.dvel);
+  dtVcopy(to.nvel, from.nvel);
+  dtVcopy(to.vel, from.vel);
+  to.params = from.params;
+  std::copy(std::begin(from.cornerVerts), std::end(from.cornerVerts), std::begin(to.cornerVerts));
+  std::copy(std::begin(from.cornerFlags), std::end(from.cornerFlags), std::begin(to.cornerFlags));
+  std::copy(std::begin(from.cornerPolys), std::end(from.cornerPolys), std::begin(to.cornerPolys));
+  to.ncorners = from.ncorners;
+  to.targetState = from.targetState;
+  to.targetRef = from.targetRef;
+  dtVcopy(to.targetPos, from.targetPos);
+  to.targetPathqRef = from.targetPathqRef;
+  to.targetReplan = from.targetReplan;
+  to.targetReplanTime = from.targetReplanTime;
+}
+
 }  // namespace
 
-struct Navigation::Parts {
-  struct Walker {
-    bool goes = false;                  // by itself
-    glm::vec2 from = glm::vec2(0.0f);   // at the last step of the crowd
-    glm::vec2 to = glm::vec2(0.0f);     // at the next one
-    glm::vec2 speed = glm::vec2(0.0f);  // velocity; of who is held, as it was placed
+struct Navigation::State {
+  struct Agent {
+    int walker = 0;
+    std::array<float, 3> position = {};  // where its way begins
+    std::array<float, 3> target = {};
+    std::vector<dtPolyRef> path;
+    dtCrowdAgent plain;
   };
+  std::vector<std::unique_ptr<Agent>> agents;  // Detour's cannot be moved
+  std::array<Walker, kMaxWalkers> walkers = {};
+  std::vector<uint8_t> gates;  // whether open
+  int ticks = 0;
+};
 
+struct Navigation::Parts {
   NavMeshPtr mesh;
   QueryPtr query;
   CrowdPtr crowd;
   dtQueryFilter filter;
   std::array<Walker, kMaxWalkers> walkers = {};
   std::vector<std::vector<dtPolyRef>> gates;
+  std::vector<uint8_t> open;  // of each gate
   mutable std::array<dtPolyRef, kMaxPath> path = {};
   mutable std::array<float, 3 * kMaxPath> corners = {};
   int ticks = 0;  // since the last step of the crowd
@@ -342,6 +384,7 @@ struct Navigation::Parts {
 
   void ListGates(size_t count) {
     gates.resize(count);
+    open.assign(count, 0);
     const dtNavMesh& tiles = *mesh;
     const dtMeshTile* tile = tiles.getTile(0);
     const dtPolyRef base = tiles.getPolyRefBase(tile);
@@ -444,6 +487,7 @@ void Navigation::Reset() {
 
 void Navigation::OpenGate(size_t gate, bool open) {
   CHECK(gate < parts_->gates.size());
+  parts_->open[gate] = open ? 1 : 0;
   for (const dtPolyRef polygon : parts_->gates[gate]) {
     parts_->mesh->setPolyFlags(polygon, open ? kOpenFlag : 0);
   }
@@ -512,7 +556,7 @@ void Navigation::Aim(int walker, glm::vec2 target, float speed) {
 }
 
 void Navigation::Hold(int walker) {
-  Parts::Walker& held = parts_->walkers[static_cast<size_t>(walker)];
+  Walker& held = parts_->walkers[static_cast<size_t>(walker)];
   held.from = held.to = position(walker);
   held.speed = velocity(walker);
   held.goes = false;
@@ -520,7 +564,7 @@ void Navigation::Hold(int walker) {
 }
 
 void Navigation::Place(int walker, glm::vec2 position, glm::vec2 velocity) {
-  Parts::Walker& held = parts_->walkers[static_cast<size_t>(walker)];
+  Walker& held = parts_->walkers[static_cast<size_t>(walker)];
   held.from = held.to = position;
   held.speed = velocity;
 }
@@ -536,17 +580,77 @@ void Navigation::Squeeze(int walker, int how) {
   parts_->crowd->updateAgentParameters(walker, &params);
 }
 
+void Navigation::Settle() {
+  bool waits = false;
+  for (int i = 0; i < kMaxWalkers; ++i) {
+    dtCrowdAgent& agent = parts_->Agent(i);
+    if (!agent.active) {
+      continue;
+    }
+    agent.boundary.reset();
+    if (agent.targetState == DT_CROWDAGENT_TARGET_WAITING_FOR_PATH) {
+      agent.targetState = DT_CROWDAGENT_TARGET_WAITING_FOR_QUEUE;
+      agent.targetPathqRef = DT_PATHQ_INVALID;
+      waits = true;
+    }
+  }
+  if (waits) {
+    Restore(*Save());  // nobody's old questions are left in the queue
+  }
+}
+
+std::shared_ptr<const Navigation::State> Navigation::Save() const {
+  auto state = std::make_shared<State>();
+  for (int i = 0; i < kMaxWalkers; ++i) {
+    const dtCrowdAgent& agent = parts_->Agent(i);
+    if (!agent.active) {
+      continue;
+    }
+    auto saved = std::make_unique<State::Agent>();
+    saved->walker = i;
+    std::copy_n(agent.corridor.getPos(), 3, saved->position.begin());
+    std::copy_n(agent.corridor.getTarget(), 3, saved->target.begin());
+    saved->path.assign(agent.corridor.getPath(),
+                       agent.corridor.getPath() + agent.corridor.getPathCount());
+    CopyAgent(agent, saved->plain);
+    state->agents.push_back(std::move(saved));
+  }
+  state->walkers = parts_->walkers;
+  state->gates = parts_->open;
+  state->ticks = parts_->ticks;
+  return state;
+}
+
+void Navigation::Restore(const State& state) {
+  for (size_t gate = 0; gate < parts_->gates.size(); ++gate) {
+    OpenGate(gate, state.gates[gate] != 0);
+  }
+  parts_->walkers = state.walkers;
+  parts_->ticks = state.ticks;
+  CHECK(parts_->StartCrowd());
+  for (const auto& saved : state.agents) {
+    dtCrowdAgent& agent = parts_->Agent(saved->walker);
+    CopyAgent(saved->plain, agent);
+    agent.boundary.reset();
+    agent.corridor.reset(saved->path.empty() ? 0 : saved->path.front(), saved->position.data());
+    if (!saved->path.empty()) {
+      agent.corridor.setCorridor(saved->target.data(), saved->path.data(),
+                                 static_cast<int>(saved->path.size()));
+    }
+  }
+}
+
 void Navigation::Tick() {
   parts_->ticks = (parts_->ticks + 1) % kCrowdTicks;
   const bool anybody = std::any_of(parts_->walkers.begin(), parts_->walkers.end(),
-                                   [](const Parts::Walker& walker) { return walker.goes; });
+                                   [](const Walker& walker) { return walker.goes; });
   if (parts_->ticks != 1 || !anybody) {
     return;
   }
   parts_->PlaceHeld();
   parts_->crowd->update(kCrowdSeconds, nullptr);
   for (int i = 0; i < kMaxWalkers; ++i) {
-    Parts::Walker& walker = parts_->walkers[static_cast<size_t>(i)];
+    Walker& walker = parts_->walkers[static_cast<size_t>(i)];
     if (walker.goes) {
       walker.from = walker.to;
       walker.to = OnFloor(parts_->Agent(i).npos);
@@ -556,7 +660,7 @@ void Navigation::Tick() {
 }
 
 glm::vec2 Navigation::position(int walker) const {
-  const Parts::Walker& of = parts_->walkers[static_cast<size_t>(walker)];
+  const Walker& of = parts_->walkers[static_cast<size_t>(walker)];
   const float passed = parts_->ticks == 0
                            ? 1.0f
                            : static_cast<float>(parts_->ticks) / static_cast<float>(kCrowdTicks);

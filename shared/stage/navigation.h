@@ -90,6 +90,14 @@ class Navigation {
   // where nothing else helps.
   void Squeeze(int walker, int how);
 
+  // What walkers know of their surroundings they look at anew, and what they wait for
+  // they ask again: what Save() then keeps is all that they remember. Whoever saves does
+  // so at fixed ticks, and settles at each of them, so that saving changes nothing.
+  void Settle();
+  struct State;  // of walkers and gates
+  std::shared_ptr<const State> Save() const;
+  void Restore(const State& state);
+
   // One tick. The crowd is computed at kTicksPerSecond / 4 and moves evenly between.
   // Allocates nothing.
   void Tick();

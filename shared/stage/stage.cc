@@ -14,7 +14,6 @@ namespace lararium::stage {
 namespace {
 
 constexpr auto kTick = static_cast<float>(Stage::kTickSeconds);
-constexpr float kClipFade = 0.3f;    // seconds
 constexpr float kMovingPace = 0.1f;  // m/s
 
 // Differs between people, and is the same whenever somebody of that name is added.
@@ -189,6 +188,10 @@ double Stage::SpeechSeconds(int speech) const {
   return world_->speeches[static_cast<size_t>(speech)].track.duration;
 }
 
+const human::VisemeTrack& Stage::SpeechTrack(int speech) const {
+  return world_->speeches[static_cast<size_t>(speech)].track;
+}
+
 Actor* Stage::Find(ActorId id) { return world_->actors.Find(id); }
 const Actor* Stage::Find(ActorId id) const { return world_->actors.Find(id); }
 Object* Stage::Find(ObjectId id) { return world_->objects.Find(id); }
@@ -231,7 +234,9 @@ Status Stage::BuildNavigation() {
     world_->actor(id).walker = -1;
   }
   world_->navigation.reset();
-  LARARIUM_ASSIGN_OR_RETURN(world_->navigation, Navigation::Create(floor_, solids, areas));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Navigation> navigation,
+                            Navigation::Create(floor_, solids, areas));
+  world_->navigation = std::move(navigation);
   UpdateGates();
   RestartWalks();
   return Status();
@@ -393,6 +398,17 @@ void Stage::Gesture(ActorId id, int clip, human::BodyPart part) {
   human::StartClip(animation, clip, 1.0, kClipFade, part);
   const double length = actor->human().clips[static_cast<size_t>(clip)].duration;
   actor->clip_ends = std::max(0.0, length - static_cast<double>(kClipFade));
+}
+
+std::optional<glm::vec2> Stage::FindAway(ActorId id, glm::vec2 from, float metres) {
+  if ((floor_changed_ || world_->navigation == nullptr) && !BuildNavigation().ok()) {
+    return std::nullopt;
+  }
+  constexpr float kFurther = 1.0f;  // metres
+  return Find(id) == nullptr
+             ? std::nullopt
+             : FindStand(*world_, id,
+                         {.point = from, .nearest = metres, .furthest = metres + kFurther});
 }
 
 // ---- time ----
@@ -563,6 +579,12 @@ void Stage::Capture(StageSnapshot& snapshot) const {
   snapshot.sounds.assign(sounds_.playing().begin(), sounds_.playing().end());
 }
 
+void Stage::Settle() {
+  if (world_->navigation != nullptr) {
+    world_->navigation->Settle();
+  }
+}
+
 Stage::Checkpoint Stage::Save() const {
   Checkpoint checkpoint;
   for (const ActorId id : world_->actor_ids) {
@@ -573,12 +595,25 @@ Stage::Checkpoint Stage::Save() const {
   }
   checkpoint.daylight = daylight_;
   checkpoint.sounds = sounds_.Save();
+  checkpoint.tasks = tasks_.Save();
+  checkpoint.navigation = world_->navigation;
+  if (world_->navigation != nullptr) {
+    checkpoint.walkers = world_->navigation->Save();
+  }
+  checkpoint.gates = gates_;
+  checkpoint.floor_changed = floor_changed_;
   return checkpoint;
 }
 
 void Stage::Restore(const Checkpoint& checkpoint) {
-  tasks_.Reset();
   daylight_ = checkpoint.daylight;
+  tasks_.Restore(*checkpoint.tasks);
+  world_->navigation = checkpoint.navigation;
+  if (world_->navigation != nullptr) {
+    world_->navigation->Restore(*checkpoint.walkers);
+  }
+  gates_ = checkpoint.gates;
+  floor_changed_ = checkpoint.floor_changed;
   CHECK(checkpoint.actors.size() == world_->actor_ids.size() &&
         checkpoint.objects.size() == world_->object_ids.size());
   for (size_t i = 0; i < checkpoint.actors.size(); ++i) {

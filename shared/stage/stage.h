@@ -56,6 +56,7 @@ struct Daylight {
 class Stage {
  public:
   static constexpr double kTickSeconds = Sounds::kTickSeconds;
+  static constexpr float kClipFade = 0.3f;  // seconds from one clip to the next
   // How long an utterance outlives its end, so that its captions can be read.
   static constexpr double kReadOnSeconds = 4.0;
   static double UtteredSeconds(const Utterance& utterance) {
@@ -88,6 +89,7 @@ class Stage {
   std::optional<ObjectId> FindObject(std::string_view name) const;
   std::optional<int> FindSpeech(std::string_view name) const;
   double SpeechSeconds(int speech) const;
+  const human::VisemeTrack& SpeechTrack(int speech) const;
   // nullptr when the id is stale.
   Actor* Find(ActorId id);
   const Actor* Find(ActorId id) const;
@@ -121,9 +123,12 @@ class Stage {
   // where no hour was set before.
   void SetHour(double hour, double seconds);
   const Daylight& daylight() const { return daylight_; }
+  // The best place for somebody to step to that is so far from a point, or a little
+  // further; none: there is no way to any.
+  std::optional<glm::vec2> FindAway(ActorId id, glm::vec2 from, float metres);
 
   // Where the visitor's eyes are, in the stage frame; none: nobody knows. Only gazes
-  // depend on it. While seeking it is as it was last set.
+  // depend on it.
   void SetVisitor(const std::optional<glm::vec3>& position);
 
   // ---- time ----
@@ -138,14 +143,26 @@ class Stage {
   // Allocates nothing once the snapshot has held as many.
   void Capture(StageSnapshot& snapshot) const;
 
-  // All that a stage remembers on which nobody has a task: a place in time to come
-  // back to.
+  // All that a stage remembers: a place in time to come back to, from which it goes on
+  // bit for bit as it did. Only for the stage that it was taken of, with the same people
+  // and things. The visitor is not part of it.
+  struct Gate {
+    ObjectId object;
+    bool open = false;
+  };
   struct Checkpoint {
     std::vector<Actor> actors;
     std::vector<Object> objects;
     Daylight daylight;
     Sounds::Checkpoint sounds;
+    std::shared_ptr<const Tasks::State> tasks;
+    std::shared_ptr<Navigation> navigation;  // floors that were built are not built again
+    std::shared_ptr<const Navigation::State> walkers;
+    std::vector<Gate> gates;
+    bool floor_changed = false;
   };
+  // Before Save(), and at each tick at which a drama might save: see Navigation::Settle.
+  void Settle();
   Checkpoint Save() const;
   void Restore(const Checkpoint& checkpoint);
 
@@ -165,10 +182,6 @@ class Stage {
   Sounds sounds_;
   NavigationOptions floor_;
   std::vector<std::pair<geometry::TriangleMesh, geometry::Similarity3>> solids_;
-  struct Gate {
-    ObjectId object;
-    bool open = false;
-  };
   std::vector<Gate> gates_;    // in the order of the navigation's
   bool floor_changed_ = true;  // since the navigation was built
 };

@@ -290,11 +290,46 @@ TaskReport Tasks::report(TaskId id) const {
   }
   if (task->is_over) {
     return {task->stage == Stage::kFailed ? TaskReport::State::kFailed : TaskReport::State::kDone,
-            task->message};
+            task->message, SyncPoint::kEnd};
   }
-  return {
-      task->stage == Stage::kWaiting ? TaskReport::State::kWaiting : TaskReport::State::kRunning,
-      task->message};
+  if (task->stage == Stage::kWaiting) {
+    return {TaskReport::State::kWaiting, task->message, std::nullopt};
+  }
+  return {TaskReport::State::kRunning, task->message, PointOf(*task)};
+}
+
+// What matters of each: of a walk the arrival, of taking and giving the moment at which
+// hands change, of putting that of letting go, of an action its course.
+SyncPoint Tasks::PointOf(const Task& task) const {
+  if (task.phase == Phase::kApproach) {
+    const Walk::Phase walk = world_.actors.Find(task.actor)->walk.phase;
+    const bool turns = walk == Walk::Phase::kNone || walk == Walk::Phase::kTurn;
+    return task.kind == Kind::kWalk && walk == Walk::Phase::kFace ? SyncPoint::kRelax
+           : task.kind == Kind::kWalk && !turns                   ? SyncPoint::kStrokeStart
+                                                                  : SyncPoint::kStart;
+  }
+  switch (task.phase) {
+    case Phase::kAct: {
+      const Object& object = world_.object(task.object);
+      const float duration = object.use().actions[static_cast<size_t>(task.action)].duration;
+      return task.time < 0.5f * duration ? SyncPoint::kStrokeStart
+             : task.time < duration      ? SyncPoint::kStroke
+                                         : SyncPoint::kStrokeEnd;
+    }
+    case Phase::kReach:
+      return task.kind == Kind::kGive ? SyncPoint::kStrokeStart : SyncPoint::kReady;
+    case Phase::kLower:
+    case Phase::kSit:
+      return SyncPoint::kStrokeStart;
+    case Phase::kBoth:
+      return SyncPoint::kStroke;
+    case Phase::kCarry:
+    case Phase::kLetGo:
+    case Phase::kRise:
+      return SyncPoint::kRelax;
+    default:
+      return SyncPoint::kReady;
+  }
 }
 
 void Tasks::Stop(TaskId id) {
@@ -367,6 +402,20 @@ void Tasks::FailAll(std::string_view why) {
 void Tasks::Reset() {
   tasks_.clear();
   last_ = 0;
+}
+
+struct Tasks::State {
+  std::vector<Task> tasks;
+  TaskId last = 0;
+};
+
+std::shared_ptr<const Tasks::State> Tasks::Save() const {
+  return std::make_shared<State>(State{tasks_, last_});
+}
+
+void Tasks::Restore(const State& state) {
+  tasks_.assign(state.tasks.begin(), state.tasks.end());  // keeps its room
+  last_ = state.last;
 }
 
 // ---- turns ----

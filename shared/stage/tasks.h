@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 
 #include "shared/core/status.h"
 #include "shared/stage/object.h"
+#include "shared/stage/sync_point.h"
 
 namespace lararium::stage {
 
@@ -34,6 +36,7 @@ struct TaskReport {
   State state = State::kUnknown;
   // Why it failed; of a done one, what was not quite as asked. For the drama's author.
   std::string_view message;
+  std::optional<SyncPoint> reached;  // the last of its points so far; none: it waits
 
   bool over() const { return state == State::kDone || state == State::kFailed; }
 };
@@ -88,6 +91,11 @@ class Tasks {
   // One tick.
   void Advance(float seconds);
   void Reset();
+
+  // All that it remembers.
+  struct State;
+  std::shared_ptr<const State> Save() const;
+  void Restore(const State& state);
 
  private:
   enum class Kind : uint8_t { kWalk, kUse, kTake, kPut, kGive };
@@ -146,6 +154,7 @@ class Tasks {
   Task* SeatOf(ActorId actor);
   // Whether somebody who sits need not get up for it.
   bool IsDoneSitting(const Task& task) const;
+  SyncPoint PointOf(const Task& task) const;
   bool IsSpotFor(const Task& task, int surface, int spot) const;
   bool CanReachSitting(ActorId actor, const glm::vec3& point) const;
   // Who sits gets up for what is not done sitting: whether somebody has to wait for that.

@@ -27,7 +27,7 @@ struct World {
   SlotMap<Object> objects;
   std::vector<ObjectId> object_ids;
   std::vector<Speech> speeches;
-  std::unique_ptr<Navigation> navigation;  // none until somebody walks
+  std::shared_ptr<Navigation> navigation;  // none until somebody walks
   std::optional<glm::vec3> visitor;        // stage
 
   Actor& actor(ActorId id) { return *actors.Find(id); }

@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cstdio>
+
+#include "shared/core/statistics.h"
 #include "tests/drama/drama_fixture.h"
 
 namespace lararium::drama {
@@ -16,7 +20,15 @@ struct Attack {
   const char* error;   // part of the message that must come; "" where none may
 };
 
-class SandboxTest : public DramaTest, public ::testing::WithParamInterface<Attack> {};
+class SandboxTest : public DramaTest, public ::testing::WithParamInterface<Attack> {
+ protected:
+  // Processor time of all attacks' longest frame. The bar is 50 ms; it is printed and not
+  // a test, because machines differ.
+  static void TearDownTestSuite() {
+    std::printf("worst frame under attack: %.1f ms\n", worst_frame_ms_);
+  }
+  static inline double worst_frame_ms_ = 0.0;
+};
 
 constexpr char kTooLong[] = "ran too long without waiting";
 constexpr char kTooMuch[] = "needs more memory";
@@ -25,18 +37,22 @@ constexpr char kText[] = "made a text longer";
 TEST_P(SandboxTest, Holds) {
   DramaOptions options;
   options.memory_limit = 16 << 20;
-  options.instruction_limit = 300'000;
   const auto drama = Make(std::string("function main()\n") + GetParam().script +
                               "\nend\n"
                               "start(function() wait(0.1) actor('guest'):place{ x = 5 } end)",
                           options);
-  for (int i = 0; i < 30; ++i) {
-    drama->Tick();
+  // Frames of four ticks, as at 30 frames a second.
+  for (int frame = 0; frame < 8; ++frame) {
+    const double begin = ThreadCpuMilliseconds();
+    for (int tick = 0; tick < 4; ++tick) {
+      drama->Tick();
+    }
+    worst_frame_ms_ = std::max(worst_frame_ms_, ThreadCpuMilliseconds() - begin);
   }
   if (*GetParam().error == '\0') {
     EXPECT_EQ(FirstError(*drama), "");
   } else {
-    ASSERT_EQ(drama->errors().size(), 1u);
+    ASSERT_GE(drama->errors().size(), 1u);
     EXPECT_THAT(FirstError(*drama), HasSubstr(GetParam().error));
   }
   EXPECT_EQ(State("guest").position.x, 5.0f) << "the rest of the drama must live on";
@@ -151,13 +167,34 @@ const Attack kAttacks[] = {
     {"ConcatBomb", "local t = {} for i = 1, 3 do t[i] = ('x'):rep(60000) end table.concat(t)",
      kText},
     {"GsubGrows", "local s = ('x'):rep(1000) while true do s = s:gsub('x', 'xx') end", "too long"},
-    {"DeepRecursion", "local function f() return 1 + f() end f()", kTooLong},
+    {"DeepRecursion", "local function f() return 1 + f() end f()", "the script"},
     {"DeepRecursionInPcall",
      "local function f() return 1 + f() end\n"
      "for i = 1, 3 do assert(not pcall(f)) end",
-     kTooLong},
+     "the script"},
     {"CoroutineRecursion", "local function f() coroutine.wrap(f)() end f()", kTooLong},
     {"GsubRecursion", "local function f() return (('x'):gsub('x', f)) end f()", "C stack overflow"},
+
+    // Of what is new.
+    {"TriggerBomb", "for i = 1, 5000 do start(function() first(timeout(99)) end) end", "more than"},
+    {"OnBomb", "while true do on(timeout(0), function() wait(9) end) end", "more than"},
+    {"OnItself", "on(timeout(0), function() local f f = function() on(timeout(0), f) end f() end)",
+     ""},
+    {"WaitsForItself",
+     "local h h = start(function() wait(0.01) wait_for(h) end) wait(0.02) assert(not h:is_over())",
+     ""},
+    {"AtBomb",
+     "local h = start(function() wait(9) end) while true do at(h, 'start', f or wait) end",
+     "more than 1024 tasks"},
+    {"HugeOffset", "wait_for(start(function() wait(1) end), 'end', 1e300)", "give a number"},
+    {"MeetNobody", "meet('stroke', {{id = 1 << 40}, 'gesture', 'bow'})", "left the stage"},
+    {"ForgedHandle", "wait_for({task = 1 << 62}) wait_for({task = -1})", ""},
+    {"ForgedTrigger", "first({is_trigger = true, kind = 'near', metres = 0/0})", "finite number"},
+    {"ForgedActor", "visitor:near({id = 1 << 50}, 1) first(visitor:near({id = 1 << 50}, 1))",
+     "left the stage"},
+    {"TrackWhilePlaying", "track{markers = {{at = 1, name = 'x'}}}", "only while the script loads"},
+    {"HandlesAreLocked", "setmetatable(start(function() end), {})", "protected metatable"},
+    {"VisitorIsLocked", "setmetatable(visitor, {})", "protected metatable"},
 
     // Ways out.
     {"NoLoaders", "assert(load == nil and loadstring == nil and loadfile == nil and dofile == nil)",

@@ -128,12 +128,12 @@ TEST_F(WordsTest, LooksGoWhereTheyAreTold) {
       wait(1)
       keeper:look_at(false)
     end)");
-  stage_.SetVisitor(glm::vec3(0.5f, 1.7f, -2.0f));
+  drama->SetVisitor({.tracked = true, .position = {0.5f, 1.7f, -2.0f}});
   PlayTo(*drama, 0.5);
   const human::Gaze& gaze = State("keeper").performance.gaze;
   EXPECT_EQ(gaze.kind, human::GazeKind::kPerson);
   EXPECT_EQ(gaze.target, glm::vec3(0.5f, 1.7f, -2.0f));
-  stage_.SetVisitor(std::nullopt);
+  drama->SetVisitor({});
   PlayTo(*drama, 0.6);
   EXPECT_EQ(gaze.kind, human::GazeKind::kNothing) << "nobody knows where the visitor is";
   PlayTo(*drama, 1.5);
@@ -150,7 +150,7 @@ TEST_F(WordsTest, ByThemselvesPeopleLookAtOthersAndTheVisitorUnlessTheyAreToldNo
         Make(std::string("function main() local k = actor('keeper') k:place{} "
                          "actor('guest'):place{ z = -2, heading = 180 } k:attention(") +
              attention + ") end");
-    stage_.SetVisitor(glm::vec3(1.0f, 1.6f, -2.0f));
+    drama->SetVisitor({.tracked = true, .position = {1.0f, 1.6f, -2.0f}});
     int guest = 0;
     int visitor = 0;
     int nothing = 0;

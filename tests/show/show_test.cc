@@ -146,6 +146,54 @@ TEST_F(ShowTest, SteadyPlayReusesItsBuffers) {
   }
 }
 
+TEST_F(ShowTest, ADramaHoldsWhileTrackingIsLostIfItsAuthorWantsThat) {
+  show::ShowContent content = test::SmallContent();
+  content.drama = "drama{when_lost = 'hold', patience = 0.5}\n" + content.drama;
+  const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
+  StagedFrame staged;
+  double time = 0.0;
+  const auto play = [&](bool tracked, double seconds) {
+    for (int i = 0; i < seconds * 60.0; ++i) {
+      time += 1.0 / 60.0;
+      show->StageFrame(tracked ? test::FakePoses().Track({}) : vision::TrackedFrame(), time,
+                       staged);
+    }
+  };
+  play(true, 0.2);
+  EXPECT_NEAR(staged.time, 0.2, 1e-6);
+  play(false, 2.0);
+  EXPECT_NEAR(staged.time, 0.7, 0.04) << "has patience for half a second";
+  play(true, 0.2);
+  EXPECT_NEAR(staged.time, 0.9, 0.04) << "goes on where it was";
+  time = -1.0 / 60.0;
+  play(true, 0.1);
+  EXPECT_NEAR(staged.time, 0.1, 0.02) << "who goes back has nothing to catch up with";
+}
+
+TEST_F(ShowTest, TheDramaHearsOfItsVisitor) {
+  show::ShowContent content = test::SmallContent();
+  content.drama = R"(
+    local one = actor("one")
+    on(key("space"), function() one:place{ x = 1 } end)
+    on(clock("9:30"), function() one:place{ z = 1 } end)
+    function main()
+      one:place{}
+      wait(0.2)
+      one:place{ y = visitor:where().z }
+    end)";
+  const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
+  show->SetHour(9.4f);
+  StagedFrame staged = At(*show, 0.1);
+  show->PressKey("space");
+  show->SetHour(9.6f);
+  staged = At(*show, 0.3);
+  const glm::vec3 at = staged.actors.at(0).stage_from_actor[3];
+  EXPECT_EQ(at.x, 1.0f);
+  EXPECT_EQ(at.z, 1.0f);
+  // 4 map units before the stage's origin, 2 to the metre.
+  EXPECT_NEAR(at.y, -2.0f, 1e-3f);
+}
+
 TEST_F(ShowTest, AScriptThatDoesNotCompileIsNamed) {
   ShowContent content = test::SmallContent();
   content.drama = "local = 3";

@@ -240,6 +240,26 @@ local function visit()
   patrician:hide()
 end
 
+-- Whoever looks at the girl is told whose daughter she is; who only stays is waited on by
+-- the server; who goes by is looked after.
+local function notice_visitor()
+  girl:look_at("visitor")
+  local what = first(visitor:looks_at(girl, {seconds = 1}), visitor:stays(4), timeout(5))
+  if what == 1 then
+    try(function() girl:face("visitor") end)
+    girl:express("joy", 0.8, 0.4)
+    girl:say("mater_mea")
+    girl:express("neutral", 0, 1.5)
+  elseif what == 2 then
+    girl:look_at(server)
+    server:look_at("visitor")
+    server:express("joy", 0.6, 0.5)
+    wait(2.5)
+    server:express("neutral", 0, 1.5)
+    server:look_at()
+  end
+end
+
 -- Everything is new.
 local function play()
   girl:look_at("visitor")
@@ -252,8 +272,7 @@ local function play()
   try(function() girl:use("brazier", "warm_hands") end)
   wait(4)
   try(function() girl:walk_to{x = 0.50, z = -0.10, heading = 190} end)
-  girl:look_at("visitor")
-  wait(5)
+  notice_visitor()
   girl:look_at(patrician)
   wait(6)
   girl:look_at()

@@ -1,0 +1,224 @@
+#include "shared/drama/triggers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace lararium::drama {
+namespace {
+
+using Kind = TriggerSpec::Kind;
+
+constexpr float kLookAwayShare = 1.3f;  // of the angle: between the two nothing changes
+constexpr float kGlance = 0.3f;         // seconds that a look elsewhere does not count
+
+// The upright line that stands for a target: of a person from its knees to its eyes.
+struct Upright {
+  glm::vec3 low;
+  glm::vec3 high;
+};
+
+std::optional<Upright> UprightOf(const stage::Stage& stage, const TriggerSpec& spec) {
+  switch (spec.target) {
+    case TriggerSpec::Target::kActor: {
+      const stage::Actor* actor = stage.Find(spec.actor);
+      if (actor == nullptr || !actor->state.visible) {
+        return std::nullopt;
+      }
+      const glm::vec3& feet = actor->state.position;
+      const float eyes = actor->eye_height();
+      return Upright{feet + glm::vec3(0.0f, 0.3f * eyes, 0.0f), feet + glm::vec3(0.0f, eyes, 0.0f)};
+    }
+    case TriggerSpec::Target::kObject: {
+      const stage::Object* object = stage.Find(spec.object);
+      if (object == nullptr || !object->state.visible) {
+        return std::nullopt;
+      }
+      const glm::vec3& at = object->state.stage_from_object.position;
+      return Upright{at, at};
+    }
+    case TriggerSpec::Target::kPoint:
+      return Upright{spec.point, spec.point};
+    default:
+      return std::nullopt;
+  }
+}
+
+float FloorDistance(const glm::vec3& a, const glm::vec3& b) {
+  return std::hypot(a.x - b.x, a.z - b.z);
+}
+
+// The least angle between the visitor's look and a target, radians.
+std::optional<float> AngleTo(const Happenings& now, const TriggerSpec& spec) {
+  const auto upright = UprightOf(now.stage, spec);
+  if (!upright) {
+    return std::nullopt;
+  }
+  constexpr int kSamples = 8;
+  float best = -1.0f;  // cosine
+  for (int i = 0; i <= kSamples; ++i) {
+    const float share = static_cast<float>(i) / kSamples;
+    const glm::vec3 way =
+        (1.0f - share) * upright->low + share * upright->high - now.visitor.position;
+    const float length = glm::length(way);
+    best = length > 1e-4f ? std::max(best, glm::dot(way, now.visitor.direction) / length) : 1.0f;
+  }
+  return std::acos(std::clamp(best, -1.0f, 1.0f));
+}
+
+void Fire(Trigger& trigger) { ++trigger.fired; }
+
+void UpdateNear(const Happenings& now, Trigger& trigger) {
+  const auto distance = DistanceTo(now.stage, trigger.spec, now.visitor.position);
+  if (!distance || !now.visitor.tracked) {
+    return;
+  }
+  const bool was_near = trigger.on;
+  trigger.on = *distance < trigger.spec.metres || (was_near && *distance <= trigger.spec.leave);
+  if (trigger.on != was_near && trigger.on == (trigger.spec.kind == Kind::kNear)) {
+    Fire(trigger);
+  }
+}
+
+// `on`: it is being looked at; `held`: for how long that is contradicted, or confirmed
+// before it is so.
+void UpdateLook(const Happenings& now, Trigger& trigger) {
+  const auto angle = AngleTo(now, trigger.spec);
+  if (!angle || !now.visitor.tracked) {
+    return;
+  }
+  const bool fires_on_look = trigger.spec.kind == Kind::kLooksAt;
+  const float limit = trigger.on ? kLookAwayShare * trigger.spec.angle : trigger.spec.angle;
+  const bool looks = *angle <= limit;
+  trigger.held = looks != trigger.on ? trigger.held + now.passed : 0.0f;
+  const float needed = trigger.on == fires_on_look ? kGlance : trigger.spec.seconds;
+  if (looks != trigger.on && trigger.held >= needed) {
+    trigger.on = looks;
+    trigger.held = 0.0f;
+    if (looks == fires_on_look) {
+      Fire(trigger);
+    }
+  }
+}
+
+void UpdateStay(const Happenings& now, Trigger& trigger) {
+  if (!now.visitor.tracked) {
+    return;
+  }
+  bool stays = false;
+  if (trigger.spec.target != TriggerSpec::Target::kNone) {
+    const auto distance = DistanceTo(now.stage, trigger.spec, now.visitor.position);
+    stays = distance && *distance < trigger.spec.metres;
+  } else {
+    stays = FloorDistance(trigger.from, now.visitor.position) < trigger.spec.metres;
+  }
+  if (!stays) {
+    trigger.from = now.visitor.position;
+    trigger.held = 0.0f;
+    trigger.on = false;
+    return;
+  }
+  trigger.held += now.passed;
+  if (!trigger.on && trigger.held >= trigger.spec.seconds) {
+    trigger.on = true;
+    Fire(trigger);
+  }
+}
+
+void UpdateTimeout(const Happenings& now, Trigger& trigger) {
+  trigger.held += now.passed;
+  if (!trigger.on && trigger.held >= trigger.spec.seconds - 0.5f * now.passed) {
+    trigger.on = true;
+    Fire(trigger);
+  }
+}
+
+bool HasKey(const std::string& keys, const std::string& key) {
+  for (size_t begin = 0; begin < keys.size();) {
+    const size_t end = std::min(keys.find(' ', begin), keys.size());
+    if (keys.compare(begin, end - begin, key) == 0) {
+      return true;
+    }
+    begin = end + 1;
+  }
+  return false;
+}
+
+// Tracking is lost once it has been for so long; back once it was lost.
+void UpdateTracking(const Happenings& now, Trigger& trigger) {
+  const bool was_lost = trigger.on;
+  trigger.on = !now.visitor.tracked && now.lost_seconds >= trigger.spec.seconds;
+  if (trigger.on != was_lost && trigger.on == (trigger.spec.kind == Kind::kLost)) {
+    Fire(trigger);
+  }
+}
+
+void UpdateClock(const Happenings& now, Trigger& trigger) {
+  if (now.visitor.hour < 0.0f) {
+    return;
+  }
+  // Half a day from the hour on counts as behind it; `held`: whether it was ever before.
+  const float behind = std::remainder(now.visitor.hour - trigger.spec.seconds / 3600.0f, 24.0f);
+  const bool was_before = trigger.held > 0.0f && !trigger.on;
+  trigger.on = behind >= 0.0f;
+  trigger.held = 1.0f;
+  if (trigger.on && was_before) {
+    Fire(trigger);
+  }
+}
+
+}  // namespace
+
+Status TriggerSpec::Validate() const {
+  const auto within = [](float value, float low, float high) {
+    return value >= low && value <= high;
+  };
+  if (!within(metres, 0.0f, 1000.0f) || !within(leave, 0.0f, 10000.0f) ||
+      !within(angle, 0.0f, 3.2f) || !within(seconds, 0.0f, 86400.0f)) {
+    return Status::Error("trigger", "a distance, an angle or a time is out of range");
+  }
+  const bool has_target = target != Target::kNone;
+  const bool needs_target = kind == Kind::kNear || kind == Kind::kLeaves ||
+                            kind == Kind::kLooksAt || kind == Kind::kLooksAway;
+  if (needs_target && !has_target) {
+    return Status::Error("trigger", "name an actor, an object or a point");
+  }
+  return Status();
+}
+
+std::optional<float> DistanceTo(const stage::Stage& stage,
+                                const TriggerSpec& spec,
+                                const glm::vec3& visitor) {
+  const auto upright = UprightOf(stage, spec);
+  return upright ? std::optional(FloorDistance(upright->low, visitor)) : std::nullopt;
+}
+
+void UpdateTrigger(const Happenings& now, Trigger& trigger) {
+  switch (trigger.spec.kind) {
+    case Kind::kNear:
+    case Kind::kLeaves:
+      return UpdateNear(now, trigger);
+    case Kind::kLooksAt:
+    case Kind::kLooksAway:
+      return UpdateLook(now, trigger);
+    case Kind::kStays:
+      return UpdateStay(now, trigger);
+    case Kind::kTimeout:
+      return UpdateTimeout(now, trigger);
+    case Kind::kLost:
+    case Kind::kBack:
+      return UpdateTracking(now, trigger);
+    case Kind::kKey:
+      if (HasKey(now.visitor.keys, trigger.spec.text)) {
+        Fire(trigger);
+      }
+      return;
+    case Kind::kClock:
+      return UpdateClock(now, trigger);
+    case Kind::kMarker:
+      trigger.fired += std::count(now.markers.begin(), now.markers.end(), trigger.spec.text);
+      return;
+  }
+}
+
+}  // namespace lararium::drama

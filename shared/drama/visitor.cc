@@ -1,0 +1,146 @@
+#include "shared/drama/visitor.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "shared/core/file.h"
+
+namespace lararium::drama {
+namespace {
+
+constexpr std::string_view kHeader = "lararium visitor 1\n";
+constexpr size_t kMaxEntries = 10'000'000;
+constexpr int64_t kMaxTick = int64_t{24} * 3600 * 120;
+constexpr size_t kMaxKeys = 200;  // bytes, of one tick
+
+// Words of a line.
+class Words {
+ public:
+  explicit Words(std::string_view line) : rest_(line) {}
+
+  template <typename T>
+  bool Number(T& value) {
+    Skip();
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc()) {
+      return false;
+    }
+    rest_.remove_prefix(static_cast<size_t>(end - rest_.data()));
+    return rest_.empty() || rest_.front() == ' ';
+  }
+  std::string_view Rest() {
+    Skip();
+    return rest_;
+  }
+
+ private:
+  void Skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size())); }
+  std::string_view rest_;
+};
+
+bool IsPlausible(const Visitor& visitor) {
+  const auto near = [](const glm::vec3& v, float limit) {
+    return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+  };
+  return near(visitor.position, 1e5f) && near(visitor.direction, 1.01f) &&
+         glm::length(visitor.direction) > 0.9f && visitor.hour >= -1.0f && visitor.hour <= 24.0f;
+}
+
+bool ParseLine(std::string_view line, VisitorLog::Entry& entry) {
+  Words words(line);
+  int tracked = 0;
+  Visitor& visitor = entry.visitor;
+  bool read = words.Number(entry.tick) && words.Number(tracked);
+  for (float* value :
+       {&visitor.position.x, &visitor.position.y, &visitor.position.z, &visitor.direction.x,
+        &visitor.direction.y, &visitor.direction.z, &visitor.hour}) {
+    read = read && words.Number(*value);
+  }
+  visitor.tracked = tracked == 1;
+  visitor.keys = words.Rest();
+  return read && (tracked == 0 || tracked == 1) && entry.tick >= 0 && entry.tick <= kMaxTick &&
+         visitor.keys.size() <= kMaxKeys && IsPlausible(visitor);
+}
+
+void AppendNumber(std::string& out, float value) {
+  char digits[32];
+  const auto [end, error] = std::to_chars(digits, digits + sizeof(digits), value);
+  out += ' ';
+  out.append(digits, error == std::errc() ? end : digits);
+}
+
+}  // namespace
+
+Result<VisitorLog> VisitorLog::Read(std::string_view text, std::string_view place) {
+  if (!text.starts_with(kHeader)) {
+    return Status::Error(place, "is no visitor log", "record one with --visitor-log");
+  }
+  VisitorLog log;
+  text.remove_prefix(kHeader.size());
+  for (size_t line = 2; !text.empty(); ++line) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    Entry entry;
+    if (!ParseLine(text.substr(0, end), entry) || log.entries_.size() >= kMaxEntries ||
+        (!log.entries_.empty() && entry.tick <= log.entries_.back().tick)) {
+      return Status::Error(std::string(place) + ":" + std::to_string(line),
+                           "is not the next line of a visitor log", "record it again");
+    }
+    log.entries_.push_back(std::move(entry));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return log;
+}
+
+Result<VisitorLog> VisitorLog::Load(const std::filesystem::path& path) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(path));
+  return Read(text, path.string());
+}
+
+std::string VisitorLog::Write() const {
+  std::string out(kHeader);
+  for (const Entry& entry : entries_) {
+    const Visitor& visitor = entry.visitor;
+    out += std::to_string(entry.tick) + (visitor.tracked ? " 1" : " 0");
+    for (const float value :
+         {visitor.position.x, visitor.position.y, visitor.position.z, visitor.direction.x,
+          visitor.direction.y, visitor.direction.z, visitor.hour}) {
+      AppendNumber(out, value);
+    }
+    out += (visitor.keys.empty() ? "" : " ") + visitor.keys + "\n";
+  }
+  return out;
+}
+
+void VisitorLog::Set(int64_t tick, const Visitor& visitor) {
+  if (At(tick) == visitor) {
+    return;
+  }
+  if (!entries_.empty() && entries_.back().tick == tick) {
+    entries_.back().visitor = visitor;
+  } else {
+    entries_.push_back({tick, visitor});
+  }
+}
+
+Visitor VisitorLog::At(int64_t tick) const {
+  const auto next = std::upper_bound(entries_.begin(), entries_.end(), tick,
+                                     [](int64_t t, const Entry& entry) { return t < entry.tick; });
+  if (next == entries_.begin()) {
+    return {};
+  }
+  Visitor visitor = (next - 1)->visitor;
+  if ((next - 1)->tick != tick) {
+    visitor.keys.clear();
+  }
+  return visitor;
+}
+
+void VisitorLog::Truncate(int64_t tick) {
+  while (!entries_.empty() && entries_.back().tick > tick) {
+    entries_.pop_back();
+  }
+}
+
+}  // namespace lararium::drama

@@ -1,0 +1,149 @@
+// What a script asks of its visitor, and waits for.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "shared/drama/lua_binding.h"
+#include "shared/drama/run.h"
+
+namespace lararium::drama {
+namespace {
+
+constexpr size_t kMaxTriggers = 1000;
+constexpr size_t kMaxName = 100;  // bytes, of keys and markers
+
+}  // namespace
+
+const Trigger* Run::FindTrigger(int64_t id) const {
+  const auto found = std::find_if(state_.triggers.begin(), state_.triggers.end(),
+                                  [id](const Trigger& trigger) { return trigger.id == id; });
+  return found == state_.triggers.end() ? nullptr : &*found;
+}
+
+// From argument on: "none", or "actor", id, or "object", id, or "point", x, y, z.
+TriggerSpec Run::CheckTrigger(lua_State* lua, int argument) {
+  TriggerSpec spec;
+  constexpr const char* kTargets[] = {"none", "actor", "object", "point", nullptr};
+  spec.target =
+      static_cast<TriggerSpec::Target>(luaL_checkoption(lua, argument, nullptr, kTargets));
+  switch (spec.target) {
+    case TriggerSpec::Target::kActor:
+      CheckActor(lua, argument + 1);
+      spec.actor = CheckActorId(lua, argument + 1);
+      break;
+    case TriggerSpec::Target::kObject:
+      CheckObject(lua, argument + 1);
+      spec.object = CheckObjectId(lua, argument + 1);
+      break;
+    case TriggerSpec::Target::kPoint:
+      spec.point = {CheckFinite(lua, argument + 1, "x"), CheckFinite(lua, argument + 2, "y"),
+                    CheckFinite(lua, argument + 3, "z")};
+      break;
+    default:
+      break;
+  }
+  return spec;
+}
+
+// trigger(kind, metres, leave, angle, seconds, text, target...) -> its number
+int Run::AddTrigger(lua_State* lua) {
+  constexpr const char* kKinds[] = {"near", "leaves", "looks_at", "looks_away", "stays",  "timeout",
+                                    "lost", "back",   "key",      "clock",      "marker", nullptr};
+  static_assert(std::size(kKinds) == TriggerSpec::kKinds + 1);
+  const auto kind = static_cast<TriggerSpec::Kind>(luaL_checkoption(lua, 1, nullptr, kKinds));
+  Trigger trigger;
+  trigger.spec = CheckTrigger(lua, 7);
+  trigger.spec.kind = kind;
+  trigger.spec.metres = static_cast<float>(CheckFinite(lua, 2, "the distance"));
+  trigger.spec.leave =
+      std::max(static_cast<float>(CheckFinite(lua, 3, "the distance")), trigger.spec.metres);
+  trigger.spec.angle = static_cast<float>(CheckFinite(lua, 4, "the angle"));
+  trigger.spec.seconds = static_cast<float>(CheckFinite(lua, 5, "the time"));
+  trigger.spec.text = CheckText(lua, 6);
+  if (const Status status = trigger.spec.Validate(); !status.ok()) {
+    return luaL_error(lua, "%s", status.message().c_str());
+  }
+  if (state_.triggers.size() >= kMaxTriggers || trigger.spec.text.size() > kMaxName) {
+    return luaL_error(lua, "there are more than %d triggers at once, or a name is too long",
+                      static_cast<int>(kMaxTriggers));
+  }
+  trigger.id = ++state_.last_trigger;
+  trigger.from = state_.visitor.position;
+  state_.triggers.push_back(std::move(trigger));
+  lua_pushinteger(lua, state_.last_trigger);
+  return 1;
+}
+
+// drop_trigger(number); one that is gone is fine
+int Run::DropTrigger(lua_State* lua) {
+  const int64_t id = luaL_checkinteger(lua, 1);
+  std::erase_if(state_.triggers, [id](const Trigger& trigger) { return trigger.id == id; });
+  return 0;
+}
+
+// fired(number) -> how often
+int Run::PushFired(lua_State* lua) {
+  const Trigger* trigger = FindTrigger(luaL_checkinteger(lua, 1));
+  lua_pushinteger(lua, trigger == nullptr ? 0 : trigger->fired);
+  return 1;
+}
+
+// await_fired(numbers, counts): until one of them has fired more often than that
+int Run::AwaitFired(lua_State* lua) {
+  luaL_checktype(lua, 1, LUA_TTABLE);
+  luaL_checktype(lua, 2, LUA_TTABLE);
+  std::vector<std::pair<int64_t, int64_t>> awaited;
+  for (lua_Integer i = 1; lua_rawgeti(lua, 1, i) == LUA_TNUMBER; ++i) {
+    lua_rawgeti(lua, 2, i);
+    awaited.emplace_back(lua_tointeger(lua, -2), lua_tointeger(lua, -1));
+    lua_pop(lua, 2);
+  }
+  return scheduler_.WaitUntil(lua, "wait_for", [this, awaited = std::move(awaited)] {
+    return std::any_of(awaited.begin(), awaited.end(), [this](const auto& one) {
+      const Trigger* trigger = FindTrigger(one.first);
+      return trigger != nullptr && trigger->fired > one.second;
+    });
+  });
+}
+
+// visitor() -> tracked, x, y, z, heading; those of when it was last tracked
+int Run::PushVisitor(lua_State* lua) {
+  const Visitor& visitor = state_.visitor;
+  lua_pushboolean(lua, visitor.tracked ? 1 : 0);
+  for (const float value : {visitor.position.x, visitor.position.y, visitor.position.z}) {
+    lua_pushnumber(lua, value);
+  }
+  lua_pushnumber(lua, stage::HeadingOf({visitor.direction.x, visitor.direction.z}));
+  return 5;
+}
+
+// distance(target...) -> metres between visitor and target on the floor; nil: there is none
+int Run::PushDistance(lua_State* lua) {
+  const TriggerSpec spec = CheckTrigger(lua, 1);
+  const auto distance = DistanceTo(stage_, spec, state_.visitor.position);
+  if (distance && state_.visitor.tracked) {
+    lua_pushnumber(lua, *distance);
+  } else {
+    lua_pushnil(lua);
+  }
+  return 1;
+}
+
+// aside(actor, metres) -> x, z: the nearest place, by a short way, that is so far from the
+// visitor; or nil
+int Run::PushAside(lua_State* lua) {
+  CheckFreeActor(lua);
+  const auto metres = static_cast<float>(CheckFinite(lua, 2, "the distance"));
+  const glm::vec3& visitor = state_.visitor.position;
+  const auto place = stage_.FindAway(CheckActorId(lua, 1), {visitor.x, visitor.z}, metres);
+  if (!place) {
+    lua_pushnil(lua);
+    return 1;
+  }
+  lua_pushnumber(lua, place->x);
+  lua_pushnumber(lua, place->y);
+  return 2;
+}
+
+}  // namespace lararium::drama

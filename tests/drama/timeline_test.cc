@@ -1,0 +1,162 @@
+// Lanes as they are played.
+
+#include "shared/drama/timeline.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/drama/drama_fixture.h"
+#include "tests/stage/test_props.h"
+
+namespace lararium::drama {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class TimelineTest : public DramaTest {
+ protected:
+  TimelineTest() {
+    EXPECT_TRUE(
+        stage_.AddObject("table", test::Model(test::MakeTable()), {{-1.5f, 0.0f, 0.0f}}).ok());
+    EXPECT_TRUE(
+        stage_.AddObject("chest", test::Model(test::MakeChest()), {{1.5f, 0.0f, 0.0f}}).ok());
+    EXPECT_TRUE(stage_.AddObject("cup", test::Model(test::MakeCup()), {{0.0f, 0.0f, -2.0f}}).ok());
+    human::VisemeTrack track;
+    track.keys = {{0.0f, human::Viseme::kAa, 1.0f}};
+    track.duration = 1.0f;
+    EXPECT_TRUE(stage_.AddSpeech("salvete", track).ok());
+  }
+};
+
+constexpr char kAll[] = R"(
+  track{ actor = "keeper",
+    walks = {{id = "enter", at = 0, from = {x = -2, z = -2, heading = 180}},
+             {at = 18, length = 6, to = {x = 2, z = 2, heading = 90}},
+             {at = 32, hide = true}},
+    uses = {{at = 1, object = "cup", action = "take"},
+            {at = 8, object = "cup", action = "put", on = "table", surface = "top"},
+            {at = 12, object = "chest", action = "open"}},
+    gaze = {{at = 1, length = 2, target = "guest"}},
+    expressions = {{at = 2, length = 2, expression = "joy", intensity = 0.8, fade = 0.2}},
+    speech = {{at = 3, line = "salvete"}},
+    gestures = {{at = 28, clip = "bow"}},
+  }
+  track{ actor = "guest", walks = {{at = 0, from = {x = 3, z = 3}}} }
+  track{ markers = {{at = 5, name = "five"}} }
+)";
+
+TEST_F(TimelineTest, LanesArePlayedWithoutAnyScript) {
+  const auto drama = Make(kAll);
+  EXPECT_TRUE(State("keeper").visible);
+  EXPECT_EQ(State("keeper").position.x, -2.0f);
+  PlayTo(*drama, 1.5);
+  EXPECT_EQ(State("keeper").performance.gaze.kind, human::GazeKind::kPerson);
+  PlayTo(*drama, 2.5);
+  EXPECT_NEAR(State("keeper").performance.face.expressions[1], 0.8f, 0.01f);
+  PlayTo(*drama, 3.5);
+  EXPECT_GT(State("keeper").performance.face.visemes[static_cast<size_t>(human::Viseme::kAa)],
+            0.5f);
+  PlayTo(*drama, 5.0);
+  EXPECT_NEAR(State("keeper").performance.face.expressions[1], 0.0f, 0.01f);
+  PlayTo(*drama, 7.5);
+  EXPECT_EQ(stage_.Find(*stage_.FindObject("cup"))->state.holder, *stage_.Find("keeper"));
+  PlayTo(*drama, 28.1);
+  EXPECT_EQ(FirstError(*drama), "");
+  EXPECT_EQ(stage_.Find(*stage_.FindObject("cup"))->state.support.object,
+            *stage_.FindObject("table"));
+  EXPECT_EQ(stage_.Find(*stage_.FindObject("chest"))->state.state, 1);
+  EXPECT_NEAR(State("keeper").position.x, 2.0f, 1e-4f);
+  EXPECT_EQ(State("keeper").performance.animation.clip, 2);
+  PlayTo(*drama, 32.1);
+  EXPECT_FALSE(State("keeper").visible);
+}
+
+TEST_F(TimelineTest, WhatLanesDidIsToldWithItsTimes) {
+  const auto drama = Make(kAll);
+  PlayTo(*drama, 33.0);
+  int takes = 0;
+  for (const TaskRecord& task : drama->tasks()) {
+    EXPECT_TRUE(task.from_timeline);
+    EXPECT_FALSE(task.failed);
+    if (task.action == "take") {
+      ++takes;
+      EXPECT_EQ(task.object, "cup");
+      EXPECT_NEAR(task.began, 1.0, 1e-6);
+      EXPECT_GT(task.ended, 2.0);
+      EXPECT_THAT(task.where, StartsWith("drama.lua:2"));
+    }
+  }
+  EXPECT_EQ(takes, 1);
+  EXPECT_EQ(drama->tasks().size(), 12u);
+}
+
+TEST_F(TimelineTest, SeekingAPureTimelineRunsNoScript) {
+  const auto drama = Make(kAll);
+  std::vector<stage::StageSnapshot> played = {Snapshot()};
+  for (int i = 0; i < 33 * Drama::kTicksPerSecond; ++i) {
+    drama->Tick();
+    played.push_back(Snapshot());
+  }
+  for (const uint32_t tick : {2000u, 100u, 1500u, 1499u, 2900u, 0u, 700u}) {
+    ASSERT_TRUE(drama->Seek(static_cast<double>(tick) / Drama::kTicksPerSecond).ok());
+    EXPECT_TRUE(Snapshot() == played[tick]) << tick;
+  }
+}
+
+TEST_F(TimelineTest, ScriptsWaitForMarkers) {
+  const auto drama = Make(std::string(kAll) + R"(
+    on(marker("five"), function() actor("guest"):place{ x = now() } end))");
+  PlayTo(*drama, 6.0);
+  EXPECT_NEAR(State("guest").position.x, 5.0f, 0.01f);
+}
+
+TEST_F(TimelineTest, WhatCannotBeDoneIsToldWithItsItemAndTheRestGoesOn) {
+  const auto drama = Make(R"(
+    track{ actor = "keeper",
+      walks = {{at = 0, from = {x = 0, z = 1}}, {at = 3, to = {x = 1, z = 1}}},
+      uses = {{id = "shut it", at = 1, object = "chest", action = "shut"}} })");
+  PlayTo(*drama, 8.0);
+  EXPECT_THAT(FirstError(*drama), StartsWith("drama.lua:2: track: uses 'shut it': "));
+  EXPECT_THAT(FirstError(*drama), HasSubstr("it is 'shut'"));
+  EXPECT_EQ(State("keeper").position.x, 1.0f);
+}
+
+TEST_F(TimelineTest, EaseShapesTheWayOfWhoIsLed) {
+  const auto drama = Make(R"(
+    track{ actor = "keeper", clips = {
+      {at = 0, length = 4, clip = "walk", from = {x = 0}, to = {x = 4}, ease = "smooth"}}})");
+  PlayTo(*drama, 1.0);
+  EXPECT_NEAR(State("keeper").position.x, 4.0 * Eased(Ease::kSmooth, 0.25), 1e-4);
+  PlayTo(*drama, 2.0);
+  EXPECT_NEAR(State("keeper").position.x, 2.0, 1e-4);
+}
+
+TEST_F(TimelineTest, MistakesAreToldWithTheirItem) {
+  const struct {
+    const char* track;
+    const char* problem;
+  } kMistakes[] = {
+      {"speech = {{at = 1, line = 'salvete'}, {at = 2, line = 'poem'}}",
+       "track: speech[2]: there is no line 'poem'"},
+      {"speech = {{line = 'salvete'}}", "track: speech[1]: says not `at`"},
+      {"walks = {{at = 1}}", "track: walks[1]: say where to go"},
+      {"uses = {{at = 1, object = 'anvil'}}", "track: uses[1]: there is no object 'anvil'"},
+      {"uses = {{at = 1, object = 'chest', action = 'eat'}}", "'chest' has no action 'eat'"},
+      {"gaze = {{at = 1, target = 'nobody'}}", "there is nobody and nothing"},
+      {"expressions = {{at = 1, expression = 'hunger'}}", "there is no expression 'hunger'"},
+      {"expressions = {{at = 1, expression = 'joy', intensity = 3}}", "intensity must be"},
+      {"gestures = {{at = 1, clip = 'fly'}}", "has no clip 'fly'"},
+      {"gestures = {{at = 1, clip = 'bow', part = 'foot'}}", "the part must be"},
+      {"dances = {}", "track: knows no 'dances'"},
+      {"speech = 3", "must be a list of items"},
+      {"speech = {3}", "an item {at = 0, ...} belongs here"},
+  };
+  for (const auto& mistake : kMistakes) {
+    const auto drama = Make(std::string("\ntrack{ actor = 'keeper', ") + mistake.track + " }\n");
+    EXPECT_THAT(FirstError(*drama), HasSubstr(mistake.problem)) << mistake.track;
+    EXPECT_THAT(FirstError(*drama), StartsWith("drama.lua:2: ")) << mistake.track;
+  }
+}
+
+}  // namespace
+}  // namespace lararium::drama
