@@ -35,7 +35,11 @@ std::string Format(const char* format, Values... values) {
 
 void Tip(const char* text) {
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", text);
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(Px(320));
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
   }
 }
 

@@ -25,8 +25,8 @@ std::optional<ImageNoise> EstimateNoise(std::span<const cv::Mat> images);
 // The standard deviation, in pixels, of the Gaussian that an image's sharpest edges look
 // blurred with: steps of brightness are re-blurred and the ratio of gradients says how soft
 // they were (Zhuo & Sim, "Defocus Map Estimation from a Single Image", Pattern Recognition
-// 2011); a low quantile over all clear edges of all images, since softer ones are those of
-// soft things. As above. Nothing where there are too few edges.
+// 2011); a low quantile over all clear steps of all images, since softer ones are those of
+// soft things. Thin lines are left out. As above. Nothing where there are too few edges.
 std::optional<double> EstimateSharpness(std::span<const cv::Mat> images);
 
 }  // namespace lararium::vision

@@ -18,7 +18,8 @@ json=$project/project.json
 press() { xdotool key --delay 60 "$1" && sleep 0.5; }
 # A field of the first probe, on one line.
 probe_field() {
-  tr -d ' \n' < "$json" | sed -E "s/.*\"probes\":\[\{[^]]*\"$1\":(\[[^]]*\]|[^,}]*).*/\1/"
+  tr -d ' \n' < "$json" | sed -E 's/.*"probes"://' |
+    sed -E "s/.*\"$1\":(\[[^]]*\]|[^],}]*).*/\1/"
 }
 field_is() { [ "$(probe_field "$1")" = "$2" ]; }
 # The heading of the rotation (w, x, y, z) about the vertical lies within two numbers, degrees.
