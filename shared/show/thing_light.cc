@@ -70,12 +70,14 @@ std::shared_ptr<const human::Human> FigureOf(const stage::Prop& prop) {
   auto figure = std::make_shared<human::Human>();
   figure->name = prop.name;
   figure->skeleton = SkeletonOf(prop);
+  figure->light = prop.light;
   for (const stage::PropPart& part : prop.parts) {
     for (const stage::PropMesh& mesh : part.meshes) {
-      figure->meshes.push_back(MeshOf(mesh));
+      if (!prop.light.empty()) {
+        figure->meshes.push_back(MeshOf(mesh));
+      }
     }
   }
-  figure->light = prop.light;
   for (size_t k = 0; k < prop.light_shown.size(); ++k) {
     for (size_t part = 0; part < prop.parts.size(); ++part) {
       if ((prop.light_shown[k] >> part & 1u) == 0) {

@@ -112,6 +112,14 @@ TEST(ThingLight, WhatHasNoLightOfItsOwnShadesAllTheSame) {
   EXPECT_TRUE(lit[1].empty());
 }
 
+// What lights a figure counts on a mesh of light for each of its meshes.
+TEST(ThingLight, AFigureHasMeshesOnlyWithTheirLight) {
+  EXPECT_TRUE(FigureOf(test::MakeChest())->meshes.empty());
+  const auto lit = FigureOf(MakeLitChest());
+  EXPECT_EQ(lit->meshes.size(), lit->light.meshes.size());
+  EXPECT_EQ(lit->meshes[1].indices.size(), 36u);
+}
+
 TEST(ThingLight, ThePartsThatAreThereChooseTheKeyPose) {
   const stage::Prop prop = MakeLitChest({1, 3});
   const auto bare = Light({prop}, {PartsAt({0, 0, 0})}, {{1, 0}});
