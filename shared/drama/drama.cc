@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "shared/drama/recording.h"
 #include "shared/drama/run.h"
 #include "shared/drama/sandbox.h"
+#include "shared/drama/timeline_text.h"
 
 namespace lararium::drama {
 namespace {
@@ -71,6 +73,7 @@ class LuaDrama : public Drama {
   Status Begin() {
     LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Sandbox> sandbox, MakeSandbox());
     stage_.Reset();
+    script_of_coroutines_.reset();
     recording_ = {};
     changes_ = 0;
     errors_ = History<ScriptError>(kMaxErrors);
@@ -244,6 +247,19 @@ class LuaDrama : public Drama {
     }
   }
 
+  // What is run again to bring coroutines back: the script without the items that the host
+  // has read of it and plays by itself.
+  const std::string& ScriptOfCoroutines() {
+    if (!script_of_coroutines_) {
+      constexpr LaneKind kOfHost[] = {
+          LaneKind::kGestures, LaneKind::kSpeech,      LaneKind::kWalks,  LaneKind::kUses,
+          LaneKind::kGaze,     LaneKind::kExpressions, LaneKind::kMarkers};
+      const Result<TimelineText> text = TimelineText::Read(script_, place_);
+      script_of_coroutines_ = text.ok() ? text->WithoutItems(kOfHost) : script_;
+    }
+    return *script_of_coroutines_;
+  }
+
   // Coroutines only go forward: to go back the script begins anew.
   bool BringScriptTo(const Recording::Position& position) {
     if (run_->followed() == position) {
@@ -258,7 +274,8 @@ class LuaDrama : public Drama {
       return false;
     }
     std::unique_ptr<Run> run = MakeRun(*std::move(sandbox));
-    if (!run->BeginAgain(script_, place_, run_->declared()).ok() || !run->FollowTo(position)) {
+    if (!run->BeginAgain(ScriptOfCoroutines(), place_, run_->declared()).ok() ||
+        !run->FollowTo(position)) {
       return false;
     }
     run_ = std::move(run);
@@ -284,6 +301,7 @@ class LuaDrama : public Drama {
   }
 
   std::string script_;
+  std::optional<std::string> script_of_coroutines_;
   std::string place_;
   stage::Stage& stage_;
   DramaOptions options_;

@@ -474,6 +474,18 @@ double TimelineText::Duration() const {
   return duration;
 }
 
+std::string TimelineText::WithoutItems(std::span<const LaneKind> kinds) const {
+  std::string text = text_;
+  for (size_t i = 0; i < lanes_.size(); ++i) {
+    if (std::find(kinds.begin(), kinds.end(), lanes_[i].kind) != kinds.end()) {
+      std::replace_if(
+          text.begin() + open_[i] + 1, text.begin() + close_[i], [](char c) { return c != '\n'; },
+          ' ');
+    }
+  }
+  return text;
+}
+
 // ---- edits ----
 
 Status TimelineText::Check(TimelineItem item) const {
@@ -482,51 +494,44 @@ Status TimelineText::Check(TimelineItem item) const {
              : Status::Error(place_, "there is no such item on the timeline");
 }
 
-// Everything that begins at `behind` or later has moved.
-void TimelineText::Shift(size_t behind, int64_t by) {
-  const auto shift = [behind, by](uint32_t& offset) {
-    if (offset >= behind) {
-      offset = static_cast<uint32_t>(static_cast<int64_t>(offset) + by);
+// Replaces a part of the text; everything behind it moves.
+TextEdit TimelineText::Change(size_t begin, size_t end, std::string_view with) {
+  TextEdit edit = {begin, text_.substr(begin, end - begin), std::string(with)};
+  text_.replace(begin, end - begin, with);
+  const auto by = static_cast<int64_t>(with.size()) - static_cast<int64_t>(end - begin);
+  const auto move = [by](uint32_t& offset) {
+    offset = static_cast<uint32_t>(static_cast<int64_t>(offset) + by);
+  };
+  const auto move_begin = [&](uint32_t& offset) {
+    if (offset >= end) {
+      move(offset);
+    }
+  };
+  const auto move_end = [&](uint32_t& offset) {
+    if (offset > end) {
+      move(offset);
     }
   };
   for (size_t i = 0; i < lanes_.size(); ++i) {
-    if (close_[i] < behind) {
+    if (close_[i] < end) {
       continue;
     }
-    shift(open_[i]);
-    shift(close_[i]);
-    std::for_each(lanes_[i].begin.begin(), lanes_[i].begin.end(), shift);
-    std::for_each(lanes_[i].end.begin(), lanes_[i].end.end(), shift);
+    move_begin(open_[i]);
+    move_begin(close_[i]);
+    std::for_each(lanes_[i].begin.begin(), lanes_[i].begin.end(), move_begin);
+    std::for_each(lanes_[i].end.begin(), lanes_[i].end.end(), move_end);
   }
-}
-
-Result<TextEdit> TimelineText::Replace(size_t begin,
-                                       size_t end,
-                                       std::string_view with,
-                                       size_t lanes) {
-  TextEdit edit = {begin, text_.substr(begin, end - begin), std::string(with)};
-  std::string changed = text_;
-  changed.replace(begin, end - begin, with);
-  LARARIUM_ASSIGN_OR_RETURN(TimelineText again, Read(std::move(changed), place_));
-  if (again.lanes_.size() != lanes) {
-    return Status::Error(place_, "the timeline cannot be changed in that way");
-  }
-  *this = std::move(again);
   return edit;
 }
 
-// Only this item is read again: what surrounds it moves.
+// A change inside of one item's braces.
 Result<TextEdit> TimelineText::ReplaceWithin(TimelineItem item,
                                              size_t begin,
                                              size_t end,
                                              std::string_view with) {
+  LARARIUM_RETURN_IF_ERROR(CheckRoom(with.size()));
+  TextEdit edit = Change(begin, end, with);
   TimelineLane& lane = lanes_[item.lane];
-  if (text_.size() + with.size() > kMaxBytes) {
-    return Status::Error(place_, "the script would be longer than 64 MiB");
-  }
-  TextEdit edit = {begin, text_.substr(begin, end - begin), std::string(with)};
-  text_.replace(begin, end - begin, with);
-  Shift(end, static_cast<int64_t>(with.size()) - static_cast<int64_t>(end - begin));
   lane.length[item.item] = 0.0;
   for (const TimelineField& field : Fields(item)) {
     if (field.key == "at") {
@@ -537,6 +542,30 @@ Result<TextEdit> TimelineText::ReplaceWithin(TimelineItem item,
   }
   indexed_[item.lane] = 0;
   return edit;
+}
+
+// A new item before the item `place` of a lane, with what surrounds it.
+Result<TextEdit> TimelineText::InsertAt(TimelineItem place,
+                                        size_t begin,
+                                        size_t end,
+                                        const NewItem& item) {
+  LARARIUM_RETURN_IF_ERROR(CheckRoom(item.lead.size() + item.text.size() + item.tail.size()));
+  TextEdit edit = Change(begin, end, item.lead + item.text + item.tail);
+  TimelineLane& lane = lanes_[place.lane];
+  const auto at = static_cast<std::ptrdiff_t>(place.item);
+  const auto from = static_cast<uint32_t>(begin + item.lead.size());
+  lane.at.insert(lane.at.begin() + at, item.at);
+  lane.length.insert(lane.length.begin() + at, item.length);
+  lane.begin.insert(lane.begin.begin() + at, from);
+  lane.end.insert(lane.end.begin() + at, from + static_cast<uint32_t>(item.text.size()));
+  indexed_[place.lane] = 0;
+  return edit;
+}
+
+Status TimelineText::CheckRoom(size_t bytes) const {
+  return text_.size() + bytes <= kMaxBytes
+             ? Status()
+             : Status::Error(place_, "the script would be longer than 64 MiB");
 }
 
 namespace {
@@ -621,40 +650,43 @@ Result<TextEdit> TimelineText::Insert(size_t lane, const Json& fields) {
   for (const auto& [key, value] : fields.items()) {
     LARARIUM_RETURN_IF_ERROR(CheckField(place_, key, value));
   }
-  const std::string item = ItemLiteral(fields);
+  NewItem item;
+  item.text = ItemLiteral(fields);
+  item.at = fields["at"].get<double>();
+  item.length = fields.value("length", 0.0);
   const TimelineLane& in = lanes_[lane];
   size_t before = in.size();  // the item behind which it comes; size(): none
   for (size_t i = 0; i < in.size(); ++i) {
-    before = in.at[i] <= fields["at"].get<double>() ? i : before;
+    before = in.at[i] <= item.at ? i : before;
   }
   if (in.size() == 0) {
     // Alone, on a line of its own.
     const size_t close = close_[lane];
     const std::string outer = IndentOf(open_[lane]);
-    if (BeginsLine(text_, close)) {
-      const size_t line = LineBegin(text_, close);
-      return Replace(line, line, outer + "  " + item + ",\n", lanes_.size());
-    }
-    return Replace(close, close, "\n" + outer + "  " + item + ",\n" + outer, lanes_.size());
+    const bool own_line = BeginsLine(text_, close);
+    item.lead = (own_line ? "" : "\n") + outer + "  ";
+    item.tail = own_line ? ",\n" : ",\n" + outer;
+    const size_t at = own_line ? LineBegin(text_, close) : close;
+    return InsertAt({lane, 0}, at, at, item);
   }
   if (before == in.size()) {
     const size_t first = in.begin[0];
-    const bool lines = BeginsLine(text_, first);
-    const std::string behind = lines ? ",\n" + IndentOf(first) : ", ";
-    return Replace(first, first, item + behind, lanes_.size());
+    item.tail = BeginsLine(text_, first) ? ",\n" + IndentOf(first) : ", ";
+    return InsertAt({lane, 0}, first, first, item);
   }
   const size_t begin = in.begin[before];
   const size_t end = in.end[before];
-  const std::string lead = BeginsLine(text_, begin) ? "\n" + IndentOf(begin) : " ";
+  const bool own_line = BeginsLine(text_, begin);
   LuaTokens tokens(text_, end);
   const LuaToken next = tokens.Next();
   const bool has_comma = next.Is(',') || next.Is(';');
   const size_t from = has_comma ? next.end : end;
   // A comment behind an item belongs to it.
-  const size_t to = lead == " " ? from : RestOfLine(text_, from);
-  const std::string comment = text_.substr(from, to - from);
-  return Replace(from, to, (has_comma ? "" : ",") + comment + lead + item + (has_comma ? "," : ""),
-                 lanes_.size());
+  const size_t to = own_line ? RestOfLine(text_, from) : from;
+  item.lead = (has_comma ? "" : ",") + text_.substr(from, to - from) +
+              (own_line ? "\n" + IndentOf(begin) : " ");
+  item.tail = has_comma ? "," : "";
+  return InsertAt({lane, before + 1}, from, to, item);
 }
 
 Result<TextEdit> TimelineText::Remove(TimelineItem item) {
@@ -680,7 +712,14 @@ Result<TextEdit> TimelineText::Remove(TimelineItem item) {
       end = rest;
     }
   }
-  return Replace(begin, end, kept, lanes_.size());
+  TimelineLane& in = lanes_[item.lane];
+  const auto at = static_cast<std::ptrdiff_t>(item.item);
+  in.at.erase(in.at.begin() + at);
+  in.length.erase(in.length.begin() + at);
+  in.begin.erase(in.begin.begin() + at);
+  in.end.erase(in.end.begin() + at);
+  indexed_[item.lane] = 0;
+  return Change(begin, end, kept);
 }
 
 Result<TextEdit> TimelineText::AddLane(LaneKind kind, const std::string& actor) {
@@ -696,7 +735,9 @@ Result<TextEdit> TimelineText::AddLane(LaneKind kind, const std::string& actor) 
   const std::string who = actor.empty() ? "" : "actor = " + LuaLiteral(actor) + ", ";
   const std::string call = (text_.empty() || text_.ends_with('\n') ? "" : "\n") +
                            std::string("\ntrack{") + who + std::string(NameOf(kind)) + " = {\n}}\n";
-  return Replace(text_.size(), text_.size(), call, lanes_.size() + 1);
+  TextEdit edit = {text_.size(), "", call};
+  LARARIUM_RETURN_IF_ERROR(Apply(edit));
+  return edit;
 }
 
 Status TimelineText::Apply(const TextEdit& edit) {

@@ -82,6 +82,8 @@ class TimelineText {
   size_t LineOf(TimelineItem item) const;
   // The items of a lane that touch [from, to), by their beginnings.
   void Query(size_t lane, double from, double to, std::vector<uint32_t>& found) const;
+  // The text with lanes of these kinds empty, and each line where it was.
+  std::string WithoutItems(std::span<const LaneKind> kinds) const;
   // When the last item ends, seconds.
   double Duration() const;
 
@@ -102,14 +104,21 @@ class TimelineText {
  private:
   friend class TimelineReader;
 
-  // Fails, and does nothing, where the text would no longer be read as `lanes` lanes.
-  Result<TextEdit> Replace(size_t begin, size_t end, std::string_view with, size_t lanes);
-  // Likewise for a change inside of one item's braces, which the rest does not notice.
+  struct NewItem {
+    std::string lead;  // what comes before it
+    std::string text;
+    std::string tail;
+    double at = 0.0;
+    double length = 0.0;
+  };
+
+  TextEdit Change(size_t begin, size_t end, std::string_view with);
   Result<TextEdit> ReplaceWithin(TimelineItem item,
                                  size_t begin,
                                  size_t end,
                                  std::string_view with);
-  void Shift(size_t behind, int64_t by);
+  Result<TextEdit> InsertAt(TimelineItem place, size_t begin, size_t end, const NewItem& item);
+  Status CheckRoom(size_t bytes) const;
   Status Check(TimelineItem item) const;
   std::string IndentOf(size_t offset) const;
 
