@@ -94,9 +94,9 @@ function Actor:attention(on) end
 ---@param fade? number
 function Actor:express(expression, intensity, fade) end
 
----Says something that was recorded: audio/NAME.visemes.json. Waits until it is said.
----@param speech string
-function Actor:say(speech) end
+---Says a line of the project's table, in the language of the show. Waits until it is said.
+---@param line string
+function Actor:say(line) end
 
 ---Plays a clip once with a part of the body ("upper", "arms", "head", "whole"), over
 ---whatever the rest of it does, and goes on when it is over.
@@ -172,6 +172,27 @@ function Object:set_state(state) end
 ---The actor who has it in its hands, or nil.
 ---@return Actor?
 function Object:holder() end
+
+---The sound of that name: audio/NAME.wav (.flac, .ogg, .opus) of the project, or one that
+---is built in.
+---@param name string
+---@return Sound
+function sound(name) end
+
+---@class Sound
+local Sound = {}
+
+---Begins it now, once: play{at = {x=, y=, z=}} at a place, play{on = actor or object} there
+---and wherever they go, play() all around the visitor. gain: decibels. loop = true: until
+---it is stopped. Does not wait for its end.
+---@param options? table
+function Sound:play(options) end
+
+---Stops it wherever it is heard.
+function Sound:stop() end
+
+---Seconds.
+function Sound:length() end
 
 ---Settles the drama as a whole, while the script loads: {when_lost = "hold"}, time stands
 ---still while tracking is lost for longer than {patience = seconds}; "go_on": it runs on.
@@ -298,7 +319,7 @@ function meet(point, ...) end
 ---track{ actor = "keeper", speech = {{at = 2, line = "salvete"}}, ... }
 ---Lanes of items. Each item has a time `at`, in seconds of the drama, and may have a
 ---length, an id and an ease. Of an actor: clips that lead its whole body, or gestures,
----speech, walks, uses, gaze, expressions; of the stage: lights, markers.
+---speech, walks, uses, gaze, expressions; of the stage: lights, sounds, markers.
 ---@param spec table
 function track(spec) end
 

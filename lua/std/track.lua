@@ -125,6 +125,18 @@ end, function(item)
   light(item.light):set{ level = 1, seconds = item.seconds }
 end)
 
+-- Where an item's sound is: with an actor or an object, at a point, or all around.
+local function source(item)
+  local on = item.actor and actor(item.actor) or item.object and object(item.object) or nil
+  return { on = on, at = item.from, gain = item.gain, loop = item.loop }
+end
+
+host.play_lane("sounds", function(item)
+  sound(item.sound):play(source(item))
+end, function(item)
+  sound(item.sound):stop()
+end)
+
 local known = { actor = true, clips = true, markers = true }
 for _, name in ipairs(of_actor) do
   known[name] = true
@@ -133,7 +145,7 @@ end
 -- track{ actor = "keeper", speech = {{at = 2, line = "salvete"}}, ... }
 -- Lanes of items. Each item has a time `at`, in seconds of the drama, and may have a
 -- length, an id and an ease. Of an actor: clips that lead its whole body, or gestures,
--- speech, walks, uses, gaze, expressions; of the stage: lights, markers.
+-- speech, walks, uses, gaze, expressions; of the stage: lights, sounds, markers.
 function track(spec)
   if type(spec) ~= "table" then
     error("track: give {actor = name, speech = {...}}", 2)

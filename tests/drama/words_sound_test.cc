@@ -50,6 +50,28 @@ TEST_F(SoundWords, PlayBeginsAtOnceAndDoesNotWait) {
   EXPECT_EQ(Playing().size(), 1u);
 }
 
+TEST_F(SoundWords, ATrackPlaysSoundsForTheirLength) {
+  const auto drama = Make(R"(
+    track{ sounds = {
+      { at = 1, sound = "flute", length = 2, object = "chest", gain = -6 },
+      { at = 4, sound = "bell", from = { x = 1, y = 2, z = -2 } },
+    } })");
+  PlayTo(*drama, 0.9);
+  EXPECT_TRUE(Playing().empty());
+  PlayTo(*drama, 2.0);
+  ASSERT_EQ(Playing().size(), 1u);
+  EXPECT_EQ(Playing()[0].object, *stage_.FindObject("chest"));
+  EXPECT_EQ(Playing()[0].gain_db, -6.0f);
+  PlayTo(*drama, 3.5);
+  EXPECT_TRUE(Playing().empty());
+  PlayTo(*drama, 4.5);
+  ASSERT_EQ(Playing().size(), 1u);
+  EXPECT_EQ(Playing()[0].point, glm::vec3(1.0f, 2.0f, -2.0f));
+  PlayTo(*drama, 6.0);
+  EXPECT_TRUE(Playing().empty());
+  EXPECT_EQ(FirstError(*drama), "");
+}
+
 TEST_F(SoundWords, StopEndsItWhereverItIsHeard) {
   const auto drama = Make(R"(
     function main()
