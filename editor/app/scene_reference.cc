@@ -155,6 +155,7 @@ class VirtualScene {
         if (staged.part_shown[object.part_begin + part] != 0) {
           meshes.push_back(
               bake::Moved(staged.stage_from_part[object.part_begin + part], surfaces[next]));
+          meshes.back().emission *= object.glow;
         }
       }
     }
@@ -262,6 +263,9 @@ Status FitAlbedo(const cv::Mat& image,
         traced += glm::dvec3(pixel);
       }
     }
+  }
+  if (traced == glm::dvec3(0.0)) {
+    return Status();  // the image shows none
   }
   const glm::vec3 ratio(seen / glm::max(traced, glm::dvec3(1e-9)));
   const glm::vec3 albedo = glm::clamp(kGuessedAlbedo * ratio, 0.02f, 0.9f);
