@@ -1,6 +1,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 
 #include "shared/render/captions.h"
 #include "tests/render/gl_fixture.h"
