@@ -32,8 +32,8 @@ constexpr float kCasterDetail = 0.005f;
 constexpr float kLeastLampIrradiance = 0.01f;
 constexpr float kModelReach = 1.5f;
 
-// The unit after the sun's; the composite has another kind of texture there.
-constexpr uint32_t kGlossyUnit = SunPass::kFirstUnit + SunPass::kUnits;
+// The composite has another kind of texture there.
+constexpr uint32_t kGlossyUnit = SunMask::kUnit + 1;
 
 constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
                                                                          "CLOTH", "EYE"};

@@ -18,6 +18,8 @@ namespace lararium::render {
 
 class SunMask {
  public:
+  static constexpr uint32_t kUnit = SunPass::kFirstUnit + SunPass::kUnits;
+
   static Result<SunMask> Create();
 
   // Fills the mask within bounds, or does nothing where there is no sun.
@@ -31,8 +33,6 @@ class SunMask {
   void BindFor(const ShaderProgram& shaders) const;
 
  private:
-  static constexpr uint32_t kUnit = SunPass::kFirstUnit + SunPass::kUnits;
-
   Status Prepare(const ImageSize& size);
 
   ShaderProgram shaders_;
