@@ -31,7 +31,7 @@ Status Recorder::Add(const show::StagedFrame& staged, const render::RenderTarget
   if (video_ != nullptr) {
     target.ReadPixels(picture_);
     const auto index =
-        static_cast<int64_t>(std::llround(staged.time * source_->frames_per_second()));
+        static_cast<int64_t>(std::llround(staged.sound.frame_time * source_->frames_per_second()));
     video_index_ = std::max(index, video_index_ + 1);
     return video_->Write(picture_, video_index_);
   }

@@ -57,7 +57,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
     LARARIUM_RETURN_IF_ERROR(renderer->Draw(staged, target));
     target.ReadPixels(picture);
     const auto index =
-        static_cast<int64_t>(std::llround(staged.time * source->frames_per_second()));
+        static_cast<int64_t>(std::llround(staged.sound.frame_time * source->frames_per_second()));
     video_index = std::max(index, video_index + 1);
     LARARIUM_RETURN_IF_ERROR(writer->Write(picture, video_index));
     ++report.frames;

@@ -119,6 +119,11 @@ void Mixer::Reconcile(const SoundScene& scene, double begin, size_t frames) {
     if (!slot.used || slot.leaving) {
       continue;
     }
+    if (scene.held) {
+      slot.leaving = slot.bus != Bus::kAmbience;
+      goes_on[i] = !slot.leaving;
+      continue;
+    }
     if (const Voice* voice = VoiceOf(slot, scene, begin)) {
       Follow(*voice, seconds, slot);
       goes_on[i] = true;
@@ -127,6 +132,9 @@ void Mixer::Reconcile(const SoundScene& scene, double begin, size_t frames) {
     } else {
       slot.leaving = !RingsOut(slot, begin);
     }
+  }
+  if (scene.held) {
+    return;
   }
   for (const Voice& voice : scene.voices) {
     const auto plays = [&](const Slot& slot) {

@@ -94,7 +94,9 @@ void SoundPlayer::Run(const std::stop_token& stop) {
     const auto heard = now + std::chrono::duration_cast<Clock::duration>(
                                  std::chrono::duration<double>(out_->latency()));
     if (TakeScene(now)) {
-      mixer_->Render(scene_, clock_.Next(scene_.time, shown_, heard, kBlockSeconds), block);
+      const double begin =
+          scene_.held ? scene_.time : clock_.Next(scene_.time, shown_, heard, kBlockSeconds);
+      mixer_->Render(scene_, begin, block);
     }
     if (const Status status = out_->Write(block); !status.ok()) {
       log_.warn("{}; the show goes on in silence", status.message());

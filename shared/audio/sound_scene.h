@@ -37,7 +37,10 @@ struct Listener {
 };
 
 struct SoundScene {
-  double time = 0.0;  // of the drama, seconds
+  double time = 0.0;        // of the drama, seconds
+  double frame_time = 0.0;  // of the pictures, seconds since the first of them
+  // The drama stands still while pictures go on: only ambience is heard.
+  bool held = false;
   Listener listener;
   stage::Reverb reverb = stage::Reverb::kNone;
   float reverb_db = 0.0f;

@@ -17,11 +17,12 @@ Result<std::unique_ptr<SoundTrack>> SoundTrack::Create(std::shared_ptr<const Sou
 
 Status SoundTrack::RenderUntil(const SoundScene& scene) {
   last_ = scene;
-  const auto end = static_cast<int64_t>(std::llround(scene.time * Mixer::kRate));
+  const auto end = static_cast<int64_t>(std::llround(scene.frame_time * Mixer::kRate));
   while (frames_ < end) {
     const auto count = static_cast<size_t>(std::min<int64_t>(end - frames_, int64_t{kPieceFrames}));
     const std::span<float> piece = std::span(piece_).first(2 * count);
-    mixer_->Render(scene, static_cast<double>(frames_) / Mixer::kRate, piece);
+    const double before_end = static_cast<double>(end - frames_) / Mixer::kRate;
+    mixer_->Render(scene, scene.time - before_end, piece);
     LARARIUM_RETURN_IF_ERROR(take_(piece));
     frames_ += static_cast<int64_t>(count);
   }
@@ -30,6 +31,7 @@ Status SoundTrack::RenderUntil(const SoundScene& scene) {
 
 Status SoundTrack::RenderOn(double seconds) {
   last_.time += seconds;
+  last_.frame_time += seconds;
   return RenderUntil(SoundScene(last_));
 }
 

@@ -22,7 +22,7 @@ class SoundTrack {
                                                     bool hrtf,
                                                     Take take);
 
-  // What was to be heard since the last call, until scene.time. Going back gives nothing.
+  // What was to be heard since the last call, until scene.frame_time. Going back gives nothing.
   // The same scenes give the same samples.
   Status RenderUntil(const SoundScene& scene);
   // The same scene for some seconds more, as the last picture is shown.

@@ -439,6 +439,7 @@ void Show::StageSounds(StagedFrame& staged) {
   const double tick_time = static_cast<double>(tick_) / kTicksPerSecond;
   audio::SoundScene& scene = staged.sound;
   sound_->Begin(staged.time, place_, staged.camera_from_stage, scene);
+  sound_->BeginFrame(staged.tracked.frame.capture_time, scene);
   for (const Visible& visible : visible_) {
     const stage::Utterance& utterance = visible.state->utterance;
     if (utterance.line >= 0) {

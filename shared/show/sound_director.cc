@@ -117,6 +117,14 @@ void SoundDirector::Begin(double time,
   AddAmbience(place, scene);
 }
 
+void SoundDirector::BeginFrame(double capture_time, SoundScene& scene) {
+  constexpr double kStands = 1e-6;
+  first_capture_ = first_capture_.value_or(capture_time);
+  scene.frame_time = capture_time - *first_capture_;
+  scene.held = last_time_ && std::abs(scene.time - *last_time_) < kStands;
+  last_time_ = scene.time;
+}
+
 void SoundDirector::AddAmbience(size_t place, SoundScene& scene) const {
   const PlaceSound& sound = places_[place];
   for (size_t i = 0; i < sound.ambience.size(); ++i) {

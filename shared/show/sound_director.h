@@ -40,6 +40,8 @@ class SoundDirector {
              size_t place,
              const std::optional<geometry::Rigid3>& camera_from_stage,
              audio::SoundScene& scene);
+  // capture_time: of its picture. Where pictures go on and the drama does not, it is held.
+  void BeginFrame(double capture_time, audio::SoundScene& scene);
   // The mouth in stage axes.
   void AddLine(
       size_t actor, size_t line, double began, const Mouth& mouth, audio::SoundScene& scene);
@@ -82,6 +84,8 @@ class SoundDirector {
   std::vector<ObjectClips> objects_;
   std::vector<PlaceSound> places_;
   audio::Listener listener_;
+  std::optional<double> first_capture_;
+  std::optional<double> last_time_;  // of the drama
 };
 
 }  // namespace lararium::show

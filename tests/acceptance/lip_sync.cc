@@ -77,7 +77,9 @@ Result<Performance> Perform(show::ShowContent content,
   show::StagedFrame staged;
   const int frames = static_cast<int>((kBegin + seconds + kPause) * kFramesPerSecond);
   for (int frame = 0; frame < frames; ++frame) {
-    show->StageFrame(CloseUp(map_from_stage), frame / kFramesPerSecond, staged);
+    vision::TrackedFrame tracked = CloseUp(map_from_stage);
+    tracked.frame.capture_time = frame / kFramesPerSecond;
+    show->StageFrame(std::move(tracked), frame / kFramesPerSecond, staged);
     std::erase_if(staged.sound.voices,
                   [](const audio::Voice& voice) { return voice.bus != audio::Bus::kSpeech; });
     LARARIUM_RETURN_IF_ERROR(track->RenderUntil(staged.sound));

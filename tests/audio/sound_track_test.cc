@@ -16,6 +16,7 @@ namespace {
 SoundScene ClickAt(double began, double time) {
   SoundScene scene;
   scene.time = time;
+  scene.frame_time = time;
   if (time >= began) {  // nobody knows of it before
     Voice& voice = scene.voices.emplace_back();
     voice.clip = 0;
