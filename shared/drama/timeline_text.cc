@@ -283,7 +283,8 @@ class TimelineReader {
         continue;  // track({...}) is the same call
       }
       if (is_behind && token.Is('{')) {
-        LARARIUM_RETURN_IF_ERROR(ReadCall(token.begin));
+        LARARIUM_ASSIGN_OR_RETURN(const size_t end, ReadCall(token.begin));
+        tokens = LuaTokens(out_.text_, end);
       }
       before = last;
       last = token;
@@ -312,8 +313,8 @@ class TimelineReader {
     uint32_t close = 0;
   };
 
-  // The call whose table opens at an offset.
-  Status ReadCall(size_t open) {
+  // The call whose table opens at an offset: where to read on.
+  Result<size_t> ReadCall(size_t open) {
     Literals literals(out_.text_, open);
     std::vector<Lane> lanes;
     std::string actor;
@@ -340,7 +341,7 @@ class TimelineReader {
         return Status::Error(At(literals.problem().offset), literals.problem().text);
       }
       Report(literals.problem().offset, literals.problem().text, kRemedy);
-      return Status();
+      return open + 1;
     }
     for (Lane& lane : lanes) {
       if (IsOfActor(lane.lane.kind)) {
@@ -355,7 +356,7 @@ class TimelineReader {
       out_.open_.push_back(lane.open);
       out_.close_.push_back(lane.close);
     }
-    return Status();
+    return end;
   }
 
   static bool ReadLane(Literals& literals, Lane& lane) {
