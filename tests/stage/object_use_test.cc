@@ -181,7 +181,7 @@ TEST(ObjectLight, MovesWithItsPartAndBurnsInItsStates) {
 
 TEST(ObjectLight, SaysWhatIsWrongWithIt) {
   const auto problem = [](const std::string& light) {
-    return Parse("\"lights\": {\"fire\": " + light + "}").message();
+    return Parse("\"lights\": {\"fire\": " + light + "}").status().message();
   };
   EXPECT_EQ(problem(R"({"at": [0, 1, 0], "temperature": 1900, "intensity": 1, "radius": 0.1})"),
             "");
