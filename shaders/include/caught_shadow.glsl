@@ -32,15 +32,16 @@ vec4 WeightedRatio(ivec2 coarse, float share, float depth, vec3 point, vec3 norm
   return weight * vec4(texel.rgb, 1.0);
 }
 
-// Whether any of the four coarse cells about a cell is darkened.
-bool DarkenedAbout(ivec2 first) {
+// Whether any of the four coarse cells about a cell is darker or, by a lamp, brighter.
+bool ChangedAbout(ivec2 first) {
   ivec2 low = ivec2(catcher_bounds.xy) / kCoarse;
   ivec2 high = (ivec2(catcher_bounds.zw) - 1) / kCoarse;
-  vec3 least = vec3(1.0);
+  vec3 most = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
-    least = min(least, texelFetch(sky_ratio, clamp(first + ivec2(i & 1, i >> 1), low, high), 0).rgb);
+    ivec2 coarse = clamp(first + ivec2(i & 1, i >> 1), low, high);
+    most = max(most, abs(texelFetch(sky_ratio, coarse, 0).rgb - 1.0));
   }
-  return any(lessThan(least, vec3(0.998)));
+  return any(greaterThan(most, vec3(0.002)));
 }
 
 vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
@@ -48,7 +49,7 @@ vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
   ivec2 first = ivec2(floor(at));
   vec2 part = at - vec2(first);
   vec4 sum = vec4(0.0);
-  int corners = DarkenedAbout(first) ? 4 : 0;
+  int corners = ChangedAbout(first) ? 4 : 0;
   for (int i = 0; i < corners; ++i) {
     ivec2 corner = ivec2(i & 1, i >> 1);
     vec2 share = mix(1.0 - part, part, vec2(corner));
