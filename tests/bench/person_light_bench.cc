@@ -100,7 +100,8 @@ void BenchStageLight(benchmark::State& bench) {
   }
   const ThreadLimit one_core(1);
   for (auto _ : bench) {
-    stage_light.Light({}, {}, actors);
+    stage_light.Pose(actors);
+    stage_light.Light({}, actors);
     benchmark::DoNotOptimize(irradiance.data());
   }
 }
