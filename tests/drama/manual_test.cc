@@ -69,6 +69,8 @@ class ManualTest : public ::testing::Test {
     track.keys = {{0.0f, human::Viseme::kAa, 1.0f}};
     track.duration = 1.0f;
     EXPECT_TRUE(stage_.AddSpeech("salvete", track).ok());
+    EXPECT_TRUE(stage_.sounds().Add("street", 20.0).ok());
+    EXPECT_TRUE(stage_.sounds().Add("pour", 1.5).ok());
   }
   void Add(const char* name, stage::Prop prop, const stage::Pose& pose) {
     EXPECT_TRUE(stage_.AddObject(name, test::Model(std::move(prop)), pose).ok());

@@ -10,19 +10,22 @@
 namespace lararium::render {
 namespace {
 
-// Every fragment shader with the vertex shader of its pass.
+// Every fragment shader with the vertex shader of its pass: x.vert is that of x.frag and of
+// x_part.frag.
 std::map<std::string, std::string> Passes() {
   std::map<std::string, std::string> vertex_of;
-  for (const EmbeddedText& source : ShaderSources()) {
-    const std::string name(source.name);
-    if (name.ends_with(".frag")) {
-      vertex_of[name] = "full_screen.vert";
+  for (const EmbeddedText& fragment : ShaderSources()) {
+    const std::string name(fragment.name);
+    if (!name.ends_with(".frag")) {
+      continue;
     }
-  }
-  for (const EmbeddedText& source : ShaderSources()) {
-    const std::string name(source.name);
-    if (name.ends_with(".vert") && name != "full_screen.vert") {
-      vertex_of[name.substr(0, name.size() - 5) + ".frag"] = name;
+    vertex_of[name] = "full_screen.vert";
+    for (const EmbeddedText& vertex : ShaderSources()) {
+      const std::string other(vertex.name);
+      const std::string stem = other.substr(0, other.find('.'));
+      if (other.ends_with(".vert") && (name == stem + ".frag" || name.starts_with(stem + "_"))) {
+        vertex_of[name] = other;
+      }
     }
   }
   return vertex_of;
