@@ -38,7 +38,7 @@ struct PreviewActor {
 
 struct PreviewPicture {
   int64_t frame = -1;
-  cv::Mat bgr;                    // the composite, or the plain image without a pose
+  cv::Mat bgr;  // the composite, or the plain image without a pose
   // Where they were asked for, else empty: the camera's image alone (bgr), and how much of
   // each pixel people and props hide (CV_8UC1).
   cv::Mat plain;
@@ -52,7 +52,7 @@ struct PreviewPicture {
   std::optional<geometry::Rigid3> camera_from_map;
   std::optional<geometry::Rigid3> camera_from_stage;
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};  // that people were drawn with
-  std::vector<PreviewActor> actors;  // those that the drama shows at this moment
+  std::vector<PreviewActor> actors;                // those that the drama shows at this moment
 };
 
 // What the recording is like, once it is open.

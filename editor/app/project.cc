@@ -221,8 +221,7 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
   }
   if (view.Has("camera")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("camera"));
-    LARARIUM_RETURN_IF_ERROR(
-        CheckFields(field, {"width", "noise", "blur_px", "knee", "shutter"}));
+    LARARIUM_RETURN_IF_ERROR(CheckFields(field, {"width", "noise", "blur_px", "knee", "shutter"}));
     LARARIUM_ASSIGN_OR_RETURN(place.camera, light::ParseCameraTraits(field));
   }
   if (view.Has("added")) {
@@ -245,10 +244,9 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
 }
 
 Result<PlaceDocument> ParsePlace(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"name", "training", "preview", "intrinsics", "camera", "added", "tags",
-                         "picks", "adjust", "camera_nudge", "occluders", "probe", "probes",
-                         "acoustics"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(
+      view, {"name", "training", "preview", "intrinsics", "camera", "added", "tags", "picks",
+             "adjust", "camera_nudge", "occluders", "probe", "probes", "acoustics"}));
   PlaceDocument place;
   LARARIUM_ASSIGN_OR_RETURN(place.name, ParsePlainName(view, "name"));
   LARARIUM_RETURN_IF_ERROR(ParseOptionalFields(view, place));

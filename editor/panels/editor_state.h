@@ -72,7 +72,7 @@ struct LightView {
   std::vector<bake::DirectionPair> pairs;
   std::optional<glm::vec3> in_probe;  // the first half of the next pair
   std::optional<bake::DirectionMatch> direction_match;
-  std::string problem;                       // of the last pick; empty: none
+  std::string problem;                        // of the last pick; empty: none
   std::optional<glm::vec3> dragged_in_probe;  // what a drag holds on to
 };
 

@@ -63,7 +63,7 @@ struct SceneProp {
   const light::ProbeLight* light = nullptr;         // as of people
   // What falls on each vertex, all meshes in a row, as of SceneHuman.
   std::span<const glm::vec3> irradiance = {};
-  float glow = 1.0f;                                // times the emission of its meshes
+  float glow = 1.0f;  // times the emission of its meshes
 };
 
 // What the camera does to its image and people would lack: all off unless set.

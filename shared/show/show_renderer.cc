@@ -89,7 +89,8 @@ void ShowRenderer::CollectProps(const StagedFrame& staged) {
         {objects_[object.object],
          std::span(staged.stage_from_part).subspan(object.part_begin, object.part_count),
          std::span(staged.part_shown).subspan(object.part_begin, object.part_count), &object.light,
-         std::span(staged.irradiance).subspan(object.light_begin, object.light_count), object.glow});
+         std::span(staged.irradiance).subspan(object.light_begin, object.light_count),
+         object.glow});
   }
 }
 
