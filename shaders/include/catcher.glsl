@@ -7,8 +7,8 @@ uniform sampler2D surface_normal;  // stage axes, 0.5 n + 0.5; alpha: it receive
 uniform sampler2D surface_depth;
 uniform vec4 catcher_bounds;  // left, bottom, right, top: elsewhere the above means nothing
 
-// Pixels of the picture for each of the ratio's, in both directions.
-const int kCoarse = 4;
+// Cells for each of the ratio's, in both directions.
+uniform int shadow_cell;
 
 float SurfaceDepth(ivec2 cell) { return DepthInMetres(texelFetch(surface_depth, cell, 0).r); }
 
@@ -18,5 +18,5 @@ vec3 SurfaceNormal(vec4 texel) { return normalize(2.0 * texel.xyz - 1.0); }
 ivec2 CoarseSource(ivec2 coarse) {
   ivec2 low = ivec2(catcher_bounds.xy);
   ivec2 high = ivec2(catcher_bounds.zw) - 1;
-  return clamp(coarse * kCoarse + kCoarse / 2, low, high);
+  return clamp(coarse * shadow_cell + shadow_cell / 2, low, high);
 }

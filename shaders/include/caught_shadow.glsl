@@ -20,8 +20,8 @@ float PlaneWeight(ivec2 coarse, float depth, vec3 point, vec3 normal, float tole
 }
 
 vec4 WeightedRatio(ivec2 coarse, float share, float depth, vec3 point, vec3 normal) {
-  ivec2 low = ivec2(catcher_bounds.xy) / kCoarse;
-  ivec2 high = (ivec2(catcher_bounds.zw) - 1) / kCoarse;
+  ivec2 low = ivec2(catcher_bounds.xy) / shadow_cell;
+  ivec2 high = (ivec2(catcher_bounds.zw) - 1) / shadow_cell;
   coarse = clamp(coarse, low, high);
   vec4 texel = texelFetch(sky_ratio, coarse, 0);
   if (texel.a <= 0.0) {
@@ -34,8 +34,8 @@ vec4 WeightedRatio(ivec2 coarse, float share, float depth, vec3 point, vec3 norm
 
 // Whether any of the four coarse cells about a cell is darker or, by a lamp, brighter.
 bool ChangedAbout(ivec2 first) {
-  ivec2 low = ivec2(catcher_bounds.xy) / kCoarse;
-  ivec2 high = (ivec2(catcher_bounds.zw) - 1) / kCoarse;
+  ivec2 low = ivec2(catcher_bounds.xy) / shadow_cell;
+  ivec2 high = (ivec2(catcher_bounds.zw) - 1) / shadow_cell;
   vec3 most = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 coarse = clamp(first + ivec2(i & 1, i >> 1), low, high);
@@ -45,7 +45,7 @@ bool ChangedAbout(ivec2 first) {
 }
 
 vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
-  vec2 at = (vec2(cell) - float(kCoarse / 2)) / float(kCoarse);
+  vec2 at = (vec2(cell) - float(shadow_cell / 2)) / float(shadow_cell);
   ivec2 first = ivec2(floor(at));
   vec2 part = at - vec2(first);
   vec4 sum = vec4(0.0);

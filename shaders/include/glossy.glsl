@@ -2,7 +2,6 @@
 
 #include "octahedral.glsl"
 
-uniform int has_glossy;
 uniform highp sampler3D glossy;  // layers of octahedral maps, one for each roughness
 uniform vec3 glossy_scale;       // of the light at hand over that of the map
 

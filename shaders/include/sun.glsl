@@ -23,8 +23,9 @@ const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
 float DiscRadius(int index, int count) { return sqrt((float(index) + 0.5) / float(count)); }
 
-const int kSearches = 8;
-const int kTaps = 14;
+// How often blockers are searched and the penumbra is looked up.
+uniform int sun_searches;
+uniform int sun_taps;
 
 // What is in the way of a point on average, and of how many searches.
 vec2 Blockers(sampler2D map, vec3 at, vec2 radius, int searches) {
@@ -32,7 +33,7 @@ vec2 Blockers(sampler2D map, vec3 at, vec2 radius, int searches) {
   float count = 0.0;
   vec2 direction = vec2(1.0, 0.0);
   for (int i = 0; i < searches; ++i) {
-    vec2 tap = at.xy + radius * DiscRadius(i, kSearches) * direction;
+    vec2 tap = at.xy + radius * DiscRadius(i, sun_searches) * direction;
     direction = kGoldenTurn * direction;
     float depth = textureLod(map, tap, 0.0).r;
     if (depth < min(at.z, 1.0)) {
@@ -49,16 +50,16 @@ float SeenPast(highp sampler2DShadow map, sampler2D map_depth, vec3 at, vec3 siz
   bool within = all(greaterThan(at, vec3(0.0))) && all(lessThan(at.xy, vec2(1.0)));
   vec2 texel = 1.0 / vec2(textureSize(map, 0));
   vec2 widest = max(min(sun_slope * at.z * size.z, 0.5) / size.xy, texel);
-  int searches = within ? asked * kSearches : 0;
+  int searches = within ? asked * sun_searches : 0;
   vec2 blockers = Blockers(map_depth, at, widest, searches);
   vec2 radius = max(sun_slope * (at.z - blockers.x) * size.z / size.xy, 0.5 * texel);
   // Where the widest penumbra is dark or bright all over, its middle is.
   bool edge = blockers.y > 0.0 && blockers.y < float(searches);
-  int taps = edge ? kTaps : 0;
+  int taps = edge ? sun_taps : 0;
   float seen = 0.0;
   vec2 direction = vec2(1.0, 0.0);
   for (int i = 0; i < taps; ++i) {
-    vec2 tap = at.xy + radius * DiscRadius(i, kTaps) * direction;
+    vec2 tap = at.xy + radius * DiscRadius(i, sun_taps) * direction;
     direction = kGoldenTurn * direction;
     seen += textureLod(map, vec3(tap, min(at.z, 1.0)), 0.0);
   }

@@ -1,9 +1,12 @@
 // The radiance of surfaces under distant light: spherical harmonics for all of it, and for
 // highlights a prefiltered map and the sun; without a map, the one direction that most of
 // the light comes from. SURFACE_PLAIN,
-// SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH or SURFACE_EYE chooses the model.
+// SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH or SURFACE_EYE chooses the model, REFLECTIONS
+// whether there is a map.
 
+#ifdef REFLECTIONS
 #include "glossy.glsl"
+#endif
 #include "lamps.glsl"
 #include "spherical_harmonics.glsl"
 
@@ -78,9 +81,9 @@ vec3 KeyHighlight(vec3 normal, vec3 mirrored, vec3 to_eye, float f0, float rough
 vec3 Highlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
   vec3 mirrored = reflect(-to_eye, normal);
   vec3 sum = LampHighlights(normal, to_eye, f0, roughness);
-  if (has_glossy == 0) {
-    return sum + KeyHighlight(normal, mirrored, to_eye, f0, roughness);
-  }
+#ifndef REFLECTIONS
+  return sum + KeyHighlight(normal, mirrored, to_eye, f0, roughness);
+#else
   // Rough surfaces mirror from nearer the normal (Lagarde & de Rousiers, "Moving Frostbite to
   // PBR", SIGGRAPH 2014 courses, "Dominant direction").
   float alpha = LobeOf(roughness);
@@ -95,6 +98,7 @@ vec3 Highlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
     sum += key_light * Glint(key_direction, normal, to_eye, f0, alpha);
   }
   return sum;
+#endif
 }
 
 // One lobe of light along strands (Kajiya & Kay, SIGGRAPH 1989), moved towards root
@@ -156,9 +160,11 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
     return;
   }
 #ifdef SURFACE_PLAIN
-  if (has_glossy == 1 && roughness < kMatte) {
+#ifdef REFLECTIONS
+  if (roughness < kMatte) {
     highlight = Highlight(normal, to_eye, 0.04, roughness);
   }
+#endif
 #endif
 #ifdef SURFACE_SKIN
   highlight = Highlight(normal, to_eye, 0.028, roughness);
@@ -174,7 +180,9 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
   // film of tears is smooth whatever lies beneath.
   matte *= 0.8;
   vec3 glint = key_light * Glint(key_direction, normal, to_eye, 0.025, LobeOf(0.2));
-  glint = has_glossy == 1 && has_sun == 0 ? vec3(0.0) : glint;
+#ifdef REFLECTIONS
+  glint = has_sun == 0 ? vec3(0.0) : glint;
+#endif
   glint += LampHighlights(normal, to_eye, 0.025, 0.2);
   highlight = glint + 0.5 * max(Highlight(normal, to_eye, 0.025, 0.2) - glint, 0.0);
 #endif

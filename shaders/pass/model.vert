@@ -1,12 +1,12 @@
-// Skinning, four influences: what human::SkinningJob does on the CPU.
+// Skinning, four influences: what human::SkinningJob does on the CPU. By matrices,
+// or as SKIN_DUAL_QUATERNION says, or SKIN_RIGID, where there is one influence.
 
 #include "spherical_harmonics.glsl"
 
 uniform mat4 clip_from_model;
 uniform vec3 unscattered[9];  // irradiance, not softened by skin
 uniform mat4 stage_from_model;
-uniform int posed;             // 1: positions and normals are as they are to be drawn
-uniform int dual_quaternions;  // 0: by matrices
+uniform int posed;  // 1: positions and normals are as they are to be drawn
 // Matrices; or in the columns of each the real part, the dual part (x, y, z, w), and
 // the scale.
 layout(std140) uniform Skin { mat4 skin[256]; };
@@ -30,11 +30,18 @@ centroid out vec3 transfer_share;  // the same over what would come without shad
 centroid out float transfer_open;  // of all channels: at most 1
 centroid out vec3 back_share;      // of unshadowed light, on the back
 
-mat4 BlendMatrices() {
+#ifdef SKIN_RIGID
+mat4 Skinned() { return skin[joints.x]; }
+#endif
+
+#if !defined(SKIN_RIGID) && !defined(SKIN_DUAL_QUATERNION)
+mat4 Skinned() {
   return weights.x * skin[joints.x] + weights.y * skin[joints.y] + weights.z * skin[joints.z] +
          weights.w * skin[joints.w];
 }
+#endif
 
+#ifdef SKIN_DUAL_QUATERNION
 // Adds a dual quaternion and its scale, on the side of the first.
 void AddDualQuaternion(uint joint, float weight, inout vec4 real, inout vec4 dual,
                        inout float scale) {
@@ -45,7 +52,7 @@ void AddDualQuaternion(uint joint, float weight, inout vec4 real, inout vec4 dua
   scale += weight * q[2].x;
 }
 
-mat4 BlendDualQuaternions() {
+mat4 Skinned() {
   vec4 r = vec4(0.0);
   vec4 d = vec4(0.0);
   float scale = 0.0;
@@ -64,9 +71,10 @@ mat4 BlendDualQuaternions() {
   return mat4(vec4(scale * x, 0.0), vec4(scale * y, 0.0), vec4(scale * cross(x, y), 0.0),
               vec4(translation, 1.0));
 }
+#endif
 
 void main() {
-  mat4 skinned = dual_quaternions == 1 ? BlendDualQuaternions() : BlendMatrices();
+  mat4 skinned = Skinned();
   mat4 model_from_bind = posed == 1 ? mat4(1.0) : skinned;
   vec4 in_model = model_from_bind * vec4(position, 1.0);
   gl_Position = clip_from_model * in_model;

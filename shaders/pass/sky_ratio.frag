@@ -15,7 +15,7 @@ uniform vec4 cones_z[kGroups];
 uniform vec4 cones_cosine[kGroups];  // of half the opening
 uniform vec3 cone_axis;
 uniform sampler2D sky;             // radiance of cones, octahedral
-uniform sampler2D sky_irradiance;  // likewise, by normal
+uniform sampler2D picture_irradiance;  // of the camera's image, by normal
 uniform float least_share;
 uniform int cluster_count;
 
@@ -153,7 +153,7 @@ float LampSeen(SeenLamp lamp, vec4 place, vec3 point) {
 
 uniform float least_lamp;  // irradiance that would not be seen
 
-// The lamps' light over the sky's, where nobody stands.
+// The lamps' light over that of the sky in the camera's image, where nobody stands.
 vec3 LampRatio(vec3 point, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < lamp_count; ++i) {
@@ -164,7 +164,7 @@ vec3 LampRatio(vec3 point, vec3 normal) {
       sum += (irradiance - least_lamp) * LampSeen(lamp, lamp_places[i], point);
     }
   }
-  vec3 sky_here = textureLod(sky_irradiance, OctahedralPosition(normal), 0.0).rgb;
+  vec3 sky_here = textureLod(picture_irradiance, OctahedralPosition(normal), 0.0).rgb;
   return max(sum, 0.0) / max(sky_here, 1e-3);
 }
 

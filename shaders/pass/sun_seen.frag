@@ -5,12 +5,12 @@
 #include "sun.glsl"
 
 uniform sampler2D nearest_depth;
+uniform ivec2 last_cell;
 
 layout(location = 0) out vec4 seen;
 
 float DepthAt(ivec2 cell) {
-  ivec2 last = textureSize(nearest_depth, 0) - 1;
-  return texelFetch(nearest_depth, clamp(cell, ivec2(0), last), 0).r;
+  return texelFetch(nearest_depth, clamp(cell, ivec2(0), last_cell), 0).r;
 }
 
 // How the surface goes on from one pixel to the next, on the side that is more likely to be

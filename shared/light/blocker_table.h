@@ -70,16 +70,38 @@ inline void BlockerTable::At(const Lanes& share, Lanes* factors) const {
   const Lanes position = share * static_cast<float>(kEntries);
   const IntLanes index = __builtin_convertvector(position, IntLanes);
   const Lanes rest = position - __builtin_convertvector(index, Lanes);
-  Lanes rows[kLanes];
+  const auto entry = [&](size_t i) -> const Entry& {
+    return entries_[static_cast<size_t>(index[i])];
+  };
+  if constexpr (Degree <= 3) {
+    // Four factors of the receivers i and i + 4 in one register.
+    const Lanes rests[4] = {__builtin_shufflevector(rest, rest, 0, 0, 0, 0, 4, 4, 4, 4),
+                            __builtin_shufflevector(rest, rest, 1, 1, 1, 1, 5, 5, 5, 5),
+                            __builtin_shufflevector(rest, rest, 2, 2, 2, 2, 6, 6, 6, 6),
+                            __builtin_shufflevector(rest, rest, 3, 3, 3, 3, 7, 7, 7, 7)};
+    Lanes rows[4];
+#pragma GCC unroll 4
+    for (size_t i = 0; i < 4; ++i) {
+      rows[i] = MultiplyAdd(rests[i], LoadHalves(entry(i).slope.data(), entry(i + 4).slope.data()),
+                            LoadHalves(entry(i).value.data(), entry(i + 4).value.data()));
+    }
+    TransposeHalves(rows);
+#pragma GCC unroll 4
+    for (size_t l = 0; l <= static_cast<size_t>(Degree); ++l) {
+      factors[l] = rows[l];
+    }
+  } else {
+    Lanes rows[kLanes];
 #pragma GCC unroll 8
-  for (size_t i = 0; i < kLanes; ++i) {
-    const Entry& entry = entries_[static_cast<size_t>(index[i])];
-    rows[i] = MultiplyAdd(Broadcast(rest[i]), Load(entry.slope.data()), Load(entry.value.data()));
-  }
-  Transpose(rows);
+    for (size_t i = 0; i < kLanes; ++i) {
+      rows[i] =
+          MultiplyAdd(Broadcast(rest[i]), Load(entry(i).slope.data()), Load(entry(i).value.data()));
+    }
+    Transpose(rows);
 #pragma GCC unroll 6
-  for (size_t l = 0; l <= static_cast<size_t>(Degree); ++l) {
-    factors[l] = rows[l];
+    for (size_t l = 0; l <= static_cast<size_t>(Degree); ++l) {
+      factors[l] = rows[l];
+    }
   }
 }
 

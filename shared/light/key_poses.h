@@ -16,7 +16,7 @@ namespace lararium::light {
 inline constexpr float kIndistinct = 1e-3f;
 
 // keys[pose] and now: log visibility of the person's own balls at its receivers, at each
-// key pose and now, all in the frame of the receiver's bone (RotateRows). At most
+// key pose and now, all in the frame of the receiver's bone (sh_turn.h). At most
 // kMaxKeyPoses keys.
 //
 // weights: [receiver][kMaxKeyPoses], positive, sum 1; of poses that do not exist 0.

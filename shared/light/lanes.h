@@ -51,6 +51,18 @@ inline Lanes MultiplyAdd(const Lanes& a, const Lanes& b, const Lanes& c) {
 #endif
 }
 
+// Four floats from each of two places.
+inline Lanes LoadHalves(const float* low, const float* high) {
+#ifdef __AVX__
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+#else
+  Lanes lanes;
+  std::memcpy(&lanes, low, sizeof(lanes) / 2);
+  std::memcpy(reinterpret_cast<char*>(&lanes) + sizeof(lanes) / 2, high, sizeof(lanes) / 2);
+  return lanes;
+#endif
+}
+
 inline Lanes Max(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 inline Lanes Min(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 
@@ -129,15 +141,83 @@ inline void Transpose(Lanes (&rows)[kLanes]) {
   }
 }
 
-// Eight signed bytes as floats.
-inline Lanes LoadBytes(const int8_t* from) {
+// rows[i][j] becomes rows[j][i] for j below 4, and rows[i][4 + j] becomes rows[j][4 + i].
+inline void TransposeHalves(Lanes (&rows)[4]) {
+  const Lanes a = __builtin_shufflevector(rows[0], rows[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes b = __builtin_shufflevector(rows[0], rows[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const Lanes c = __builtin_shufflevector(rows[2], rows[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes d = __builtin_shufflevector(rows[2], rows[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  rows[0] = __builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13);
+  rows[1] = __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15);
+  rows[2] = __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13);
+  rows[3] = __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+// Sixteen whole numbers in as much.
+using ShortLanes = int16_t __attribute__((vector_size(32)));
+inline constexpr size_t kShortLanes = 16;
+
+constexpr size_t PaddedToShortLanes(size_t count) {
+  return (count + kShortLanes - 1) / kShortLanes * kShortLanes;
+}
+
+inline ShortLanes LoadShorts(const int16_t* from) {
+  ShortLanes lanes;
+  std::memcpy(&lanes, from, sizeof(lanes));
+  return lanes;
+}
+inline void Store(const ShortLanes& lanes, int16_t* to) { std::memcpy(to, &lanes, sizeof(lanes)); }
+
+inline ShortLanes BroadcastShort(int16_t a) {
+  return ShortLanes{a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a};
+}
+
+// a b / 2^15, rounded.
+inline ShortLanes MultiplyHigh(const ShortLanes& a, const ShortLanes& b) {
 #ifdef __AVX2__
-  return _mm256_cvtepi32_ps(
-      _mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+  return reinterpret_cast<ShortLanes>(
+      _mm256_mulhrs_epi16(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
 #else
-  Lanes lanes;
+  ShortLanes product;
+  for (size_t i = 0; i < kShortLanes; ++i) {
+    product[i] = static_cast<int16_t>((int32_t{a[i]} * b[i] + (1 << 14)) >> 15);
+  }
+  return product;
+#endif
+}
+
+// Eight floats, each within what sixteen bits hold, rounded.
+inline void StoreAsShorts(const Lanes& a, int16_t* to) {
+  const Lanes half = a < 0.0f ? Broadcast(-0.5f) : Broadcast(0.5f);
+  using HalfLanes = int16_t __attribute__((vector_size(16)));
+  const auto whole =
+      __builtin_convertvector(__builtin_convertvector(a + half, IntLanes), HalfLanes);
+  std::memcpy(to, &whole, sizeof(whole));
+}
+
+// Of each pair of neighbours a b + c d.
+inline IntLanes DotPairs(const ShortLanes& a, const ShortLanes& b) {
+#ifdef __AVX2__
+  return reinterpret_cast<IntLanes>(
+      _mm256_madd_epi16(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
+#else
+  IntLanes sums;
   for (size_t i = 0; i < kLanes; ++i) {
-    lanes[i] = static_cast<float>(from[i]);
+    sums[i] = int32_t{a[2 * i]} * b[2 * i] + int32_t{a[2 * i + 1]} * b[2 * i + 1];
+  }
+  return sums;
+#endif
+}
+
+// Sixteen signed bytes.
+inline ShortLanes LoadBytes(const int8_t* from) {
+#ifdef __AVX2__
+  return reinterpret_cast<ShortLanes>(
+      _mm256_cvtepi8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+#else
+  ShortLanes lanes;
+  for (size_t i = 0; i < kShortLanes; ++i) {
+    lanes[i] = from[i];
   }
   return lanes;
 #endif

@@ -1,6 +1,7 @@
 #include "shared/light/receivers.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "shared/light/blocker_table.h"
 
@@ -53,9 +54,11 @@ inline void AddSphere(const BlockerTable& table,
   }
 }
 
+// turns: of the receivers' own frames; nullptr: all are the stage's.
 template <int Count>
 void AddSpheres(const Spheres& spheres,
                 const Points& receivers,
+                const Turns* turns,
                 ReceiverRange range,
                 ShRows& log_visibility) {
   const BlockerTable& table = BlockerTable::ForCount(Count);
@@ -64,15 +67,22 @@ void AddSpheres(const Spheres& spheres,
     const size_t valid = std::min(kLanes, range.end - i);
     const Register3 at = {LoadFirst(&receivers.x[i], valid), LoadFirst(&receivers.y[i], valid),
                           LoadFirst(&receivers.z[i], valid)};
+    std::optional<Turn8> turn;
+    if (turns != nullptr) {
+      turn.emplace(*turns, i, valid);
+    }
     Lanes log[Count];
     for (int k = 0; k < Count; ++k) {
       log[k] = Load(log_visibility.row(k) + i);
     }
     for (size_t s = 0; s < spheres.radius.size(); ++s) {
-      const Register3 d = {spheres.x[s] - at.x, spheres.y[s] - at.y, spheres.z[s] - at.z};
+      Register3 d = {spheres.x[s] - at.x, spheres.y[s] - at.y, spheres.z[s] - at.z};
       const Lanes distance2 = d.x * d.x + d.y * d.y + d.z * d.z;
       const Lanes share = FadedShare(distance2, spheres.radius[s] * spheres.radius[s]);
       if (AnyAbove(share, 0.0f)) {
+        if (turn) {
+          turn->Back(d.x, d.y, d.z);
+        }
         AddSphere<Count>(table, normalisation, d, distance2, share, log);
       }
     }
@@ -113,24 +123,47 @@ void ClearLogVisibility(ReceiverRange range, ShRows& log_visibility) {
   }
 }
 
-void AddLogVisibility(const Spheres& spheres,
-                      const Points& receivers,
-                      ReceiverRange range,
-                      ShRows& log_visibility) {
+namespace {
+
+void AddAll(const Spheres& spheres,
+            const Points& receivers,
+            const Turns* turns,
+            ReceiverRange range,
+            ShRows& log_visibility) {
   CheckRegisters(range, log_visibility);
   CHECK(receivers.x.size() == log_visibility.receivers() &&
         receivers.y.size() == receivers.x.size() && receivers.z.size() == receivers.x.size());
   CHECK(spheres.x.size() == spheres.radius.size() && spheres.y.size() == spheres.x.size() &&
         spheres.z.size() == spheres.x.size());
+  CHECK(turns == nullptr ||
+        (turns->w.size() == receivers.x.size() && turns->x.size() == receivers.x.size() &&
+         turns->y.size() == receivers.x.size() && turns->z.size() == receivers.x.size()));
   switch (log_visibility.count()) {
     case 9:
-      return AddSpheres<9>(spheres, receivers, range, log_visibility);
+      return AddSpheres<9>(spheres, receivers, turns, range, log_visibility);
     case 16:
-      return AddSpheres<16>(spheres, receivers, range, log_visibility);
+      return AddSpheres<16>(spheres, receivers, turns, range, log_visibility);
     default:
       CHECK(log_visibility.count() == 25);
-      return AddSpheres<25>(spheres, receivers, range, log_visibility);
+      return AddSpheres<25>(spheres, receivers, turns, range, log_visibility);
   }
+}
+
+}  // namespace
+
+void AddLogVisibility(const Spheres& spheres,
+                      const Points& receivers,
+                      ReceiverRange range,
+                      ShRows& log_visibility) {
+  AddAll(spheres, receivers, nullptr, range, log_visibility);
+}
+
+void AddLogVisibility(const Spheres& spheres,
+                      const Points& receivers,
+                      const Turns& stage_from_own,
+                      ReceiverRange range,
+                      ShRows& log_visibility) {
+  AddAll(spheres, receivers, &stage_from_own, range, log_visibility);
 }
 
 void ExpRows(const ShRows& log_visibility, ReceiverRange range, ShRows& visibility) {
@@ -165,32 +198,6 @@ void ShadowLight(const LightMatrix& light,
       MultiplyMatrix(light.channel(channel), visibility, count, lit);
       for (int k = 0; k < count; ++k) {
         Store(lit[k], rows.row(k) + i);
-      }
-    }
-  }
-}
-
-void RotateRows(const ShRows& source,
-                const ShRotation& rotation,
-                ReceiverRange range,
-                ShRows& target) {
-  CHECK(source.count() == target.count() && source.stride() == target.stride() &&
-        range.begin <= range.end && range.end <= source.receivers());
-  for (size_t i = range.begin; i < range.end; i += kLanes) {
-    const size_t valid = std::min(kLanes, range.end - i);
-    for (int l = 0; l * l < source.count(); ++l) {
-      const int side = 2 * l + 1;
-      const float* matrix = rotation.band(l).data();
-      Lanes band[2 * kShDegree + 1];
-      for (int n = 0; n < side; ++n) {
-        band[n] = LoadFirst(source.row(l * l + n) + i, valid);
-      }
-      for (int m = 0; m < side; ++m, matrix += side) {
-        Lanes sum = matrix[0] * band[0];
-        for (int n = 1; n < side; ++n) {
-          sum = MultiplyAdd(Broadcast(matrix[n]), band[n], sum);
-        }
-        StoreFirst(sum, target.row(l * l + m) + i, valid);
       }
     }
   }

@@ -8,7 +8,7 @@
 
 #include "shared/light/sh_product.h"
 #include "shared/light/sh_rows.h"
-#include "shared/light/spherical_harmonics.h"
+#include "shared/light/sh_turn.h"
 
 namespace lararium::light {
 
@@ -39,6 +39,13 @@ void AddLogVisibility(const Spheres& spheres,
                       ReceiverRange range,
                       ShRows& log_visibility);
 
+// The same in a frame of each receiver's own, whose axes its turn brings to the stage's.
+void AddLogVisibility(const Spheres& spheres,
+                      const Points& receivers,
+                      const Turns& stage_from_own,
+                      ReceiverRange range,
+                      ShRows& log_visibility);
+
 // light x exp(log visibility) for each channel. All rows have light.count() rows.
 // range.begin is a multiple of kLanes.
 void ShadowLight(const LightMatrix& light,
@@ -48,12 +55,5 @@ void ShadowLight(const LightMatrix& light,
 
 // visibility = exp(log visibility), clamped nowhere. As above.
 void ExpRows(const ShRows& log_visibility, ReceiverRange range, ShRows& visibility);
-
-// Turns coefficients, as into the frame of the receivers' bone: target(k) =
-// coefficients of f(rotation^-1 d). Any range; jobs on disjoint ranges may run together.
-void RotateRows(const ShRows& source,
-                const ShRotation& rotation,
-                ReceiverRange range,
-                ShRows& target);
 
 }  // namespace lararium::light

@@ -18,54 +18,87 @@ bool FinitePositive(std::span<const float> values) {
                      [](float value) { return std::isfinite(value) && value >= 0.0f; });
 }
 
-// Rows of padded Padded floats for each channel.
-template <size_t Padded>
-void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
-  constexpr size_t kRegisters = 3 * Padded / kLanes;
-  const Transfer& transfer = *job.transfer;
-  const float* light_rows = job.light->row(0);
-  const float* pose_weight_rows = job.pose_weights.data();
-  const size_t poses = transfer.poses;
-  for (size_t v = begin; v < end; ++v) {
-    const VertexReceivers& receivers = job.receivers[v];
-    Lanes light[kRegisters] = {};
-    Lanes pose_weights = {};
-    for (size_t r = 0; r < kReceiversOfVertex && receivers.weight[r] > 0; ++r) {
-      const Lanes weight = Broadcast(receivers.weight[r] * (1.0f / 255.0f));
-      const float* row = light_rows + receivers.receiver[r] * (kRegisters * kLanes);
-#pragma GCC unroll 15
-      for (size_t i = 0; i < kRegisters; ++i) {
-        light[i] = MultiplyAdd(weight, Load(row + i * kLanes), light[i]);
-      }
-      pose_weights = MultiplyAdd(
-          weight, Load(pose_weight_rows + receivers.receiver[r] * kMaxKeyPoses), pose_weights);
+// The largest whole number that light is packed as: sums of four rounded parts of it still fit.
+constexpr float kLargestShort = 32000.0f;
+
+// Weights in 1/255 as what MultiplyHigh takes.
+constexpr int16_t Weight(uint8_t weight) { return static_cast<int16_t>(weight * 128 + weight / 2); }
+
+// Light of a vertex: of its receivers, weighed.
+template <size_t Registers>
+inline void BlendReceivers(const ReceiverLight& packed,
+                           const VertexReceivers& receivers,
+                           const float* pose_weights,
+                           ShortLanes (&light)[Registers],
+                           Lanes& weights) {
+  for (size_t r = 0; r < kReceiversOfVertex && receivers.weight[r] > 0; ++r) {
+    const ShortLanes weight = BroadcastShort(Weight(receivers.weight[r]));
+    const int16_t* row = packed.row(0) + receivers.receiver[r] * (Registers * kShortLanes);
+#pragma GCC unroll 9
+    for (size_t i = 0; i < Registers; ++i) {
+      light[i] += MultiplyHigh(weight, LoadShorts(row + i * kShortLanes));
     }
+    weights = MultiplyAdd(Broadcast(receivers.weight[r] * (1.0f / 255.0f)),
+                          Load(pose_weights + receivers.receiver[r] * kMaxKeyPoses), weights);
+  }
+}
+
+// Rows of so many registers for each channel.
+template <size_t OfChannel>
+void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
+  constexpr size_t kRegisters = 3 * OfChannel;
+  const Transfer& transfer = *job.transfer;
+  const size_t pose_stride = transfer.vertices * kRegisters * kShortLanes;
+  for (size_t v = begin; v < end; ++v) {
+    ShortLanes light[kRegisters] = {};
+    Lanes weights = {};
+    BlendReceivers(*job.light, job.receivers[v], job.pose_weights.data(), light, weights);
+    float pose_weights[kLanes];
+    Store(weights, pose_weights);
     Lanes sums[3] = {};
     float total = 0.0f;
     const float* scale_of_vertex = transfer.scale.data() + v;
     const int8_t* row = transfer.row(0, v);
-    for (size_t pose = 0; pose < poses; ++pose) {
+    for (size_t pose = 0; pose < transfer.poses; ++pose) {
       const float weight = pose_weights[pose];
       if (weight >= kLeastPoseWeight) {
         total += weight;
         const Lanes scale = Broadcast(weight * *scale_of_vertex);
 #pragma GCC unroll 3
         for (size_t channel = 0; channel < 3; ++channel) {
-          const size_t first = channel * kRegisters / 3;
-          Lanes sum = light[first] * LoadBytes(row + first * kLanes);
-#pragma GCC unroll 4
-          for (size_t i = first + 1; i < first + kRegisters / 3; ++i) {
-            sum = MultiplyAdd(light[i], LoadBytes(row + i * kLanes), sum);
+          const size_t first = channel * OfChannel;
+          IntLanes sum = DotPairs(light[first], LoadBytes(row + first * kShortLanes));
+#pragma GCC unroll 2
+          for (size_t i = first + 1; i < first + OfChannel; ++i) {
+            sum += DotPairs(light[i], LoadBytes(row + i * kShortLanes));
           }
-          sums[channel] = MultiplyAdd(scale, sum, sums[channel]);
+          sums[channel] = MultiplyAdd(scale, __builtin_convertvector(sum, Lanes), sums[channel]);
         }
       }
       scale_of_vertex += transfer.vertices;
-      row += transfer.vertices * kRegisters * kLanes;
+      row += pose_stride;
     }
     const glm::vec3 irradiance(Sum(sums[0]), Sum(sums[1]), Sum(sums[2]));
-    job.irradiance[v] = glm::max(irradiance * (1.0f / std::max(total, 1e-6f)), glm::vec3(0.0f));
+    const float unit = job.light->unit() / std::max(total, 1e-6f);
+    job.irradiance[v] = glm::max(irradiance * unit, glm::vec3(0.0f));
   }
+}
+
+float LargestOf(const ShRowsRgb& light) {
+  Lanes largest = {};
+  for (const ShRows& rows : light) {
+    for (int k = 0; k < rows.count(); ++k) {
+      for (size_t i = 0; i < rows.receivers(); i += kLanes) {
+        const Lanes values = LoadFirst(rows.row(k) + i, rows.receivers() - i);
+        largest = Max(largest, Max(values, -values));
+      }
+    }
+  }
+  float most = 0.0f;
+  for (size_t i = 0; i < kLanes; ++i) {
+    most = std::max(most, largest[i]);
+  }
+  return most;
 }
 
 }  // namespace
@@ -136,24 +169,25 @@ void DecodeTransfer(const Transfer& transfer,
   }
 }
 
-void PackReceiverLight(const ShRowsRgb& light, ReceiverRange range, ReceiverLight& packed) {
-  const int count = packed.count();
+void PackReceiverLight(const ShRowsRgb& light, ReceiverLight& packed) {
   const size_t padded = packed.stride() / 3;
-  CHECK(range.begin <= range.end && range.end <= packed.receivers());
+  const float most = LargestOf(light);
+  packed.set_unit(most / kLargestShort);
+  const float inverse = most > 0.0f ? kLargestShort / most : 0.0f;
   for (size_t channel = 0; channel < 3; ++channel) {
     const ShRows& rows = light[channel];
-    CHECK(rows.count() == count && rows.receivers() == packed.receivers());
-    for (size_t i = range.begin; i < range.end; i += kLanes) {
-      const size_t valid = std::min(kLanes, range.end - i);
-      for (int k = 0; k < count; k += static_cast<int>(kLanes)) {
+    CHECK(rows.count() == packed.count() && rows.receivers() == packed.receivers());
+    for (size_t i = 0; i < rows.receivers(); i += kLanes) {
+      const size_t valid = std::min(kLanes, rows.receivers() - i);
+      for (int k = 0; k < rows.count(); k += static_cast<int>(kLanes)) {
         Lanes block[kLanes] = {};
-        for (int n = 0; n < static_cast<int>(kLanes) && k + n < count; ++n) {
-          block[n] = LoadFirst(rows.row(k + n) + i, valid);
+        for (int n = 0; n < static_cast<int>(kLanes) && k + n < rows.count(); ++n) {
+          block[n] = LoadFirst(rows.row(k + n) + i, valid) * inverse;
         }
         Transpose(block);
         for (size_t receiver = 0; receiver < valid; ++receiver) {
-          Store(block[receiver],
-                packed.row(i + receiver) + channel * padded + static_cast<size_t>(k));
+          StoreAsShorts(block[receiver],
+                        packed.row(i + receiver) + channel * padded + static_cast<size_t>(k));
         }
       }
     }
@@ -165,14 +199,14 @@ void LightVerticesJob::Run(size_t begin, size_t end) const {
         receivers.size() == transfer->vertices && irradiance.size() == transfer->vertices &&
         pose_weights.size() == light->receivers() * kMaxKeyPoses &&
         transfer->poses <= kMaxKeyPoses && begin <= end && end <= transfer->vertices);
-  switch (transfer->padded_count()) {
-    case 16:
-      return LightRange<16>(*this, begin, end);
-    case 32:
-      return LightRange<32>(*this, begin, end);
+  switch (transfer->padded_count() / kShortLanes) {
+    case 1:
+      return LightRange<1>(*this, begin, end);
+    case 2:
+      return LightRange<2>(*this, begin, end);
     default:
-      CHECK(transfer->padded_count() == 40);
-      return LightRange<40>(*this, begin, end);
+      CHECK(transfer->padded_count() == 3 * kShortLanes);
+      return LightRange<3>(*this, begin, end);
   }
 }
 

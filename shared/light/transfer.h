@@ -32,7 +32,7 @@ struct Transfer {
   std::vector<float> scale;    // [pose][vertex]
   std::vector<int8_t> values;  // [pose][vertex][3][padded count], padding zero
 
-  size_t padded_count() const { return PaddedToLanes(static_cast<size_t>(count)); }
+  size_t padded_count() const { return PaddedToShortLanes(static_cast<size_t>(count)); }
   const int8_t* row(size_t pose, size_t vertex) const {
     return values.data() + (pose * vertices + vertex) * 3 * padded_count();
   }
@@ -47,30 +47,31 @@ Transfer QuantiseTransfer(std::span<const float> vectors, int count, size_t pose
 // [3][count] of one vertex and pose.
 void DecodeTransfer(const Transfer& transfer, size_t pose, size_t vertex, std::span<float> vectors);
 
-// Light of receivers as vertices read it: [receiver][3][padded count]. Made once; filling it does
-// not allocate.
+// Light of receivers as vertices read it: [receiver][3][padded count], in whole numbers of
+// unit(), so that a register holds sixteen of them. Made once; filling it does not allocate.
 class ReceiverLight {
  public:
   ReceiverLight(int count, size_t receivers)
-      : count_(count),
-        receivers_(receivers),
-        values_(receivers * 3 * PaddedToLanes(static_cast<size_t>(count)), 0.0f) {}
+      : count_(count), receivers_(receivers), values_(receivers * stride(), 0) {}
 
   int count() const { return count_; }
   size_t receivers() const { return receivers_; }
-  size_t stride() const { return 3 * PaddedToLanes(static_cast<size_t>(count_)); }
-  float* row(size_t receiver) { return values_.data() + receiver * stride(); }
-  const float* row(size_t receiver) const { return values_.data() + receiver * stride(); }
+  size_t stride() const { return 3 * PaddedToShortLanes(static_cast<size_t>(count_)); }
+  int16_t* row(size_t receiver) { return values_.data() + receiver * stride(); }
+  const int16_t* row(size_t receiver) const { return values_.data() + receiver * stride(); }
+  float unit() const { return unit_; }
+  void set_unit(float unit) { unit_ = unit; }
 
  private:
   int count_;
   size_t receivers_;
-  std::vector<float> values_;
+  float unit_ = 0.0f;
+  std::vector<int16_t> values_;
 };
 
-// Fills the receivers of range, which may be any; jobs on disjoint ranges may run
-// together. light: in the receivers' bone frames (RotateRows).
-void PackReceiverLight(const ShRowsRgb& light, ReceiverRange range, ReceiverLight& packed);
+// light: in the receivers' bone frames (sh_turn.h). Each is off by half a unit at most: by
+// 1/64000 of the largest coefficient that any receiver has.
+void PackReceiverLight(const ShRowsRgb& light, ReceiverLight& packed);
 
 // The receivers that light a vertex. Weights in 1/255, sum 255, the largest first; those
 // after a weight of 0 are not looked at.

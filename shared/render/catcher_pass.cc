@@ -11,7 +11,7 @@
 namespace lararium::render {
 namespace {
 
-constexpr int kCoarse = 4;  // as shaders/include/catcher.glsl has it
+constexpr int kLeastCell = 4;  // of Quality::shadow_cell
 constexpr uint32_t kBlockerBinding = 1;
 
 // Less of the sky's light than this from a lamp is not seen on real surfaces.
@@ -36,13 +36,29 @@ Status CheckFramebuffer() {
   return Status();
 }
 
-ImageSize Coarse(const ImageSize& size) {
-  return {(size.width + kCoarse - 1) / kCoarse, (size.height + kCoarse - 1) / kCoarse};
+const light::ShRgb& PictureLight(const RenderScene& scene) {
+  return scene.picture_light ? *scene.picture_light : scene.light;
 }
 
-PixelBounds Coarse(const PixelBounds& b) {
-  return {b.left / kCoarse, b.bottom / kCoarse, (b.right + kCoarse - 1) / kCoarse,
-          (b.top + kCoarse - 1) / kCoarse};
+Status AllocateColour(GlTexture& texture,
+                      GlFramebuffer& framebuffer,
+                      const ImageSize& size,
+                      GLint filter) {
+  AllocateImage(texture, GL_RGBA16F, size, GL_RGBA, GL_HALF_FLOAT);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  framebuffer = GlFramebuffer::Generate();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
+  return CheckFramebuffer();
+}
+
+ImageSize Coarse(const ImageSize& size, int cell) {
+  return {(size.width + cell - 1) / cell, (size.height + cell - 1) / cell};
+}
+
+PixelBounds Coarse(const PixelBounds& b, int cell) {
+  return {b.left / cell, b.bottom / cell, (b.right + cell - 1) / cell, (b.top + cell - 1) / cell};
 }
 
 void Limit(const PixelBounds& bounds) {
@@ -81,37 +97,38 @@ Result<CatcherPass> CatcherPass::Create() {
   SetCones(pass.ratio_shaders_);
   pass.ratio_shaders_.Set("cone_axis", SkyConeAxis());
   pass.ratio_shaders_.Set("least_share", kLeastBlockedShare);
+  LARARIUM_ASSIGN_OR_RETURN(pass.caught_shaders_,
+                            ShaderProgram::Create("full_screen.vert", "caught.frag"));
   pass.no_vertices_ = GlVertexArray::Generate();
   pass.blockers_ = GlBuffer::Generate();
   glBindBuffer(GL_UNIFORM_BUFFER, pass.blockers_.id());
   glBufferData(GL_UNIFORM_BUFFER, sizeof(BlockerBlock), nullptr, GL_STREAM_DRAW);
   AllocateSky(pass.sky_);
   AllocateSky(pass.sky_irradiance_);
-  pass.UploadSky({});
+  AllocateSky(pass.picture_irradiance_);
+  pass.UploadSky({}, {});
   return pass;
 }
 
-Status CatcherPass::Prepare(const ImageSize& size) {
-  if (size.width == size_.width && size.height == size_.height) {
+Status CatcherPass::Prepare(const ImageSize& most) {
+  if (most == most_) {
     return Status();
   }
-  size_ = size;
-  AllocateImage(normal_, GL_RGB10_A2, size, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
-  AllocateImage(depth_, GL_DEPTH_COMPONENT24, size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
+  most_ = most;
+  AllocateImage(normal_, GL_RGB10_A2, most, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
+  AllocateImage(depth_, GL_DEPTH_COMPONENT24, most, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
   surface_framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, surface_framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, normal_.id(), 0);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);
   LARARIUM_RETURN_IF_ERROR(CheckFramebuffer());
-  AllocateImage(ratio_, GL_RGBA16F, Coarse(size), GL_RGBA, GL_HALF_FLOAT);
-  ratio_framebuffer_ = GlFramebuffer::Generate();
-  glBindFramebuffer(GL_FRAMEBUFFER, ratio_framebuffer_.id());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ratio_.id(), 0);
-  return CheckFramebuffer();
+  LARARIUM_RETURN_IF_ERROR(
+      AllocateColour(ratio_, ratio_framebuffer_, Coarse(most, kLeastCell), GL_NEAREST));
+  return AllocateColour(caught_, caught_framebuffer_, most, GL_LINEAR);
 }
 
-void CatcherPass::UploadSky(const light::ShRgb& light) {
-  if (sky_is_there_ && light == uploaded_light_) {
+void CatcherPass::UploadSky(const light::ShRgb& light, const light::ShRgb& picture) {
+  if (sky_is_there_ && light == uploaded_light_ && picture == uploaded_picture_) {
     return;
   }
   const auto upload = [this](const GlTexture& texture) {
@@ -123,7 +140,10 @@ void CatcherPass::UploadSky(const light::ShRgb& light) {
   upload(sky_);
   FillIrradianceMap(light, sky_map_);
   upload(sky_irradiance_);
+  FillIrradianceMap(picture, sky_map_);
+  upload(picture_irradiance_);
   uploaded_light_ = light;
+  uploaded_picture_ = picture;
   sky_is_there_ = true;
 }
 
@@ -133,7 +153,7 @@ void CatcherPass::UploadBlockers() {
 }
 
 void CatcherPass::ChooseLamps(const RenderScene& scene) {
-  const glm::vec3 sky = light::EvaluateIrradiance(scene.light, glm::vec3(0.0f, 1.0f, 0.0f));
+  const glm::vec3 sky = light::EvaluateIrradiance(PictureLight(scene), glm::vec3(0.0f, 1.0f, 0.0f));
   least_lamp_ = std::max(kLeastLampShare * std::max({sky.r, sky.g, sky.b}), 1e-4f);
   const glm::vec3 eye = geometry::ToGlm(scene.camera_from_stage->Center());
   lamps_.Choose(scene.lamps, eye, scene.far, least_lamp_);
@@ -203,21 +223,22 @@ void CatcherPass::BindSurfaces(const ShaderProgram& shaders,
   shaders.Set("ray_per_column", view.ray_per_column);
   shaders.Set("ray_per_row", view.ray_per_row);
   shaders.Set("near_far", glm::vec2(view.near, view.far));
+  shaders.Set("shadow_cell", cell_);
 }
 
 void CatcherPass::DrawRatio(const PictureView& view) const {
-  const ImageSize coarse = Coarse(view.size);
+  const ImageSize coarse = Coarse(view.size, cell_);
   glBindFramebuffer(GL_FRAMEBUFFER, ratio_framebuffer_.id());
   glViewport(0, 0, coarse.width, coarse.height);
-  Limit(Coarse(bounds_));
+  Limit(Coarse(bounds_, cell_));
   ratio_shaders_.Use();
   BindSurfaces(ratio_shaders_, view, 0);
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, sky_.id());
   ratio_shaders_.Set("sky", 2);
   glActiveTexture(GL_TEXTURE3);
-  glBindTexture(GL_TEXTURE_2D, sky_irradiance_.id());
-  ratio_shaders_.Set("sky_irradiance", 3);
+  glBindTexture(GL_TEXTURE_2D, picture_irradiance_.id());
+  ratio_shaders_.Set("picture_irradiance", 3);
   lamps_.Set(ratio_shaders_);
   ratio_shaders_.Set("least_lamp", least_lamp_);
   ratio_shaders_.Set("cluster_count", clusters_.cluster_count());
@@ -228,33 +249,60 @@ void CatcherPass::DrawRatio(const PictureView& view) const {
   glDisable(GL_SCISSOR_TEST);
 }
 
+void CatcherPass::DrawCaught(const SunPass& sun,
+                             const PictureView& view,
+                             const Hiding& hiding) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, caught_framebuffer_.id());
+  glViewport(0, 0, view.size.width, view.size.height);
+  Limit(bounds_);
+  caught_shaders_.Use();
+  BindSurfaces(caught_shaders_, view, 0);
+  const auto bind = [&](GLuint texture, int unit, const char* name) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, texture);
+    caught_shaders_.Set(name, unit);
+  };
+  bind(ratio_.id(), 2, "sky_ratio");
+  bind(sky_irradiance_.id(), 3, "sky_irradiance");
+  bind(hiding.people, 4, "people");
+  const PixelBounds& people = hiding.bounds;
+  caught_shaders_.Set("people_bounds",
+                      glm::vec4(people.left, people.bottom, people.right, people.top));
+  caught_shaders_.Set("hidden_margin", hiding.margin);
+  sun.BindFor(caught_shaders_);
+  glBindVertexArray(no_vertices_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+  glDisable(GL_SCISSOR_TEST);
+}
+
 Status CatcherPass::Draw(const RenderScene& scene,
+                         const Quality& quality,
                          const SlotMap<GpuMesh>& meshes,
                          const SunPass& sun,
-                         const PictureView& view) {
+                         const PictureView& view,
+                         const Hiding& hiding) {
   ChooseLamps(scene);
   bounds_ = FindBounds(scene, meshes, sun, view);
   if (bounds_.empty()) {
     return Status();
   }
-  LARARIUM_RETURN_IF_ERROR(Prepare(view.size));
-  UploadSky(scene.light);
+  cell_ = quality.shadow_cell;
+  LARARIUM_RETURN_IF_ERROR(Prepare(view.most));
+  UploadSky(scene.light, PictureLight(scene));
   UploadBlockers();
   DrawSurfaces(scene, meshes, view);
   DrawRatio(view);
+  DrawCaught(sun, view, hiding);
   return Status();
 }
 
-void CatcherPass::BindFor(const ShaderProgram& shaders,
-                          const PictureView& view,
-                          uint32_t first_unit) const {
-  BindSurfaces(shaders, view, first_unit);
-  glActiveTexture(GL_TEXTURE0 + first_unit + 2);
-  glBindTexture(GL_TEXTURE_2D, ratio_.id());
-  shaders.Set("sky_ratio", static_cast<int>(first_unit + 2));
-  glActiveTexture(GL_TEXTURE0 + first_unit + 3);
-  glBindTexture(GL_TEXTURE_2D, sky_irradiance_.id());
-  shaders.Set("sky_irradiance", static_cast<int>(first_unit + 3));
+void CatcherPass::BindFor(const ShaderProgram& shaders, uint32_t unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_2D, caught_.id());
+  shaders.Set("caught", static_cast<int>(unit));
+  shaders.Set("catcher_bounds",
+              glm::vec4(bounds_.left, bounds_.bottom, bounds_.right, bounds_.top));
 }
 
 }  // namespace lararium::render

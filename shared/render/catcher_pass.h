@@ -4,8 +4,8 @@
 // keep where somebody stands before it, and gain. Private to render.
 //
 // The nearest real surfaces are drawn with normal and depth; the ratio of the sky's light
-// is worked out for every fourth pixel in both directions; the composite brings it to all
-// pixels, each from neighbours on its own plane.
+// is worked out for one pixel in every few in both directions, and brought to all pixels, each
+// from neighbours on its own plane.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -19,6 +19,7 @@
 #include "shared/render/gpu_mesh.h"
 #include "shared/render/lamp_uniforms.h"
 #include "shared/render/picture_view.h"
+#include "shared/render/quality.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
@@ -35,19 +36,28 @@ class CatcherPass {
   // A box of the stage that holds all that the blockers darken.
   const Box& reach() const { return clusters_.reach(); }
 
-  // Fills the images within bounds(), which are empty where no shadow can be seen.
+  // What people hide of it: their layer, and how many pixels within their edges are seen through
+  // them.
+  struct Hiding {
+    uint32_t people = 0;  // texture; valid within bounds
+    PixelBounds bounds;
+    int margin = 0;
+  };
+  // Fills the image within bounds(), which are empty where no shadow can be seen.
   Status Draw(const RenderScene& scene,
+              const Quality& quality,
               const SlotMap<GpuMesh>& meshes,
               const SunPass& sun,
-              const PictureView& view);
+              const PictureView& view,
+              const Hiding& hiding);
   void Skip() { bounds_ = {}; }
 
   const PixelBounds& bounds() const { return bounds_; }
-  // For shaders/include/catcher.glsl and the composite: four units from first on.
-  void BindFor(const ShaderProgram& shaders, const PictureView& view, uint32_t first_unit) const;
+  // For the composite.
+  void BindFor(const ShaderProgram& shaders, uint32_t unit) const;
 
  private:
-  Status Prepare(const ImageSize& size);
+  Status Prepare(const ImageSize& most);
   PixelBounds FindBounds(const RenderScene& scene,
                          const SlotMap<GpuMesh>& meshes,
                          const SunPass& sun,
@@ -56,9 +66,11 @@ class CatcherPass {
                     const SlotMap<GpuMesh>& meshes,
                     const PictureView& view) const;
   void DrawRatio(const PictureView& view) const;
+  void DrawCaught(const SunPass& sun, const PictureView& view, const Hiding& hiding) const;
   void ChooseLamps(const RenderScene& scene);
   Box ReachOfLamps(const RenderScene& scene) const;
-  void UploadSky(const light::ShRgb& light);
+  // light: of the people; picture: of the camera's image.
+  void UploadSky(const light::ShRgb& light, const light::ShRgb& picture);
   void UploadBlockers();
   void BindSurfaces(const ShaderProgram& shaders,
                     const PictureView& view,
@@ -66,22 +78,28 @@ class CatcherPass {
 
   ShaderProgram surface_shaders_;
   ShaderProgram ratio_shaders_;
+  ShaderProgram caught_shaders_;
   GlVertexArray no_vertices_;
   GlBuffer blockers_;
   GlTexture sky_;             // radiance of cones
   GlTexture sky_irradiance_;  // by normal
+  GlTexture picture_irradiance_;
   bool sky_is_there_ = false;
-  ImageSize size_;
+  ImageSize most_;
+  int cell_ = 4;  // Quality::shadow_cell
   GlTexture normal_;
   GlTexture depth_;
   GlFramebuffer surface_framebuffer_;
   GlTexture ratio_;
   GlFramebuffer ratio_framebuffer_;
+  GlTexture caught_;
+  GlFramebuffer caught_framebuffer_;
   PixelBounds bounds_;
   LampUniforms lamps_;
   float least_lamp_ = 0.0f;  // irradiance that would not be seen
   BlockerClusters clusters_;
   light::ShRgb uploaded_light_ = {};
+  light::ShRgb uploaded_picture_ = {};
   std::vector<glm::vec4> sky_map_;
 };
 

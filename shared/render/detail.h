@@ -77,6 +77,8 @@ class DetailChooser {
  public:
   explicit DetailChooser(const DetailOptions& options = {}) : options_(options) {}
 
+  // From the next choice on.
+  void SetOptions(const DetailOptions& options) { options_ = options; }
   void Choose(std::span<DetailRequest> requests);
 
  private:

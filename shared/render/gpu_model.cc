@@ -302,7 +302,8 @@ void WidenForArcs(std::vector<Box>& boxes) {
 
 Result<GpuModel> GpuModel::Create(const human::Human& human) {
   GpuModel model;
-  model.skinning = human.skinning;
+  const bool dual = human.skinning == human::Skinning::kDualQuaternion;
+  model.skin = dual ? Skin::kDualQuaternion : Skin::kLinear;
   std::vector<PartSource> sources;
   for (const human::SkinnedMesh& mesh : human.meshes) {
     sources.push_back(Source(mesh));
@@ -314,7 +315,7 @@ Result<GpuModel> GpuModel::Create(const human::Human& human) {
   for (size_t i = 0; i < human.meshes.size(); ++i) {
     ExtendJointBoxes(human.meshes[i], reach[i], model.joint_boxes);
   }
-  if (model.skinning == human::Skinning::kDualQuaternion) {
+  if (dual) {
     WidenForArcs(model.joint_boxes);
   }
   return model;
@@ -322,6 +323,7 @@ Result<GpuModel> GpuModel::Create(const human::Human& human) {
 
 Result<GpuModel> GpuModel::Create(const stage::Prop& prop) {
   GpuModel model;
+  model.skin = Skin::kRigid;
   std::vector<PartSource> sources;
   std::vector<glm::vec3> emissions;
   std::vector<uint8_t> prop_parts;

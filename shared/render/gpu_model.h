@@ -54,7 +54,9 @@ struct GpuModel {
 
   std::vector<GlTexture> textures;
   std::vector<Part> parts;  // of a human: parallel to its meshes
-  human::Skinning skinning = human::Skinning::kLinear;
+  enum class Skin { kLinear, kDualQuaternion, kRigid };
+  static constexpr size_t kSkins = 3;
+  Skin skin = Skin::kLinear;
   // Of each joint: the box, in the bind pose, of all vertices that follow it, morphed
   // or not. A posed vertex lies in the convex hull of its joints' posed boxes, which
   // are wider for dual quaternions.

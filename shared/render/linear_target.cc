@@ -18,56 +18,58 @@ Status CheckFramebuffer() {
 
 }  // namespace
 
-Status LinearTarget::Prepare(int width, int height, int samples) {
-  GLint most = 1;
-  glGetIntegerv(GL_MAX_SAMPLES, &most);
-  samples = std::clamp(samples, 1, std::max(most, 1));
-  if (width == width_ && height == height_ && samples == samples_) {
-    return Status();
+Status LinearTarget::Prepare(const ImageSize& most, const ImageSize& size, int samples) {
+  GLint offered = 1;
+  glGetIntegerv(GL_MAX_SAMPLES, &offered);
+  samples_ = std::clamp(samples, 1, std::max(offered, 1));
+  size_ = size;
+  if (most_ != most) {
+    most_ = most;
+    allocated_samples_ = 0;
+    LARARIUM_RETURN_IF_ERROR(AllocateResolved());
   }
-  width_ = width;
-  height_ = height;
-  samples_ = samples;
-  LARARIUM_RETURN_IF_ERROR(AllocateResolved());
-  return AllocateSampled();
+  return sampled() && samples_ != allocated_samples_ ? AllocateSampled(samples_) : Status();
 }
 
 Status LinearTarget::AllocateResolved() {
   resolved_ = GlTexture::Generate();
   glBindTexture(GL_TEXTURE_2D, resolved_.id());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width_, height_, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, most_.width, most_.height, 0, GL_RGBA, GL_HALF_FLOAT,
+               nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  resolved_depth_ = GlRenderbuffer::Generate();
+  glBindRenderbuffer(GL_RENDERBUFFER, resolved_depth_.id());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, most_.width, most_.height);
   resolved_framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, resolved_framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, resolved_.id(), 0);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                            resolved_depth_.id());
   return CheckFramebuffer();
 }
 
-Status LinearTarget::AllocateSampled() {
+Status LinearTarget::AllocateSampled(int samples) {
+  allocated_samples_ = samples;
   framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  if (samples_ > 1) {
-    colour_ = GlRenderbuffer::Generate();
-    glBindRenderbuffer(GL_RENDERBUFFER, colour_.id());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA16F, width_, height_);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.id());
-  } else {
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, resolved_.id(), 0);
-  }
+  colour_ = GlRenderbuffer::Generate();
+  glBindRenderbuffer(GL_RENDERBUFFER, colour_.id());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA16F, most_.width, most_.height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.id());
   depth_ = GlRenderbuffer::Generate();
   glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_ > 1 ? samples_ : 0,
-                                   GL_DEPTH_COMPONENT24, width_, height_);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, most_.width,
+                                   most_.height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
   return CheckFramebuffer();
 }
 
 void LinearTarget::BindAndClear(const PixelBounds& bounds) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  glViewport(0, 0, width_, height_);
+  glBindFramebuffer(GL_FRAMEBUFFER, sampled() ? framebuffer_.id() : resolved_framebuffer_.id());
+  glViewport(0, 0, size_.width, size_.height);
   glEnable(GL_SCISSOR_TEST);
   glScissor(bounds.left, bounds.bottom, bounds.width(), bounds.height());
   glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
@@ -77,7 +79,7 @@ void LinearTarget::BindAndClear(const PixelBounds& bounds) const {
 
 void LinearTarget::Resolve(const PixelBounds& b) const {
   glDisable(GL_SCISSOR_TEST);
-  if (samples_ == 1) {
+  if (!sampled()) {
     return;
   }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
@@ -87,7 +89,7 @@ void LinearTarget::Resolve(const PixelBounds& b) const {
 }
 
 void LinearTarget::ReadPixels(const PixelBounds& b, cv::Mat& rgba) const {
-  rgba.create(height_, width_, CV_32FC4);
+  rgba.create(size_.height, size_.width, CV_32FC4);
   rgba.setTo(cv::Scalar::all(0.0));
   if (b.empty()) {
     return;
@@ -97,7 +99,7 @@ void LinearTarget::ReadPixels(const PixelBounds& b, cv::Mat& rgba) const {
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
   glReadPixels(b.left, b.bottom, b.width(), b.height(), GL_RGBA, GL_FLOAT, read.data);
-  cv::flip(read, rgba(cv::Rect(b.left, height_ - b.top, b.width(), b.height())), 0);
+  cv::flip(read, rgba(cv::Rect(b.left, size_.height - b.top, b.width(), b.height())), 0);
 }
 
 }  // namespace lararium::render

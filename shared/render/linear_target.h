@@ -14,8 +14,9 @@ namespace lararium::render {
 
 class LinearTarget {
  public:
-  // Allocates only when the size or the number of samples changes.
-  Status Prepare(int width, int height, int samples);
+  // Allocates where `most` is new, and when several samples are asked for the first time.
+  // size: what is drawn, the lower left part of it all.
+  Status Prepare(const ImageSize& most, const ImageSize& size, int samples);
 
   // Draws go here from now on, within bounds only, where colour and coverage are
   // cleared to nothing and depth to far.
@@ -23,20 +24,23 @@ class LinearTarget {
   // Averages the samples of each pixel within bounds into texture().
   void Resolve(const PixelBounds& bounds) const;
   // Copies what was resolved within bounds, and nothing elsewhere, into CV_32FC4: red,
-  // green, blue, coverage; the top row first.
+  // green, blue, coverage; the top row first, of the size drawn.
   void ReadPixels(const PixelBounds& bounds, cv::Mat& rgba) const;
   // OpenGL's order: the bottom row first.
   uint32_t texture() const { return resolved_.id(); }
 
  private:
   Status AllocateResolved();
-  Status AllocateSampled();
+  Status AllocateSampled(int samples);
+  bool sampled() const { return samples_ > 1; }
 
-  int width_ = 0;
-  int height_ = 0;
-  int samples_ = 0;  // 1: drawn into the texture itself
+  ImageSize most_;
+  ImageSize size_;
+  int samples_ = 1;  // 1: drawn into the texture itself
   GlTexture resolved_;
+  GlRenderbuffer resolved_depth_;
   GlFramebuffer resolved_framebuffer_;
+  int allocated_samples_ = 0;  // of the following
   GlRenderbuffer colour_;
   GlRenderbuffer depth_;
   GlFramebuffer framebuffer_;

@@ -20,6 +20,8 @@ constexpr float kWidestLens = 4.0f;
 constexpr float kShortestSmear = 0.7f;
 constexpr float kTapGap = 1.5f;  // pixels; taps are bilinear
 constexpr int kMostTaps = 16;
+// Of linear interpolation, on average over where between two pixels it is.
+constexpr float kEnlargedVariance = 1.0f / 6.0f;
 
 // The longest way that a point of the bounds has gone, for an open shutter; at a corner,
 // since the map is nearly affine.
@@ -52,9 +54,12 @@ Smear SmearOf(const RenderScene& scene,
               float depth) {
   const CameraLook& look = scene.look;
   Smear smear;
-  const float lens = std::clamp(look.blur_px, 0.0f, kWidestLens);
-  smear.lens_variance = lens * lens;
-  const float lens_box = lens * std::sqrt(12.0f);
+  const float scale = static_cast<float>(view.size.width) / static_cast<float>(view.most.width);
+  const float in_picture = std::clamp(look.blur_px, 0.0f, kWidestLens);
+  // A smaller layer is softened by being enlarged.
+  const float enlarged = scale < 1.0f ? kEnlargedVariance : 0.0f;
+  smear.lens_variance = std::max(scale * scale * in_picture * in_picture - enlarged, 0.0f);
+  const float lens_box = std::sqrt(12.0f * smear.lens_variance);
   if (smear.lens_variance > 1e-4f && smear.lens_variance <= 1.0f) {
     // Two bilinear taps at +-d of texel centres have the variance d, for d up to 1.
     smear.taps_across = 2;

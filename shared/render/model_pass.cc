@@ -38,6 +38,13 @@ constexpr uint32_t kGlossyUnit = SunMask::kUnit + 1;
 constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
                                                                          "CLOTH", "EYE"};
 
+constexpr std::array<const char*, GpuModel::kSkins> kSkinNames = {"LINEAR", "DUAL_QUATERNION",
+                                                                  "RIGID"};
+
+std::string SkinDefine(GpuModel::Skin skin) {
+  return std::string("#define SKIN_") + kSkinNames[static_cast<size_t>(skin)] + "\n";
+}
+
 using PlainIrradiance = std::array<glm::vec3, light::kPlainShCount>;
 
 // Radiance to irradiance, with the constants of the basis: what
@@ -110,36 +117,49 @@ Result<ModelPass> ModelPass::Create() {
   pass.skin_ = GlBuffer::Generate();
   pass.white_ = CreateWhiteTexture();
   pass.glossy_ = CreateGlossyTexture();
-  for (size_t covered = 0; covered < 2; ++covered) {
-    LARARIUM_ASSIGN_OR_RETURN(pass.casters_[covered],
-                              ShaderProgram::Create("model.vert", "caster.frag",
-                                                    covered == 1 ? "#define COVERED\n" : ""));
-    pass.casters_[covered].BindUniformBlock("Skin", kSkinBinding);
-    pass.casters_[covered].Use();
-    pass.casters_[covered].Set("colour_texture", 0);
+  for (size_t i = 0; i < kCasters; ++i) {
+    const std::string covered = i % 2 == 1 ? "#define COVERED\n" : "";
+    LARARIUM_ASSIGN_OR_RETURN(
+        pass.casters_[i],
+        ShaderProgram::Create("model.vert", "caster.frag",
+                              covered + SkinDefine(static_cast<GpuModel::Skin>(i / 2))));
+    pass.casters_[i].BindUniformBlock("Skin", kSkinBinding);
+    pass.casters_[i].Use();
+    pass.casters_[i].Set("colour_texture", 0);
   }
   return pass;
 }
 
-size_t ModelPass::ProgramIndex(const GpuModel::Part& part) {
-  return 2 * static_cast<size_t>(part.surface) + (part.covered() ? 1 : 0);
+size_t ModelPass::Variant::index() const {
+  return 4 * (GpuModel::kSkins * static_cast<size_t>(surface) + static_cast<size_t>(skin)) +
+         (covered ? 2 : 0) + (reflects ? 1 : 0);
+}
+
+Result<ShaderProgram> ModelPass::Variant::Compile() const {
+  std::string defines =
+      SkinDefine(skin) + "#define SURFACE_" + kSurfaceNames[static_cast<size_t>(surface)] + "\n";
+  if (covered) {
+    defines += "#define COVERED\n";
+  }
+  if (reflects) {
+    defines += "#define REFLECTIONS\n";
+  }
+  LARARIUM_ASSIGN_OR_RETURN(ShaderProgram shaders,
+                            ShaderProgram::Create("model.vert", "model.frag", defines));
+  shaders.BindUniformBlock("Skin", kSkinBinding);
+  return shaders;
 }
 
 Status ModelPass::Prepare(const GpuModel& model) {
   for (const GpuModel::Part& part : model.parts) {
-    Program& program = programs_[ProgramIndex(part)];
-    if (program.ready) {
-      continue;
+    for (const bool reflects : {false, true}) {
+      const Variant variant = {part.surface, model.skin, part.covered(), reflects};
+      Program& program = programs_[variant.index()];
+      if (!program.ready) {
+        LARARIUM_ASSIGN_OR_RETURN(program.shaders, variant.Compile());
+        program.ready = true;
+      }
     }
-    std::string defines =
-        std::string("#define SURFACE_") + kSurfaceNames[static_cast<size_t>(part.surface)] + "\n";
-    if (part.covered()) {
-      defines += "#define COVERED\n";
-    }
-    LARARIUM_ASSIGN_OR_RETURN(program.shaders,
-                              ShaderProgram::Create("model.vert", "model.frag", defines));
-    program.shaders.BindUniformBlock("Skin", kSkinBinding);
-    program.ready = true;
   }
   return Status();
 }
@@ -150,7 +170,7 @@ void ModelPass::UploadSkins(std::span<const ModelDraw> draws) {
                GL_STREAM_DRAW);
   for (size_t i = 0; i < draws.size(); ++i) {
     std::span<const glm::mat4> skin = draws[i].skin;
-    if (draws[i].model->skinning == human::Skinning::kDualQuaternion) {
+    if (draws[i].model->skin == GpuModel::Skin::kDualQuaternion) {
       PackDualQuaternions(skin, packed_);
       skin = packed_;
     }
@@ -164,8 +184,9 @@ void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const S
   scene_light_ = {scene.light, scene.sun};
   scene_lamps_ = scene.lamps;
   UploadGlossy(scene);
-  for (Program& program : programs_) {
-    if (!program.ready) {
+  for (size_t i = 0; i < programs_.size(); ++i) {
+    Program& program = programs_[i];
+    if (!program.ready || (i % 2 == 1) != reflects_) {
       continue;
     }
     const ShaderProgram& shaders = program.shaders;
@@ -177,7 +198,6 @@ void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const S
     shaders.Set("knee", std::max(scene.knee, 0.0f));
     shaders.Set("colour_texture", 0);
     shaders.Set("normal_texture", 1);
-    shaders.Set("has_glossy", scene.glossy.empty() ? 0 : 1);
     shaders.Set("glossy", static_cast<int>(kGlossyUnit));
     sun.BindFor(shaders);
     sun_mask.BindFor(shaders);
@@ -251,8 +271,10 @@ void ModelPass::DrawPart(const ModelDraw& draw,
     const size_t used = LevelAllowed(part.levels, draw.detail).vertices;
     draw.model->StreamIrradiance(index, draw.irradiance.subspan(part.first_vertex, used));
   }
-  Program& program = programs_[ProgramIndex(part)];
-  const ShaderProgram& shaders = only_depth ? casters_[part.covered() ? 1 : 0] : program.shaders;
+  const GpuModel::Skin skin = draw.model->skin;
+  Program& program = programs_[Variant{part.surface, skin, part.covered(), reflects_}.index()];
+  const ShaderProgram& shaders =
+      only_depth ? casters_[CasterIndex(skin, part.covered())] : program.shaders;
   shaders.Use();
   if (!only_depth) {
     SetLight(draw, program, part.surface == human::Surface::kSkin);
@@ -261,7 +283,6 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   shaders.Set("stage_from_model", draw.stage_from_model);
   shaders.Set("clip_from_model", clip_from_stage * draw.stage_from_model);
   shaders.Set("posed", vertices != nullptr && vertices->posed ? 1 : 0);
-  shaders.Set("dual_quaternions", draw.model->skinning == human::Skinning::kDualQuaternion ? 1 : 0);
   shaders.Set("colour_factor", part.colour);
   shaders.Set("emission", draw.glow * part.emission);
   shaders.Set("roughness", part.roughness);
@@ -296,11 +317,13 @@ void ModelPass::DrawPhase(Phase phase,
 }
 
 void ModelPass::Draw(const RenderScene& scene,
+                     const Quality& quality,
                      const glm::mat4& clip_from_stage,
                      std::span<const ModelDraw> draws,
                      const SunPass& sun,
                      const SunMask& sun_mask) {
   glEnable(GL_DEPTH_TEST);
+  reflects_ = quality.reflections && !scene.glossy.empty();
   UploadSkins(draws);
   BeginFrame(scene, sun, sun_mask);
   DrawPhase(Phase::kOpaque, clip_from_stage, draws);

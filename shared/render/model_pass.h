@@ -19,6 +19,7 @@
 #include "shared/render/gpu_model.h"
 #include "shared/render/key_light.h"
 #include "shared/render/lamp_uniforms.h"
+#include "shared/render/quality.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/shader_program.h"
 
@@ -46,11 +47,12 @@ class ModelPass {
  public:
   static Result<ModelPass> Create();
 
-  // Compiles what the model's surfaces need, unless it is there.
+  // Compiles what the model's surfaces need at any quality, unless it is there.
   Status Prepare(const GpuModel& model);
   // Into the bound target, whose depth it tests and writes. Light and camera are the
   // scene's.
   void Draw(const RenderScene& scene,
+            const Quality& quality,
             const glm::mat4& clip_from_stage,
             std::span<const ModelDraw> draws,
             const SunPass& sun,
@@ -68,8 +70,21 @@ class ModelPass {
     // Whose light and lamps its uniforms hold in this picture.
     const ModelDraw* lit_for = nullptr;
   };
-  static constexpr size_t kPrograms = 2 * human::kSurfaceCount;
-  static size_t ProgramIndex(const GpuModel::Part& part);
+  // Of what software should not decide for each vertex or pixel there are programs.
+  struct Variant {
+    human::Surface surface = human::Surface::kPlain;
+    GpuModel::Skin skin = GpuModel::Skin::kLinear;
+    bool covered = false;
+    bool reflects = false;  // RenderScene::glossy
+
+    size_t index() const;
+    Result<ShaderProgram> Compile() const;
+  };
+  static constexpr size_t kVariants = human::kSurfaceCount * GpuModel::kSkins * 4;
+  static constexpr size_t kCasters = GpuModel::kSkins * 2;
+  static size_t CasterIndex(GpuModel::Skin skin, bool covered) {
+    return 2 * static_cast<size_t>(skin) + (covered ? 1 : 0);
+  }
 
   void UploadSkins(std::span<const ModelDraw> draws);
   void BeginFrame(const RenderScene& scene, const SunPass& sun, const SunMask& sun_mask);
@@ -80,8 +95,9 @@ class ModelPass {
   void DrawPart(const ModelDraw& draw, size_t part, Phase phase, const glm::mat4& clip_from_stage);
   void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;
 
-  std::array<Program, kPrograms> programs_;
-  std::array<ShaderProgram, 2> casters_;  // the second of partly covered surfaces
+  std::array<Program, kVariants> programs_;
+  bool reflects_ = false;  // in this picture
+  std::array<ShaderProgram, kCasters> casters_;
   GlBuffer skin_;  // matrices or dual quaternions of all models in the picture
   GlTexture white_;
   light::ProbeLight scene_light_;

@@ -5,9 +5,10 @@
 
 namespace lararium::render {
 
-PictureView ViewOf(const RenderScene& scene, const ImageSize& size) {
+PictureView ViewOf(const RenderScene& scene, const ImageSize& size, const ImageSize& most) {
   PictureView view;
   view.size = size;
+  view.most = most;
   view.display = scene.display.Resized(size.width, size.height);
   view.near = scene.near;
   view.far = scene.far;

@@ -14,6 +14,7 @@ namespace lararium::render {
 
 struct PictureView {
   ImageSize size;
+  ImageSize most;                 // what images are allocated for: no view will be larger
   geometry::CameraModel display;  // scaled to size
   float near = 0.0f;              // metres
   float far = 0.0f;
@@ -27,7 +28,7 @@ struct PictureView {
 };
 
 // Without a pose only size and display are set.
-PictureView ViewOf(const RenderScene& scene, const ImageSize& size);
+PictureView ViewOf(const RenderScene& scene, const ImageSize& size, const ImageSize& most);
 
 // For CameraLook: where a plane across the view, so far away, was seen one frame ago.
 // Maps this picture's pixels to that one's, both from the corner of the bottom row.

@@ -110,6 +110,9 @@ struct RenderScene {
   // Small lights, at most light::kMaxLamps. They light props, glint on people, whose
   // irradiance has them already, and brighten occluders that receive shadows.
   std::span<const light::Lamp> lamps = {};
+  // The sky of the hour at which the camera's image was taken, where that of light is another's:
+  // lamps brighten real surfaces by their light over this. None: light.
+  std::optional<light::ShRgb> picture_light = std::nullopt;
   // What rough surfaces mirror of light: light::GlossyMap::texels, which stay the same while
   // the number does. Empty: highlights come from the harmonics.
   std::span<const uint32_t> glossy = {};
@@ -121,6 +124,8 @@ struct RenderScene {
   // 1, what is drawn stays linear.
   float knee = 0.6f;
   CameraLook look = {};
+  // Of people and props, and of what they do to the light on real surfaces: 0, nobody is there.
+  float people_opacity = 1.0f;
   // Only Lambert's reflection, as path-traced references have it.
   bool matte = false;
 };

@@ -3,7 +3,9 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
 
@@ -31,6 +33,29 @@ bool IsOn(const CameraLook& look) {
          (look.previous_camera_from_stage && look.shutter > 0.0f);
 }
 
+ImageSize LayerSize(const ImageSize& picture, float scale) {
+  const auto scaled = [scale](int side) {
+    return std::max(static_cast<int>(std::lround(scale * static_cast<float>(side))), 1);
+  };
+  return {scaled(picture.width), scaled(picture.height)};
+}
+
+// Of the layer's pixels those of the target, whose rows count from the top.
+PixelBounds InPicture(const PixelBounds& b, float scale, const RenderTarget& target) {
+  if (b.empty()) {
+    return {};
+  }
+  const auto first = [scale](int at) {
+    return static_cast<int>(std::floor(static_cast<float>(at) / scale));
+  };
+  const auto last = [scale](int at) {
+    return static_cast<int>(std::ceil(static_cast<float>(at) / scale));
+  };
+  return {std::max(first(b.left), 0), std::max(target.height() - last(b.top), 0),
+          std::min(last(b.right), target.width()),
+          std::min(target.height() - first(b.bottom), target.height())};
+}
+
 void ResetState() {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -51,9 +76,9 @@ void ResetState() {
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::~Renderer() = default;
 
-Result<std::unique_ptr<Renderer>> Renderer::Create(const RendererOptions& options) {
+Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
   auto state = std::make_unique<State>();
-  state->samples = options.samples;
+  state->quality = Clamped(quality);
   LARARIUM_ASSIGN_OR_RETURN(state->occluder_pass,
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->model_pass, ModelPass::Create());
@@ -64,6 +89,8 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const RendererOptions& option
   LARARIUM_ASSIGN_OR_RETURN(
       state->look_composite_pass,
       ShaderProgram::Create("full_screen.vert", "composite.frag", "#define LOOK\n"));
+  LARARIUM_ASSIGN_OR_RETURN(state->background_pass,
+                            ShaderProgram::Create("full_screen.vert", "background.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
                             ShaderProgram::Create("full_screen.vert", "composite.frag"));
   state->no_vertices = GlVertexArray::Generate();
@@ -81,6 +108,7 @@ Result<ModelHandle> Renderer::AddProp(const stage::Prop& prop) {
 }
 void Renderer::RemoveMesh(MeshHandle mesh) { state_->meshes.Remove(mesh); }
 void Renderer::RemoveModel(ModelHandle model) { state_->models.Remove(model); }
+void Renderer::SetQuality(const Quality& quality) { state_->quality = Clamped(quality); }
 
 Status Renderer::State::Validate(const RenderScene& scene) const {
   constexpr std::string_view kPlace = "picture";
@@ -224,7 +252,7 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
                                    const PictureView& view,
                                    const PixelBounds& bounds,
                                    int clear) {
-  LARARIUM_RETURN_IF_ERROR(people.Prepare(view.size.width, view.size.height, samples));
+  LARARIUM_RETURN_IF_ERROR(people.Prepare(view.most, view.size, quality.samples));
   if (bounds.empty()) {
     return Status();
   }
@@ -232,7 +260,7 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
   const PixelBounds cleared = Widened(bounds, clear, view.size);
   people.BindAndClear(cleared);
   DrawOccluders(scene.occluders, view.clip_from_stage);
-  model_pass.Draw(scene, view.clip_from_stage, draws, sun_pass, sun_mask);
+  model_pass.Draw(scene, quality, view.clip_from_stage, draws, sun_pass, sun_mask);
   people.Resolve(cleared);
   return Status();
 }
@@ -246,36 +274,76 @@ float Renderer::State::PeopleDepth(const PictureView& view) const {
   return draws.empty() ? view.far : std::max(sum / static_cast<float>(draws.size()), view.near);
 }
 
+Status Renderer::State::DrawLayer(const RenderScene& scene, const PictureView& view, Smear& smear) {
+  const PixelBounds drawn = CollectDraws(scene, view);
+  catcher_pass.SetBlockers(scene.blockers);
+  sun_pass.Draw(scene, quality, meshes, model_pass, all_draws, catcher_pass.reach());
+  if (quality.camera_look) {
+    smear = SmearOf(scene, view, drawn, PeopleDepth(view));
+  }
+  people_bounds = drawn;
+  // What is seen at the rim of a smear looks as far again, and a pixel on where the layer is
+  // made larger.
+  LARARIUM_RETURN_IF_ERROR(DrawPeople(scene, view, drawn, 2 * smear.reach + 2));
+  const bool enlarged = view.size != view.most;
+  const int margin = smear.reach + (enlarged ? 1 : 0);
+  return catcher_pass.Draw(scene, quality, meshes, sun_pass, view,
+                           {people.texture(), drawn, margin});
+}
+
+// Of the program in use.
+void Renderer::State::SetBackground(const ShaderProgram& shaders,
+                                    const RenderScene& scene,
+                                    const geometry::CameraModel& display) const {
+  shaders.Set("has_image", scene.background.empty() ? 0 : 1);
+  shaders.Set("display_intrinsics", Intrinsics(display));
+  if (!scene.background.empty()) {
+    const geometry::CameraModel camera =
+        scene.camera.Resized(scene.background.cols, scene.background.rows);
+    shaders.Set("camera_intrinsics", Intrinsics(camera));
+    shaders.Set("camera_distortion", Distortion(camera));
+  }
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, background_image.id());
+  shaders.Set("image", 0);
+}
+
 void Renderer::State::Composite(const RenderScene& scene,
-                                const PictureView& view,
+                                const PictureView& layer,
                                 const Smear& smear,
-                                const PixelBounds& people_bounds,
                                 const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   glDisable(GL_DEPTH_TEST);
-  const ShaderProgram& composite = IsOn(scene.look) ? look_composite_pass : composite_pass;
-  composite.Use();
-  composite.Set("has_image", scene.background.empty() ? 0 : 1);
-  composite.Set("display_intrinsics", Intrinsics(view.display));
-  glActiveTexture(GL_TEXTURE0);
+  const geometry::CameraModel display = scene.display.Resized(target.width(), target.height());
   if (!scene.background.empty()) {
-    const cv::Mat& image = scene.background;
-    const geometry::CameraModel camera = scene.camera.Resized(image.cols, image.rows);
-    background_image.Upload(image);
-    composite.Set("camera_intrinsics", Intrinsics(camera));
-    composite.Set("camera_distortion", Distortion(camera));
+    background_image.Upload(scene.background);
   }
-  glBindTexture(GL_TEXTURE_2D, background_image.id());
-  composite.Set("image", 0);
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, people.texture());
-  composite.Set("people", 1);
-  look_pass.BindFor(composite, scene.look, smear, people_bounds);
-  catcher_pass.BindFor(composite, view, 2);
-  sun_pass.BindFor(composite);
   glBindVertexArray(no_vertices.id());
+  background_pass.Use();
+  SetBackground(background_pass, scene, display);
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  const PixelBounds seen = Widened(people_bounds, smear.reach, layer.size);
+  const float scale = static_cast<float>(layer.size.width) / static_cast<float>(target.width());
+  const PixelBounds changed = InPicture(Union(seen, catcher_pass.bounds()), scale, target);
+  if (!changed.empty()) {
+    const bool look = quality.camera_look && IsOn(scene.look);
+    const ShaderProgram& composite = look ? look_composite_pass : composite_pass;
+    composite.Use();
+    SetBackground(composite, scene, display);
+    composite.Set("picture_height", static_cast<float>(target.height()));
+    composite.Set("layer_scale", scale);
+    composite.Set("people_opacity", std::min(scene.people_opacity, 1.0f));
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, people.texture());
+    composite.Set("people", 1);
+    look_pass.BindFor(composite, scene.look, smear, seen);
+    catcher_pass.BindFor(composite, 2);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(changed.left, changed.bottom, changed.width(), changed.height());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
+  }
   glBindVertexArray(0);
   glActiveTexture(GL_TEXTURE0);
 }
@@ -292,38 +360,33 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   State& state = *state_;
   LARARIUM_RETURN_IF_ERROR(state.Validate(scene));
   ResetState();
-  const PictureView view = ViewOf(scene, {target.width(), target.height()});
-  PixelBounds people_bounds;
-  Smear smear;
+  state.picture_size = {target.width(), target.height()};
   state.people_bounds = {};
-  state.picture_size = view.size;
   state.catcher_pass.Skip();
   state.sun_pass.Skip();
-  if (scene.camera_from_stage) {
-    people_bounds = state.CollectDraws(scene, view);
-    state.catcher_pass.SetBlockers(scene.blockers);
-    state.sun_pass.Draw(scene, state.meshes, state.model_pass, state.all_draws,
-                        state.catcher_pass.reach());
-    smear = SmearOf(scene, view, people_bounds, state.PeopleDepth(view));
-    state.people_bounds = people_bounds;
-    // What is seen at the rim of a smear looks as far again.
-    LARARIUM_RETURN_IF_ERROR(state.DrawPeople(scene, view, people_bounds, 2 * smear.reach));
-    people_bounds = Widened(people_bounds, smear.reach, view.size);
-    LARARIUM_RETURN_IF_ERROR(state.catcher_pass.Draw(scene, state.meshes, state.sun_pass, view));
+  const PictureView layer =
+      ViewOf(scene, LayerSize(state.picture_size, state.quality.layer_scale), state.picture_size);
+  Smear smear;
+  if (scene.camera_from_stage && scene.people_opacity > 0.0f) {
+    LARARIUM_RETURN_IF_ERROR(state.DrawLayer(scene, layer, smear));
   }
-  state.Composite(scene, view, smear, people_bounds, target);
+  state.Composite(scene, layer, smear, target);
   return State::CheckDriver();
 }
 
 void Renderer::ReadCoverage(cv::Mat& coverage) const {
   const State& state = *state_;
-  coverage = cv::Mat::zeros(state.picture_size.height, state.picture_size.width, CV_8UC1);
+  const cv::Size size(state.picture_size.width, state.picture_size.height);
+  coverage = cv::Mat::zeros(size, CV_8UC1);
   if (state.people_bounds.empty()) {
     return;
   }
   cv::Mat rgba, alpha;
   state.people.ReadPixels(state.people_bounds, rgba);
   cv::extractChannel(rgba, alpha, 3);
+  if (alpha.size() != size) {
+    cv::resize(alpha, alpha, size);
+  }
   alpha.convertTo(coverage, CV_8UC1, 255.0);
 }
 
@@ -338,9 +401,10 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   linear.exposure = 1.0f;
   linear.gain = glm::vec3(1.0f);
   linear.knee = 65504.0f;  // the largest that the target holds
-  const PictureView view = ViewOf(linear, {scene.display.width, scene.display.height});
+  const ImageSize size = {scene.display.width, scene.display.height};
+  const PictureView view = ViewOf(linear, size, size);
   const PixelBounds bounds = state.CollectDraws(linear, view);
-  state.sun_pass.Draw(linear, state.meshes, state.model_pass, state.all_draws, {});
+  state.sun_pass.Draw(linear, state.quality, state.meshes, state.model_pass, state.all_draws, {});
   LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, view, bounds, 0));
   state.people.ReadPixels(bounds, rgba);
   return State::CheckDriver();

@@ -3,29 +3,26 @@
 // Draws people and props into the camera's image. OpenGL 3.3 core, or ES 3.0.
 //
 // Passes: occluders into depth only; people and props, skinned on the GPU and lit by
-// spherical harmonics, in linear light with 16-bit floats and several samples; then
-// one pass over the picture that undistorts the camera image, puts them over it,
-// clips and encodes as sRGB. What lies outside the picture is not drawn.
+// spherical harmonics, in linear light with 16-bit floats and several samples; the shadows
+// that real surfaces catch; the camera's image, undistorted; then people and shadows over
+// it where there are any. What lies outside the picture is not drawn.
 
 #include <memory>
 
 #include "shared/core/status.h"
 #include "shared/geometry/triangle_mesh.h"
 #include "shared/human/human.h"
+#include "shared/render/quality.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/render_target.h"
 #include "shared/stage/prop.h"
 
 namespace lararium::render {
 
-struct RendererOptions {
-  int samples = 4;  // of each pixel, for smooth edges; 1: none. At most what the driver offers.
-};
-
 class Renderer {
  public:
   // Needs a current context; everything else happens on its thread.
-  static Result<std::unique_ptr<Renderer>> Create(const RendererOptions& options = {});
+  static Result<std::unique_ptr<Renderer>> Create(const Quality& quality = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
@@ -37,6 +34,9 @@ class Renderer {
   Result<ModelHandle> AddProp(const stage::Prop& prop);
   void RemoveMesh(MeshHandle mesh);
   void RemoveModel(ModelHandle model);
+
+  // Of the pictures from now on.
+  void SetQuality(const Quality& quality);
 
   // Fills the whole target. On error (a stale handle, matrices missing, out of
   // memory) the target's content is undefined.

@@ -14,6 +14,7 @@
 #include "shared/render/look_pass.h"
 #include "shared/render/model_pass.h"
 #include "shared/render/picture_view.h"
+#include "shared/render/quality.h"
 #include "shared/render/renderer.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
@@ -24,19 +25,20 @@
 namespace lararium::render {
 
 struct Renderer::State {
-  int samples = 1;
+  Quality quality;
   ShaderProgram occluder_pass;
   ModelPass model_pass;
   CatcherPass catcher_pass;
   SunPass sun_pass;
   LookPass look_pass;
   SunMask sun_mask;
+  ShaderProgram background_pass;
   ShaderProgram composite_pass;
   ShaderProgram look_composite_pass;  // with RenderScene::look
   GlVertexArray no_vertices;          // of the full-screen pass
-  Texture background_image{Texture::Encoding::kLinear};
+  Texture background_image;
   LinearTarget people;
-  PixelBounds people_bounds;  // of the picture drawn last: what of people is valid
+  PixelBounds people_bounds;  // of the layer drawn last: what of people is valid
   ImageSize picture_size;     // likewise
   SlotMap<GpuMesh> meshes;
   SlotMap<GpuModel> models;
@@ -57,10 +59,15 @@ struct Renderer::State {
                     int clear);
   void DrawOccluders(std::span<const SceneOccluder> occluders,
                      const glm::mat4& clip_from_stage) const;
+  // Fills layer, people and caught shadows.
+  Status DrawLayer(const RenderScene& scene, const PictureView& view, Smear& smear);
+  void SetBackground(const ShaderProgram& shaders,
+                     const RenderScene& scene,
+                     const geometry::CameraModel& display) const;
+  // The camera's image, and over it what is in the layer.
   void Composite(const RenderScene& scene,
-                 const PictureView& view,
+                 const PictureView& layer,
                  const Smear& smear,
-                 const PixelBounds& people_bounds,
                  const RenderTarget& target);
   // How far away the people in the picture are on average, along the view; of those who
   // consist of a root joint and others, by the root.

@@ -7,6 +7,14 @@
 
 namespace lararium::render {
 
+PixelBounds Union(const PixelBounds& a, const PixelBounds& b) {
+  if (a.empty() || b.empty()) {
+    return a.empty() ? b : a;
+  }
+  return {std::min(a.left, b.left), std::min(a.bottom, b.bottom), std::max(a.right, b.right),
+          std::max(a.top, b.top)};
+}
+
 Box Transformed(const Box& box, const glm::mat4& target_from_box) {
   Box moved;
   if (box.empty()) {

@@ -13,6 +13,8 @@ namespace lararium::render {
 struct ImageSize {
   int width = 0;
   int height = 0;
+
+  friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 
 // Columns [left, right) and rows [bottom, top) in OpenGL's window coordinates.
@@ -26,6 +28,9 @@ struct PixelBounds {
   int height() const { return top - bottom; }
   bool empty() const { return width() <= 0 || height() <= 0; }
 };
+
+// Bounds that hold both.
+PixelBounds Union(const PixelBounds& a, const PixelBounds& b);
 
 // An axis-aligned box; holds nothing at first.
 struct Box {

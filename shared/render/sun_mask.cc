@@ -36,14 +36,14 @@ Result<SunMask> SunMask::Create() {
   return mask;
 }
 
-Status SunMask::Prepare(const ImageSize& size) {
-  if (size.width == size_.width && size.height == size_.height) {
+Status SunMask::Prepare(const ImageSize& most) {
+  if (most == most_) {
     return Status();
   }
-  size_ = size;
+  most_ = most;
   depth_framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, depth_framebuffer_.id());
-  depth_ = AllocateImage(GL_DEPTH_COMPONENT24, size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
+  depth_ = AllocateImage(GL_DEPTH_COMPONENT24, most, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
                          GL_DEPTH_ATTACHMENT);
   const GLenum none = GL_NONE;
   glDrawBuffers(1, &none);
@@ -51,7 +51,7 @@ Status SunMask::Prepare(const ImageSize& size) {
   LARARIUM_RETURN_IF_ERROR(CheckFramebuffer());
   seen_framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, seen_framebuffer_.id());
-  seen_ = AllocateImage(GL_R8, size, GL_RED, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT0);
+  seen_ = AllocateImage(GL_R8, most, GL_RED, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT0);
   return CheckFramebuffer();
 }
 
@@ -63,9 +63,9 @@ Status SunMask::Draw(const PictureView& view,
   if (!sun.shines() || bounds.empty()) {
     return Status();
   }
-  LARARIUM_RETURN_IF_ERROR(Prepare(view.size));
+  LARARIUM_RETURN_IF_ERROR(Prepare(view.most));
   glBindFramebuffer(GL_FRAMEBUFFER, depth_framebuffer_.id());
-  glViewport(0, 0, size_.width, size_.height);
+  glViewport(0, 0, view.size.width, view.size.height);
   glEnable(GL_SCISSOR_TEST);
   glScissor(bounds.left, bounds.bottom, bounds.width(), bounds.height());
   glEnable(GL_DEPTH_TEST);
@@ -81,6 +81,7 @@ Status SunMask::Draw(const PictureView& view,
   shaders_.Set("ray_per_column", view.ray_per_column);
   shaders_.Set("ray_per_row", view.ray_per_row);
   shaders_.Set("near_far", glm::vec2(view.near, view.far));
+  shaders_.Set("last_cell", glm::ivec2(view.size.width - 1, view.size.height - 1));
   sun.BindFor(shaders_);
   glActiveTexture(GL_TEXTURE0 + kDepthUnit);
   glBindTexture(GL_TEXTURE_2D, depth_.id());

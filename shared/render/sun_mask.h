@@ -33,11 +33,11 @@ class SunMask {
   void BindFor(const ShaderProgram& shaders) const;
 
  private:
-  Status Prepare(const ImageSize& size);
+  Status Prepare(const ImageSize& most);
 
   ShaderProgram shaders_;
   GlVertexArray no_vertices_;
-  ImageSize size_;
+  ImageSize most_;
   GlTexture depth_;
   GlFramebuffer depth_framebuffer_;
   GlTexture seen_;

@@ -10,7 +10,7 @@
 namespace lararium::render {
 namespace {
 
-constexpr int kMapSize = 1024;
+constexpr std::array<int, 2> kMapSizes = {1024, 512};
 // Shadows of a low sun end somewhere.
 constexpr float kLongestShadow = 15.0f;  // metres
 
@@ -76,8 +76,10 @@ Result<SunPass> SunPass::Create() {
   SunPass pass;
   LARARIUM_ASSIGN_OR_RETURN(pass.occluder_shaders_,
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
-  LARARIUM_RETURN_IF_ERROR(Allocate(pass.people_));
-  LARARIUM_RETURN_IF_ERROR(Allocate(pass.occluders_));
+  for (size_t i = 0; i < kMapSizes.size(); ++i) {
+    LARARIUM_RETURN_IF_ERROR(Allocate(kMapSizes[i], pass.people_.images[i]));
+    LARARIUM_RETURN_IF_ERROR(Allocate(kMapSizes[i], pass.occluders_.images[i]));
+  }
   pass.plain_depth_ = GlSampler::Generate();
   glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -87,10 +89,11 @@ Result<SunPass> SunPass::Create() {
   return pass;
 }
 
-Status SunPass::Allocate(Map& map) {
-  map.depth = GlTexture::Generate();
-  glBindTexture(GL_TEXTURE_2D, map.depth.id());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kMapSize, kMapSize, 0, GL_DEPTH_COMPONENT,
+Status SunPass::Allocate(int size, Image& image) {
+  image.size = size;
+  image.depth = GlTexture::Generate();
+  glBindTexture(GL_TEXTURE_2D, image.depth.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size, size, 0, GL_DEPTH_COMPONENT,
                GL_UNSIGNED_INT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -98,9 +101,9 @@ Status SunPass::Allocate(Map& map) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  map.framebuffer = GlFramebuffer::Generate();
-  glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer.id());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, map.depth.id(), 0);
+  image.framebuffer = GlFramebuffer::Generate();
+  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, image.depth.id(), 0);
   const GLenum none = GL_NONE;
   glDrawBuffers(1, &none);
   glReadBuffer(GL_NONE);
@@ -120,12 +123,9 @@ void SunPass::Fit(const Box& box, const glm::mat4& sun_from_stage, Map& map) {
   map.map_from_stage = map_from_sun * sun_from_stage;
 }
 
-namespace {
-
-// Draws go there from now on. Says clip_from_stage.
-glm::mat4 BeginMap(uint32_t framebuffer, const glm::mat4& map_from_stage) {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, kMapSize, kMapSize);
+glm::mat4 SunPass::Begin(const Map& map) {
+  glBindFramebuffer(GL_FRAMEBUFFER, map.image().framebuffer.id());
+  glViewport(0, 0, map.image().size, map.image().size);
   glDisable(GL_SCISSOR_TEST);
   glEnable(GL_DEPTH_TEST);
   glClearDepthf(1.0f);
@@ -135,14 +135,11 @@ glm::mat4 BeginMap(uint32_t framebuffer, const glm::mat4& map_from_stage) {
   glPolygonOffset(2.0f, 4.0f);
   glm::mat4 clip_from_map(2.0f);
   clip_from_map[3] = glm::vec4(-1.0f, -1.0f, -1.0f, 1.0f);
-  return clip_from_map * map_from_stage;
+  return clip_from_map * map.map_from_stage;
 }
 
-}  // namespace
-
 void SunPass::DrawOccluders(const RenderScene& scene, const SlotMap<GpuMesh>& meshes) const {
-  const glm::mat4 clip_from_stage =
-      BeginMap(occluders_.framebuffer.id(), occluders_.map_from_stage);
+  const glm::mat4 clip_from_stage = Begin(occluders_);
   occluder_shaders_.Use();
   for (const SceneOccluder& occluder : scene.occluders) {
     occluder_shaders_.Set("clip_from_mesh", clip_from_stage * occluder.stage_from_mesh);
@@ -151,6 +148,7 @@ void SunPass::DrawOccluders(const RenderScene& scene, const SlotMap<GpuMesh>& me
 }
 
 void SunPass::Draw(const RenderScene& scene,
+                   const Quality& quality,
                    const SlotMap<GpuMesh>& meshes,
                    ModelPass& models,
                    std::span<const ModelDraw> casters,
@@ -162,6 +160,8 @@ void SunPass::Draw(const RenderScene& scene,
   sun_ = *scene.sun;
   sun_.direction = glm::normalize(sun_.direction);
   shines_ = true;
+  taps_ = quality.sun_taps;
+  people_.chosen = occluders_.chosen = quality.sun_map < kMapSizes[0] ? 1 : 0;
   const glm::mat4 sun_from_stage = SunFromStage(sun_.direction);
   const Box people = BoxOf(casters, glm::mat4(1.0f));
   const Box things = BoxOf(scene, meshes, glm::mat4(1.0f));
@@ -174,7 +174,7 @@ void SunPass::Draw(const RenderScene& scene,
                               : BoxOf(casters, sun_from_stage);
   fitted = Widened(fitted, 0.05f);
   Fit(fitted, sun_from_stage, people_);
-  models.DrawCasters(BeginMap(people_.framebuffer.id(), people_.map_from_stage), casters);
+  models.DrawCasters(Begin(people_), casters);
 
   Box asked = Union(Union(people, shadows_), around);
   Box covered = asked.empty() ? fitted : Transformed(asked, sun_from_stage);
@@ -199,10 +199,12 @@ void SunPass::BindFor(const ShaderProgram& shaders) const {
   shaders.Set("sun_direction", sun_.direction);
   shaders.Set("sun_irradiance", sun_.irradiance);
   shaders.Set("sun_slope", std::tan(sun_.angular_radius));
+  shaders.Set("sun_taps", taps_);
+  shaders.Set("sun_searches", (taps_ + 2) / 2);
   const auto bind = [&](const Map& map, uint32_t unit, const std::array<const char*, 4>& names) {
     for (const uint32_t of_map : {unit, unit + 1}) {
       glActiveTexture(GL_TEXTURE0 + of_map);
-      glBindTexture(GL_TEXTURE_2D, map.depth.id());
+      glBindTexture(GL_TEXTURE_2D, map.image().depth.id());
     }
     glBindSampler(unit + 1, plain_depth_.id());
     shaders.Set(names[0], static_cast<int>(unit));

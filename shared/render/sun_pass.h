@@ -7,6 +7,7 @@
 // darken. Real things cast their shadows in the camera's image already: there people's
 // shadows must not fall again, and people must not be lit.
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -17,6 +18,7 @@
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_mesh.h"
 #include "shared/render/model_pass.h"
+#include "shared/render/quality.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
@@ -30,6 +32,7 @@ class SunPass {
   // casters: all people and props, whether seen or not. around: a box of the stage in
   // which the sun past occluders will be asked for as well.
   void Draw(const RenderScene& scene,
+            const Quality& quality,
             const SlotMap<GpuMesh>& meshes,
             ModelPass& models,
             std::span<const ModelDraw> casters,
@@ -47,14 +50,24 @@ class SunPass {
   static constexpr uint32_t kUnits = 4;
 
  private:
-  struct Map {
+  // An image of depths.
+  struct Image {
+    int size = 0;
     GlTexture depth;
     GlFramebuffer framebuffer;
+  };
+  struct Map {
+    std::array<Image, 2> images;                 // the finer first
+    size_t chosen = 0;                           // of images
     glm::mat4 map_from_stage = glm::mat4(1.0f);  // to 0..1
     glm::vec3 size = glm::vec3(1.0f);            // metres
+
+    const Image& image() const { return images[chosen]; }
   };
 
-  static Status Allocate(Map& map);
+  static Status Allocate(int size, Image& image);
+  // Draws into a map go there from now on. Says clip_from_stage.
+  static glm::mat4 Begin(const Map& map);
   // box: in the axes of sun_from_stage.
   static void Fit(const Box& box, const glm::mat4& sun_from_stage, Map& map);
   void DrawOccluders(const RenderScene& scene, const SlotMap<GpuMesh>& meshes) const;
@@ -64,6 +77,7 @@ class SunPass {
   GlSampler plain_depth_;  // without comparison
   ShaderProgram occluder_shaders_;
   bool shines_ = false;
+  int taps_ = 0;
   light::Sun sun_;
   Box shadows_;
 };

@@ -18,8 +18,7 @@ void Texture::Upload(const cv::Mat& bgr) {
   if (bgr.cols != width_ || bgr.rows != height_) {
     width_ = bgr.cols;
     height_ = bgr.rows;
-    const GLint format = encoding_ == Encoding::kLinear ? GL_SRGB8 : GL_RGB8;
-    glTexImage2D(GL_TEXTURE_2D, 0, format, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE, bgr.data);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE, bgr.data);
   } else {
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, bgr.data);
   }

@@ -10,13 +10,8 @@ namespace lararium::render {
 // An image on the GPU.
 class Texture {
  public:
-  enum class Encoding {
-    kRaw,     // shaders see the stored numbers: for ImGui
-    kLinear,  // stored as sRGB, shaders see linear light
-  };
-  explicit Texture(Encoding encoding = Encoding::kRaw) : encoding_(encoding) {}
-
-  // bgr: CV_8UC3, not empty. Storage is kept while the size stays the same.
+  // bgr: CV_8UC3, not empty. Storage is kept while the size stays the same. Shaders see the
+  // numbers as they are.
   void Upload(const cv::Mat& bgr);
 
   // 0 before the first upload. Coordinate (0, 0) is the top-left corner.
@@ -25,7 +20,6 @@ class Texture {
   int height() const { return height_; }
 
  private:
-  Encoding encoding_;
   GlTexture texture_;
   int width_ = 0;
   int height_ = 0;

@@ -18,18 +18,6 @@ namespace {
 
 using human::LightTransfer;
 
-size_t CountSlots(const LightTransfer& transfer) {
-  std::map<uint32_t, size_t> sizes;
-  for (const LightTransfer::Receiver& receiver : transfer.receivers) {
-    ++sizes[receiver.joint];
-  }
-  size_t slots = 0;
-  for (const auto& [joint, size] : sizes) {
-    slots += light::PaddedToLanes(size);
-  }
-  return slots;
-}
-
 // As many coefficients of visibility as its table has, and transfer wants.
 int VisibilityCount(const LightTransfer& transfer) { return std::min(transfer.count, 25); }
 
@@ -119,7 +107,7 @@ void SphereSet::Append(const SphereSet& more) {
 PersonLight::PersonLight(std::shared_ptr<const human::Human> human)
     : human_(std::move(human)),
       skin_(human_->skeleton.size(), glm::mat4(1.0f)),
-      receiver_light_(human_->light.count, CountSlots(human_->light)) {
+      receiver_light_(human_->light.count, human_->light.receivers.size()) {
   const size_t slots = receiver_light_.receivers();
   const int count = VisibilityCount(human_->light);
   own_log_ = stage_log_ = light::ShRows(count, slots);
@@ -128,32 +116,45 @@ PersonLight::PersonLight(std::shared_ptr<const human::Human> human)
   pose_weights_.resize(slots * light::kMaxKeyPoses);
   GroupBlockers();
   blockers_.Resize(human_->light.blockers.size());
-  local_.Resize(blockers_.size());
-  PlaceReceivers();
+  OrderReceivers();
   MakeMeshes();
   FindKeyLogs();
 }
 
-void PersonLight::PlaceReceivers() {
+void PersonLight::OrderReceivers() {
   const std::vector<LightTransfer::Receiver>& receivers = human_->light.receivers;
   std::map<uint32_t, std::vector<uint16_t>> by_joint;
   for (size_t i = 0; i < receivers.size(); ++i) {
     by_joint[receivers[i].joint].push_back(static_cast<uint16_t>(i));
   }
   slots_.resize(receivers.size());
-  bind_points_.Resize(receiver_light_.receivers());
-  stage_points_.Resize(receiver_light_.receivers());
+  bind_points_.Resize(receivers.size());
+  stage_points_.Resize(receivers.size());
+  for (std::vector<float>* values :
+       {&stage_from_bind_.w, &stage_from_bind_.x, &stage_from_bind_.y, &stage_from_bind_.z}) {
+    values->resize(receivers.size());
+  }
   size_t slot = 0;
   for (const auto& [joint, members] : by_joint) {
-    const size_t end = slot + light::PaddedToLanes(members.size());
-    groups_.push_back({joint, {slot, end}});
-    for (size_t i = 0; slot < end; ++slot, ++i) {
-      // Padding repeats the last.
-      const uint16_t member = members[std::min(i, members.size() - 1)];
+    groups_.push_back({joint, slot, slot + members.size()});
+    for (const uint16_t member : members) {
       bind_points_.Set(slot, receivers[member].position, 0.0f);
-      if (i < members.size()) {
-        slots_[member] = static_cast<uint16_t>(slot);
-      }
+      slots_[member] = static_cast<uint16_t>(slot++);
+    }
+  }
+}
+
+void PersonLight::PlaceReceivers() {
+  for (const Group& group : groups_) {
+    const glm::mat4 stage_from_bind = stage_from_actor_ * skin_[group.joint];
+    const glm::quat turn = RotationOf(stage_from_bind);
+    for (size_t slot = group.begin; slot < group.end; ++slot) {
+      const glm::vec4 bind(bind_points_.x[slot], bind_points_.y[slot], bind_points_.z[slot], 1.0f);
+      stage_points_.Set(slot, stage_from_bind * bind, 0.0f);
+      stage_from_bind_.w[slot] = turn.w;
+      stage_from_bind_.x[slot] = turn.x;
+      stage_from_bind_.y[slot] = turn.y;
+      stage_from_bind_.z[slot] = turn.z;
     }
   }
 }
@@ -177,23 +178,16 @@ void PersonLight::MakeMeshes() {
 void PersonLight::FindKeyLogs() {
   const human::Skeleton& skeleton = human_->skeleton;
   for (const std::vector<human::JointTransform>& pose : human_->light.key_poses) {
-    OwnLog(human::SkinOfPose(skeleton, pose),
-           key_logs_.emplace_back(own_log_.count(), own_log_.receivers()));
+    Pose(human::SkinOfPose(skeleton, pose), glm::mat4(1.0f));
+    PlaceReceivers();
+    OwnLog(key_logs_.emplace_back(own_log_.count(), own_log_.receivers()));
   }
 }
 
-void PersonLight::OwnLog(std::span<const glm::mat4> skin, light::ShRows& log) {
-  for (const Group& group : groups_) {
-    const glm::mat4 bind_from_actor = glm::inverse(skin[group.joint]);
-    for (size_t i = 0; i < local_.size(); ++i) {
-      const LightTransfer::Blocker& blocker = human_->light.blockers[i];
-      const glm::vec4 in_actor = skin[blocker.joint] * glm::vec4(blocker.centre, 1.0f);
-      local_.Set(i, bind_from_actor * in_actor, blocker.radius);
-    }
-    light::ClearLogVisibility(group.range, log);
-    light::AddLogVisibility(local_.spheres(), {bind_points_.x, bind_points_.y, bind_points_.z},
-                            group.range, log);
-  }
+void PersonLight::OwnLog(light::ShRows& log) const {
+  const light::ReceiverRange all = {0, log.receivers()};
+  light::ClearLogVisibility(all, log);
+  light::AddLogVisibility(blockers_.spheres(), points(), stage_from_bind_.turns(), all, log);
 }
 
 void PersonLight::Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor) {
@@ -300,43 +294,29 @@ void PersonLight::AddLamps(const light::Spheres& others, std::span<const light::
   for (light::ShRows& rows : lamp_light_) {
     rows.Clear();
   }
-  light::AddLamps(near_lamps_, {stage_points_.x, stage_points_.y, stage_points_.z}, stage_log_,
-                  others, {0, receiver_light_.receivers()}, lamp_light_);
+  light::AddLamps(near_lamps_, points(), stage_log_, others, {0, receiver_light_.receivers()},
+                  lamp_light_);
 }
 
 void PersonLight::Update(const light::LightMatrix& light,
                          const light::Spheres& others,
                          std::span<const light::Lamp> lamps) {
-  OwnLog(skin_, own_log_);
   const light::ReceiverRange all = {0, receiver_light_.receivers()};
+  PlaceReceivers();
+  OwnLog(own_log_);
   light::KeyPoseWeights(key_logs_, own_log_, {}, all, pose_weights_);
   light::SubtractKeyPoses(key_logs_, own_log_, pose_weights_, all, own_log_);
   DampBrightening(own_log_);
-  const int degree = light::ShDegreeOf(own_log_.count());
-  for (const Group& group : groups_) {
-    const glm::mat4 stage_from_bind = stage_from_actor_ * skin_[group.joint];
-    for (size_t slot = group.range.begin; slot < group.range.end; ++slot) {
-      const glm::vec4 bind(bind_points_.x[slot], bind_points_.y[slot], bind_points_.z[slot], 1.0f);
-      stage_points_.Set(slot, stage_from_bind * bind, 0.0f);
-    }
-    light::RotateRows(own_log_, light::ShRotation(RotationOf(stage_from_bind), degree), group.range,
-                      stage_log_);
-  }
+  light::TurnRows(own_log_, stage_from_bind_.turns(), light::TurnDirection::kForth, all,
+                  stage_log_);
   AddLamps(others, lamps);
-  light::AddLogVisibility(others, {stage_points_.x, stage_points_.y, stage_points_.z}, all,
-                          stage_log_);
+  light::AddLogVisibility(others, points(), all, stage_log_);
   light::ShadowLight(light, stage_log_, all, shadowed_);
   for (size_t channel = 0; !near_lamps_.empty() && channel < 3; ++channel) {
     shadowed_[channel].Add(lamp_light_[channel]);
   }
-  for (const Group& group : groups_) {
-    const glm::quat stage_from_bind = RotationOf(stage_from_actor_ * skin_[group.joint]);
-    const light::ShRotation turn(glm::conjugate(stage_from_bind), degree);
-    for (size_t channel = 0; channel < 3; ++channel) {
-      light::RotateRows(shadowed_[channel], turn, group.range, turned_[channel]);
-    }
-  }
-  light::PackReceiverLight(turned_, all, receiver_light_);
+  light::TurnRows(shadowed_, stage_from_bind_.turns(), light::TurnDirection::kBack, all, turned_);
+  light::PackReceiverLight(turned_, receiver_light_);
 }
 
 void PersonLight::LightVertices(float detail, std::span<glm::vec3> irradiance) const {

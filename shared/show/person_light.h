@@ -65,10 +65,17 @@ class PersonLight {
   void LightVertices(float detail, std::span<glm::vec3> irradiance) const;
 
  private:
-  // Receivers that follow one joint; they lie in registers of their own.
+  // Receivers that follow one joint, next to each other.
   struct Group {
     uint32_t joint = 0;
-    light::ReceiverRange range;
+    size_t begin = 0;
+    size_t end = 0;
+  };
+  // Rotations of receivers, as a structure of arrays.
+  struct TurnSet {
+    std::vector<float> w, x, y, z;
+
+    light::Turns turns() const { return {w, x, y, z}; }
   };
   struct MeshLight {
     light::Transfer transfer;
@@ -87,24 +94,27 @@ class PersonLight {
 
   void GroupBlockers();
   void MergeGroups();
+  void OrderReceivers();
+  // Where receivers are with the joints of the last pose, and how they are turned.
   void PlaceReceivers();
+  light::Points points() const { return {stage_points_.x, stage_points_.y, stage_points_.z}; }
   // Lamps as seen from the receivers of the last pose, past their own body and others.
   void AddLamps(const light::Spheres& others, std::span<const light::Lamp> lamps);
   void MakeMeshes();
   void FindKeyLogs();
-  // The log visibility past own blockers in the bind pose's axes.
-  void OwnLog(std::span<const glm::mat4> skin, light::ShRows& log);
+  // The log visibility past own blockers, as posed, in the bind pose's axes.
+  void OwnLog(light::ShRows& log) const;
 
   std::shared_ptr<const human::Human> human_;
   std::vector<Group> groups_;
   std::vector<uint16_t> slots_;          // of each receiver of the human
   SphereSet bind_points_;                // receivers, bind pose; radius unused
   SphereSet stage_points_;               // receivers of the last pose
+  TurnSet stage_from_bind_;              // likewise: rotations of their joints
   std::vector<uint32_t> blocker_order_;  // those of one group next to each other
   std::vector<BlockerGroup> blocker_groups_;
   SphereSet blockers_;  // of the last pose, stage, in blocker_order_
   glm::vec3 low_ = glm::vec3(0.0f), high_ = glm::vec3(0.0f);  // a box that holds them
-  SphereSet local_;  // blockers as seen from one joint's bind pose
   std::vector<glm::mat4> skin_;
   glm::mat4 stage_from_actor_ = glm::mat4(1.0f);
   std::vector<light::ShRows> key_logs_;  // of each key pose

@@ -113,6 +113,7 @@ void Show::TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stag
     visitor.keys = std::exchange(keys_, {});
     visitor.hour = hour_;
   }
+  picture_hour_ = visitor.hour;
   if (camera_from_stage) {
     visitor.tracked = true;
     visitor.position = geometry::ToGlm(camera_from_stage->Center());
@@ -137,6 +138,13 @@ double Show::DramaTime(double time) {
 void Show::SetHour(float hour) {
   const std::lock_guard lock(input_mutex_);
   hour_ = hour;
+}
+
+void Show::SetQuality(const render::Quality& quality) {
+  const render::Quality clamped = render::Clamped(quality);
+  const std::lock_guard lock(input_mutex_);
+  detail_options_.tolerance_px = clamped.detail_px;
+  detail_options_.triangle_budget = static_cast<size_t>(clamped.triangles);
 }
 
 void Show::PressKey(std::string_view key) {
@@ -187,6 +195,10 @@ void Show::ChooseDetails(const StagedFrame& staged) {
     BodyDetail& detail = details_[visible.cast];
     detail = ChooseBodyDetail(kPersonHeight * scale, !seen, detail);
     requests_[visible.cast].pixels_per_metre = seen ? scale : 0.0f;
+  }
+  {
+    const std::lock_guard lock(input_mutex_);
+    detail_chooser_.SetOptions(detail_options_);
   }
   detail_chooser_.Choose(requests_);
 }
@@ -248,6 +260,10 @@ light::ProbeLight Show::LightAt(const StagedFrame& staged, const glm::vec3& posi
   return light::Blend(probes, position, drawn_.hour.value_or(probes.front().hour));
 }
 
+double Show::PictureHour(std::span<const light::PlacedProbe> probes) const {
+  return picture_hour_ >= 0.0f ? picture_hour_ : probes.front().hour;
+}
+
 void Show::BlendProbes(StagedFrame& staged) const {
   glm::vec3 viewed(0.0f);
   if (staged.camera_from_stage) {
@@ -256,6 +272,10 @@ void Show::BlendProbes(StagedFrame& staged) const {
   }
   staged.light = LightAt(staged, viewed);
   const std::vector<light::PlacedProbe>& probes = content_.places[staged.place].stage.probes;
+  staged.picture_light.reset();
+  if (!probes.empty() && drawn_.hour) {
+    staged.picture_light = light::Blend(probes, viewed, PictureHour(probes)).sky;
+  }
   staged.probe_weights.resize(probes.size());
   if (!probes.empty()) {
     light::ComputeProbeWeights(probes, viewed, drawn_.hour.value_or(probes.front().hour),

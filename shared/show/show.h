@@ -21,6 +21,7 @@
 #include "shared/geometry/transform.h"
 #include "shared/human/performance.h"
 #include "shared/render/detail.h"
+#include "shared/render/quality.h"
 #include "shared/show/body.h"
 #include "shared/show/camera_motion.h"
 #include "shared/show/gain_filter.h"
@@ -87,8 +88,10 @@ struct StagedFrame {
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};     // of tracked, steadied by GainFilter
   std::optional<CameraMotion> motion;                 // none: not known
   double time = 0.0;                                  // of the drama, seconds
-  light::ProbeLight light;           // on real surfaces in view, stage axes; its sun is everybody's
-  std::vector<float> probe_weights;  // of each probe of the place, likewise
+  light::ProbeLight light;  // on real surfaces in view, stage axes; its sun is everybody's
+  // The sky at the hour of the image, where the drama has set another hour.
+  std::optional<light::ShRgb> picture_light;
+  std::vector<float> probe_weights;               // of each probe of the place, likewise
   std::chrono::steady_clock::time_point arrival;  // when the image was there
   std::vector<StagedActor> actors;
   // Of all actors and objects, one after the other.
@@ -127,6 +130,8 @@ class Show {
   // From any thread.
   void PressKey(std::string_view key);
   void SetHour(float hour);
+  // How finely people are shaped, lit and drawn from the next frame on.
+  void SetQuality(const render::Quality& quality);
 
   // For interactive staging: another transform, nudge, light or occluders of
   // places[index].
@@ -166,6 +171,9 @@ class Show {
   void LayOutActors(StagedFrame& staged);
   // The probes of the frame's place, blended at its time of day.
   light::ProbeLight LightAt(const StagedFrame& staged, const glm::vec3& position) const;
+  // At which an image of a place was taken: the visitor's; where that is not known, that of the
+  // first probe.
+  double PictureHour(std::span<const light::PlacedProbe> probes) const;
   void BlendProbes(StagedFrame& staged) const;
   void LayOutLight(StagedFrame& staged);
   void LightStage(StagedFrame& staged);
@@ -193,9 +201,11 @@ class Show {
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
   std::mutex input_mutex_;
-  std::string keys_;        // pressed since the last frame
-  float hour_ = -1.0f;      // of the day; below 0: unknown
-  double last_time_ = 0.0;  // of the frames
+  std::string keys_;    // pressed since the last frame
+  float hour_ = -1.0f;  // of the day; below 0: unknown
+  render::DetailOptions detail_options_;
+  float picture_hour_ = -1.0f;  // hour_ as of the frame
+  double last_time_ = 0.0;      // of the frames
   double held_seconds_ = 0.0;
   GainFilter gain_filter_;
   CameraMotionTracker camera_motion_;

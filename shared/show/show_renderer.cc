@@ -18,9 +18,9 @@ constexpr float kWeightSteps = 32.0f;
 }  // namespace
 
 Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& content,
-                                                           const render::RendererOptions& options) {
+                                                           const render::Quality& quality) {
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Renderer> renderer,
-                            render::Renderer::Create(options));
+                            render::Renderer::Create(quality));
   std::unique_ptr<ShowRenderer> show(new ShowRenderer(std::move(renderer)));
   for (const CastMember& member : content.cast) {
     LARARIUM_ASSIGN_OR_RETURN(show->cast_.emplace_back(), show->renderer_->AddHuman(*member.human));
@@ -135,6 +135,7 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   scene.props = props_;
   scene.light = staged.light.sky;
   scene.sun = staged.light.sun;
+  scene.picture_light = staged.picture_light;
   scene.blockers = staged.blockers;
   scene.lamps = staged.lamps;
   BlendReflections(staged);

@@ -18,7 +18,7 @@ class ShowRenderer {
   // Uploads cast, objects, the occluders of all places and the letters of captions. Fails
   // where a texture cannot be decoded.
   static Result<std::unique_ptr<ShowRenderer>> Create(const ShowContent& content,
-                                                      const render::RendererOptions& options = {});
+                                                      const render::Quality& quality = {});
 
   // Other occluders of places[index], while a designer stages.
   void SetPlace(size_t index, const stage::Place& place);
@@ -26,6 +26,9 @@ class ShowRenderer {
   // Only Lambert's reflection from now on and nothing of the camera, as path-traced references
   // have it.
   void SetMatte(bool matte) { matte_ = matte; }
+
+  // Of the frames from now on.
+  void SetQuality(const render::Quality& quality) { renderer_->SetQuality(quality); }
 
   // Fills the target with the composite: image, the occluders of the frame's
   // place, people in its light, captions.

@@ -128,23 +128,20 @@ void BenchShadowedReceivers(benchmark::State& bench) {
 }
 BENCHMARK(BenchShadowedReceivers)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
 
-// Light of 80 bones with 16 receivers each into the bones' frames, matrices included.
-void BenchRotateReceivers(benchmark::State& bench) {
-  const int count = static_cast<int>(bench.range(0));
+// Light into the frames of as many receivers.
+void BenchTurnReceivers(benchmark::State& bench) {
+  const auto count = static_cast<int>(bench.range(0));
   const glm::quat turn = glm::normalize(glm::quat(0.3f, 0.5f, -0.2f, 0.7f));
+  const std::vector<float> w(kReceivers, turn.w), x(kReceivers, turn.x), y(kReceivers, turn.y),
+      z(kReceivers, turn.z);
   const ShRowsRgb source = RgbRows(count);
   ShRowsRgb target = RgbRows(count);
   for (auto _ : bench) {
-    for (size_t bone = 0; bone < 80; ++bone) {
-      const ShRotation rotation(turn, ShDegreeOf(count));
-      for (size_t channel = 0; channel < 3; ++channel) {
-        RotateRows(source[channel], rotation, {16 * bone, 16 * bone + 16}, target[channel]);
-      }
-    }
+    TurnRows(source, {w, x, y, z}, TurnDirection::kBack, {0, kReceivers}, target);
     benchmark::DoNotOptimize(target[0].row(0));
   }
 }
-BENCHMARK(BenchRotateReceivers)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BenchTurnReceivers)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
 
 void BenchLightMatrix(benchmark::State& bench) {
   const ShRgb light = SomeLight();
@@ -193,7 +190,7 @@ void BenchPackReceiverLight(benchmark::State& bench) {
   const ShRowsRgb light = RgbRows(count);
   ReceiverLight packed(count, kReceivers);
   for (auto _ : bench) {
-    PackReceiverLight(light, {0, kReceivers}, packed);
+    PackReceiverLight(light, packed);
     benchmark::DoNotOptimize(packed.row(0));
   }
 }

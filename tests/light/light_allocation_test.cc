@@ -20,6 +20,7 @@ struct Frame {
   explicit Frame(int count)
       : balls({{{0.3f, 1.0f, 0.2f}, 0.3f}, {{-0.5f, 1.2f, 0.0f}, 0.2f}}),
         points(std::vector<glm::vec3>(kReceivers, glm::vec3(0.1f, 0.2f, 0.3f))),
+        turns(std::vector<glm::quat>(kReceivers, glm::quat(1.0f, 0.0f, 0.0f, 0.0f))),
         log(count, kReceivers),
         delta(count, kReceivers),
         keys(3, ShRows(count, kReceivers)),
@@ -41,21 +42,19 @@ struct Frame {
   void Run() {
     const int count = log.count();
     ClearLogVisibility(kAll, log);
-    AddLogVisibility(balls.spheres(), points.points(), kAll, log);
+    AddLogVisibility(balls.spheres(), points.points(), turns.turns(), kAll, log);
     KeyPoseWeights(keys, log, {}, kAll, weights);
     SubtractKeyPoses(keys, log, weights, kAll, delta);
     ShadowLight(LightMatrix(light, count), delta, kAll, shadowed);
-    const ShRotation rotation(glm::quat(1.0f, 0.0f, 0.0f, 0.0f), ShDegreeOf(count));
-    for (size_t channel = 0; channel < 3; ++channel) {
-      RotateRows(shadowed[channel], rotation, {3, 17}, turned[channel]);
-    }
-    PackReceiverLight(turned, kAll, packed);
+    TurnRows(shadowed, turns.turns(), TurnDirection::kBack, kAll, turned);
+    PackReceiverLight(turned, packed);
     LightVerticesJob{&transfer, receivers, &packed, weights, irradiance}.Run(0, kVertices);
     ShadowRatio(light, log, kAll, {ratio[0], ratio[1], ratio[2]});
   }
 
   BallArrays balls;
   PointArrays points;
+  TurnArrays turns;
   ShRgb light = {};
   ShRows log, delta;
   std::vector<ShRows> keys;

@@ -90,11 +90,8 @@ TEST_P(Receivers, TurnWithTheScene) {
   ShRows log(GetParam(), kReceivers), turned(GetParam(), kReceivers),
       direct(GetParam(), kReceivers);
   AddLogVisibility(BallArrays(balls).spheres(), PointArrays(points).points(), {0, kReceivers}, log);
-  // In pieces as bones have them.
-  const ShRotation rotation(turn);
-  RotateRows(log, rotation, {0, 3}, turned);
-  RotateRows(log, rotation, {3, 30}, turned);
-  RotateRows(log, rotation, {30, kReceivers}, turned);
+  const TurnArrays turns(std::vector<glm::quat>(kReceivers, turn));
+  TurnRows(log, turns.turns(), TurnDirection::kForth, {0, kReceivers}, turned);
   for (glm::vec3& point : points) {
     point = turn * point;
   }
@@ -106,6 +103,26 @@ TEST_P(Receivers, TurnWithTheScene) {
   for (int k = 0; k < GetParam(); ++k) {
     for (size_t i = 0; i < kReceivers; ++i) {
       EXPECT_NEAR(turned.at(k, i), direct.at(k, i), 2e-3);
+    }
+  }
+}
+
+// Each receiver in a frame of its own: the log in stage axes, turned back.
+TEST_P(Receivers, SeeInTheirOwnFrames) {
+  Random random(46);
+  const PointArrays at(RandomPoints(random, kReceivers));
+  const BallArrays balls(RandomBalls(random, 6));
+  std::vector<glm::quat> own;
+  std::generate_n(std::back_inserter(own), kReceivers, [&] { return RandomRotation(random); });
+  const TurnArrays turns(own);
+  ShRows log(GetParam(), kReceivers), turned(GetParam(), kReceivers),
+      direct(GetParam(), kReceivers);
+  AddLogVisibility(balls.spheres(), at.points(), {0, kReceivers}, log);
+  TurnRows(log, turns.turns(), TurnDirection::kBack, {0, kReceivers}, turned);
+  AddLogVisibility(balls.spheres(), at.points(), turns.turns(), {0, kReceivers}, direct);
+  for (int k = 0; k < GetParam(); ++k) {
+    for (size_t i = 0; i < kReceivers; ++i) {
+      EXPECT_NEAR(turned.at(k, i), direct.at(k, i), 2e-5);
     }
   }
 }

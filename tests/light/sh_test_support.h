@@ -77,4 +77,18 @@ struct PointArrays {
   Points points() const { return {x, y, z}; }
 };
 
+struct TurnArrays {
+  std::vector<float> w, x, y, z;
+
+  explicit TurnArrays(const std::vector<glm::quat>& turns) {
+    for (const glm::quat& turn : turns) {
+      w.push_back(turn.w);
+      x.push_back(turn.x);
+      y.push_back(turn.y);
+      z.push_back(turn.z);
+    }
+  }
+  Turns turns() const { return {w, x, y, z}; }
+};
+
 }  // namespace lararium::light

@@ -185,8 +185,7 @@ glm::dvec3 Expected(const LitMesh& mesh, size_t v) {
 TEST_P(TransferOf, VerticesAreLitByTheSumOfTheHeader) {
   const LitMesh mesh = MakeMesh(GetParam(), 50, 3, 21);
   ReceiverLight packed(GetParam(), 21);
-  PackReceiverLight(mesh.light, {0, 5}, packed);
-  PackReceiverLight(mesh.light, {5, 21}, packed);
+  PackReceiverLight(mesh.light, packed);
   std::vector<glm::vec3> irradiance(50);
   const LightVerticesJob job{&mesh.transfer, mesh.receivers, &packed, mesh.pose_weights,
                              irradiance};
@@ -195,7 +194,9 @@ TEST_P(TransferOf, VerticesAreLitByTheSumOfTheHeader) {
   for (size_t v = 0; v < irradiance.size(); ++v) {
     const glm::dvec3 expected = Expected(mesh, v);
     for (int channel = 0; channel < 3; ++channel) {
-      EXPECT_NEAR(irradiance[v][channel], expected[channel], 2e-5 * (1.0 + expected[channel]));
+      // The largest coefficients are about 10 here, rounded to 1/64000 of that, and once more
+      // for each receiver.
+      EXPECT_NEAR(irradiance[v][channel], expected[channel], 5e-4 * (1.0 + expected[channel]));
     }
   }
 }
@@ -209,7 +210,7 @@ TEST(LightVertices, SmallWeightsAreLeftOutAndTheOthersMakeUpForThem) {
     mesh.pose_weights[i * kMaxKeyPoses + 2] = 0.01f;
   }
   ReceiverLight packed(16, 4);
-  PackReceiverLight(mesh.light, {0, 4}, packed);
+  PackReceiverLight(mesh.light, packed);
   std::vector<glm::vec3> irradiance(20);
   LightVerticesJob{&mesh.transfer, mesh.receivers, &packed, mesh.pose_weights, irradiance}.Run(0,
                                                                                                20);
@@ -220,7 +221,7 @@ TEST(LightVertices, SmallWeightsAreLeftOutAndTheOthersMakeUpForThem) {
     pruned.pose_weights[i * kMaxKeyPoses + 2] = 0.0f;
   }
   for (size_t v = 0; v < 20; ++v) {
-    EXPECT_NEAR(irradiance[v].g, Expected(pruned, v).g, 1e-4);
+    EXPECT_NEAR(irradiance[v].g, Expected(pruned, v).g, 5e-4);
   }
 }
 

@@ -152,6 +152,23 @@ TEST_F(CatcherTest, ALampBrightensTheFloorByItsIrradianceOverTheSkys) {
   }
 }
 
+// Where the drama is at dusk and the image was taken at noon, a lamp is as faint as at noon.
+TEST_F(CatcherTest, ALampBrightensTheFloorByTheLightThatTheImageWasTakenIn) {
+  const light::Lamp lamp = {{0.1f, 0.7f, -0.2f}, {0.5f, 0.3f, 0.1f}, 0.05f};
+  scene_.lamps = {&lamp, 1};
+  const cv::Mat noon = Draw();
+  scene_.picture_light = scene_.light;
+  for (glm::vec3& coefficient : scene_.light) {
+    coefficient *= 0.1f;
+  }
+  const cv::Mat dusk = Draw();
+  scene_.picture_light.reset();
+  const cv::Mat both = Draw();
+  const cv::Point under = PixelOf({0.1, 0.0, -0.2});
+  EXPECT_NEAR(Kept(dusk, under), Kept(noon, under), 0.01);
+  EXPECT_GT(Kept(both, under), Kept(noon, under) + 0.2);
+}
+
 TEST_F(CatcherTest, ABallHidesALampFromTheFloorBehindIt) {
   const light::Lamp lamp = {{0.0f, 0.7f, 0.0f}, glm::vec3(0.6f), 0.05f};
   scene_.lamps = {&lamp, 1};

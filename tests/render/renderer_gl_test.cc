@@ -77,8 +77,8 @@ class RendererTest : public GlTest {
     GlTest::SetUp();
     Recreate({});
   }
-  void Recreate(const RendererOptions& options) {
-    auto renderer = Renderer::Create(options);
+  void Recreate(const Quality& quality) {
+    auto renderer = Renderer::Create(quality);
     ASSERT_TRUE(renderer.ok()) << renderer.message();
     renderer_ = std::move(renderer).value();
   }

@@ -43,6 +43,22 @@ TEST_P(EveryShader, CompilesAndLinks) {
   }
 }
 
+TEST_P(EveryShader, OfModelsCompilesForEverySurface) {
+  const auto context = CreateOffscreenContext(GetParam());
+  ASSERT_TRUE(context.ok()) << context.message();
+  for (const char* surface : {"PLAIN", "SKIN", "HAIR", "CLOTH", "EYE"}) {
+    for (const char* skin : {"LINEAR", "DUAL_QUATERNION", "RIGID"}) {
+      for (const char* more : {"", "#define COVERED\n", "#define REFLECTIONS\n",
+                               "#define COVERED\n#define REFLECTIONS\n"}) {
+        const std::string defines =
+            std::string("#define SURFACE_") + surface + "\n#define SKIN_" + skin + "\n" + more;
+        const auto program = ShaderProgram::Create("model.vert", "model.frag", defines);
+        EXPECT_TRUE(program.ok()) << defines << program.message();
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Apis,
                          EveryShader,
                          ::testing::Values(GraphicsApi::kOpenGl33, GraphicsApi::kOpenGlEs30),

@@ -1,0 +1,22 @@
+// The camera's image where the picture has it, sRGB-encoded.
+
+#include "camera.glsl"
+
+uniform bool has_image;
+uniform sampler2D image;  // raw
+uniform vec4 display_intrinsics;
+uniform vec4 camera_intrinsics;
+uniform vec4 camera_distortion;
+
+// Of the camera's image.
+vec2 RawPixel() {
+  vec2 plane = PlaneFromPixel(gl_FragCoord.xy - 0.5, display_intrinsics);
+  return has_image ? PixelFromPlane(plane, camera_intrinsics, camera_distortion)
+                   : gl_FragCoord.xy - 0.5;
+}
+
+vec3 Background(vec2 raw) {
+  vec2 position = (raw + 0.5) / vec2(textureSize(image, 0));
+  bool inside = all(greaterThan(position, vec2(-1e-4))) && all(lessThan(position, vec2(1.0001)));
+  return has_image && inside ? textureLod(image, position, 0.0).rgb : vec3(0.0);
+}

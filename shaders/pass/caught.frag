@@ -1,0 +1,30 @@
+// What every pixel of a real surface keeps of its light and gains by lamps.
+
+#include "caught_shadow.glsl"
+
+uniform sampler2D people;    // coverage in alpha
+uniform vec4 people_bounds;  // left, bottom, right, top: nobody is outside
+uniform int hidden_margin;   // cells within an edge of people that are seen through it
+
+layout(location = 0) out vec4 caught;
+
+float Covered(ivec2 cell) {
+  vec2 at = vec2(cell) + 0.5;
+  bool within = all(greaterThan(at, people_bounds.xy)) && all(lessThan(at, people_bounds.zw));
+  float covered = texelFetch(people, clamp(cell, ivec2(0), textureSize(people, 0) - 1), 0).a;
+  return within ? covered : 0.0;
+}
+
+void main() {
+  ivec2 cell = ivec2(gl_FragCoord.xy);
+  // People hide what is behind them, shadows too.
+  ivec2 aside = ivec2(hidden_margin, -hidden_margin);
+  float covered = min(min(Covered(cell + aside.xx), Covered(cell + aside.yy)),
+                      min(Covered(cell + aside.xy), Covered(cell + aside.yx)));
+  int may_catch = min(covered, Covered(cell)) < 0.999 ? 1 : 0;
+  vec3 kept = vec3(1.0);
+  for (int i = 0; i < may_catch; ++i) {
+    kept = CaughtShadow(cell);
+  }
+  caught = vec4(kept, 1.0);
+}

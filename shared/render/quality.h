@@ -1,0 +1,43 @@
+#pragma once
+
+// What drawing may save where a picture takes too long. All of it may change from picture to
+// picture; nothing is allocated then. What each costs and changes: docs/illumination.md.
+
+#include <span>
+
+namespace lararium::render {
+
+// As good as it gets unless set. What lies beyond a range counts as its nearest end.
+struct Quality {
+  // Of each pixel of people and props, for smooth edges: 1, none, up to what the driver offers.
+  int samples = 4;
+  // Pixels of the layer with people, props and caught shadows for one of the picture along each
+  // side, 0.25 to 1. The camera's image is always as fine as the picture.
+  float layer_scale = 1.0f;
+  // Pixels of the layer, along each side, for one value of the sky's light that real surfaces
+  // keep: 4 to 16.
+  int shadow_cell = 4;
+  // Texels along each side of the maps in which the sun's shadows are looked up: 1024, or 512
+  // below that.
+  int sun_map = 1024;
+  // How often the sun is looked up where a shadow's edge may be: 4 to 14.
+  int sun_taps = 14;
+  // Smooth surfaces mirror what is around; otherwise only where most of the light comes from.
+  bool reflections = true;
+  // Noise, softness and motion blur of the camera.
+  bool camera_look = true;
+  // By how many pixels levels of detail may be off, and how many triangles all people together
+  // may have (DetailOptions).
+  float detail_px = 0.5f;
+  int triangles = 300'000;
+
+  friend bool operator==(const Quality&, const Quality&) = default;
+};
+
+Quality Clamped(const Quality& quality);
+
+// From the best to the least that still looks good: each step is cheaper by a good part than
+// the one before, and changes what is seen least for that (lararium_quality_bench).
+std::span<const Quality> QualityLadder();
+
+}  // namespace lararium::render
