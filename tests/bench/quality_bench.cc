@@ -89,10 +89,10 @@ Status Bench::Prepare(const Arguments& arguments) {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, show::LoadShowContent(bundle));
   LARARIUM_ASSIGN_OR_RETURN(const auto source, capture::OpenVideo(arguments.video));
   LARARIUM_ASSIGN_OR_RETURN(
-      const auto poses,
-      vision::CreateTracker(
-          show::Maps(content.places),
-          content.places.front().map->camera.ForImages(source->width(), source->height()), {}));
+      const geometry::CameraModel camera,
+      content.places.front().map->camera.ForImages(source->width(), source->height()));
+  LARARIUM_ASSIGN_OR_RETURN(const auto poses,
+                            vision::CreateTracker(show::Maps(content.places), camera, {}));
   LARARIUM_RETURN_IF_ERROR(source->Seek(arguments.first));
   for (int i = 0; i < arguments.frames + 1; ++i) {
     LARARIUM_ASSIGN_OR_RETURN(const std::optional<geometry::Frame> frame, source->Next());
