@@ -1,6 +1,7 @@
 #include "editor/app/line_checks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <set>
@@ -74,7 +75,48 @@ std::optional<double> SecondsOf(const std::vector<SpokenLine>& spoken, std::stri
   return longest;
 }
 
-void CheckTexts(const std::string& place,
+// Where lines stand in their file: "lines.csv:12".
+class LinePlaces {
+ public:
+  explicit LinePlaces(const std::filesystem::path& folder) {
+    for (const char* name : {"lines.csv", "lines.json"}) {
+      if (const Result<std::string> text = ReadText(folder / name); text.ok()) {
+        file_ = name;
+        text_ = *text;
+      }
+    }
+  }
+
+  std::string Of(const std::string& id) const {
+    size_t row = 1;
+    for (size_t begin = 0; begin < text_.size(); ++row) {
+      const size_t end = std::min(text_.find('\n', begin), text_.size());
+      if (IsRowOf(std::string_view(text_).substr(begin, end - begin), id)) {
+        return file_ + ":" + std::to_string(row) + ": line '" + id + "'";
+      }
+      begin = end + 1;
+    }
+    return file_ + ": line '" + id + "'";
+  }
+
+ private:
+  // Ids hold nothing that would have to be quoted.
+  bool IsRowOf(std::string_view row, const std::string& id) const {
+    if (file_ == "lines.json") {
+      return row.find("\"id\": \"" + id + "\"") != std::string_view::npos;
+    }
+    const size_t quote = row.starts_with('"') ? 1 : 0;
+    const bool begins = row.substr(quote).starts_with(id);
+    const size_t next = quote + id.size();
+    return begins && next < row.size() &&
+           std::string_view(",;\t\"").find(row[next]) != std::string_view::npos;
+  }
+
+  std::string file_ = "lines";
+  std::string text_;
+};
+
+void CheckTexts(const LinePlaces& places,
                 const ProjectDocument& document,
                 const ProjectLines& lines,
                 std::vector<std::string>& problems) {
@@ -83,7 +125,7 @@ void CheckTexts(const std::string& place,
     cast.insert(member.name);
   }
   for (const bake::Line& line : lines.table.lines) {
-    const std::string where = place + ": line '" + line.id + "'";
+    const std::string where = places.Of(line.id);
     const bool name = ProjectLines::IsName(line, document);
     if (!name && line.speaker.empty()) {
       problems.push_back(where + ": it has no speaker; whoever says it has the plain voice");
@@ -176,7 +218,7 @@ std::vector<std::string> CheckTable(const ProjectPaths& paths,
                                     const ProjectLines& lines) {
   std::vector<std::string> problems;
   const std::string place = "lines";
-  CheckTexts(place, document, lines, problems);
+  CheckTexts(LinePlaces(paths.folder), document, lines, problems);
   for (const std::string& language : lines.spoken) {
     const Result<stage::CaptionBook> book = MakeCaptions(paths, document, lines, language);
     if (!book.ok()) {
@@ -207,10 +249,18 @@ std::vector<std::string> CheckTable(const ProjectPaths& paths,
 
 std::vector<std::string> CheckSaid(const ProjectPaths& paths,
                                    const ProjectLines& lines,
-                                   const std::vector<SaidLine>& said) {
+                                   const std::vector<SaidLine>& said,
+                                   std::span<const drama::TaskRecord> tasks) {
   std::vector<std::string> problems;
-  const std::string file = paths.Drama().filename().string();
+  const auto where = [&](const SaidLine& line) {
+    const auto told = std::find_if(tasks.begin(), tasks.end(), [&](const drama::TaskRecord& task) {
+      return task.actor == line.actor && task.action == "say " + line.line &&
+             std::abs(task.began - line.begin) < 2.0 * stage::Stage::kTickSeconds;
+    });
+    return told == tasks.end() ? paths.Drama().filename().string() : told->where;
+  };
   for (const SaidLine& line : said) {
+    const std::string file = where(line);
     const bake::Line* known = lines.table.Find(line.line);
     if (known != nullptr && !known->speaker.empty() && known->speaker != line.actor) {
       problems.push_back(file + ": '" + line.actor + "' says '" + line.line +

@@ -2,12 +2,14 @@
 
 // What is wrong with a project's lines, and what a drama says of them when.
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "editor/app/lines.h"
 #include "editor/app/project.h"
+#include "shared/drama/drama.h"
 #include "shared/stage/stage.h"
 
 namespace lararium::app {
@@ -59,9 +61,11 @@ std::vector<std::string> CheckTable(const ProjectPaths& paths,
                                     const ProjectDocument& document,
                                     const ProjectLines& lines);
 
-// Lines that were said by somebody else than their speaker, or broken off by the next.
+// Lines that were said by somebody else than their speaker, or broken off by the next. tasks:
+// of the same run, which know where that was told.
 std::vector<std::string> CheckSaid(const ProjectPaths& paths,
                                    const ProjectLines& lines,
-                                   const std::vector<SaidLine>& said);
+                                   const std::vector<SaidLine>& said,
+                                   std::span<const drama::TaskRecord> tasks);
 
 }  // namespace lararium::app

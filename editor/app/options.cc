@@ -374,6 +374,10 @@ void AddOthers(CLI::App& app, AllOptions& options) {
       ->add_option("--seeks", options.check.seeks,
                    "Then go to this many random times, and say whether all is as it was")
       ->check(CLI::Range(0, 10'000));
+  check
+      ->add_option("--visitor", options.check.visitors,
+                   "Run it for this visitor too, as lararium-player --visitor-log recorded them")
+      ->check(CLI::ExistingFile);
 
   AddLines(app, options);
   AddRender(app, options.render);

@@ -81,8 +81,9 @@ struct BakeOptions {
 
 struct CheckOptions {
   std::filesystem::path project;
-  double seconds = 60.0;  // of the drama that are run
-  int seeks = 0;          // to random times of them afterwards, compared with what was there
+  double seconds = 300.0;  // of the drama that are run
+  int seeks = 0;           // to random times of them afterwards, compared with what was there
+  std::vector<std::filesystem::path> visitors;  // recorded ones, besides those of the project
 };
 
 struct LinesOptions {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
-#include <map>
 #include <memory>
 #include <span>
 #include <utility>
@@ -11,6 +9,7 @@
 
 #include "editor/app/baking.h"
 #include "editor/app/document_fields.h"
+#include "editor/app/dry_run.h"
 #include "editor/app/exporting.h"
 #include "editor/app/line_checks.h"
 #include "editor/app/lines.h"
@@ -22,10 +21,6 @@
 #include "editor/app/thumbnail.h"
 #include "editor/bake/probe.h"
 #include "shared/core/file.h"
-#include "shared/core/random.h"
-#include "shared/core/statistics.h"
-#include "shared/drama/drama.h"
-#include "shared/drama/timeline_text.h"
 #include "shared/stage/stage.h"
 
 namespace lararium::app {
@@ -66,152 +61,6 @@ Status FillStage(const ProjectPaths& paths,
 
 namespace {
 
-std::string AtTime(std::string problem, double seconds) {
-  char time[32];
-  std::snprintf(time, sizeof(time), " (at %.2f s)", seconds);
-  return std::move(problem) + time;
-}
-
-// What people were told to do and could not, unless the drama says that it may fail; then
-// errors that are not the ends of such tasks.
-std::vector<std::string> DramaProblems(const drama::Drama& drama) {
-  std::vector<std::string> problems;
-  std::vector<const drama::TaskRecord*> failed;
-  for (const drama::TaskRecord& task : drama.tasks()) {
-    if (task.failed && !task.expected) {
-      failed.push_back(&task);
-      problems.push_back(AtTime(task.where + ": " + task.actor + ": " + task.action +
-                                    (task.object.empty() ? "" : " " + task.object) + ": " +
-                                    task.message,
-                                task.ended));
-    }
-  }
-  for (const drama::ScriptError& error : drama.errors()) {
-    const bool is_told = std::any_of(failed.begin(), failed.end(), [&](const auto* task) {
-      return task->ended == error.time && error.message.starts_with(task->where) &&
-             error.message.ends_with(task->message);
-    });
-    if (!is_told) {
-      problems.push_back(AtTime(error.message, error.time));
-    }
-  }
-  return problems;
-}
-
-Json TasksJson(std::span<const drama::TaskRecord> tasks) {
-  Json json = Json::array();
-  for (const drama::TaskRecord& task : tasks) {
-    json.push_back({{"began", task.began},
-                    {"ended", task.ended},
-                    {"where", task.where},
-                    {"actor", task.actor},
-                    {"action", task.action},
-                    {"object", task.object},
-                    {"failed", task.failed},
-                    {"expected", task.expected},
-                    {"from_timeline", task.from_timeline},
-                    {"message", task.message}});
-  }
-  return json;
-}
-
-struct DryRunReport {
-  std::vector<std::string> problems;
-  Json tasks = Json::array();  // TasksJson()
-  std::vector<SaidLine> said = {};
-  Json seeks = Json::object();
-};
-
-// Moments of a dry run, to be gone to again.
-class SeekCheck {
- public:
-  SeekCheck(int count, int64_t ticks) {
-    Random random(1);
-    for (int i = 0; i < count && ticks > 0; ++i) {
-      wanted_.push_back(random.Below(static_cast<uint32_t>(std::min<int64_t>(ticks, 1 << 30))));
-    }
-  }
-
-  // While the drama is played.
-  void See(int64_t tick, const stage::Stage& stage) {
-    if (std::find(wanted_.begin(), wanted_.end(), tick) != wanted_.end()) {
-      stage.Capture(seen_[tick]);
-    }
-  }
-
-  // Goes to each in the order in which they were drawn.
-  void Run(drama::Drama& drama, const stage::Stage& stage, DryRunReport& report) {
-    StageTimes times;
-    stage::StageSnapshot now;
-    int differ = 0;
-    for (const int64_t tick : wanted_) {
-      const double time = static_cast<double>(tick) / drama::Drama::kTicksPerSecond;
-      const Status status = [&] {
-        const ScopedStageTimer timer(times);
-        return drama.Seek(time);
-      }();
-      stage.Capture(now);
-      if (!status.ok() || now != seen_[tick]) {
-        ++differ;
-        report.problems.push_back(AtTime("the stage is not as it was when it is sought", time));
-      }
-    }
-    report.seeks = {{"differ", differ}, {"milliseconds", times.ToJson()}};
-  }
-
- private:
-  std::vector<int64_t> wanted_;
-  std::map<int64_t, stage::StageSnapshot> seen_;
-};
-
-// Runs the drama without drawing. On a stage that lacks anything it would tell nothing
-// that is true, and is not run.
-DryRunReport DryRun(const ProjectPaths& paths,
-                    const ProjectDocument& document,
-                    const std::string& spoken,
-                    const CheckOptions& options,
-                    Progress& progress) {
-  stage::Stage stage;
-  show::ShowContent content;
-  if (const Status filled = FillStage(paths, document, spoken, stage, content); !filled.ok()) {
-    return {.problems = {filled.message(),
-                         paths.Drama().string() + ": was not run: the stage is not complete"}};
-  }
-  const Result<std::string> script = ReadText(paths.Drama());
-  if (!script) {
-    return {.problems = {script.message()}};
-  }
-  const std::shared_ptr<Log> silent = MakeSilentLog();
-  const auto drama =
-      drama::Drama::Create(*script, paths.Drama().filename().string(), stage, {}, *silent);
-  if (!drama.ok()) {
-    return {.problems = {drama.message()}};
-  }
-  LineListener listener(stage, content);
-  const auto ticks = static_cast<int64_t>(options.seconds * drama::Drama::kTicksPerSecond);
-  SeekCheck seeks(options.seeks, ticks);
-  seeks.See(0, stage);
-  for (int64_t tick = 0; tick < ticks && !progress.Cancelled(); ++tick) {
-    (*drama)->Tick();
-    listener.Listen((*drama)->time());
-    seeks.See(tick + 1, stage);
-    progress.Report("running the drama", static_cast<double>(tick + 1) / ticks);
-  }
-  DryRunReport report = {.problems = DramaProblems(**drama),
-                         .tasks = TasksJson((*drama)->tasks()),
-                         .said = listener.said()};
-  const Result<drama::TimelineText> timeline =
-      drama::TimelineText::Read(*script, paths.Drama().filename().string());
-  if (timeline.ok()) {
-    report.problems.insert(report.problems.end(), timeline->problems().begin(),
-                           timeline->problems().end());
-  }
-  if (!progress.Cancelled()) {
-    seeks.Run(**drama, stage, report);
-  }
-  return report;
-}
-
 // Lines that cannot be read are a problem, and none.
 ProjectLines CheckLines(const ProjectPaths& paths,
                         const ProjectDocument& document,
@@ -230,33 +79,6 @@ ProjectLines CheckLines(const ProjectPaths& paths,
     }
   }
   return *std::move(lines);
-}
-
-// A drama goes another way in time where its lines last longer. The tasks are those of the
-// first language.
-DryRunReport RunInEachLanguage(const ProjectPaths& paths,
-                               const ProjectDocument& document,
-                               const ProjectLines& lines,
-                               const CheckOptions& options,
-                               Progress& progress) {
-  DryRunReport report = DryRun(paths, document, "", options, progress);
-  for (size_t i = 0; i < lines.spoken.size(); ++i) {
-    DryRunReport again;
-    if (i > 0) {
-      CheckOptions other = options;
-      other.seeks = 0;
-      again = DryRun(paths, document, lines.spoken[i], other, progress);
-      std::copy_if(again.problems.begin(), again.problems.end(),
-                   std::back_inserter(report.problems), [&](const std::string& problem) {
-                     return std::find(report.problems.begin(), report.problems.end(), problem) ==
-                            report.problems.end();
-                   });
-    }
-    for (std::string& problem : CheckSaid(paths, lines, i > 0 ? again.said : report.said)) {
-      report.problems.push_back(std::move(problem));
-    }
-  }
-  return report;
 }
 
 // What is wrong with a place's probes, each with its file; adds to warnings what was mended.
@@ -438,7 +260,7 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
     problems.push_back(problem.message());
   }
   const ProjectLines lines = CheckLines(paths, document, problems);
-  const DryRunReport run = RunInEachLanguage(paths, document, lines, options, progress);
+  const DryRunReport run = DryRunAll(paths, document, lines, options, progress);
   problems.insert(problems.end(), run.problems.begin(), run.problems.end());
   if (progress.Cancelled()) {
     return Status::Error("check", "cancelled");
@@ -457,11 +279,8 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   if (problems.empty()) {
     result.text += "no problems\n";
   }
-  result.json = {{"problems", problems},
-                 {"warnings", warnings},
-                 {"stages", stages.json},
-                 {"tasks", run.tasks},
-                 {"seeks", run.seeks}};
+  result.json = {{"problems", problems}, {"warnings", warnings}, {"stages", stages.json},
+                 {"tasks", run.tasks},   {"seeks", run.seeks},   {"runs", run.runs}};
   if (options.seeks > 0) {
     result.text += "seeks: " + run.seeks.dump() + "\n";
   }

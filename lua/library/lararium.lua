@@ -88,11 +88,13 @@ function Actor:look_at(target) end
 ---@param on? boolean
 function Actor:attention(on) end
 
----joy, sadness, anger, fear, disgust, surprise or neutral, 0 to 1, over seconds.
+---joy, sadness, anger, fear, disgust, surprise or neutral, 0 to 1, over seconds; ease: linear,
+---in, out or smooth.
 ---@param expression? string
 ---@param intensity? number
 ---@param fade? number
-function Actor:express(expression, intensity, fade) end
+---@param ease? string
+function Actor:express(expression, intensity, fade, ease) end
 
 ---Says a line of the project's table, in the language of the show. Waits until it is said.
 ---@param line string
@@ -130,9 +132,9 @@ function light(target) end
 ---@class Light
 local Light = {}
 
----{level =, seconds =, colour = {r, g, b}, temperature = kelvin}: level is a factor of what
----the object's file says, 0 puts it out, reached in seconds; what is left out stays. A light
----burns only in the states that its file names.
+---{level =, seconds =, ease =, colour = {r, g, b}, temperature = kelvin}: level is a factor of
+---what the object's file says, 0 puts it out, reached in seconds; what is left out stays. A
+---light burns only in the states that its file names.
 ---@param options? table
 function Light:set(options) end
 
@@ -184,12 +186,13 @@ local Sound = {}
 
 ---Begins it now, once: play{at = {x=, y=, z=}} at a place, play{on = actor or object} there
 ---and wherever they go, play() all around the visitor. gain: decibels. loop = true: until
----it is stopped. Does not wait for its end.
+---it is stopped. fade: seconds in which it comes, with an ease. Does not wait for its end.
 ---@param options? table
 function Sound:play(options) end
 
----Stops it wherever it is heard.
-function Sound:stop() end
+---Stops it wherever it is heard; fades out over seconds.
+---@param fade? number
+function Sound:stop(fade) end
 
 ---Seconds.
 function Sound:length() end
@@ -319,7 +322,7 @@ function meet(point, ...) end
 ---track{ actor = "keeper", speech = {{at = 2, line = "salvete"}}, ... }
 ---Lanes of items. Each item has a time `at`, in seconds of the drama, and may have a
 ---length, an id and an ease. Of an actor: clips that lead its whole body, or gestures,
----speech, walks, uses, gaze, expressions; of the stage: lights, sounds, markers.
+---speech, walks, uses, gaze, expressions; of the stage: lights, sounds, captions, markers.
 ---@param spec table
 function track(spec) end
 

@@ -17,7 +17,7 @@ OUT = HERE / "lararium.lua"
 # What arguments of a name are, everywhere in lua/std.
 TYPES = {
     "act": "table", "action": "string", "always": "boolean", "clip": "string",
-    "degrees": "number", "expression": "string", "f": "function", "fade": "number",
+    "degrees": "number", "ease": "string", "expression": "string", "f": "function", "fade": "number",
     "handle": "Handle", "hours": "number", "intensity": "number", "kind": "string",
     "line": "string", "metres": "number", "name": "string", "on": "boolean",
     "options": "table", "part": "string", "point": "string", "seconds": "number",
@@ -41,7 +41,7 @@ RETURNS = {
     "Object:holder": "Actor?", "Handle:is_over": "boolean", "Light:level": "number",
     "Daylight:time": "number?",
 }
-OPTIONAL = {"options", "seconds", "fade", "intensity", "point", "metres", "surface", "part",
+OPTIONAL = {"options", "seconds", "fade", "intensity", "point", "metres", "surface", "part", "ease",
             "expression", "style", "on", "always"}
 INSTANCES = {"Visitor": "visitor", "Daylight": "daylight"}
 

@@ -150,8 +150,8 @@ local function await(does, task, problem)
   end
   local guard <close> = setmetatable({ task = task }, stops)
   host.await(task)
-  local state, message = host.task(task)
-  host.note_task(does.id, does.action, does.name, does.began, state ~= "done", message)
+  local state, message, waited = host.task(task)
+  host.note_task(does.id, does.action, does.name, does.began, state ~= "done", message, waited)
   if state ~= "done" then
     error(does.what .. ": " .. message, 3)
   end
@@ -272,8 +272,9 @@ function Actor:attention(on)
   host.attend(self.id, on ~= false)
 end
 
--- joy, sadness, anger, fear, disgust, surprise or neutral, 0 to 1, over seconds.
-function Actor:express(expression, intensity, fade)
+-- joy, sadness, anger, fear, disgust, surprise or neutral, 0 to 1, over seconds; ease: linear,
+-- in, out or smooth.
+function Actor:express(expression, intensity, fade, ease)
   local options = { intensity = intensity, fade = fade }
   if type(expression) ~= "string" then
     error("express: give the name of an expression", 2)
@@ -282,7 +283,8 @@ function Actor:express(expression, intensity, fade)
   if strength < 0 or strength > 1 then
     error("express: the intensity must lie between 0 and 1", 2)
   end
-  host.express(self.id, expression, strength, number(options, "fade", 0.4, "express"))
+  host.express(self.id, expression, strength, number(options, "fade", 0.4, "express"),
+    ease or "linear")
 end
 
 local falls_silent = {

@@ -77,16 +77,16 @@ local function number(options, key, default, least, most)
   return value
 end
 
--- {level =, seconds =, colour = {r, g, b}, temperature = kelvin}: level is a factor of what
--- the object's file says, 0 puts it out, reached in seconds; what is left out stays. A light
--- burns only in the states that its file names.
+-- {level =, seconds =, ease =, colour = {r, g, b}, temperature = kelvin}: level is a factor of
+-- what the object's file says, 0 puts it out, reached in seconds; what is left out stays. A
+-- light burns only in the states that its file names.
 function Light:set(options)
   if type(options) ~= "table" then
     error("set: give a table like {level = 0.5, seconds = 2}", 2)
   end
   if options.level ~= nil then
     host.set_light_level(self.id, number(options, "level", 1, 0, 1000),
-      number(options, "seconds", 0, 0, 1e6))
+      number(options, "seconds", 0, 0, 1e6), options.ease or "linear")
   end
   if options.colour ~= nil then
     host.set_light_colour(self.id, channel(options.colour, 1), channel(options.colour, 2),

@@ -42,38 +42,39 @@ end
 
 -- Begins it now, once: play{at = {x=, y=, z=}} at a place, play{on = actor or object} there
 -- and wherever they go, play() all around the visitor. gain: decibels. loop = true: until
--- it is stopped. Does not wait for its end.
+-- it is stopped. fade: seconds in which it comes, with an ease. Does not wait for its end.
 function Sound:play(options)
   options = options or {}
   if type(options) ~= "table" then
     error("play: give a table like {at = {x = 1, z = -2}}", 2)
   end
   local gain = number(options, "gain", 0, -60, 12)
+  local fade, ease = number(options, "fade", 0, 0, 1e4), options.ease or "linear"
   local loop = options.loop == true
   local on, at = options.on, options.at
   local started
   if type(on) == "table" and on.is_object then
-    started = host.play_sound(self.id, loop, gain, "object", on.id)
+    started = host.play_sound(self.id, loop, gain, fade, ease, "object", on.id)
   elseif type(on) == "table" and on.id then
-    started = host.play_sound(self.id, loop, gain, "actor", on.id)
+    started = host.play_sound(self.id, loop, gain, fade, ease, "actor", on.id)
   elseif on ~= nil then
     error("play: on must be an actor or an object", 2)
   elseif type(at) == "table" then
-    started = host.play_sound(self.id, loop, gain, "point", number(at, "x", 0, -1e6, 1e6),
+    started = host.play_sound(self.id, loop, gain, fade, ease, "point", number(at, "x", 0, -1e6, 1e6),
       number(at, "y", 1.5, -1e6, 1e6), number(at, "z", 0, -1e6, 1e6))
   elseif at ~= nil then
     error("play: at must be a point like {x = 1, z = -2}", 2)
   else
-    started = host.play_sound(self.id, loop, gain, "listener")
+    started = host.play_sound(self.id, loop, gain, fade, ease, "listener")
   end
   if not started then
     host.warn("play: too many sounds are heard at once")
   end
 end
 
--- Stops it wherever it is heard.
-function Sound:stop()
-  host.stop_sound(self.id)
+-- Stops it wherever it is heard; fades out over seconds.
+function Sound:stop(fade)
+  host.stop_sound(self.id, number({ fade = fade }, "fade", 0, 0, 1e4))
 end
 
 -- Seconds.

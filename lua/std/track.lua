@@ -122,22 +122,26 @@ end
 host.play_lane("lights", function(item)
   light(item.light):set(item)
 end, function(item)
-  light(item.light):set{ level = 1, seconds = item.seconds }
+  light(item.light):set{ level = 1, seconds = item.seconds, ease = item.ease }
 end)
 
 -- Where an item's sound is: with an actor or an object, at a point, or all around.
 local function source(item)
   local on = item.actor and actor(item.actor) or item.object and object(item.object) or nil
-  return { on = on, at = item.from, gain = item.gain, loop = item.loop }
+  return { on = on, at = item.from, gain = item.gain, loop = item.loop, fade = item.fade,
+    ease = item.ease }
 end
 
 host.play_lane("sounds", function(item)
   sound(item.sound):play(source(item))
 end, function(item)
-  sound(item.sound):stop()
+  sound(item.sound):stop(item.fade)
 end)
 
-local known = { actor = true, clips = true, markers = true }
+-- Lanes of the stage that are played by the host.
+local of_stage = { "captions", "markers" }
+
+local known = { actor = true, clips = true, captions = true, markers = true }
 for _, name in ipairs(of_actor) do
   known[name] = true
 end
@@ -145,7 +149,7 @@ end
 -- track{ actor = "keeper", speech = {{at = 2, line = "salvete"}}, ... }
 -- Lanes of items. Each item has a time `at`, in seconds of the drama, and may have a
 -- length, an id and an ease. Of an actor: clips that lead its whole body, or gestures,
--- speech, walks, uses, gaze, expressions; of the stage: lights, sounds, markers.
+-- speech, walks, uses, gaze, expressions; of the stage: lights, sounds, captions, markers.
 function track(spec)
   if type(spec) ~= "table" then
     error("track: give {actor = name, speech = {...}}", 2)
@@ -176,8 +180,10 @@ function track(spec)
       host.lane(lane, id, spec[lane])
     end
   end
-  if spec.markers then
-    host.lane("markers", nil, spec.markers)
+  for _, lane in ipairs(of_stage) do
+    if spec[lane] then
+      host.lane(lane, nil, spec[lane])
+    end
   end
   for lane in pairs(by_words) do
     if spec[lane] then

@@ -75,6 +75,7 @@ class LuaDrama : public Drama {
     stage_.Reset();
     script_of_coroutines_.reset();
     recording_ = {};
+    cues_ = {};
     changes_ = 0;
     errors_ = History<ScriptError>(kMaxErrors);
     tasks_ = History<TaskRecord>(kMaxTaskRecords);
@@ -175,6 +176,7 @@ class LuaDrama : public Drama {
   double time() const override { return TimeOf(run_->tick()); }
   std::span<const ScriptError> errors() const override { return errors_.items(); }
   std::span<const TaskRecord> tasks() const override { return tasks_.items(); }
+  std::span<const CueRecord> cues() const override { return cues_.cues; }
 
   static Status CheckSize(std::string_view script, const std::string& place) {
     return script.size() <= kMaxScriptBytes
@@ -188,7 +190,7 @@ class LuaDrama : public Drama {
   }
   std::unique_ptr<Run> MakeRun(std::unique_ptr<Sandbox> sandbox) {
     return std::make_unique<Run>(
-        std::move(sandbox), stage_, recording_,
+        std::move(sandbox), stage_, recording_, cues_,
         [this](int64_t tick, const LuaError& error) { Report(tick, error); },
         [this](TaskRecord record) { tasks_.Add(std::move(record)); });
   }
@@ -252,8 +254,8 @@ class LuaDrama : public Drama {
   const std::string& ScriptOfCoroutines() {
     if (!script_of_coroutines_) {
       constexpr LaneKind kOfHost[] = {
-          LaneKind::kGestures, LaneKind::kSpeech,      LaneKind::kWalks,  LaneKind::kUses,
-          LaneKind::kGaze,     LaneKind::kExpressions, LaneKind::kMarkers};
+          LaneKind::kGestures, LaneKind::kSpeech,      LaneKind::kWalks,    LaneKind::kUses,
+          LaneKind::kGaze,     LaneKind::kExpressions, LaneKind::kCaptions, LaneKind::kMarkers};
       const Result<TimelineText> text = TimelineText::Read(script_, place_);
       script_of_coroutines_ = text.ok() ? text->WithoutItems(kOfHost) : script_;
     }
@@ -307,6 +309,7 @@ class LuaDrama : public Drama {
   DramaOptions options_;
   Log& log_;
   Recording recording_;
+  CueLog cues_;
   int changes_ = 0;  // of the recording that are known
   std::unique_ptr<Run> run_;
   std::vector<Moment> moments_;  // ascending

@@ -57,6 +57,17 @@ struct TaskRecord {
   bool expected = false;       // within attempt(): it may fail
   std::string message;         // why it failed; of a done one, what was not quite as asked
   bool from_timeline = false;  // an item of track{...} told it; else the script
+  double waited = 0.0;         // seconds until it was its turn
+};
+
+// What a script has waited for: a trigger that one of its lines armed.
+struct CueRecord {
+  std::string where;   // "drama.lua:12"
+  std::string kind;    // "near", "looks_at", "marker", ...
+  std::string name;    // of the marker or the key
+  bool fired = false;  // at least once
+
+  friend bool operator==(const CueRecord&, const CueRecord&) = default;
 };
 
 class Drama {
@@ -104,6 +115,9 @@ class Drama {
   virtual std::span<const ScriptError> errors() const = 0;  // until time(), oldest first
   // Likewise, in the order in which they ended; those that the script caught too.
   virtual std::span<const TaskRecord> tasks() const = 0;
+  // Whatever was armed since the script began, once for each line and kind, whatever was
+  // played since.
+  virtual std::span<const CueRecord> cues() const = 0;
 };
 
 }  // namespace lararium::drama

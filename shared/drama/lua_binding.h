@@ -7,6 +7,7 @@
 #include <lua.hpp>
 #include <string_view>
 
+#include "shared/core/ease.h"
 #include "shared/drama/limits.h"
 
 namespace lararium::drama {
@@ -45,6 +46,15 @@ inline double CheckFinite(lua_State* lua, int argument, const char* what) {
     luaL_error(lua, "%s must be a finite number", what);
   }
   return value;
+}
+
+// The ease of a name.
+inline Ease CheckEase(lua_State* lua, std::string_view name) {
+  const std::optional<Ease> ease = EaseNamed(name);
+  if (!ease) {
+    luaL_error(lua, "ease is linear, in, out or smooth");
+  }
+  return ease.value_or(Ease::kLinear);
 }
 
 // Puts function in the place of field `name` of the table on top of the stack.

@@ -21,11 +21,13 @@ Status TooLittleMemory() {
 Run::Run(std::unique_ptr<Sandbox> sandbox,
          stage::Stage& stage,
          Recording& recording,
+         CueLog& cues,
          OnError on_error,
          OnTask on_task)
     : sandbox_(std::move(sandbox)),
       stage_(stage),
       recording_(recording),
+      cues_(cues),
       on_error_(std::move(on_error)),
       on_task_(std::move(on_task)),
       scheduler_(
@@ -145,7 +147,20 @@ void Run::UpdateTriggers() {
                           tick_ > 0 ? static_cast<float>(stage::Stage::kTickSeconds) : 0.0f};
   for (Trigger& trigger : state_.triggers) {
     UpdateTrigger(now, trigger);
+    if (trigger.fired > 0 && trigger.cue < cues_.cues.size()) {
+      cues_.cues[trigger.cue].fired = true;
+    }
   }
+}
+
+size_t CueLog::Find(CueRecord cue) {
+  const std::string key = cue.where + ' ' + cue.kind + ' ' + cue.name;
+  if (const auto found = known.find(key); found != known.end() || cues.size() >= kMost) {
+    return found == known.end() ? kMost : found->second;
+  }
+  known.emplace(key, cues.size());
+  cues.push_back(std::move(cue));
+  return cues.size() - 1;
 }
 
 // ---- running again ----
@@ -472,8 +487,8 @@ int Run::Attempt(lua_State* lua) {
   return 0;
 }
 
-// note_task(actor, action, object's name or nil, when it began, whether it failed, message):
-// one has ended, of the script's line
+// note_task(actor, action, object's name or nil, when it began, whether it failed, message,
+// seconds that it waited for its turn): one has ended, of the script's line
 int Run::NoteTask(lua_State* lua) {
   const stage::Actor& actor = CheckActor(lua);
   const std::string_view action = CheckText(lua, 2);
@@ -490,7 +505,9 @@ int Run::NoteTask(lua_State* lua) {
                        std::string(object),
                        lua_toboolean(lua, 5) != 0,
                        expected,
-                       std::string(message)};
+                       std::string(message),
+                       false,
+                       luaL_optnumber(lua, 7, 0.0)};
   on_task_(std::move(record));
   return 0;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -43,6 +44,18 @@ struct RunState {
   int64_t lost_ticks = 0;  // since when tracking is lost
 };
 
+// Which triggers a script has armed, and which of them fired.
+struct CueLog {
+  static constexpr size_t kMost = 1000;
+
+  std::vector<CueRecord> cues;
+  std::map<std::string, size_t, std::less<>> known;  // places in there
+
+  // The place of a trigger in there; it is new or was armed before. kMost: there are too
+  // many to remember.
+  size_t Find(CueRecord cue);
+};
+
 // What a script says of itself while it loads. The same whenever it is run.
 struct Declared {
   Timeline timeline;
@@ -57,10 +70,11 @@ class Run {
   using OnError = std::function<void(int64_t tick, const LuaError&)>;
   using OnTask = std::function<void(TaskRecord)>;
 
-  // Borrows stage, recording.
+  // Borrows stage, recording, cues.
   Run(std::unique_ptr<Sandbox> sandbox,
       stage::Stage& stage,
       Recording& recording,
+      CueLog& cues,
       OnError on_error,
       OnTask on_task);
   Run(const Run&) = delete;  // Lua knows its address
@@ -207,6 +221,7 @@ class Run {
   std::unique_ptr<Sandbox> sandbox_;
   stage::Stage& stage_;
   Recording& recording_;
+  CueLog& cues_;
   OnError on_error_;
   OnTask on_task_;
   Scheduler scheduler_;

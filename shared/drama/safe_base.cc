@@ -318,6 +318,9 @@ void OpenCoroutines(lua_State* lua) {
   WrapField(lua, "resume", CoroutineResume);
   WrapField(lua, "wrap", CoroutineWrap);
   WrapField(lua, "close", CoroutineClose);
+  // It would hand out the coroutine of a task, which only the scheduler may resume.
+  lua_pushnil(lua);
+  lua_setfield(lua, -2, "running");
   lua_pop(lua, 1);
 }
 

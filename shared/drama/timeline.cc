@@ -26,6 +26,8 @@ std::string ActionOf(LaneKind kind, const Cue& cue) {
       return "express " + cue.name;
     case LaneKind::kMarkers:
       return "marker " + cue.name;
+    case LaneKind::kCaptions:
+      return "caption " + cue.name;
     default:
       return cue.act == Cue::Act::kUse && !cue.name.empty() ? "use " + cue.name
                                                             : std::string(NameOf(cue.act));
@@ -94,6 +96,7 @@ void TimelinePlayer::Follow(const CueLane& lane, double time, TimelineState::Lan
     if (report.state == stage::TaskReport::State::kDone) {
       TaskRecord record = RecordOf(lane, cue, pending.began, time);
       record.message = report.message;
+      record.waited = static_cast<double>(report.waited);
       on_task_(std::move(record));
     } else {
       Fail(lane, cue, pending.began, time, std::string(report.message));
@@ -114,7 +117,7 @@ void TimelinePlayer::End(const CueLane& lane, TimelineState::Lane& state) {
     actor->attention.seconds_left = 0.0f;
   } else if (lane.kind == LaneKind::kExpressions) {
     human::SetExpression(actor->state.performance.face, human::Expression::kNeutral, 0.0f,
-                         lane.cues[state.next - 1].fade);
+                         lane.cues[state.next - 1].fade, lane.cues[state.next - 1].ease);
   }
 }
 
@@ -159,7 +162,7 @@ void TimelinePlayer::Begin(const CueLane& lane,
                            TimelineState::Lane& state) {
   const Cue& cue = lane.cues[index];
   stage::Actor* actor = stage_.Find(lane.actor);
-  if (lane.kind != LaneKind::kMarkers && actor == nullptr) {
+  if (IsOfActor(lane.kind) && actor == nullptr) {
     return;
   }
   double length = cue.length;
@@ -178,7 +181,11 @@ void TimelinePlayer::Begin(const CueLane& lane,
       break;
     case LaneKind::kExpressions:
       human::SetExpression(actor->state.performance.face, static_cast<human::Expression>(cue.index),
-                           cue.value, cue.fade);
+                           cue.value, cue.fade, cue.ease);
+      break;
+    case LaneKind::kCaptions:
+      length = cue.length > 0.0 ? cue.length : stage_.SpeechSeconds(cue.index);
+      stage_.Caption(cue.index, length);
       break;
     case LaneKind::kWalks:
     case LaneKind::kUses: {

@@ -30,7 +30,8 @@ struct Cue {
   human::BodyPart part = human::BodyPart::kUpper;
   float value = 0.0f;  // metres per second, or the intensity
   float fade = 0.0f;   // seconds
-  std::string name;    // of the action, the surface or the marker
+  Ease ease = Ease::kLinear;
+  std::string name;  // of the action, the surface or the marker
   stage::ObjectId object;
   stage::ObjectId other;  // on which it is put
   stage::ActorId partner;

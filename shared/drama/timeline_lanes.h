@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "shared/core/ease.h"
+
 namespace lararium::drama {
 
 enum class LaneKind : uint8_t {
@@ -53,33 +55,5 @@ inline std::optional<LaneKind> LaneNamed(std::string_view name) {
 }
 inline std::string_view NameOf(LaneKind kind) { return kLaneNames[static_cast<size_t>(kind)].name; }
 inline bool IsOfActor(LaneKind kind) { return kLaneNames[static_cast<size_t>(kind)].of_actor; }
-
-// How something goes from its beginning to its end over its length.
-enum class Ease : uint8_t { kLinear, kIn, kOut, kSmooth };
-inline constexpr std::array<std::string_view, 4> kEaseNames = {"linear", "in", "out", "smooth"};
-
-inline std::optional<Ease> EaseNamed(std::string_view name) {
-  for (size_t i = 0; i < kEaseNames.size(); ++i) {
-    if (kEaseNames[i] == name) {
-      return static_cast<Ease>(i);
-    }
-  }
-  return std::nullopt;
-}
-
-// The share of the way at a share of the time, 0..1: slow at the beginning, the end, or
-// both (the cubic smoothstep).
-inline double Eased(Ease ease, double t) {
-  switch (ease) {
-    case Ease::kIn:
-      return t * t;
-    case Ease::kOut:
-      return t * (2.0 - t);
-    case Ease::kSmooth:
-      return t * t * (3.0 - 2.0 * t);
-    default:
-      return t;
-  }
-}
 
 }  // namespace lararium::drama

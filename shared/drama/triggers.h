@@ -48,6 +48,7 @@ struct TriggerSpec {
 struct Trigger {
   int64_t id = 0;
   TriggerSpec spec;
+  size_t cue = 0;     // its place in CueLog::cues
   int64_t fired = 0;  // how often
   // Of its kind: near enough, looking, on the other side of an hour.
   bool on = false;

@@ -120,6 +120,7 @@ int Run::PlaceActor(lua_State* lua) {
   const glm::vec3 position = {CheckFinite(lua, 2, "x"), CheckFinite(lua, 3, "y"),
                               CheckFinite(lua, 4, "z")};
   stage_.Place(CheckActorId(lua, 1), position, static_cast<float>(CheckFinite(lua, 5, "heading")));
+  NoteBlock(lua, CheckActor(lua), "place", 0.0);
   return 0;
 }
 
@@ -164,7 +165,7 @@ int Run::Attend(lua_State* lua) {
   return 0;
 }
 
-// express(actor, name, intensity, fade)
+// express(actor, name, intensity, fade, ease)
 int Run::Express(lua_State* lua) {
   stage::Actor& actor = CheckActor(lua);
   const auto expression = human::ExpressionNamed(CheckText(lua, 2));
@@ -176,7 +177,8 @@ int Run::Express(lua_State* lua) {
   }
   human::SetExpression(actor.state.performance.face, *expression,
                        static_cast<float>(CheckFinite(lua, 3, "intensity")),
-                       static_cast<float>(CheckFinite(lua, 4, "fade")));
+                       static_cast<float>(CheckFinite(lua, 4, "fade")),
+                       CheckEase(lua, CheckText(lua, 5)));
   NoteBlock(lua, actor, "express " + std::string(CheckText(lua, 2)), CheckFinite(lua, 4, "fade"));
   return 0;
 }

@@ -36,12 +36,13 @@ int Run::PushLightLevel(lua_State* lua) {
   return 1;
 }
 
-// set_light_level(object, factor, seconds)
+// set_light_level(object, factor, seconds, ease)
 int Run::SetLightLevel(lua_State* lua) {
   const stage::ObjectId id = CheckObjectId(lua, 1);
   CheckObject(lua);
   stage_.SetLightLevel(id, static_cast<float>(CheckFinite(lua, 2, "level")),
-                       static_cast<float>(CheckFinite(lua, 3, "seconds")));
+                       static_cast<float>(CheckFinite(lua, 3, "seconds")),
+                       CheckEase(lua, CheckText(lua, 4)));
   return 0;
 }
 

@@ -62,14 +62,15 @@ int Run::PushTask(lua_State* lua, const Result<stage::TaskId>& task) {
   return 2;
 }
 
-// task(number) -> "waiting" | "running" | "done" | "failed", message
+// task(number) -> "waiting" | "running" | "done" | "failed", message, seconds that it waited
 int Run::PushTaskState(lua_State* lua) {
   const stage::TaskReport report =
       stage_.tasks().report(static_cast<stage::TaskId>(luaL_checkinteger(lua, 1)));
   constexpr const char* kNames[] = {"failed", "waiting", "running", "done", "failed"};
   lua_pushstring(lua, kNames[static_cast<size_t>(report.state)]);
   PushText(lua, report.message);
-  return 2;
+  lua_pushnumber(lua, static_cast<lua_Number>(report.waited));
+  return 3;
 }
 
 // stop_task(number): ends it, if it is not over, and forgets it

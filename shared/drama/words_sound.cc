@@ -25,31 +25,33 @@ int Run::CheckSound(lua_State* lua) {
   return static_cast<int>(sound);
 }
 
-// play_sound(sound, loops, gain, "listener" | "point", x, y, z | "actor", id | "object", id)
-//   -> whether it is heard
+// play_sound(sound, loops, gain, fade, ease,
+//            "listener" | "point", x, y, z | "actor", id | "object", id) -> whether it is heard
 int Run::PlaySound(lua_State* lua) {
   stage::StageSound sound;
   sound.sound = CheckSound(lua);
   sound.loops = lua_toboolean(lua, 2) != 0;
   sound.gain_db = static_cast<float>(CheckFinite(lua, 3, "gain"));
+  sound.fade = static_cast<float>(CheckFinite(lua, 4, "fade"));
+  sound.ease = CheckEase(lua, CheckText(lua, 5));
   constexpr const char* kPlaces[] = {"listener", "point", "actor", "object", nullptr};
-  sound.at = static_cast<stage::StageSound::At>(luaL_checkoption(lua, 4, nullptr, kPlaces));
+  sound.at = static_cast<stage::StageSound::At>(luaL_checkoption(lua, 6, nullptr, kPlaces));
   if (sound.at == stage::StageSound::At::kPoint) {
-    sound.point = {CheckFinite(lua, 5, "x"), CheckFinite(lua, 6, "y"), CheckFinite(lua, 7, "z")};
+    sound.point = {CheckFinite(lua, 7, "x"), CheckFinite(lua, 8, "y"), CheckFinite(lua, 9, "z")};
   } else if (sound.at == stage::StageSound::At::kActor) {
-    CheckActor(lua, 5);
-    sound.actor = CheckActorId(lua, 5);
+    CheckActor(lua, 7);
+    sound.actor = CheckActorId(lua, 7);
   } else if (sound.at == stage::StageSound::At::kObject) {
-    CheckObject(lua, 5);
-    sound.object = CheckObjectId(lua, 5);
+    CheckObject(lua, 7);
+    sound.object = CheckObjectId(lua, 7);
   }
   lua_pushboolean(lua, stage_.sounds().Play(sound) != 0);
   return 1;
 }
 
-// stop_sound(sound)
+// stop_sound(sound, seconds in which it fades out)
 int Run::StopSound(lua_State* lua) {
-  stage_.sounds().StopAll(CheckSound(lua));
+  stage_.sounds().StopAll(CheckSound(lua), CheckFinite(lua, 2, "fade"));
   return 0;
 }
 

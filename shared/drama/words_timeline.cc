@@ -92,11 +92,7 @@ int Run::AddSegment(lua_State* lua) {
   segment.from = CheckPoint(lua, 7);
   segment.to = CheckPoint(lua, 8);
   segment.heading = static_cast<float>(CheckFinite(lua, 9, "heading"));
-  const auto ease = EaseNamed(luaL_optstring(lua, 10, "linear"));
-  if (!ease) {
-    return luaL_error(lua, "track: ease is linear, in, out or smooth");
-  }
-  segment.ease = *ease;
+  segment.ease = CheckEase(lua, luaL_optstring(lua, 10, "linear"));
   std::vector<TrackSegment>& segments = SegmentsOf(CheckActorId(lua, 1));
   if (segments.size() >= kMaxItems) {
     return luaL_error(lua, "track: too many clips");
@@ -225,6 +221,7 @@ Cue Run::CheckCue(lua_State* lua, const CueLane& lane) {
   cue.length = NumberField(lua, "length", 0.0, kMaxSeconds).value_or(0.0);
   cue.id = TextField(lua, "id", "");
   cue.fade = static_cast<float>(NumberField(lua, "fade", 0.0, 100.0).value_or(0.4));
+  cue.ease = CheckEase(lua, TextField(lua, "ease", "linear"));
   const stage::Actor* actor = stage_.Find(lane.actor);
   switch (lane.kind) {
     case LaneKind::kGestures: {
@@ -242,14 +239,16 @@ Cue Run::CheckCue(lua_State* lua, const CueLane& lane) {
       cue.part = static_cast<human::BodyPart>(known - std::begin(kParts));
       break;
     }
-    case LaneKind::kSpeech: {
+    case LaneKind::kSpeech:
+    case LaneKind::kCaptions: {
       cue.name = TextField(lua, "line", nullptr);
       const auto speech = stage_.FindSpeech(cue.name);
       if (!speech) {
         luaL_error(lua, "there is no line '%s'", cue.name.c_str());
       }
       cue.index = *speech;
-      if (cue.length > 0.0 && stage_.SpeechSeconds(cue.index) > cue.length + 0.05) {
+      if (lane.kind == LaneKind::kSpeech && cue.length > 0.0 &&
+          stage_.SpeechSeconds(cue.index) > cue.length + 0.05) {
         on_error_(tick_,
                   {lane.where + ": track: the line '" + cue.name + "' takes " +
                        std::to_string(stage_.SpeechSeconds(cue.index)) + " s, longer than its slot",

@@ -70,6 +70,7 @@ int Run::AddTrigger(lua_State* lua) {
   }
   trigger.id = ++state_.last_trigger;
   trigger.from = state_.visitor.position;
+  trigger.cue = cues_.Find({PlaceNow(lua), kKinds[static_cast<size_t>(kind)], trigger.spec.text});
   state_.triggers.push_back(std::move(trigger));
   lua_pushinteger(lua, state_.last_trigger);
   return 1;

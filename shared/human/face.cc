@@ -165,10 +165,13 @@ std::array<float, kVisemeCount> SampleVisemes(const VisemeTrack& track, double t
   return mix.Shares();
 }
 
-void SetExpression(Face& face, Expression expression, float intensity, float seconds) {
+void SetExpression(Face& face, Expression expression, float intensity, float seconds, Ease ease) {
   face.goals = {};
   face.goals[static_cast<size_t>(expression)] = std::clamp(intensity, 0.0f, 1.0f);
   face.change_per_second = seconds > 0.0f ? 1.0f / seconds : 1e6f;
+  face.from = face.expressions;
+  face.changed_for = 0.0f;
+  face.ease = ease;
 }
 
 void UpdateFace(Face& face, float seconds) {
@@ -177,6 +180,15 @@ void UpdateFace(Face& face, float seconds) {
   for (size_t i = 0; i < face.visemes.size(); ++i) {
     const float step = kMouthPerSecond * seconds;
     face.mouth[i] += std::clamp(face.visemes[i] - face.mouth[i], -step, step);
+  }
+  if (face.ease != Ease::kLinear) {
+    face.changed_for += seconds;
+    const float time = std::min(face.changed_for * face.change_per_second, 1.0f);
+    const auto way = static_cast<float>(Eased(face.ease, time));
+    for (size_t i = 0; i < face.goals.size(); ++i) {
+      face.expressions[i] = glm::mix(face.from[i], face.goals[i], way);
+    }
+    return;
   }
   const float most = seconds * face.change_per_second;
   for (size_t i = 0; i < face.goals.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "shared/core/ease.h"
 #include "shared/core/status.h"
 #include "shared/human/skeleton.h"
 
@@ -69,12 +70,17 @@ struct Face {
   std::array<float, kExpressionCount> expressions = {};  // shown
   std::array<float, kExpressionCount> goals = {};        // what they go to
   float change_per_second = 2.0f;
+  // Where the change is eased: what it goes from, and how far it is.
+  std::array<float, kExpressionCount> from = {};
+  float changed_for = 0.0f;  // seconds
+  Ease ease = Ease::kLinear;
 
   friend bool operator==(const Face&, const Face&) = default;
 };
 
 // Goes to one expression of an intensity 0..1 over so many seconds.
-void SetExpression(Face& face, Expression expression, float intensity, float seconds);
+void SetExpression(
+    Face& face, Expression expression, float intensity, float seconds, Ease ease = Ease::kLinear);
 void UpdateFace(Face& face, float seconds);
 Face Interpolate(const Face& previous, const Face& current, float alpha);
 

@@ -417,6 +417,11 @@ void Show::StageLines(double behind, StagedFrame& staged) const {
       }
     }
   }
+  for (const stage::StageCaption& caption : drawn_.captions) {
+    staged.lines.push_back({StagedLine::kNobody, static_cast<uint32_t>(caption.line),
+                            static_cast<double>(caption.ticks) * stage::Stage::kTickSeconds,
+                            false});
+  }
 }
 
 // Who lies outside of the picture, or is not drawn, still has a mouth.

@@ -60,7 +60,9 @@ struct StagedMesh {
 
 // A line that somebody says at the moment of a frame, or that can still be read.
 struct StagedLine {
-  uint32_t cast = 0;      // index into ShowContent::cast: who says it
+  static constexpr uint32_t kNobody = ~0u;
+
+  uint32_t cast = 0;      // index into ShowContent::cast: who says it; kNobody: it is only read
   uint32_t line = 0;      // index into ShowContent::speech
   double seconds = 0.0;   // since it began
   bool speaking = false;  // false: said to its end

@@ -17,6 +17,18 @@ constexpr std::array<glm::vec3, 6> kColours = {{{0.98f, 0.80f, 0.36f},
                                                 {0.90f, 0.74f, 0.94f},
                                                 {0.96f, 0.94f, 0.60f}}};
 
+// What is only read has no voice to follow: its last cue stays as long as it is shown.
+const stage::CaptionCue* CueOf(const CaptionTexts& texts, const StagedLine& line) {
+  const std::vector<stage::CaptionCue>& cues = texts.lines[line.line];
+  if (line.cast != StagedLine::kNobody || cues.empty()) {
+    return FindCue(cues, line.seconds);
+  }
+  const auto later = std::find_if(cues.begin(), cues.end(), [&](const stage::CaptionCue& cue) {
+    return cue.end > line.seconds;
+  });
+  return later == cues.end() ? &cues.back() : &*later;
+}
+
 }  // namespace
 
 CaptionTexts TextsOf(const ShowContent& content) {
@@ -71,7 +83,7 @@ void CollectCaptions(const CaptionTexts& texts,
     for (const StagedLine& line : staged.lines) {
       const bool is_later =
           line.seconds > after || (line.seconds == after && line.cast > after_cast);
-      if (is_later && FindCue(texts.lines[line.line], line.seconds) != nullptr &&
+      if (is_later && CueOf(texts, line) != nullptr &&
           (next == nullptr || line.seconds < next->seconds)) {
         next = &line;
       }
@@ -82,10 +94,12 @@ void CollectCaptions(const CaptionTexts& texts,
     after = next->seconds;
     after_cast = next->cast;
     render::Caption& caption = captions.emplace_back();
-    caption.speaker = texts.speakers[next->cast];
-    caption.colour = kColours[next->cast % kColours.size()];
-    caption.side = SideOf(staged, next->cast);
-    caption.text = FindCue(texts.lines[next->line], next->seconds)->text;
+    caption.text = CueOf(texts, *next)->text;
+    if (next->cast != StagedLine::kNobody) {
+      caption.speaker = texts.speakers[next->cast];
+      caption.colour = kColours[next->cast % kColours.size()];
+      caption.side = SideOf(staged, next->cast);
+    }
   }
 }
 

@@ -202,7 +202,7 @@ void SoundDirector::AddSound(const stage::StageSound& sound,
   voice.clip = drama_sounds_[static_cast<size_t>(sound.sound)];
   voice.loops = sound.loops;
   voice.began = tick_time - static_cast<double>(sound.ticks) * stage::Sounds::kTickSeconds;
-  voice.gain = FromDb(sound.gain_db);
+  voice.gain = FromDb(sound.gain_db) * stage::Sounds::Share(sound);
   voice.head_locked = !at.has_value();
   voice.position = at.value_or(glm::vec3(0.0f));
 }

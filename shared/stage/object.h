@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "shared/core/ease.h"
 #include "shared/core/id.h"
 #include "shared/human/reach.h"
 #include "shared/light/lamp.h"
@@ -87,6 +88,9 @@ struct Object {
   struct Dimming {
     float to = 1.0f;
     float seconds_left = 0.0f;
+    float from = 1.0f;
+    float seconds = 0.0f;  // that it takes
+    Ease ease = Ease::kLinear;
   };
   Dimming dimming;
   uint64_t seed = 0;  // of its flicker; from its name

@@ -5,6 +5,16 @@
 #include "shared/core/check.h"
 
 namespace lararium::stage {
+namespace {
+
+// It has faded out.
+bool IsSilent(const StageSound& sound) {
+  return sound.stopped != StageSound::kPlays &&
+         static_cast<double>(sound.ticks - sound.stopped) * Sounds::kTickSeconds >=
+             static_cast<double>(sound.fade_out);
+}
+
+}  // namespace
 
 Status Sounds::Add(std::string name, double seconds) {
   if (Find(name)) {
@@ -33,8 +43,28 @@ uint32_t Sounds::Play(const StageSound& sound) {
   return last_number_;
 }
 
-void Sounds::StopAll(int sound) {
-  std::erase_if(playing_, [sound](const StageSound& playing) { return playing.sound == sound; });
+void Sounds::StopAll(int sound, double seconds) {
+  for (StageSound& playing : playing_) {
+    if (playing.sound == sound && playing.stopped == StageSound::kPlays) {
+      playing.stopped = playing.ticks;
+      playing.fade_out = static_cast<float>(seconds);
+    }
+  }
+  std::erase_if(playing_, [sound](const StageSound& playing) {
+    return playing.sound == sound && IsSilent(playing);
+  });
+}
+
+float Sounds::Share(const StageSound& sound) {
+  const auto part = [&](int64_t ticks, float seconds) {
+    return seconds > 0.0f ? std::min(static_cast<double>(ticks) * kTickSeconds / seconds, 1.0)
+                          : 1.0;
+  };
+  double share = Eased(sound.ease, part(sound.ticks, sound.fade));
+  if (sound.stopped != StageSound::kPlays) {
+    share *= Eased(sound.ease, 1.0 - part(sound.ticks - sound.stopped, sound.fade_out));
+  }
+  return static_cast<float>(share);
 }
 
 void Sounds::Advance() {
@@ -42,7 +72,9 @@ void Sounds::Advance() {
     ++sound.ticks;
   }
   std::erase_if(playing_, [&](const StageSound& sound) {
-    return !sound.loops && static_cast<double>(sound.ticks) * kTickSeconds >= seconds(sound.sound);
+    const bool ends =
+        !sound.loops && static_cast<double>(sound.ticks) * kTickSeconds >= seconds(sound.sound);
+    return ends || IsSilent(sound);
   });
 }
 

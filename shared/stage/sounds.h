@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "shared/core/ease.h"
 #include "shared/core/status.h"
 #include "shared/stage/navigation.h"
 #include "shared/stage/object.h"
@@ -30,6 +31,13 @@ struct StageSound {
   glm::vec3 point = glm::vec3(0.0f);  // stage
   ActorId actor;
   ObjectId object;
+  // How it comes and goes.
+  float fade = 0.0f;      // seconds
+  float fade_out = 0.0f;  // likewise, once it is told to stop
+  Ease ease = Ease::kLinear;
+  int64_t stopped = kPlays;  // ticks when it was told to stop
+
+  static constexpr int64_t kPlays = -1;
 
   friend bool operator==(const StageSound&, const StageSound&) = default;
 };
@@ -47,8 +55,10 @@ class Sounds {
 
   // Begins now; its number. 0: too many are heard at once.
   uint32_t Play(const StageSound& sound);
-  // Wherever it is heard.
-  void StopAll(int sound);
+  // Wherever it is heard: fades out in so many seconds, then is over.
+  void StopAll(int sound, double seconds = 0.0);
+  // The share of its gain that is heard now, by its fades.
+  static float Share(const StageSound& sound);
 
   std::span<const StageSound> playing() const { return playing_; }  // oldest first
 

@@ -451,9 +451,10 @@ void Stage::SetHour(double hour, double seconds) {
   }
 }
 
-void Stage::SetLightLevel(ObjectId id, float level, float seconds) {
+void Stage::SetLightLevel(ObjectId id, float level, float seconds, Ease ease) {
   if (Object* object = Find(id)) {
-    object->dimming = {level, std::max(seconds, 0.0f)};
+    seconds = std::max(seconds, 0.0f);
+    object->dimming = {level, seconds, object->state.light.level, seconds, ease};
     if (!(seconds > 0.0f)) {
       object->state.light.level = level;
     }
@@ -471,9 +472,10 @@ void Stage::AdvanceLights() {
     Object& object = world_->object(id);
     Object::Dimming& dimming = object.dimming;
     if (dimming.seconds_left > 0.0f) {
-      float& level = object.state.light.level;
-      level += (dimming.to - level) * std::min(kTick / dimming.seconds_left, 1.0f);
-      dimming.seconds_left -= kTick;
+      dimming.seconds_left = std::max(dimming.seconds_left - kTick, 0.0f);
+      const double time = 1.0 - static_cast<double>(dimming.seconds_left / dimming.seconds);
+      const auto way = static_cast<float>(Eased(dimming.ease, time));
+      object.state.light.level = glm::mix(dimming.from, dimming.to, way);
     }
   }
 }
@@ -489,7 +491,23 @@ void Stage::AdvanceDaylight() {
   daylight_.seconds_left -= kTickSeconds;
 }
 
+void Stage::Caption(int speech, double seconds) {
+  if (captions_.size() >= kMaxCaptions) {
+    captions_.erase(captions_.begin());
+  }
+  captions_.push_back({speech, 0, std::llround(seconds / kTickSeconds)});
+}
+
+void Stage::AdvanceCaptions() {
+  for (StageCaption& caption : captions_) {
+    ++caption.ticks;
+    --caption.ticks_left;
+  }
+  std::erase_if(captions_, [](const StageCaption& caption) { return caption.ticks_left <= 0; });
+}
+
 void Stage::Advance() {
+  AdvanceCaptions();
   AdvanceDaylight();
   AdvanceLights();
   if (tasks_.any()) {
@@ -546,6 +564,7 @@ void Stage::Reset() {
   tasks_.Reset();
   daylight_ = {};
   sounds_.Reset();
+  captions_.clear();
   for (const ActorId id : world_->actor_ids) {
     ResetActor(world_->actor(id));
   }
@@ -577,6 +596,7 @@ void Stage::Capture(StageSnapshot& snapshot) const {
     }
   }
   snapshot.sounds.assign(sounds_.playing().begin(), sounds_.playing().end());
+  snapshot.captions.assign(captions_.begin(), captions_.end());
 }
 
 void Stage::Settle() {
@@ -595,6 +615,7 @@ Stage::Checkpoint Stage::Save() const {
   }
   checkpoint.daylight = daylight_;
   checkpoint.sounds = sounds_.Save();
+  checkpoint.captions = captions_;
   checkpoint.tasks = tasks_.Save();
   checkpoint.navigation = world_->navigation;
   if (world_->navigation != nullptr) {
@@ -623,6 +644,7 @@ void Stage::Restore(const Checkpoint& checkpoint) {
     world_->object(world_->object_ids[i]) = checkpoint.objects[i];
   }
   sounds_.Restore(checkpoint.sounds);
+  captions_ = checkpoint.captions;
 }
 
 namespace {
@@ -668,6 +690,7 @@ void Interpolate(const StageSnapshot& previous,
     }
   }
   result.sounds = current.sounds;
+  result.captions = current.captions;
 }
 
 }  // namespace lararium::stage

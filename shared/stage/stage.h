@@ -24,6 +24,15 @@
 
 namespace lararium::stage {
 
+// A line that is to be read and is not said: a title.
+struct StageCaption {
+  int line = -1;           // of the stage's speeches
+  int64_t ticks = 0;       // since it was shown
+  int64_t ticks_left = 0;  // that it is still shown
+
+  friend bool operator==(const StageCaption&, const StageCaption&) = default;
+};
+
 // The states of everybody and everything at one moment, in the order of their slots.
 struct StageSnapshot {
   struct ActorEntry {
@@ -40,6 +49,7 @@ struct StageSnapshot {
   std::vector<ObjectEntry> objects;
   std::optional<double> hour;      // Daylight::hour
   std::vector<StageSound> sounds;  // that the drama plays
+  std::vector<StageCaption> captions;
 
   friend bool operator==(const StageSnapshot&, const StageSnapshot&) = default;
 };
@@ -59,6 +69,7 @@ class Stage {
   static constexpr float kClipFade = 0.3f;  // seconds from one clip to the next
   // How long an utterance outlives its end, so that its captions can be read.
   static constexpr double kReadOnSeconds = 4.0;
+  static constexpr size_t kMaxCaptions = 4;
   static double UtteredSeconds(const Utterance& utterance) {
     return static_cast<double>(utterance.ticks) * kTickSeconds;
   }
@@ -112,10 +123,14 @@ class Stage {
   Status PlaceOn(ObjectId id, const Support& support);  // fails where the spot is taken
   void SetState(ObjectId id, int state);
   // Its lights, as a factor of what its file says, in some seconds; a colour at once.
-  void SetLightLevel(ObjectId id, float level, float seconds);
+  void SetLightLevel(ObjectId id, float level, float seconds, Ease ease = Ease::kLinear);
   void SetLightColour(ObjectId id, const glm::vec3& colour);
   // Says it from its beginning; a negative speech: falls silent.
   void Say(ActorId id, int speech);
+  // Shows its captions, without anybody saying it. At most kMaxCaptions at once: the oldest
+  // gives way.
+  void Caption(int speech, double seconds);
+  std::span<const StageCaption> captions() const { return captions_; }
   // Plays a clip once on a part of the body, then goes on as before.
   void Gesture(ActorId id, int clip, human::BodyPart part);
 
@@ -155,6 +170,7 @@ class Stage {
     std::vector<Object> objects;
     Daylight daylight;
     Sounds::Checkpoint sounds;
+    std::vector<StageCaption> captions;
     std::shared_ptr<const Tasks::State> tasks;
     std::shared_ptr<Navigation> navigation;  // floors that were built are not built again
     std::shared_ptr<const Navigation::State> walkers;
@@ -175,11 +191,13 @@ class Stage {
   void AdvanceDaylight();
   void AdvanceLights();
   void AdvanceUtterance(ActorId id);
+  void AdvanceCaptions();
 
   std::unique_ptr<World> world_;
   Tasks tasks_;
   Daylight daylight_;
   Sounds sounds_;
+  std::vector<StageCaption> captions_;
   NavigationOptions floor_;
   std::vector<std::pair<geometry::TriangleMesh, geometry::Similarity3>> solids_;
   std::vector<Gate> gates_;    // in the order of the navigation's

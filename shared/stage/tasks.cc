@@ -290,12 +290,12 @@ TaskReport Tasks::report(TaskId id) const {
   }
   if (task->is_over) {
     return {task->stage == Stage::kFailed ? TaskReport::State::kFailed : TaskReport::State::kDone,
-            task->message, SyncPoint::kEnd};
+            task->message, SyncPoint::kEnd, task->waited};
   }
   if (task->stage == Stage::kWaiting) {
-    return {TaskReport::State::kWaiting, task->message, std::nullopt};
+    return {TaskReport::State::kWaiting, task->message, std::nullopt, task->waited};
   }
-  return {TaskReport::State::kRunning, task->message, PointOf(*task)};
+  return {TaskReport::State::kRunning, task->message, PointOf(*task), task->waited};
 }
 
 // What matters of each: of a walk the arrival, of taking and giving the moment at which

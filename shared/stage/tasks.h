@@ -37,6 +37,7 @@ struct TaskReport {
   // Why it failed; of a done one, what was not quite as asked. For the drama's author.
   std::string_view message;
   std::optional<SyncPoint> reached;  // the last of its points so far; none: it waits
+  float waited = 0.0f;               // seconds until it was its turn
 
   bool over() const { return state == State::kDone || state == State::kFailed; }
 };

@@ -122,7 +122,7 @@ TEST_F(LineChecksTest, WhoSaysWhatIsHeardAndWhatIsBrokenOff) {
   EXPECT_TRUE(said[1].cut);
   EXPECT_NEAR(said[1].seconds, 0.5, 0.02);
   EXPECT_FALSE(said[2].cut);
-  const auto problems = CheckSaid(paths_, lines_, said);
+  const auto problems = CheckSaid(paths_, lines_, said, {});
   EXPECT_THAT(problems, Contains(HasSubstr("'girl' says 'vale', which has the voice of 'keeper'")));
   EXPECT_THAT(problems, Contains(HasSubstr("'girl' does not finish 'vale'")));
   EXPECT_THAT(problems, Not(Contains(HasSubstr("'keeper' says"))));

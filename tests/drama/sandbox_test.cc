@@ -226,6 +226,100 @@ const Attack kAttacks[] = {
     {"NoPointers", "string.format('%p', {})", "not available"},
     {"NoPointersWithFlags", "string.format('%-20p', {})", "not available"},
 
+    // Loops in other clothes.
+    {"Goto", "::again:: goto again", kTooLong},
+    {"GotoInPcall", "while true do pcall(function() ::a:: goto a end) end", kTooLong},
+    {"RepeatUntil", "repeat until false", kTooLong},
+    {"FloatLoop", "for i = 0, 1, 1e-300 do end", kTooLong},
+    {"LyingLength",
+     "local t = setmetatable({}, {__len = function() return 1 << 62 end}) for i = 1, #t do end",
+     kTooLong},
+    {"LoopInEq",
+     "local m = {__eq = function() while true do end end}\n"
+     "local a, b = setmetatable({}, m), setmetatable({}, m)\n"
+     "while true do pcall(function() return a == b end) end",
+     kTooLong},
+    {"LoopInReplacement",
+     "('x'):rep(60000):gsub('x', setmetatable({}, {__index = function() while true do end end}))",
+     kTooLong},
+    {"SelectOfManyForEver",
+     "local t = {} for i = 1, 200 do t[i] = i end\n"
+     "while true do select('#', table.unpack(t)) end",
+     kTooLong},
+    {"SelectBeyondTheFirst", "select(-1 << 62, 1)", "index out of range"},
+    {"ReverseBomb", "local s = ('a'):rep(60000) while true do s:reverse() end", kTooLong},
+    {"LenOfUtf8Bomb", "local s = ('a'):rep(60000) while true do utf8.len(s) end", kTooLong},
+    {"CodesOfGarbage", "for _ in utf8.codes('\\xff') do end", "invalid UTF-8 code"},
+    {"TooManyCaptures", "string.find('a', ('('):rep(300) .. 'a' .. (')'):rep(300))",
+     "too many captures"},
+    {"MalformedPattern", "string.find('a', '[a')", "malformed pattern"},
+    {"FormatGrows", "local s = ('x'):rep(60000) string.format('%s%s', s, s)", kText},
+    {"FormatWithoutArguments", "string.format(('%s'):rep(30000), 1)", "no value"},
+    {"UnpackFarBehind", "string.unpack('<i8', 'x', 1 << 62)", "out of string"},
+
+    // Metatables, errors and coroutines against the host.
+    {"IndexOfItself", "local t = {} setmetatable(t, {__index = t}) return t.x", "loop"},
+    {"NewIndexOfItself", "local t = {} setmetatable(t, {__newindex = t}) t.x = 1", "loop"},
+    {"ConcatOfItself",
+     "local m = {} m.__concat = function(a, b) return a .. b end\n"
+     "local t = setmetatable({}, m) return t .. t",
+     "stack overflow"},
+    {"CallOfItself", "local t = {} setmetatable(t, {__call = t}) t()", "call"},
+    {"ErrorWhileClosing",
+     "local x <close> = setmetatable({}, {__close = function() error('second') end})\n"
+     "error('first')",
+     "second"},
+    {"ErrorWhoseTextFails", "error(setmetatable({}, {__tostring = function() error('again') end}))",
+     "error object is a table"},
+    {"ErrorOfNothing", "error()", "error object is a nil"},
+    {"ResumesItself",
+     "local co co = coroutine.create(function() return coroutine.resume(co) end)\n"
+     "assert(coroutine.resume(co))",
+     ""},
+    {"NobodyElsesCoroutine", "assert(coroutine.running == nil)", ""},
+    {"WaitsInAnotherCoroutine",
+     "local co = coroutine.create(function() wait(0.01) end)\n"
+     "for i = 1, 5 do coroutine.resume(co) end",
+     ""},
+    {"YieldsOutOfASort", "table.sort({3, 2, 1}, function(a, b) coroutine.yield() return a < b end)",
+     "yield"},
+    {"YieldsOutOfAReplacement", "('x'):gsub('x', function() wait(1) end)", "yield"},
+
+    // Floods of words.
+    {"MillionLines", "local k = actor('keeper') for i = 1, 1e6 do pcall(k.say, k, 'nothing') end",
+     kTooLong},
+    {"MillionGestures",
+     "local k = actor('keeper') for i = 1, 1e6 do start(function() k:gesture('bow') end) end",
+     "more than 1024 tasks"},
+    {"MillionWalks",
+     "local k = actor('keeper')\n"
+     "for i = 1, 1e6 do start(function() k:walk_to{x = i % 5} end) end",
+     "more than"},
+    {"MillionPlaces", "while true do actor('keeper'):place{x = 1} end", kTooLong},
+    {"MillionLooks", "while true do actor('keeper'):look_at('visitor') end", kTooLong},
+    {"TreeOfTimers",
+     "local function f() for i = 1, 3 do start(function() wait(0) f() end) end end f()",
+     "more than 1024 tasks"},
+    {"ManyNamesOfCues",
+     "for i = 1, 1e6 do\n"
+     "  race(function() first(key('k' .. i)) end, function() end)\n"
+     "end",
+     kTooLong},
+    {"PlaceNowhere", "actor('keeper'):place{x = 0/0}", "must be a number"},
+    {"WaitForEver", "pcall(wait, 1/0) pcall(wait, 0/0) pcall(wait, -1)", ""},
+
+    // The library in other hands.
+    {"GlobalsAreTheirOwn",
+     "setmetatable, table, string.match, pcall, error = nil, nil, nil, nil, nil wait(0.01)", ""},
+    {"StolenMetatable",
+     "local real, stolen = setmetatable, nil\n"
+     "setmetatable = function(t, m) stolen = m or stolen return real(t, m) end\n"
+     "actor('keeper'):turn_to(90)\n"
+     "if stolen and stolen.__close then stolen.__close({task = 1 << 62}) end",
+     ""},
+    {"NoFieldsOfTexts", "local s = 'x' s.y = 1", "attempt to index"},
+    {"OwnEnvironment", "local _ENV = {} wait(1)", "global 'wait'"},
+
     // Order does not depend on addresses or hashes.
     {"PairsInOrder",
      "local t = {b = 1, a = 2, [3] = 3, [1.5] = 4, [-1] = 5, [true] = 6, [1] = 7, aa = 8}\n"
@@ -328,6 +422,18 @@ TEST_F(DramaTest, LimitsHoldWhileTheScriptLoads) {
   for (const char* script : {"while true do end", "local s = 'x' while true do s = s .. s end"}) {
     const auto drama = Make(script);
     EXPECT_THAT(FirstError(*drama), HasSubstr("the script"));
+  }
+}
+
+TEST_F(DramaTest, TextsThatAreNoScriptsAreRefusedWithTheirPlace) {
+  const std::string brackets(100'000, '(');
+  const std::string braces(100'000, '{');
+  for (const std::string& script :
+       {std::string("\x1bLua\x54\x00\x19\x93", 8), "x = " + brackets, "x = " + braces,
+        "x = '" + std::string(100'000, 'x') + "'", std::string("\0\0\0", 3)}) {
+    const auto drama = Drama::Create(script, "drama.lua", stage_, {}, *log_);
+    ASSERT_FALSE(drama.ok()) << script.substr(0, 20);
+    EXPECT_THAT(drama.message(), HasSubstr("drama"));
   }
 }
 

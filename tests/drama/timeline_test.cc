@@ -158,5 +158,56 @@ TEST_F(TimelineTest, MistakesAreToldWithTheirItem) {
   }
 }
 
+TEST_F(TimelineTest, CaptionsAreShownWithoutAnybodySpeaking) {
+  const auto drama = Make(R"(
+    track{captions = {
+      {at = 1, length = 3, line = "salvete"},
+      {at = 6, line = "salvete"},
+    }})");
+  EXPECT_TRUE(stage_.captions().empty());
+  PlayTo(*drama, 2.0);
+  ASSERT_EQ(stage_.captions().size(), 1u);
+  EXPECT_EQ(stage_.captions()[0].ticks, 120);
+  EXPECT_FALSE(State("keeper").utterance.speaking);
+  const stage::StageSnapshot then = Snapshot();
+  PlayTo(*drama, 4.5);
+  EXPECT_TRUE(stage_.captions().empty());
+  PlayTo(*drama, 6.5);
+  EXPECT_EQ(stage_.captions().size(), 1u);
+  PlayTo(*drama, 7.5);
+  EXPECT_TRUE(stage_.captions().empty()) << "without a length, as long as it would be said";
+  ASSERT_TRUE(drama->Seek(2.0).ok());
+  EXPECT_TRUE(Snapshot() == then);
+  EXPECT_EQ(FirstError(*drama), "");
+}
+
+TEST_F(TimelineTest, ExpressionsComeAndGoAsTheirEaseSays) {
+  const auto drama = Make(R"(
+    track{actor = "keeper", walks = {{at = 0, from = {x = 0, z = 0}}}, expressions = {
+      {at = 1, length = 4, expression = "joy", fade = 2, ease = "in"},
+    }}
+    track{actor = "guest", walks = {{at = 0, from = {x = 1, z = 0}}}, expressions = {
+      {at = 1, length = 4, expression = "joy", fade = 2},
+    }})");
+  const auto joy = [&](const char* name) {
+    return State(name).performance.face.expressions[static_cast<size_t>(human::Expression::kJoy)];
+  };
+  PlayTo(*drama, 2.0);
+  EXPECT_NEAR(joy("keeper"), 0.25f, 0.01f);
+  EXPECT_NEAR(joy("guest"), 0.5f, 0.01f);
+  PlayTo(*drama, 3.1);
+  EXPECT_NEAR(joy("keeper"), 1.0f, 1e-6f);
+  PlayTo(*drama, 6.0);
+  EXPECT_NEAR(joy("keeper"), 0.75f, 0.01f);
+  PlayTo(*drama, 7.1);
+  EXPECT_NEAR(joy("keeper"), 0.0f, 1e-6f);
+}
+
+TEST_F(TimelineTest, AnEaseThatNobodyKnowsIsToldWithItsItem) {
+  const auto drama = Make(R"(
+    track{actor = "keeper", expressions = {{at = 1, expression = "joy", ease = "bouncy"}}})");
+  EXPECT_THAT(FirstError(*drama), HasSubstr("expressions[1]: ease is linear, in, out or smooth"));
+}
+
 }  // namespace
 }  // namespace lararium::drama

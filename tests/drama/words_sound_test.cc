@@ -138,5 +138,35 @@ TEST_F(SoundWords, LengthIsInSeconds) {
   EXPECT_EQ(Playing().size(), 1u);
 }
 
+TEST_F(SoundWords, SoundsFadeInAndOut) {
+  const auto drama = Make(R"(
+    track{ sounds = {
+      { at = 1, sound = "flute", length = 4, loop = true, fade = 2, ease = "in" },
+    } }
+    function main()
+      wait(10)
+      sound("bell"):play{ loop = true, fade = 1 }
+      wait(2)
+      sound("bell"):stop(1)
+    end)");
+  PlayTo(*drama, 2.0);
+  ASSERT_EQ(Playing().size(), 1u);
+  EXPECT_NEAR(stage::Sounds::Share(Playing()[0]), 0.25f, 0.01f);
+  PlayTo(*drama, 4.0);
+  EXPECT_EQ(stage::Sounds::Share(Playing()[0]), 1.0f);
+  PlayTo(*drama, 6.0);
+  ASSERT_EQ(Playing().size(), 1u) << "it still fades out";
+  EXPECT_NEAR(stage::Sounds::Share(Playing()[0]), 0.25f, 0.01f);
+  PlayTo(*drama, 7.1);
+  EXPECT_TRUE(Playing().empty());
+  PlayTo(*drama, 10.5);
+  EXPECT_NEAR(stage::Sounds::Share(Playing()[0]), 0.5f, 0.01f);
+  PlayTo(*drama, 12.5);
+  EXPECT_NEAR(stage::Sounds::Share(Playing()[0]), 0.5f, 0.01f);
+  PlayTo(*drama, 13.1);
+  EXPECT_TRUE(Playing().empty());
+  EXPECT_EQ(FirstError(*drama), "");
+}
+
 }  // namespace
 }  // namespace lararium::drama

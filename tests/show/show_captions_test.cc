@@ -12,7 +12,7 @@ using render::CaptionSide;
 CaptionTexts Texts() {
   CaptionTexts texts;
   texts.lines = {{{0.0, 1.0, "first"}, {1.5, 3.0, "second"}}, {{0.0, 9.0, "other"}}, {}};
-  texts.speakers = {"Placidus", "Asellina", "Girl"};
+  texts.speakers = {"Placidus", "Ascula", "Girl"};
   return texts;
 }
 
@@ -31,7 +31,7 @@ TEST(ShowCaptions, TheTwoThatBeganLastAreShownTheNewestFirst) {
   std::vector<render::Caption> captions;
   CollectCaptions(Texts(), staged, captions);
   ASSERT_EQ(captions.size(), 2u);
-  EXPECT_EQ(captions[0].speaker, "Asellina");
+  EXPECT_EQ(captions[0].speaker, "Ascula");
   EXPECT_EQ(captions[0].text, "first");
   EXPECT_EQ(captions[1].speaker, "Girl");
   EXPECT_NE(captions[0].colour, captions[1].colour);
@@ -42,6 +42,20 @@ TEST(ShowCaptions, TheTwoThatBeganLastAreShownTheNewestFirst) {
   staged.lines.clear();
   CollectCaptions(Texts(), staged, captions);
   EXPECT_TRUE(captions.empty());
+}
+
+TEST(ShowCaptions, WhatNobodySaysHasNoNameAndStaysAsLongAsItIsShown) {
+  StagedFrame staged;
+  staged.lines = {{StagedLine::kNobody, 0, 1.2, false}};
+  std::vector<render::Caption> captions;
+  CollectCaptions(Texts(), staged, captions);
+  ASSERT_EQ(captions.size(), 1u);
+  EXPECT_TRUE(captions[0].speaker.empty());
+  EXPECT_EQ(captions[0].text, "second") << "what comes next is read ahead of its time";
+  staged.lines[0].seconds = 50.0;
+  CollectCaptions(Texts(), staged, captions);
+  ASSERT_EQ(captions.size(), 1u);
+  EXPECT_EQ(captions[0].text, "second");
 }
 
 TEST(ShowCaptions, AnArrowPointsToASpeakerOutOfView) {

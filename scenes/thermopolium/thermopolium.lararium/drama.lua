@@ -1,309 +1,530 @@
--- A morning in the thermopolium of Vetutius Placidus, in a loop of about four
--- minutes. Asellina serves, a labourer has his wine, an old patrician comes in for
--- his, and the keeper's daughter minds bread, brazier and whoever looks at her.
+-- A morning at the thermopolium of Vetutius Placidus: about four minutes, five people.
+--
+--   0:00  dawn: the lamp is lit, the bread is fresh, the labourer has his first wine
+--   0:30  a patrician comes in, asks what it costs and orders the dearest
+--   1:25  the keeper speaks to the visitor. Whoever looks at him or stays near is served;
+--         otherwise two guests quarrel about whom to vote for
+--   2:35  the patrician pays and leaves, water is carried
+--   3:20  the daughter prays before the painted shrine, the keeper says farewell
+--   4:00  life goes on
+--
+-- What is timed stands in tracks, which the timeline shows; what depends on others or on
+-- the visitor is script.
 
-local keeper = actor("keeper")
-local server = actor("server")
+drama{when_lost = "hold", patience = 2}
+
+local keeper = actor("keeper") -- Placidus
+local server = actor("server") -- Ascula, who lives with him
 local patrician = actor("patrician")
-local labourer = actor("labourer")
-local girl = actor("girl")
+local labourer = actor("labourer") -- Felix
+local girl = actor("girl") -- Vetutia, their daughter
 
-local function begin()
-  keeper:place{x = 0.60, z = -1.95, heading = 180}
-  server:place{x = -0.25, z = -0.35, heading = 160}
-  labourer:place{x = 0.62, z = 0.45, heading = -90}
-  girl:place{x = -0.72, z = 0.10, heading = 200}
-  keeper:gait{cadence = 0.95, step_width = 1.2, arm_spread = 8}
-  patrician:gait{cadence = 0.82, stoop = 9}
-  girl:gait{cadence = 1.1, lift = 1.15}
-  labourer:gait{arm_swing = 1.15, arm_spread = 4}
+-- ---- the stage -----------------------------------------------------------------------
+
+track{
+  captions = {{id = "title", at = 0.5, length = 5, line = "titulus"}},
+  lights = {
+    -- Embers of the night before, fanned, then left alone.
+    {id = "embers", at = 0, length = 30, light = "brazier", level = 0.4},
+    {id = "fanned", at = 44, length = 8, light = "brazier", level = 1.6, seconds = 6, ease = "smooth"},
+    {id = "lamp burns up", at = 22, length = 6, light = "lamp", level = 1.4, seconds = 2, ease = "out"},
+    {id = "lamp of the prayer", at = 198, length = 20, light = "lamp", level = 1.6, seconds = 3, ease = "smooth"},
+  },
+  sounds = {
+    -- The street through the open door.
+    {id = "the door is open", at = 8, length = 46, sound = "street", gain = -6, loop = true, from = {x = 3.4, y = 1.2, z = -0.25}},
+    {id = "the street wakes", at = 160, length = 40, sound = "street", gain = -3, loop = true, from = {x = 3.4, y = 1.2, z = -0.25}},
+  },
+  markers = {
+    {at = 50, name = "order"},
+    {at = 200, name = "prayer"},
+    {at = 228, name = "farewell"},
+  },
+}
+
+-- ---- the beginning, by the clock -----------------------------------------------------
+
+track{actor = "keeper",
+  walks = {
+    {at = 0, from = {x = 0.60, z = -1.95, heading = 180}},
+    {id = "to the guest", at = 31, to = {x = 1.30, z = -1.93, heading = 180}},
+  },
+  uses = {
+    {at = 10, object = "ladle", action = "take"},
+    {at = 12, object = "ladle", action = "stir"},
+    {at = 19, object = "ladle", action = "put", on = "counter", surface = "back"},
+    {at = 22, length = 6, object = "counter", action = "wipe"},
+  },
+  gaze = {
+    {at = 31.5, length = 18, target = "patrician"},
+  },
+  expressions = {
+    {at = 34, length = 15, expression = "joy", intensity = 0.4, fade = 0.8, ease = "smooth"},
+  },
+  gestures = {{id = "the prices", at = 41, clip = "explain"}},
+  speech = {
+    {id = "the prices", at = 40.2, length = 7, line = "assibus"},
+  },
+}
+
+track{actor = "server",
+  walks = {{at = 0, from = {x = -0.25, z = -0.35, heading = 160}}},
+  uses = {
+    {at = 2, object = "door", action = "open"},
+    {at = 8, object = "lamp", action = "take"},
+    {at = 17, object = "lamp", action = "light"},
+    {at = 19.5, object = "lamp", action = "put", on = "lamp_stand"},
+  },
+  gaze = {{at = 27, length = 6, target = "labourer"}},
+  expressions = {{at = 28, length = 6, expression = "joy", intensity = 0.6, fade = 0.5}},
+  gestures = {{at = 29.6, clip = "nod", part = "head"}},
+  speech = {
+    {at = 16, line = "lucerna"},
+    {at = 23.5, line = "affer"},
+    {at = 29.5, line = "non_ruent"},
+  },
+}
+
+track{actor = "girl",
+  walks = {{at = 0, from = {x = -0.72, z = 0.10, heading = 200}}},
+  uses = {
+    {at = 1, object = "brazier", action = "warm_hands"},
+    {at = 10, object = "loaf", action = "take"},
+    {at = 15, object = "loaf", action = "smell"},
+    {at = 23.5, object = "loaf", action = "put", on = "counter", surface = "leg"},
+  },
+  gaze = {
+    {at = 20, length = 5, target = "server"},
+    {at = 36, length = 8, target = "patrician"},
+  },
+  expressions = {
+    {at = 15.5, length = 8, expression = "joy", intensity = 0.7, fade = 0.5},
+    {at = 36, length = 3, expression = "surprise", intensity = 0.4, fade = 0.5},
+  },
+  speech = {{at = 20, length = 3.2, line = "calet"}},
+}
+
+track{actor = "labourer",
+  walks = {{at = 0, from = {x = 0.62, z = 0.45, heading = -90}}},
+  uses = {
+    {at = 4, object = "beaker", action = "take"},
+    {at = 7, object = "beaker", action = "drink"},
+    {at = 14, object = "beaker", action = "drink"},
+    {at = 21, object = "beaker", action = "put", on = "table", surface = "top"},
+  },
+  gaze = {{at = 24.5, length = 9, target = "server"}},
+  expressions = {{at = 25, length = 5, expression = "sadness", intensity = 0.4, fade = 0.8}},
+  gestures = {{at = 26, clip = "shrug"}},
+  speech = {{at = 25.5, length = 4, line = "laboro"}},
+}
+
+track{actor = "patrician",
+  walks = {
+    {at = 0, from = {x = 4.10, z = -0.25, heading = 90}},
+    {id = "comes in", at = 27, to = {x = 1.62, z = -0.48, heading = 0}, speed = 0.7},
+  },
+  gaze = {{at = 34, length = 16, target = "keeper"}},
+  gestures = {{id = "the dearest", at = 47.6, clip = "point"}},
+  speech = {
+    {at = 36, length = 4, line = "quanti"},
+    {at = 47.5, line = "falernum"},
+  },
+}
+
+-- ---- words of this drama -------------------------------------------------------------
+
+-- One speaks at a time.
+local floor = {taken = false}
+local leave = {__close = function() floor.taken = false end}
+
+-- Says a line, with its height on the stroke of a gesture.
+local function speak(who, line, gesture)
+  while floor.taken do
+    wait(0.1)
+  end
+  floor.taken = true
+  local guard <close> = setmetatable({}, leave)
+  if gesture then
+    meet("stroke", {who, "gesture", gesture}, {who, "say", line})
+  else
+    who:say(line)
+  end
+  wait(0.4)
 end
 
 -- What somebody was told to do may not be possible just then: life goes on. The author
 -- hears of it from the editor's check.
-local function try(task)
-  local done, problem = pcall(task)
+local function try(task, ...)
+  local done, problem = pcall(task, ...)
   if not done then
     wait(1.5)
   end
   return done, problem
 end
 
--- Waits for something that others do, but not for ever.
-local function wait_until(condition, patience)
-  while not condition() and patience > 0 do
-    wait(0.5)
-    patience = patience - 0.5
+-- Waits until the visitor looks at somebody again, but not for ever.
+local function attended(who, patience)
+  who:look_at("visitor")
+  race(function()
+    wait_for(visitor:looks_at(who, {angle = 20, seconds = 0.2}))
+  end, function()
+    wait(patience)
+  end)
+end
+
+local function smile(who, intensity, seconds)
+  who:express("joy", intensity, 0.5)
+  wait(seconds)
+  who:express("neutral", 0, 1.2)
+end
+
+-- ---- the order, from marker to cup ---------------------------------------------------
+
+-- Pours into a cup that stands before him.
+local function pour(cup, x)
+  keeper:take("jug")
+  keeper:walk_to{x = x, z = -1.93, heading = 180}
+  keeper:use("jug", "pour")
+  object(cup):set_state("full")
+  keeper:put("jug", "counter", "back")
+end
+
+-- The cup changes hands when he reaches for it; he thanks her when he has it.
+local function hand_over()
+  try(server.take, server, "cup_of_guest")
+  server:look_at(patrician)
+  local reaches = start(function()
+    wait_for(timeout(2.5))
+    patrician:look_at(server)
+    patrician:gesture("nod", "head")
+  end)
+  wait_for(reaches, "stroke")
+  local gives = start(function() try(server.give, server, "cup_of_guest", patrician) end)
+  speak(server, "ecce")
+  wait_for(gives, "stroke")
+  speak(patrician, "gratias")
+  wait_for(gives)
+  server:look_at()
+end
+
+local function serve_the_patrician()
+  keeper:look_at(patrician)
+  speak(keeper, "statim", "offer")
+  keeper:look_at()
+  together(function()
+    pour("cup_of_guest", 1.55)
+    keeper:walk_to{x = 0.60, z = -1.95, heading = 180}
+  end, function()
+    patrician:sit("stool")
+  end, function()
+    wait_for(timeout(9))
+    hand_over()
+  end)
+  start(function()
+    try(patrician.use, patrician, "cup_of_guest", "drink")
+  end)
+end
+
+-- ---- the visitor is served -----------------------------------------------------------
+
+local function curious_child()
+  try(girl.face, girl, "visitor")
+  girl:look_at("visitor")
+  speak(girl, "unde", "point")
+  try(server.face, server, girl)
+  server:look_at(girl)
+  speak(server, "tace", "refuse")
+  girl:express("sadness", 0.4, 0.5)
+  girl:look_at(server)
+  wait(2)
+  girl:express("neutral", 0, 1)
+  girl:look_at()
+  server:look_at("visitor")
+  smile(server, 0.5, 2)
+  server:look_at()
+end
+
+local function serve_the_visitor()
+  keeper:express("joy", 0.6, 0.5)
+  attended(keeper, 4)
+  speak(keeper, "pompeianum", "explain")
+  keeper:express("neutral", 0, 1)
+  keeper:look_at()
+  together(function()
+    try(pour, "cup", 0.60)
+    attended(keeper, 4)
+    speak(keeper, "aquam_addo")
+    keeper:look_at()
+  end, function()
+    wait(3)
+    curious_child()
+  end)
+  try(keeper.take, keeper, "cup")
+  attended(keeper, 6)
+  try(keeper.put, keeper, "cup", "counter", "top")
+  speak(keeper, "tibi_est", "offer")
+  smile(keeper, 0.7, 2)
+  keeper:look_at()
+end
+
+-- ---- or two guests quarrel -----------------------------------------------------------
+
+local function quarrel()
+  labourer:look_at(patrician)
+  patrician:look_at(labourer)
+  speak(labourer, "quem_facis", "explain")
+  girl:look_at(labourer)
+  speak(patrician, "pansam")
+  labourer:express("anger", 0.3, 0.4)
+  speak(labourer, "polybium", "point")
+  patrician:express("disgust", 0.5, 0.4)
+  speak(patrician, "emit")
+  labourer:express("anger", 0.7, 0.3)
+  server:look_at(labourer)
+  keeper:look_at(labourer)
+  speak(labourer, "edere", "shrug")
+  keeper:express("anger", 0.4, 0.3)
+  -- He points to the door while they look up at him.
+  local orders = start(speak, keeper, "ite_foras", "point")
+  wait_for(orders, "stroke")
+  labourer:look_at(keeper)
+  patrician:look_at(keeper)
+  wait_for(orders)
+  labourer:express("neutral", 0, 1)
+  speak(labourer, "bibamus", "shrug")
+  patrician:express("neutral", 0, 1)
+  together(function()
+    smile(keeper, 0.6, 2)
+  end, function()
+    try(function()
+      labourer:take("beaker")
+      labourer:use("beaker", "drink")
+      labourer:put("beaker", "table", "top")
+    end)
+  end)
+  for _, who in ipairs{keeper, server, patrician, labourer, girl} do
+    who:look_at()
   end
 end
 
--- Behind the counter.
-local function keep()
-  object("cup"):set_state("empty")
-  keeper:look_at("visitor")
-  keeper:express("joy", 0.7, 0.5)
-  keeper:say("salvete")
-  keeper:express("neutral", 0, 1.0)
-  keeper:look_at()
-  try(function()
-    keeper:take("ladle")
-    keeper:walk_to{x = 0.25, z = -1.90, heading = 180}
-    keeper:use("ladle", "stir")
-    keeper:use("ladle", "stir")
-    keeper:put("ladle", "counter", "back")
-  end)
-  try(function() keeper:use("counter", "wipe", {seconds = 7}) end)
-  wait(12)
-  try(function()
-    keeper:take("jug")
-    keeper:walk_to{x = 0.60, z = -1.93, heading = 180}
-    keeper:use("jug", "pour")
-    object("cup"):set_state("full")
-    keeper:put("jug", "counter", "back")
-  end)
-  keeper:look_at(patrician)
-  keeper:say("ecce_vinum")
-  keeper:look_at()
-  wait(25)
-  try(function() keeper:use("chest", "open") end)
-  wait(4)
-  try(function() keeper:use("chest", "close") end)
-  try(function() keeper:use("counter", "wipe", {seconds = 10}) end)
-  wait(15)
-  keeper:look_at(patrician)
-  keeper:say("vale")
-  keeper:look_at()
-  try(function()
-    keeper:take("ladle")
-    keeper:walk_to{x = 0.25, z = -1.90, heading = 180}
-    keeper:use("ladle", "serve")
-    keeper:use("ladle", "stir")
-    keeper:put("ladle", "counter", "back")
-  end)
-  keeper:walk_to{x = 0.60, z = -1.95, heading = 180}
-end
+-- ---- what goes on meanwhile ----------------------------------------------------------
 
--- Between counter and table.
-local function serve()
-  wait(3)
-  server:look_at("visitor")
-  server:express("joy", 0.5, 0.6)
-  wait(2.5)
-  server:look_at()
-  server:express("neutral", 0, 1.5)
-  try(function() server:use("door", "open") end)
-  server:walk_to{x = -0.45, z = -0.30, heading = -90}
-  -- Who is to be served sits by then.
-  wait_until(function() return patrician:where().z > 0.9 end, 60)
-  try(function() server:use("door", "shut") end)
+local function household()
+  wait(2)
   try(function() server:use("amphora", "smell") end)
-  server:say("bene_olet")
-  try(function()
-    server:take("cup_of_guest")
-    server:give("cup_of_guest", patrician)
-  end)
   try(function()
     server:take("bowl")
     wait(1)
     server:put("bowl", "table", "top")
   end)
-  server:look_at(labourer)
-  wait(2)
-  server:look_at()
   try(function() server:use("mortar", "grind") end)
   try(function() server:use("mortar", "grind") end)
-  try(function()
-    server:take("lamp")
-    server:use("lamp", "blow_out")
-    wait(3)
-    server:use("lamp", "light")
-    server:put("lamp", "lamp_stand")
-  end)
-  try(function() server:use("brazier", "warm_hands") end)
-  server:look_at(girl)
-  wait(3)
-  server:look_at()
-  try(function()
-    server:take("bowl")
-    server:put("bowl", "counter", "leg")
-  end)
   try(function() server:use("storage_jar", "look_inside") end)
-  -- Behind the guest who leaves.
-  wait_until(function() return patrician:where().z < 0 and patrician:where().x < 0.5 end, 60)
-  try(function() server:use("door", "open") end)
-  server:walk_to{x = -0.45, z = -0.30, heading = -90}
-  wait_until(function() return patrician:where().x > 3.7 end, 40)
-  try(function() server:use("door", "shut") end)
-  try(function()
-    server:take("cup_of_guest")
-    server:put("cup_of_guest", "counter", "top")
-  end)
-  try(function()
-    server:take("coins")
-    server:put("coins", "table", "top")
-  end)
-  server:walk_to{x = -0.25, z = -0.35, heading = 160}
 end
 
--- Wine for a thirsty man.
-local function rest()
-  wait(7)
-  try(function()
-    labourer:take("beaker")
-    labourer:use("beaker", "drink")
-    wait(6)
-    labourer:look_at("visitor")
-    wait(2)
-    labourer:look_at()
-    labourer:use("beaker", "drink")
-    labourer:put("beaker", "table", "top")
-  end)
-  labourer:look_at(server)
-  labourer:say("laboro")
-  labourer:express("sadness", 0.4, 0.8)
+local function errands()
   wait(4)
-  labourer:express("neutral", 0, 1.0)
-  labourer:look_at()
-  try(function()
-    labourer:take("coins")
-    labourer:put("coins", "counter", "top")
-  end)
-  wait(5)
-  try(function()
-    labourer:take("loaf")
-    labourer:use("loaf", "smell")
-    labourer:express("joy", 0.6, 0.6)
-    labourer:say("calet")
-    labourer:put("loaf", "counter", "top")
-  end)
-  labourer:express("neutral", 0, 1.0)
-  try(function() labourer:use("counter", "lean") end)
-  wait_until(function() return object("cup"):state() == "full" end, 30)
-  try(function()
-    labourer:take("cup")
-    labourer:use("cup", "drink")
-    labourer:put("cup", "counter", "top")
-  end)
-  wait(10)
-  try(function()
-    labourer:take("bucket")
-    labourer:walk_to{x = -0.55, z = -0.10, heading = 90}
-    labourer:use("bucket", "pour")
-    labourer:put("bucket", {x = -1.0, z = 0.02, heading = 0})
-  end)
-  labourer:walk_to{x = 0.62, z = 0.45, heading = -90}
-  wait(6)
-  labourer:look_at(girl)
-  wait(3)
-  labourer:look_at()
-end
-
--- Comes in by the door, drinks, and goes home.
-local function visit()
-  patrician:place{x = 4.10, z = -0.25, heading = 90}
-  wait_until(function() return object("door"):state() == "open" end, 40)
-  try(function() patrician:walk_to{x = 1.85, z = -0.25, heading = 90, speed = 0.8} end)
-  patrician:look_at("visitor")
-  wait(2)
-  patrician:look_at()
-  try(function() patrician:walk_to{x = 1.62, z = -0.50, heading = 0, speed = 0.8} end)
-  patrician:look_at(keeper)
-  patrician:say("vinum_volo")
-  patrician:look_at()
-  try(function() patrician:sit("stool") end)
-  -- Served at the table.
-  wait_until(function() return object("cup_of_guest"):holder() == patrician end, 60)
-  try(function()
-    patrician:use("cup_of_guest", "drink")
-    wait(8)
-    patrician:look_at(girl)
-    patrician:say("quis_es")
-    patrician:express("joy", 0.6, 0.8)
-    wait(4)
-    patrician:express("neutral", 0, 1.5)
-    patrician:look_at()
-    patrician:use("cup_of_guest", "drink")
-    patrician:put("cup_of_guest", "table", "top")
-  end)
-  patrician:say("gratias")
-  wait(12)
-  try(function() patrician:stand() end)
-  try(function()
-    patrician:take("tablet")
-    patrician:use("tablet", "read")
-    patrician:put("tablet", "counter", "top")
-  end)
-  try(function() patrician:walk_to{x = 0.30, z = -0.15, heading = -90, speed = 0.8} end)
-  -- Counter and table leave room for one.
-  wait_until(function() return object("door"):state() == "open" and server:where().x < 0 end, 60)
-  try(function() patrician:walk_to{x = 4.10, z = -0.25, heading = -90, speed = 0.8} end)
-  patrician:hide()
-end
-
--- Whoever looks at the girl is told whose daughter she is; who only stays is waited on by
--- the server; who goes by is looked after.
-local function notice_visitor()
-  girl:look_at("visitor")
-  local what = first(visitor:looks_at(girl, {seconds = 1}), visitor:stays(4), timeout(5))
-  if what == 1 then
-    try(function() girl:face("visitor") end)
-    girl:express("joy", 0.8, 0.4)
-    girl:say("mater_mea")
-    girl:express("neutral", 0, 1.5)
-  elseif what == 2 then
-    girl:look_at(server)
-    server:look_at("visitor")
-    server:express("joy", 0.6, 0.5)
-    wait(2.5)
-    server:express("neutral", 0, 1.5)
-    server:look_at()
-  end
-end
-
--- Everything is new.
-local function play()
-  girl:look_at("visitor")
-  girl:express("surprise", 0.5, 0.4)
-  wait(3)
-  girl:express("joy", 0.6, 0.6)
-  wait(3)
-  girl:express("neutral", 0, 1.5)
-  girl:look_at()
-  try(function() girl:use("brazier", "warm_hands") end)
-  wait(4)
-  try(function() girl:walk_to{x = 0.50, z = -0.10, heading = 190} end)
-  notice_visitor()
-  girl:look_at(patrician)
-  wait(6)
-  girl:look_at()
   try(function()
     girl:take("plate")
-    girl:walk_to{x = -0.30, z = -0.35, heading = 0}
-    wait(2)
-    girl:put("plate", "table", "top")
+    wait(0.5)
+    girl:put("plate", "counter", "leg")
   end)
-  girl:look_at(patrician)
-  girl:say("mater_mea")
-  girl:look_at()
-  wait(8)
+  wait(20)
   try(function()
     girl:take("basket")
     girl:walk_to{x = -0.50, z = -0.15, heading = 180}
     wait(3)
     girl:put("basket", {x = -0.95, z = 0.42, heading = 90})
   end)
-  girl:look_at("visitor")
-  girl:express("joy", 0.8, 0.5)
-  wait(4)
-  girl:express("neutral", 0, 1.5)
+end
+
+-- ---- the guests go -------------------------------------------------------------------
+
+local function patrician_leaves()
+  try(function()
+    patrician:use("cup_of_guest", "drink")
+    patrician:put("cup_of_guest", "table", "top")
+    patrician:stand()
+    patrician:take("tablet")
+    patrician:use("tablet", "read")
+    patrician:put("tablet", "counter", "top")
+  end)
+  patrician:look_at(keeper)
+  speak(patrician, "quattuor")
+  keeper:look_at(patrician)
+  local leaves = start(function()
+    patrician:look_at()
+    try(patrician.walk_to, patrician, {x = 4.10, z = -0.25, heading = -90, speed = 0.8})
+    patrician:hide()
+  end)
+  speak(keeper, "redi_cras", "salute")
+  keeper:look_at()
+  try(function() keeper:use("chest", "open") end)
+  wait(2)
+  try(function() keeper:use("chest", "close") end)
+  try(keeper.walk_to, keeper, {x = 0.60, z = -1.95, heading = 180})
+  wait_for(leaves)
+end
+
+local function clear_the_table()
+  wait(14)
+  try(function()
+    server:take("cup_of_guest")
+    server:put("cup_of_guest", "counter", "top")
+  end)
+  try(function()
+    server:take("coins")
+    server:put("coins", "counter", "top")
+  end)
+end
+
+local function carry_water()
+  wait(3)
+  labourer:look_at(server)
+  speak(labourer, "aquam_porto")
+  labourer:look_at()
+  try(function()
+    labourer:take("bucket")
+    labourer:walk_to{x = -0.55, z = -0.10, heading = 90}
+    labourer:use("bucket", "pour")
+    labourer:put("bucket", {x = -1.0, z = 0.02, heading = 0})
+  end)
+  try(function() labourer:use("counter", "lean") end)
+end
+
+-- ---- the prayer ----------------------------------------------------------------------
+
+local function pray()
+  try(girl.walk_to, girl, {x = -0.55, z = -0.45, heading = 0})
+  -- The painted shrine is on the wall behind the counter.
+  girl:look_at{x = 0.6, y = 1.7, z = -2.58}
+  server:look_at(girl)
+  local prayer = start(speak, girl, "lar", "pray")
+  wait_for(prayer, "stroke")
+  keeper:look_at(girl)
+  wait_for(prayer)
+  smile(server, 0.6, 1)
+  speak(server, "bene", "nod")
   girl:look_at()
-  girl:walk_to{x = -0.72, z = 0.10, heading = 200}
+  server:look_at()
+  keeper:look_at()
+end
+
+local function farewell()
+  keeper:look_at("visitor")
+  keeper:express("joy", 0.6, 0.5)
+  speak(keeper, "valete", "salute")
+  keeper:express("neutral", 0, 1.5)
+  keeper:look_at()
+end
+
+-- Once the story is told.
+local function life_goes_on()
+  together(function()
+    while true do
+      try(function() keeper:use("counter", "wipe", {seconds = 8}) end)
+      wait(20)
+      try(function()
+        keeper:take("ladle")
+        keeper:use("ladle", "serve")
+        keeper:put("ladle", "counter", "back")
+      end)
+      wait(15)
+    end
+  end, function()
+    while true do
+      try(function() server:use("mortar", "grind") end)
+      wait(17)
+      try(function() server:use("storage_jar", "look_inside") end)
+      wait(12)
+    end
+  end, function()
+    while true do
+      wait(9)
+      try(function() girl:use("brazier", "warm_hands") end)
+      wait(14)
+    end
+  end, function()
+    while true do
+      try(function() labourer:use("counter", "lean") end)
+      wait(25)
+    end
+  end)
+end
+
+-- ---- who notices the visitor ---------------------------------------------------------
+
+-- Whoever comes nearer is seen; whoever comes too near is made room for.
+local function notice()
+  on(visitor:near("counter", 3, {leave = 4}), function()
+    server:look_at("visitor")
+    server:gesture("nod", "head")
+    smile(server, 0.5, 2)
+    server:look_at()
+  end)
+  for _, who in ipairs{server, labourer, girl} do
+    who:keep_distance(0.8)
+  end
+  on(tracking("back"), function()
+    girl:look_at("visitor")
+    girl:express("surprise", 0.5, 0.3)
+    wait(2)
+    girl:express("neutral", 0, 1)
+    girl:look_at()
+  end)
+  local told = false
+  on(visitor:looks_at(girl, {seconds = 1.5}), function()
+    girl:look_at("visitor")
+    if not told and now() > 60 then
+      told = true
+      girl:express("joy", 0.8, 0.4)
+      speak(girl, "mater_mea")
+    end
+    smile(girl, 0.7, 2)
+    girl:look_at()
+  end)
 end
 
 function main()
-  begin()
-  while true do
-    together(keep, serve, rest, visit, play)
-    wait(5)
+  object("cup"):set_state("empty")
+  object("cup_of_guest"):set_state("empty")
+  object("lamp"):set_state("out")
+  keeper:gait{cadence = 0.95, step_width = 1.2, arm_spread = 8}
+  patrician:gait{cadence = 0.82, stoop = 9}
+  girl:gait{cadence = 1.1, lift = 1.15}
+  labourer:gait{arm_swing = 1.15, arm_spread = 4}
+  notice()
+
+  wait(5)
+  keeper:greet{say = "salvete", gesture = "salute"}
+
+  wait_for(marker("order"))
+  serve_the_patrician()
+
+  wait(2)
+  keeper:look_at("visitor")
+  speak(keeper, "accede", "offer")
+  local which = first(visitor:looks_at(keeper, {angle = 10, seconds = 1.2}),
+    visitor:stays(4, {at = "counter", metres = 2.8}), timeout(8))
+  keeper:look_at()
+  local meanwhile = {start(household), start(errands)}
+  if which < 3 then
+    serve_the_visitor()
+  else
+    quarrel()
   end
+  for _, task in ipairs(meanwhile) do
+    wait_for(task)
+  end
+
+  together(patrician_leaves, clear_the_table, carry_water)
+  if now() < 200 then
+    wait_for(marker("prayer"))
+  end
+  pray()
+  if now() < 228 then
+    wait_for(marker("farewell"))
+  end
+  farewell()
+  life_goes_on()
 end

@@ -1,0 +1,88 @@
+#pragma once
+
+// What is wrong with a drama though it runs: people in two places at once, things that two
+// want, ways through walls, cues that nothing reaches. All of it is judged by what dry runs
+// saw (editor/app/dry_run.h).
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shared/drama/drama.h"
+#include "shared/stage/place.h"
+#include "shared/stage/stage.h"
+
+namespace lararium::app {
+
+// "drama.lua:12" of the items of tracks instead of that of their track: what an edit needs.
+// Leaves alone what a track computes.
+void PlaceItems(const std::string& script,
+                const std::string& file,
+                std::vector<drama::TaskRecord>& tasks);
+
+// Somebody is to begin something with the body while they still do something else.
+std::vector<std::string> CheckTogether(std::span<const drama::TaskRecord> tasks);
+
+// Somebody has to wait for a thing that somebody else uses. Taking what another holds fails,
+// and is told as every failure.
+std::vector<std::string> CheckTurns(std::span<const drama::TaskRecord> tasks);
+
+// Cues of all dry runs together. visited: one of them had a visitor; without, what waits for
+// a visitor is not judged.
+struct CuesSeen {
+  std::vector<drama::CueRecord> cues;
+  std::set<std::string, std::less<>> lines;  // that were said or shown
+  bool visited = false;
+  double seconds = 0.0;  // that each run lasted
+};
+// Markers that begin nothing or are nowhere, triggers that no run fires or arms, lines that
+// are written out in the script and that no run says.
+std::vector<std::string> CheckCues(const std::string& script,
+                                   const std::string& file,
+                                   const CuesSeen& seen);
+
+// Follows people tick by tick: ways through occluders, standing in them, leaps while seen.
+class StepListener {
+ public:
+  // Borrows the stage.
+  StepListener(const stage::Stage& stage, std::span<const stage::Place> places);
+
+  // After a tick; time: of the drama.
+  void Listen(double time);
+  // Each with the place in the script of what they were told then.
+  std::vector<std::string> Problems(const std::string& script,
+                                    const std::string& file,
+                                    std::span<const drama::TaskRecord> tasks) const;
+
+ private:
+  struct Triangle {
+    std::string_view occluder;
+    glm::vec3 corners[3];
+  };
+  struct Step {
+    std::string actor;
+    double time = 0.0;
+    std::string what;
+  };
+  using Cell = std::pair<int, int>;  // of a grid on the floor
+
+  void AddOccluder(const stage::Occluder& occluder);
+  // The occluder that a way on the floor goes through; "": none.
+  std::string_view Crossed(const glm::vec3& from, const glm::vec3& to) const;
+  std::string_view Around(const glm::vec3& point) const;
+  void Tell(const std::string& actor, double time, std::string what);
+
+  const stage::Stage& stage_;
+  std::vector<std::string> names_;  // of occluders
+  std::vector<Triangle> triangles_;
+  std::map<Cell, std::vector<uint32_t>> cells_;
+  stage::StageSnapshot snapshot_;
+  std::map<std::string, glm::vec3> last_;  // of who was seen in the tick before
+  std::vector<Step> steps_;
+};
+
+}  // namespace lararium::app

@@ -1,0 +1,234 @@
+// What dry runs find wrong with dramas: each check tells what it is for, with its place, and
+// is silent where all is well.
+
+#include "editor/app/drama_checks.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/drama/drama_fixture.h"
+#include "tests/stage/test_props.h"
+
+namespace lararium::app {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+class DramaChecksTest : public drama::DramaTest {
+ protected:
+  DramaChecksTest() {
+    EXPECT_TRUE(stage_.AddObject("cup", test::Model(test::MakeCup()), {{0.0f, 0.0f, -2.0f}}).ok());
+    EXPECT_TRUE(
+        stage_.AddObject("chest", test::Model(test::MakeChest()), {{1.5f, 0.0f, 0.0f}}).ok());
+    human::VisemeTrack track;
+    track.duration = 1.0f;
+    EXPECT_TRUE(stage_.AddSpeech("salvete", track).ok());
+  }
+
+  // Runs a script for so long.
+  void Run(const std::string& script, double seconds = 20.0) {
+    script_ = script;
+    drama_ = Make(script);
+    const auto places = Places();
+    steps_ = std::make_unique<StepListener>(stage_, places);
+    steps_->Listen(0.0);
+    while (drama_->time() < seconds) {
+      drama_->Tick();
+      steps_->Listen(drama_->time());
+    }
+    tasks_.assign(drama_->tasks().begin(), drama_->tasks().end());
+    PlaceItems(script_, "drama.lua", tasks_);
+  }
+  std::vector<std::string> Cues(bool visited) {
+    CuesSeen seen;
+    seen.cues.assign(drama_->cues().begin(), drama_->cues().end());
+    seen.lines = lines_;
+    seen.visited = visited;
+    seen.seconds = 20.0;
+    return CheckCues(script_, "drama.lua", seen);
+  }
+  std::vector<std::string> Steps() { return steps_->Problems(script_, "drama.lua", tasks_); }
+
+  // A wall across the stage, at z from -1 to -1.2.
+  static std::vector<stage::Place> Places() {
+    stage::Occluder wall;
+    wall.name = "wall";
+    const stage::PropMesh box = test::MakeBox({-3.0f, 0.0f, -1.2f}, {3.0f, 2.0f, -1.0f});
+    wall.mesh.positions = box.positions;
+    wall.mesh.indices = box.indices;
+    std::vector<stage::Place> places(1);
+    places[0].occluders.push_back(std::move(wall));
+    return places;
+  }
+
+  std::string script_;
+  std::unique_ptr<drama::Drama> drama_;
+  std::unique_ptr<StepListener> steps_;
+  std::vector<drama::TaskRecord> tasks_;
+  std::set<std::string, std::less<>> lines_;
+};
+
+TEST_F(DramaChecksTest, ADramaThatIsInOrderHasNoProblems) {
+  Run(R"(
+    local keeper, guest = actor("keeper"), actor("guest")
+    track{actor = "keeper",
+      walks = {
+        {at = 0, from = {x = -2, z = 1}},
+        {at = 1, to = {x = -1, z = 1}},
+      },
+      uses = {{at = 5, object = "chest", action = "open"}},
+    }
+    track{markers = {{at = 12, name = "noon"}}}
+    function main()
+      guest:place{x = 2, z = 2}
+      on(visitor:near(keeper), function() end)
+      first(marker("noon"), timeout(15))
+      guest:walk_to{x = 1, z = 2}
+      guest:say("salvete")
+    end)");
+  lines_ = {"salvete"};
+  EXPECT_EQ(drama::FirstError(*drama_), "");
+  EXPECT_THAT(CheckTogether(tasks_), IsEmpty());
+  EXPECT_THAT(CheckTurns(tasks_), IsEmpty());
+  EXPECT_THAT(Steps(), IsEmpty());
+  // timeout(15) does not fire, because the marker comes before it.
+  EXPECT_THAT(Cues(false), ElementsAre(HasSubstr("no run reaches the trigger 'timeout'")));
+}
+
+TEST_F(DramaChecksTest, NobodyIsInTwoPlacesAtOnce) {
+  Run(R"(
+    track{actor = "keeper",
+      walks = {
+        {at = 0, from = {x = -2, z = 1}},
+        {at = 1, to = {x = 3, z = 3}},
+      },
+      uses = {
+        {at = 2, object = "chest", action = "open"},
+      },
+    })");
+  const auto problems = CheckTogether(tasks_);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0], AllOf(StartsWith("drama.lua:8: keeper is to be in two places at once"),
+                                 HasSubstr("'walk_to' (drama.lua:5)")));
+}
+
+TEST_F(DramaChecksTest, WhatMayFailMayOverlap) {
+  Run(R"(
+    local keeper = actor("keeper")
+    function main()
+      keeper:place{x = -2, z = 1}
+      start(function() keeper:walk_to{x = 3, z = 3} end)
+      wait(0.5)
+      attempt(keeper.turn_to, keeper, 90)
+    end)");
+  EXPECT_THAT(CheckTogether(tasks_), IsEmpty());
+}
+
+TEST_F(DramaChecksTest, WhoWaitsForAThingIsToldWhoHasIt) {
+  Run(R"(
+    local keeper, guest = actor("keeper"), actor("guest")
+    function main()
+      keeper:place{x = 1.5, z = 1, heading = 0}
+      guest:place{x = 2.5, z = 1, heading = 0}
+      start(function() keeper:use("chest", "open", {seconds = 6}) end)
+      wait(0.5)
+      guest:use("chest", "shut")
+    end)");
+  EXPECT_THAT(CheckTurns(tasks_),
+              ElementsAre(AllOf(StartsWith("drama.lua:8: guest waits"),
+                                HasSubstr("for 'chest', which keeper has: 'use open chest'"),
+                                HasSubstr("drama.lua:6"))));
+}
+
+TEST_F(DramaChecksTest, TakingWhatAnotherHoldsFails) {
+  Run(R"(
+    local keeper, guest = actor("keeper"), actor("guest")
+    function main()
+      keeper:place{x = 0, z = -2.4, heading = 0}
+      guest:place{x = 1, z = -3, heading = 0}
+      keeper:take("cup")
+      guest:take("cup")
+    end)");
+  EXPECT_THAT(drama::FirstError(*drama_), HasSubstr("drama.lua:7: take"));
+}
+
+TEST_F(DramaChecksTest, WaysThroughWallsAreTold) {
+  Run(R"(
+    track{actor = "guest", clips = {
+      {at = 0, length = 1, clip = "idle", from = {x = 0, z = 1}},
+      {at = 1, length = 4, clip = "walk", to = {x = 0, z = -3}},
+    }})");
+  EXPECT_THAT(Steps(), Contains(StartsWith("drama.lua:4: guest walks through 'wall' (at ")));
+}
+
+TEST_F(DramaChecksTest, StandingInAWallAndLeapsAreTold) {
+  Run(R"(
+    function main()
+      actor("guest"):place{x = 0, z = -1.1}
+      wait(1)
+      actor("guest"):place{x = 0, z = 3}
+    end)");
+  EXPECT_THAT(Steps(), ElementsAre(StartsWith("drama.lua:3: guest stands in 'wall'"),
+                                   StartsWith("drama.lua:5: guest leaps while it is seen")));
+}
+
+TEST_F(DramaChecksTest, WhoIsHiddenMayAppearElsewhere) {
+  Run(R"(
+    function main()
+      actor("guest"):place{x = 0, z = 1}
+      wait(1)
+      actor("guest"):hide()
+      wait(1)
+      actor("guest"):place{x = 0, z = -3}
+    end)");
+  EXPECT_THAT(Steps(), IsEmpty());
+}
+
+TEST_F(DramaChecksTest, MarkersAndTheirListenersHaveToMeet) {
+  Run(R"(
+    track{markers = {
+      {at = 1, name = "alone"},
+      {at = 2, name = "noon"},
+    }}
+    on(marker("noon"), function() end)
+    on(marker("nowhere"), function() end))");
+  EXPECT_THAT(Cues(false), ElementsAre("drama.lua:3: the marker 'alone' begins nothing",
+                                       "drama.lua:7: no track has a marker 'nowhere'"));
+}
+
+TEST_F(DramaChecksTest, CuesThatNoRunReachesAreTold) {
+  const char* script = R"(
+    local keeper = actor("keeper")
+    local function never()
+      on(visitor:leaves(keeper), function() end)
+      keeper:say("salvete")
+    end
+    function main()
+      keeper:place{x = 0, z = 2}
+      if first(visitor:near(keeper, 1), timeout(2)) == 1 then
+        never()
+      end
+    end)";
+  Run(script);
+  EXPECT_THAT(Cues(true),
+              ElementsAre(HasSubstr("drama.lua:9: no run reaches the trigger 'near' (in 20 s)"),
+                          HasSubstr("drama.lua:4: no run comes to this 'on'"),
+                          HasSubstr("drama.lua:5: no run says the line 'salvete'")));
+  // Without a visitor nobody knows what one would do.
+  EXPECT_THAT(Cues(false), ElementsAre(HasSubstr("'on'"), HasSubstr("'salvete'")));
+  // Another run comes to it.
+  CuesSeen both;
+  both.cues = {{"drama.lua:9", "near", "", true},
+               {"drama.lua:9", "timeout", "", true},
+               {"drama.lua:4", "leaves", "", true}};
+  both.lines = {"salvete"};
+  both.visited = true;
+  EXPECT_THAT(CheckCues(script, "drama.lua", both), IsEmpty());
+}
+
+}  // namespace
+}  // namespace lararium::app
