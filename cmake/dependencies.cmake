@@ -27,6 +27,8 @@ pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 # frames; the C build would jump over their destructors.
 pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(lo REQUIRED IMPORTED_TARGET liblo)
+pkg_check_modules(pugixml REQUIRED IMPORTED_TARGET pugixml)
 pkg_check_modules(sodium REQUIRED IMPORTED_TARGET libsodium)
 pkg_check_modules(espeak REQUIRED IMPORTED_TARGET espeak-ng)
 pkg_check_modules(freetype REQUIRED IMPORTED_TARGET freetype2)

@@ -1,10 +1,13 @@
 #include "player/info.h"
 
+#include <array>
 #include <bit>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "shared/bundle/bundle.h"
+#include "shared/stage/paradata.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::player {
@@ -29,6 +32,27 @@ Status PrintPlace(const bundle::Bundle& bundle, const bundle::PlaceEntry& place)
   return Status();
 }
 
+// How many claims are how certain; the credits name their sources.
+Status PrintParadata(const bundle::Bundle& bundle) {
+  const std::string& member = bundle.manifest().paradata;
+  if (member.empty()) {
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member));
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  LARARIUM_ASSIGN_OR_RETURN(const stage::Paradata paradata,
+                            stage::ParseParadata(text, bundle.place() + ": " + member));
+  std::array<int, stage::kCertaintyCount> counts = {};
+  for (const stage::Paradata::Claims& claims : paradata.claims) {
+    for (const auto& [name, claim] : claims) {
+      ++counts[static_cast<size_t>(claim.certainty)];
+    }
+  }
+  std::printf("claims  attested %d, inferred %d, imagined %d, unsaid %d, sources %zu\n", counts[1],
+              counts[2], counts[3], counts[0], paradata.sources.size());
+  return Status();
+}
+
 }  // namespace
 
 Status PrintInfo(const InfoOptions& options) {
@@ -50,6 +74,7 @@ Status PrintInfo(const InfoOptions& options) {
   }
   std::printf("lines   %zu, spoken:%s, captions:%s\n", manifest.lines.size(), spoken.c_str(),
               captions.c_str());
+  LARARIUM_RETURN_IF_ERROR(PrintParadata(bundle));
   for (const bundle::Member& member : manifest.members) {
     std::printf("member  %-32s %12llu bytes\n", member.name.c_str(),
                 static_cast<unsigned long long>(member.size));

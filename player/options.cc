@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "player/osc.h"
+
 namespace lararium::player {
 namespace {
 
@@ -46,6 +48,11 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
          "camera: people as noisy, soft and smeared as the camera's image; plain: as drawn")
       ->check(CLI::IsMember({"camera", "plain"}));
 
+  app.add_option("--osc", play.osc,
+                 "Listen for Open Sound Control: PORT on this machine, ADDRESS:PORT or "
+                 "INTERFACE:PORT on a network");
+  app.add_flag("--evidence", play.evidence,
+               "People and things in the colours of how certain they are; F2 switches");
   app.add_flag("--headless", play.headless, "Draw off screen");
   app.add_option("--monitor", play.monitor, "Full screen on this monitor")
       ->check(CLI::Range(0, kLargestCount));
@@ -115,6 +122,9 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     }
     if (numbers != 0 && numbers != 4 && numbers != 8) {
       throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
+    }
+    if (!play.osc.empty() && !ParseOscAddress(play.osc).ok()) {
+      throw CLI::ValidationError("--osc", ParseOscAddress(play.osc).message());
     }
     if (!play.benchmark.empty() && (play.camera || !play.video.empty() || !play.images.empty())) {
       throw CLI::ValidationError("--benchmark", "takes its images from its own folder");

@@ -34,6 +34,10 @@ struct PlayOptions {
   std::filesystem::path device;
   bool camera_look = true;  // people as noisy, soft and smeared as the camera's image
 
+  bool evidence = false;  // begins in the evidence view
+
+  std::string osc;  // where to listen for messages; empty: nowhere
+
   bool headless = false;
   int monitor = -1;  // full screen there; -1: a window
   Pace pace = Pace::kRealtime;

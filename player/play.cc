@@ -4,10 +4,13 @@
 #include <ctime>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "player/camera_choice.h"
 #include "player/device_file.h"
+#include "player/osc.h"
 #include "player/recorder.h"
 #include "player/screen.h"
 #include "shared/audio/sound_player.h"
@@ -27,6 +30,9 @@ using SteadyClock = std::chrono::steady_clock;
 
 // The drawing thread looks for input at least this often.
 constexpr std::chrono::milliseconds kInputInterval(10);
+
+// Not the drama's: switches the evidence view.
+constexpr std::string_view kEvidenceKey = "f2";
 
 volatile std::sig_atomic_t g_end_requested = 0;
 
@@ -95,7 +101,14 @@ class Performance {
     const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
     const bool keep_going = g_end_requested == 0 && !enough && screen_->KeepGoing();
     for (const std::string& key : screen_->TakeKeys()) {
-      show_->PressKey(key);
+      if (key == kEvidenceKey) {
+        renderer_->SetEvidence(!renderer_->shows_evidence());
+      } else {
+        show_->PressKey(key);
+      }
+    }
+    for (const std::string& message : osc_ != nullptr ? osc_->Take() : std::vector<std::string>()) {
+      show_->PressKey(message);
     }
     if (options_.pace == Pace::kRealtime) {
       show_->SetHour(HourNow());
@@ -118,6 +131,7 @@ class Performance {
   std::optional<render::RenderTarget> target_;
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
+  std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
   show::ShowStatistics statistics_;
   int64_t drawn_frames_ = 0;
 };
@@ -153,11 +167,16 @@ Status Performance::Prepare() {
 
   LARARIUM_ASSIGN_OR_RETURN(screen_, Screen::Open(options_, show_->content().title));
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(show_->content()));
+  renderer_->SetEvidence(options_.evidence);
   // Videos have even sides.
   LARARIUM_ASSIGN_OR_RETURN(
       target_, render::RenderTarget::Create(source_->width() & ~1, source_->height() & ~1));
   LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, *target_, *show_));
   OpenSound();
+  if (!options_.osc.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const OscAddress address, ParseOscAddress(options_.osc));
+    LARARIUM_ASSIGN_OR_RETURN(osc_, OscListener::Open(address, log_));
+  }
   statistics_.gpu = render::GraphicsDeviceName();
   return Status();
 }

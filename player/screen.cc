@@ -40,6 +40,9 @@ bool Screen::KeepGoing() {
     return true;
   }
   window_->PollEvents();
+  for (std::string& button : window_->TakePadButtons()) {
+    keys_->push_back(std::move(button));
+  }
   return !window_->ShouldClose();
 }
 

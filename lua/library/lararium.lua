@@ -263,6 +263,18 @@ function tracking(state, seconds) end
 ---@return Trigger
 function key(name) end
 
+---A message of another program comes in (Open Sound Control), whatever it says or with this
+---first argument: osc("/door/open"), osc("/door/open", 1).
+---@param address string
+---@param value? number|string|boolean
+---@return Trigger
+function osc(address, value) end
+
+---What the last message of an address said: its arguments; nothing where none has come.
+---@param address string
+---@return any ...
+function heard(address) end
+
 ---It is that time of day where the visitor is: clock("9:30").
 ---@param time string
 ---@return Trigger

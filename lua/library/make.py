@@ -19,18 +19,18 @@ TYPES = {
     "act": "table", "action": "string", "always": "boolean", "clip": "string",
     "degrees": "number", "ease": "string", "expression": "string", "f": "function", "fade": "number",
     "handle": "Handle", "hours": "number", "intensity": "number", "kind": "string",
-    "line": "string", "metres": "number", "name": "string", "on": "boolean",
+    "address": "string", "line": "string", "metres": "number", "name": "string", "on": "boolean",
     "options": "table", "part": "string", "point": "string", "seconds": "number",
     "speech": "string", "settings": "table", "spec": "table", "state": "string", "style": "table|string",
     "surface": "string", "target": "Actor|Object|string|table|boolean",
     "thing": "Object|string", "time": "string", "to": "Actor|string", "trigger": "Trigger",
-    "what": "Handle|Trigger", "where": "Object|string|table",
+    "value": "number|string|boolean", "what": "Handle|Trigger", "where": "Object|string|table",
 }
 # What words give that make things.
 RETURNS = {
     "actor": "Actor", "object": "Object", "light": "Light", "sound": "Sound", "start": "Handle",
     "on": "Handle", "at": "Handle", "after": "Handle", "timeout": "Trigger",
-    "tracking": "Trigger", "key": "Trigger", "clock": "Trigger", "marker": "Trigger",
+    "tracking": "Trigger", "osc": "Trigger", "heard": "any ...", "key": "Trigger", "clock": "Trigger", "marker": "Trigger",
     "now": "number", "first": "integer", "race": "integer", "together": "boolean, string?",
     "attempt": "boolean, string?", "wait_for": "boolean, string?", "meet": "boolean, string?",
     "Visitor:near": "Trigger", "Visitor:leaves": "Trigger", "Visitor:looks_at": "Trigger",
@@ -42,7 +42,7 @@ RETURNS = {
     "Daylight:time": "number?",
 }
 OPTIONAL = {"options", "seconds", "fade", "intensity", "point", "metres", "surface", "part", "ease",
-            "expression", "style", "on", "always"}
+            "expression", "style", "on", "always", "value"}
 INSTANCES = {"Visitor": "visitor", "Daylight": "daylight"}
 
 

@@ -192,6 +192,40 @@ function key(name)
   return host.make_trigger("key", { text = name })
 end
 
+-- A number, true, false or a text as messages have them.
+local function argument_of(value)
+  if math.type(value) == "integer" then
+    return string.format("%d", value)
+  elseif type(value) == "number" then
+    return string.format("%.9g", value)
+  elseif type(value) == "boolean" then
+    return value and "T" or "F"
+  elseif type(value) == "string" then
+    return "'" .. value:gsub("[^%w_.-]", function(c)
+      return string.format("%%%02X", c:byte())
+    end)
+  end
+  error("osc: give a number, a text, true or false", 3)
+end
+
+-- A message of another program comes in (Open Sound Control), whatever it says or with this
+-- first argument: osc("/door/open"), osc("/door/open", 1).
+function osc(address, value)
+  if type(address) ~= "string" or not address:match("^/[^%s,]+$") then
+    error("osc: give an address like \"/door/open\"", 2)
+  end
+  local text = address
+  if value ~= nil then
+    text = text .. "," .. argument_of(value)
+  end
+  return host.make_trigger("message", { text = text })
+end
+
+-- What the last message of an address said: its arguments; nothing where none has come.
+function heard(address)
+  return host.heard(address)
+end
+
 -- It is that time of day where the visitor is: clock("9:30").
 function clock(time)
   local hour, minute = tostring(time):match("^(%d%d?):(%d%d)$")

@@ -3,6 +3,7 @@
 
 in vec3 position_in_stage;
 
+#include "stripes.glsl"
 #include "surface.glsl"
 
 uniform vec3 gain;   // exposure and the camera's gain
@@ -17,6 +18,9 @@ uniform vec3 emission;
 uniform float roughness;
 uniform float alpha_cutoff;
 uniform int fringe;
+uniform vec4 mark;  // what is drawn over what is seen: linear colour, share
+uniform int mark_stripes;
+uniform float mark_stripe_px;
 
 in vec3 normal_in_stage;
 in vec3 surface_albedo;
@@ -84,6 +88,13 @@ Arriving LightOn(vec3 normal) {
   return arriving;
 }
 
+// Light and shade stay, so that shapes are seen.
+vec3 Marked(vec3 seen, float coverage) {
+  vec3 paint = mix(mark.rgb, vec3(1.0), 0.35 * Stripes(mark_stripes, mark_stripe_px));
+  float shade = 0.15 * coverage + 1.1 * dot(seen, vec3(0.2126, 0.7152, 0.0722));
+  return mix(seen, paint * shade, mark.a);
+}
+
 void main() {
   vec4 texel = texture(colour_texture, surface_uv);
   float coverage = 1.0;
@@ -122,5 +133,6 @@ void main() {
   highlight *= coverage;
 #endif
   vec3 radiance = (matte + emission) * coverage + highlight;
-  colour = vec4(CameraResponse(max(radiance * gain, 0.0)), coverage);
+  vec3 seen = CameraResponse(max(radiance * gain, 0.0));
+  colour = vec4(mark.a > 0.0 ? Marked(seen, coverage) : seen, coverage);
 }

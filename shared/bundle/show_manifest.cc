@@ -405,6 +405,9 @@ Status CheckReferences(const ShowManifest& manifest, const JsonView& json) {
     used.push_back(object.prop);
   }
   CollectLineMembers(manifest, used);
+  if (!manifest.paradata.empty()) {
+    used.push_back(manifest.paradata);
+  }
   for (const SoundEntry& sound : manifest.sounds) {
     used.push_back(sound.file);
   }
@@ -451,6 +454,9 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
   LARARIUM_RETURN_IF_ERROR(ParseLines(json, manifest));
   LARARIUM_ASSIGN_OR_RETURN(manifest.sounds,
                             ParseOptionalList(json, "sounds", kMaxSounds, ParseSound));
+  if (json.Has("paradata")) {
+    LARARIUM_ASSIGN_OR_RETURN(manifest.paradata, ParseMemberName(json, "paradata"));
+  }
   LARARIUM_ASSIGN_OR_RETURN(manifest.members,
                             ParseList(json, "members", kMaxMembers - 1, ParseMember));
   if (manifest.places.empty()) {
@@ -507,6 +513,9 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
   FormatLines(manifest, json);
   for (const SoundEntry& sound : manifest.sounds) {
     json["sounds"].push_back({{"name", sound.name}, {"file", sound.file}});
+  }
+  if (!manifest.paradata.empty()) {
+    json["paradata"] = manifest.paradata;
   }
   for (const Member& member : manifest.members) {
     json["members"].push_back(

@@ -103,6 +103,7 @@ struct ShowManifest {
   std::vector<std::string> captions;   // languages of captions, likewise
   std::optional<CaptionFontEntry> caption_font;
   std::vector<SoundEntry> sounds;  // names are unique
+  std::string paradata;            // member, JSON: stage::ParseParadata; empty: it has none
   std::vector<Member> members;     // in their order in the file
 };
 

@@ -103,17 +103,18 @@ class LuaDrama : public Drama {
   }
 
   void SetVisitor(const Visitor& visitor) override {
-    std::string keys = visitor_.keys;  // not yet seen by the drama
+    std::string keys = std::move(visitor_.keys);  // not yet seen by the drama
     visitor_ = visitor;
     if (!visitor.tracked) {
       visitor_.position = last_seen_.position;
       visitor_.direction = last_seen_.direction;
     }
     last_seen_ = visitor_;
-    if (!keys.empty() && !visitor.keys.empty()) {
-      keys += ' ';
+    std::string_view more = visitor.keys;
+    for (std::string_view key = TakeKey(more); !key.empty(); key = TakeKey(more)) {
+      AddKey(key, keys);
     }
-    visitor_.keys = keys + visitor.keys;
+    visitor_.keys = std::move(keys);
   }
 
   void SetVisitorLog(VisitorLog log) override {

@@ -80,6 +80,7 @@ void Run::Tick(const Visitor& visitor) {
   stage_.Advance();
   passed_.clear();
   timeline_player_.Advance(declared_->timeline, TimeOf(tick_), state_.timeline, passed_);
+  HearMessages();
   UpdateTriggers();
   UpdateSync();
   scheduler_.Run(tick_);
@@ -161,6 +162,23 @@ size_t CueLog::Find(CueRecord cue) {
   known.emplace(key, cues.size());
   cues.push_back(std::move(cue));
   return cues.size() - 1;
+}
+
+void Run::HearMessages() {
+  constexpr size_t kMaxAddresses = 256;
+  std::string_view keys = state_.visitor.keys;
+  for (std::string_view word = TakeKey(keys); !word.empty(); word = TakeKey(keys)) {
+    const std::optional<Message> message = ParseMessage(word);
+    if (!message) {
+      continue;
+    }
+    const auto known = state_.heard.find(message->address);
+    if (known != state_.heard.end()) {
+      known->second = message->arguments;
+    } else if (state_.heard.size() < kMaxAddresses) {
+      state_.heard.emplace(message->address, message->arguments);
+    }
+  }
 }
 
 // ---- running again ----
@@ -252,6 +270,7 @@ void Run::PushHost(lua_State* lua) {
                                      {"trigger", Call<&Run::AddTrigger>},
                                      {"drop_trigger", Call<&Run::DropTrigger>},
                                      {"fired", Call<&Run::PushFired>},
+                                     {"heard", Call<&Run::PushHeard>},
                                      {"visitor", Call<&Run::PushVisitor>},
                                      {"distance", Call<&Run::PushDistance>},
                                      {"aside", Call<&Run::PushAside>},

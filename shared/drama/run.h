@@ -41,6 +41,8 @@ struct RunState {
   int64_t last_trigger = 0;
   std::vector<SyncRecord> sync;
   Visitor visitor;
+  // The last message of each address: its arguments, as Message has them.
+  std::map<std::string, std::string, std::less<>> heard;
   int64_t lost_ticks = 0;  // since when tracking is lost
 };
 
@@ -107,6 +109,7 @@ class Run {
   void StartMain();
   void ApplyTracks();
   void UpdateTriggers();
+  void HearMessages();
   void UpdateSync();
 
   // ---- the table `host`; what each takes and gives is written where it is defined ----
@@ -154,6 +157,7 @@ class Run {
   int AddTrigger(lua_State* lua);
   int DropTrigger(lua_State* lua);
   int PushFired(lua_State* lua);
+  int PushHeard(lua_State* lua);
   int AwaitFired(lua_State* lua);
   int PushVisitor(lua_State* lua);
   int PushDistance(lua_State* lua);

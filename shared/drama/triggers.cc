@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string_view>
 
 namespace lararium::drama {
 namespace {
@@ -133,15 +134,23 @@ void UpdateTimeout(const Happenings& now, Trigger& trigger) {
   }
 }
 
-bool HasKey(const std::string& keys, const std::string& key) {
-  for (size_t begin = 0; begin < keys.size();) {
-    const size_t end = std::min(keys.find(' ', begin), keys.size());
-    if (keys.compare(begin, end - begin, key) == 0) {
+bool HasKey(std::string_view keys, std::string_view key) {
+  for (std::string_view word = TakeKey(keys); !word.empty(); word = TakeKey(keys)) {
+    if (word == key) {
       return true;
     }
-    begin = end + 1;
   }
   return false;
+}
+
+// Whole arguments: what is asked for ends where one of the message ends.
+int64_t CountMessages(std::string_view keys, std::string_view asked) {
+  int64_t count = 0;
+  for (std::string_view word = TakeKey(keys); !word.empty(); word = TakeKey(keys)) {
+    const bool begins = word.starts_with('/') && word.starts_with(asked);
+    count += begins && (word.size() == asked.size() || word[asked.size()] == ',') ? 1 : 0;
+  }
+  return count;
 }
 
 // Tracking is lost once it has been for so long; back once it was lost.
@@ -217,6 +226,9 @@ void UpdateTrigger(const Happenings& now, Trigger& trigger) {
       return UpdateClock(now, trigger);
     case Kind::kMarker:
       trigger.fired += std::count(now.markers.begin(), now.markers.end(), trigger.spec.text);
+      return;
+    case Kind::kMessage:
+      trigger.fired += CountMessages(now.visitor.keys, trigger.spec.text);
       return;
   }
 }

@@ -27,8 +27,9 @@ struct TriggerSpec {
     kKey,        // the key `text` is pressed
     kClock,      // it is `seconds` of the day, where the visitor is
     kMarker,     // the timeline passes the marker `text`
+    kMessage,    // the message `text` comes: its address, or with its first arguments
   };
-  static constexpr int kKinds = 11;
+  static constexpr int kKinds = 12;
   enum class Target : uint8_t { kNone, kActor, kObject, kPoint };
 
   Kind kind = Kind::kTimeout;

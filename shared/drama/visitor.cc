@@ -13,7 +13,6 @@ namespace {
 constexpr std::string_view kHeader = "lararium visitor 1\n";
 constexpr size_t kMaxEntries = 10'000'000;
 constexpr int64_t kMaxTick = int64_t{24} * 3600 * 120;
-constexpr size_t kMaxKeys = 200;  // bytes, of one tick
 
 // Words of a line.
 class Words {
@@ -61,7 +60,7 @@ bool ParseLine(std::string_view line, VisitorLog::Entry& entry) {
   visitor.tracked = tracked == 1;
   visitor.keys = words.Rest();
   return read && (tracked == 0 || tracked == 1) && entry.tick >= 0 && entry.tick <= kMaxTick &&
-         visitor.keys.size() <= kMaxKeys && IsPlausible(visitor);
+         visitor.keys.size() <= kMaxKeyBytes && IsPlausible(visitor);
 }
 
 void AppendNumber(std::string& out, float value) {
@@ -71,7 +70,75 @@ void AppendNumber(std::string& out, float value) {
   out.append(digits, error == std::errc() ? end : digits);
 }
 
+bool IsPlain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '.' || c == '-';
+}
+
+int HexDigit(char c) {
+  return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
 }  // namespace
+
+void AddKey(std::string_view word, std::string& keys) {
+  if (!word.empty() && keys.size() + 1 + word.size() <= kMaxKeyBytes) {
+    keys += keys.empty() ? "" : " ";
+    keys += word;
+  }
+}
+
+std::string_view TakeKey(std::string_view& keys) {
+  keys.remove_prefix(std::min(keys.find_first_not_of(' '), keys.size()));
+  const std::string_view word = keys.substr(0, keys.find(' '));
+  keys.remove_prefix(word.size());
+  return word;
+}
+
+std::optional<Message> ParseMessage(std::string_view word) {
+  if (!word.starts_with('/')) {
+    return std::nullopt;
+  }
+  const size_t end = std::min(word.find(','), word.size());
+  return Message{word.substr(0, end), word.substr(end)};
+}
+
+std::string MessageText(std::string_view text) {
+  constexpr char kHex[] = "0123456789ABCDEF";
+  std::string argument = "'";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (IsPlain(c)) {
+      argument += c;
+    } else {
+      argument += '%';
+      argument += kHex[byte >> 4];
+      argument += kHex[byte & 15];
+    }
+  }
+  return argument;
+}
+
+std::optional<std::string> ReadMessageText(std::string_view argument) {
+  if (!argument.starts_with('\'')) {
+    return std::nullopt;
+  }
+  std::string text;
+  for (size_t at = 1; at < argument.size(); ++at) {
+    if (argument[at] != '%') {
+      text += argument[at];
+      continue;
+    }
+    const int high = at + 2 < argument.size() ? HexDigit(argument[at + 1]) : -1;
+    const int low = high >= 0 ? HexDigit(argument[at + 2]) : -1;
+    if (low < 0) {
+      return std::nullopt;
+    }
+    text += static_cast<char>(16 * high + low);
+    at += 2;
+  }
+  return text;
+}
 
 Result<VisitorLog> VisitorLog::Read(std::string_view text, std::string_view place) {
   if (!text.starts_with(kHeader)) {

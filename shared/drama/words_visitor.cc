@@ -1,8 +1,11 @@
 // What a script asks of its visitor, and waits for.
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "shared/drama/lua_binding.h"
 #include "shared/drama/run.h"
@@ -12,6 +15,21 @@ namespace {
 
 constexpr size_t kMaxTriggers = 1000;
 constexpr size_t kMaxName = 100;  // bytes, of keys and markers
+
+void PushArgument(lua_State* lua, std::string_view argument) {
+  double number = 0.0;
+  const char* end = argument.data() + argument.size();
+  if (argument == "T" || argument == "F") {
+    lua_pushboolean(lua, argument == "T" ? 1 : 0);
+  } else if (const std::optional<std::string> text = ReadMessageText(argument)) {
+    lua_pushlstring(lua, text->data(), text->size());
+  } else if (const auto read = std::from_chars(argument.data(), end, number);
+             read.ec == std::errc() && read.ptr == end && std::isfinite(number)) {
+    lua_pushnumber(lua, number);
+  } else {
+    lua_pushnil(lua);
+  }
+}
 
 }  // namespace
 
@@ -48,8 +66,9 @@ TriggerSpec Run::CheckTrigger(lua_State* lua, int argument) {
 
 // trigger(kind, metres, leave, angle, seconds, text, target...) -> its number
 int Run::AddTrigger(lua_State* lua) {
-  constexpr const char* kKinds[] = {"near", "leaves", "looks_at", "looks_away", "stays",  "timeout",
-                                    "lost", "back",   "key",      "clock",      "marker", nullptr};
+  constexpr const char* kKinds[] = {"near",    "leaves",  "looks_at", "looks_away", "stays",
+                                    "timeout", "lost",    "back",     "key",        "clock",
+                                    "marker",  "message", nullptr};
   static_assert(std::size(kKinds) == TriggerSpec::kKinds + 1);
   const auto kind = static_cast<TriggerSpec::Kind>(luaL_checkoption(lua, 1, nullptr, kKinds));
   Trigger trigger;
@@ -88,6 +107,25 @@ int Run::PushFired(lua_State* lua) {
   const Trigger* trigger = FindTrigger(luaL_checkinteger(lua, 1));
   lua_pushinteger(lua, trigger == nullptr ? 0 : trigger->fired);
   return 1;
+}
+
+// heard(address) -> the arguments of the last message of it: numbers, texts, true, false, nil
+int Run::PushHeard(lua_State* lua) {
+  constexpr int kMaxArguments = 16;
+  const auto found = state_.heard.find(CheckText(lua, 1));
+  if (found == state_.heard.end()) {
+    return 0;
+  }
+  luaL_checkstack(lua, kMaxArguments, "a message");
+  std::string_view rest = found->second;
+  int count = 0;
+  while (rest.starts_with(',') && count < kMaxArguments) {
+    rest.remove_prefix(1);
+    PushArgument(lua, rest.substr(0, rest.find(',')));
+    rest.remove_prefix(std::min(rest.find(','), rest.size()));
+    ++count;
+  }
+  return count;
 }
 
 // await_fired(numbers, counts): until one of them has fired more often than that

@@ -25,8 +25,16 @@ constexpr float kPadding = 0.5f;    // em
 constexpr float kMargin = 0.05f;    // of the height, below
 constexpr float kGap = 0.35f;       // em, between captions
 constexpr float kGroundOpacity = 0.66f;
-constexpr float kRadius = 0.014f;                          // of the height: of the ground's corners
-constexpr std::string_view kArrowLeft = "\xE2\x86\x90 ";   // U+2190
+constexpr float kLegendShare = 0.031f;  // of the height
+constexpr float kSmallestLegendPx = 12.0f;
+constexpr float kLegendWidth = 0.46f;                     // of the width: its text
+constexpr float kLegendTop = 0.04f;                       // of the height, and as far from the left
+constexpr int kMostLegendRows = 8;                        // of its text
+constexpr float kSwatch = 0.95f;                          // em
+constexpr float kSwatchGap = 0.5f;                        // em, to its text
+constexpr float kSwatchStripes = 2.4f;                    // on its side
+constexpr float kRadius = 0.014f;                         // of the height: of the ground's corners
+constexpr std::string_view kArrowLeft = "\xE2\x86\x90 ";  // U+2190
 constexpr std::string_view kArrowRight = " \xE2\x86\x92";  // U+2192
 
 template <typename Visit>
@@ -81,6 +89,22 @@ float LayOutOne(const CaptionFont& font,
   return top - kGap * em;
 }
 
+// The first row of a text that is no wider than so many em: whole words, or one that is
+// wider. Takes it off the text.
+std::string_view TakeRow(const CaptionFont& font, float widest, std::string_view& text) {
+  size_t end = 0;
+  while (end < text.size() && text[end] != '\n') {
+    const size_t next = std::min(text.find_first_of(" \n", end + 1), text.size());
+    if (end > 0 && TextWidth(font, text.substr(0, next)) > widest) {
+      break;
+    }
+    end = next;
+  }
+  const std::string_view row = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return row;
+}
+
 struct Vertex {
   glm::vec2 place;       // pixels of the target
   glm::vec2 coordinate;  // letters: in the atlas, 0..1; grounds: pixels from the middle
@@ -97,6 +121,7 @@ void LayOut(const CaptionFont& font,
             CaptionLayout& layout) {
   layout.rows.clear();
   layout.grounds.clear();
+  layout.swatches.clear();
   const glm::vec2 size(width, height);
   float bottom = size.y * (1.0f - kMargin);
   for (const Caption& caption : captions) {
@@ -104,6 +129,40 @@ void LayOut(const CaptionFont& font,
       bottom = LayOutOne(font, caption, size, bottom, layout);
     }
   }
+}
+
+void LayOutLegend(
+    const CaptionFont& font, const Legend& legend, int width, int height, CaptionLayout& layout) {
+  const glm::vec2 size(width, height);
+  const float em = std::max(kLegendShare * size.y, kSmallestLegendPx);
+  const glm::vec2 corner(std::round(kLegendTop * size.y));
+  const float left = corner.x + em * kPadding;
+  float baseline = corner.y + em * (kPadding + 0.78f);
+  float widest = 0.0f;  // pixels
+  const auto add = [&](std::string_view text, float indent, const glm::vec3& colour) {
+    layout.rows.push_back({text, glm::vec2(std::round(left + indent), std::round(baseline)), em,
+                           colour, CaptionSide::kHere});
+    widest = std::max(widest, indent + em * TextWidth(font, text));
+    baseline += em * kRowStep;
+  };
+  const size_t ground = layout.grounds.size();
+  layout.grounds.push_back({corner, corner});
+  for (const LegendEntry& entry : legend.entries) {
+    const glm::vec2 from(left, std::round(baseline - 0.83f * em));
+    layout.swatches.push_back(
+        {{from, from + em * kSwatch}, entry.colour, entry.stripes, em * kSwatch / kSwatchStripes});
+    add(entry.text, em * (kSwatch + kSwatchGap), glm::vec3(1.0f));
+  }
+  if (!legend.title.empty()) {
+    baseline += em * kGap;
+    add(legend.title, 0.0f, legend.title_colour);
+  }
+  std::string_view text = legend.text;
+  for (int row = 0; row < kMostLegendRows && !text.empty(); ++row) {
+    add(TakeRow(font, kLegendWidth * size.x / em, text), 0.0f, glm::vec3(1.0f));
+  }
+  layout.grounds[ground].to = {left + widest + em * kPadding,
+                               baseline - em * (kRowStep - 0.22f - kPadding)};
 }
 
 struct CaptionPainter::State {
@@ -215,9 +274,14 @@ Result<std::unique_ptr<CaptionPainter>> CaptionPainter::Create(CaptionFont font)
   return std::unique_ptr<CaptionPainter>(new CaptionPainter(std::move(state)));
 }
 
-void CaptionPainter::Draw(std::span<const Caption> captions, const RenderTarget& target) {
+void CaptionPainter::Draw(std::span<const Caption> captions,
+                          const Legend* legend,
+                          const RenderTarget& target) {
   State& state = *state_;
   LayOut(state.font, captions, target.width(), target.height(), state.layout);
+  if (legend != nullptr) {
+    LayOutLegend(state.font, *legend, target.width(), target.height(), state.layout);
+  }
   if (state.layout.grounds.empty()) {
     return;
   }
@@ -232,13 +296,25 @@ void CaptionPainter::Draw(std::span<const Caption> captions, const RenderTarget&
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   const glm::vec2 size(target.width(), target.height());
 
-  for (const CaptionLayout::Ground& ground : state.layout.grounds) {
+  const auto add_ground = [&](const CaptionLayout::Ground& ground, const glm::vec4& colour) {
     const glm::vec2 half = 0.5f * (ground.to - ground.from);
-    state.AddQuad(ground.from, ground.to, -half, half, glm::vec4(0.0f, 0.0f, 0.0f, kGroundOpacity));
+    state.AddQuad(ground.from, ground.to, -half, half, colour);
+  };
+  for (const CaptionLayout::Ground& ground : state.layout.grounds) {
+    add_ground(ground, glm::vec4(0.0f, 0.0f, 0.0f, kGroundOpacity));
   }
   state.ground_pass.Use();
   state.ground_pass.Set("radius_px", kRadius * size.y);
+  state.ground_pass.Set("stripes", 0);
+  state.ground_pass.Set("stripe_px", 1.0f);
   state.Flush(state.ground_pass, size);
+  for (const CaptionLayout::Swatch& swatch : state.layout.swatches) {
+    add_ground(swatch.place, glm::vec4(swatch.colour, 1.0f));
+    state.ground_pass.Set("radius_px", 0.25f * kRadius * size.y);
+    state.ground_pass.Set("stripes", swatch.stripes);
+    state.ground_pass.Set("stripe_px", swatch.stripe_px);
+    state.Flush(state.ground_pass, size);
+  }
 
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, state.atlas.id());

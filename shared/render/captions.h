@@ -1,7 +1,7 @@
 #pragma once
 
 // Captions over a finished picture: who speaks and what, on a dark ground, in the middle of
-// the lower edge.
+// the lower edge; and a legend in the upper left corner.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -25,6 +25,21 @@ struct Caption {
   std::string_view text;                  // rows apart by '\n'
 };
 
+// What a colour and its stripes stand for (SceneMark).
+struct LegendEntry {
+  glm::vec3 colour = glm::vec3(1.0f);  // sRGB-encoded
+  int stripes = 0;
+  std::string_view text;
+};
+
+struct Legend {
+  std::span<const LegendEntry> entries;
+  // Of what is looked at, below the entries; may be empty.
+  std::string_view title;
+  glm::vec3 title_colour = glm::vec3(1.0f);  // sRGB-encoded
+  std::string_view text;                     // broken into rows as it is laid out
+};
+
 // Where the rows of captions come to lie; pixels of the target from its top-left corner.
 // Letters are 4.6 % of the height, at least 14 px, and smaller where a row would leave the
 // middle nine tenths of the width. The first caption is lowest.
@@ -40,8 +55,15 @@ struct CaptionLayout {
     glm::vec2 from;
     glm::vec2 to;
   };
+  struct Swatch {
+    Ground place;
+    glm::vec3 colour;
+    int stripes = 0;
+    float stripe_px = 0.0f;
+  };
   std::vector<Row> rows;
   std::vector<Ground> grounds;
+  std::vector<Swatch> swatches;
 };
 // Allocates nothing once the layout has held as many.
 void LayOut(const CaptionFont& font,
@@ -49,6 +71,11 @@ void LayOut(const CaptionFont& font,
             int width,
             int height,
             CaptionLayout& layout);
+
+// Adds a legend. Its letters are 3.1 % of the height, at least 12 px; its text takes at most
+// the left half of the picture and eight rows.
+void LayOutLegend(
+    const CaptionFont& font, const Legend& legend, int width, int height, CaptionLayout& layout);
 
 class CaptionPainter {
  public:
@@ -58,8 +85,8 @@ class CaptionPainter {
   CaptionPainter(const CaptionPainter&) = delete;
   CaptionPainter& operator=(const CaptionPainter&) = delete;
 
-  // Over what the target holds.
-  void Draw(std::span<const Caption> captions, const RenderTarget& target);
+  // Over what the target holds. legend: nullptr where there is none.
+  void Draw(std::span<const Caption> captions, const Legend* legend, const RenderTarget& target);
 
  private:
   struct State;

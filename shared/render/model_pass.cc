@@ -285,6 +285,9 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   shaders.Set("posed", vertices != nullptr && vertices->posed ? 1 : 0);
   shaders.Set("colour_factor", part.colour);
   shaders.Set("emission", draw.glow * part.emission);
+  shaders.Set("mark", glm::vec4(draw.mark.colour, draw.mark.share));
+  shaders.Set("mark_stripes", draw.mark.stripes);
+  shaders.Set("mark_stripe_px", draw.mark.stripe_px);
   shaders.Set("roughness", part.roughness);
   shaders.Set("alpha_cutoff", part.alpha_cutoff);
   shaders.Set("has_normal_texture", part.normal_texture == GpuModel::kNoTexture ? 0 : 1);

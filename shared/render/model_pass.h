@@ -39,6 +39,7 @@ struct ModelDraw {
   std::span<const uint8_t> shown;            // of a prop's parts; empty: all
   const light::ProbeLight* light = nullptr;  // nullptr: the scene's
   float glow = 1.0f;                         // times emission
+  SceneMark mark;
 
   bool Shows(size_t prop_part) const { return shown.empty() || shown[prop_part] != 0; }
 };

@@ -40,6 +40,15 @@ struct SceneVertices {
       false;  // as they are to be drawn (simulated cloth); otherwise skinned (a morphed face)
 };
 
+// Says what something is, whatever it looks like: a colour, told apart without seeing colours
+// by stripes.
+struct SceneMark {
+  glm::vec3 colour = glm::vec3(0.0f);  // linear
+  float share = 0.0f;                  // of the picture; 0: no mark
+  int stripes = 0;                     // in so many directions: 0, 1, or 2, which cross
+  float stripe_px = 16.0f;             // of the target, from one to the next
+};
+
 struct SceneHuman {
   ModelHandle human = {};
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
@@ -54,6 +63,7 @@ struct SceneHuman {
   float detail = 0.0f;
   // Where they stand. Its sun is taken for as bright, in the scene's direction; none: the scene's.
   const light::ProbeLight* light = nullptr;
+  SceneMark mark = {};
 };
 
 struct SceneProp {
@@ -64,6 +74,7 @@ struct SceneProp {
   // What falls on each vertex, all meshes in a row, as of SceneHuman.
   std::span<const glm::vec3> irradiance = {};
   float glow = 1.0f;  // times the emission of its meshes
+  SceneMark mark = {};
 };
 
 // What the camera does to its image and people would lack: all off unless set.

@@ -231,7 +231,8 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
                  0.0f,
                  prop.shown,
                  prop.light,
-                 prop.glow},
+                 prop.glow,
+                 prop.mark},
                 view, bounds);
   }
   for (const SceneHuman& human : scene.humans) {
@@ -242,7 +243,9 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
                  human.irradiance,
                  human.detail,
                  {},
-                 human.light},
+                 human.light,
+                 1.0f,
+                 human.mark},
                 view, bounds);
   }
   return bounds.Pixels(view.size.width, view.size.height);

@@ -4,6 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <array>
 #include <utility>
 
 namespace lararium::render {
@@ -56,6 +57,9 @@ std::string KeyName(int key) {
   if ((key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9)) {
     return {static_cast<char>(key >= GLFW_KEY_A ? key - GLFW_KEY_A + 'a' : key)};
   }
+  if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) {
+    return "f" + std::to_string(key - GLFW_KEY_F1 + 1);
+  }
   switch (key) {
     case GLFW_KEY_SPACE:
       return "space";
@@ -84,10 +88,22 @@ std::string KeyName(int key) {
 
 static_assert(kKeyPressed == GLFW_PRESS);
 
+namespace {
+
+// By GLFW's numbers, which are those of an Xbox controller.
+constexpr std::array<const char*, GLFW_GAMEPAD_BUTTON_LAST + 1> kPadButtons = {
+    "pad_a",     "pad_b",     "pad_x",     "pad_y",          "pad_left_bumper", "pad_right_bumper",
+    "pad_back",  "pad_start", "pad_guide", "pad_left_stick", "pad_right_stick", "pad_up",
+    "pad_right", "pad_down",  "pad_left"};
+
+}  // namespace
+
 struct Window::State {
   std::shared_ptr<GlfwLibrary> library;
   std::unique_ptr<GLFWwindow, WindowDeleter> window;
   WindowCallbacks callbacks;
+  // Of each controller, what is held down.
+  std::array<std::array<bool, kPadButtons.size()>, GLFW_JOYSTICK_LAST + 1> held = {};
 
   static const WindowCallbacks& Of(GLFWwindow* window) {
     return static_cast<State*>(glfwGetWindowUserPointer(window))->callbacks;
@@ -169,6 +185,23 @@ void Window::SetTitle(const std::string& title) {
 void Window::SwapBuffers() { glfwSwapBuffers(state_->window.get()); }
 void Window::PollEvents() { glfwPollEvents(); }
 void Window::WaitEvents(double timeout_seconds) { glfwWaitEventsTimeout(timeout_seconds); }
+std::vector<std::string> Window::TakePadButtons() {
+  std::vector<std::string> pressed;
+  for (int pad = GLFW_JOYSTICK_1; pad <= GLFW_JOYSTICK_LAST; ++pad) {
+    GLFWgamepadstate now = {};  // nothing is held on one that was taken away
+    glfwGetGamepadState(pad, &now);
+    auto& held = state_->held[static_cast<size_t>(pad)];
+    for (size_t button = 0; button < held.size(); ++button) {
+      const bool down = now.buttons[button] == GLFW_PRESS;
+      if (down && !held[button]) {
+        pressed.emplace_back(kPadButtons[button]);
+      }
+      held[button] = down;
+    }
+  }
+  return pressed;
+}
+
 bool Window::ShouldClose() const {
   return glfwWindowShouldClose(state_->window.get()) == GLFW_TRUE;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "shared/core/status.h"
 
@@ -32,7 +33,7 @@ struct WindowCallbacks {
 };
 
 inline constexpr int kKeyPressed = 1;
-// "a", "1", "space", "enter", "left", "page_down", ...; empty: a key without a name.
+// "a", "1", "f1", "space", "enter", "left", "page_down", ...; empty: a key without a name.
 std::string KeyName(int key);
 
 // Move-only. Use it on the main thread only.
@@ -53,6 +54,10 @@ class Window {
   // Handles input, without waiting; WaitEvents sleeps until something happens.
   void PollEvents();
   void WaitEvents(double timeout_seconds);
+
+  // Buttons of game controllers that were pressed since it was last asked: "pad_a", "pad_up",
+  // "pad_start", ...
+  std::vector<std::string> TakePadButtons();
 
   bool ShouldClose() const;
   void RequestClose();

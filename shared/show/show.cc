@@ -149,8 +149,7 @@ void Show::SetQuality(const render::Quality& quality) {
 
 void Show::PressKey(std::string_view key) {
   const std::lock_guard lock(input_mutex_);
-  keys_ += keys_.empty() ? "" : " ";
-  keys_ += key;
+  drama::AddKey(key, keys_);
 }
 
 void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {

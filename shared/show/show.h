@@ -128,7 +128,7 @@ class Show {
   drama::Drama& drama() { return *drama_; }
 
   // What the drama hears of its visitor besides where they are: a key that was pressed
-  // ("space", "a", ...), the hour of the day there.
+  // ("space", "a", ...) or a message that came (drama::Message), the hour of the day there.
   // From any thread.
   void PressKey(std::string_view key);
   void SetHour(float hour);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "shared/show/evidence.h"
+
 namespace lararium::show {
 namespace {
 
@@ -114,10 +116,12 @@ Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& co
   return captions;
 }
 
-void ShowCaptions::Draw(const StagedFrame& staged, const render::RenderTarget& target) {
-  if (painter_ != nullptr && !staged.lines.empty()) {
+void ShowCaptions::Draw(const StagedFrame& staged,
+                        Evidence* evidence,
+                        const render::RenderTarget& target) {
+  if (painter_ != nullptr && (!staged.lines.empty() || evidence != nullptr)) {
     CollectCaptions(texts_, staged, captions_);
-    painter_->Draw(captions_, target);
+    painter_->Draw(captions_, evidence != nullptr ? &evidence->LegendOf(staged) : nullptr, target);
   }
 }
 

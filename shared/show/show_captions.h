@@ -31,12 +31,15 @@ void CollectCaptions(const CaptionTexts& texts,
                      const StagedFrame& staged,
                      std::vector<render::Caption>& captions);
 
+class Evidence;
+
 // Captions of a show that has letters for them.
 class ShowCaptions {
  public:
   static Result<std::unique_ptr<ShowCaptions>> Create(const ShowContent& content);
 
-  void Draw(const StagedFrame& staged, const render::RenderTarget& target);
+  // evidence: whose legend is drawn too; nullptr: none.
+  void Draw(const StagedFrame& staged, Evidence* evidence, const render::RenderTarget& target);
 
  private:
   ShowCaptions() = default;

@@ -228,7 +228,9 @@ Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, Sho
                               LoadLine(bundle, entry, languages, books));
   }
   NameSpeakers(books, languages, content);
-  if (manifest.caption_font && !languages.captions.empty()) {
+  content.language = languages.captions.empty() ? languages.spoken : languages.captions;
+  // Also where no captions are wanted: the evidence view is read.
+  if (manifest.caption_font) {
     LARARIUM_ASSIGN_OR_RETURN(const std::string metrics,
                               LoadText(bundle, manifest.caption_font->metrics));
     LARARIUM_ASSIGN_OR_RETURN(const auto atlas, bundle.member(manifest.caption_font->atlas));
@@ -290,6 +292,11 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
   LARARIUM_RETURN_IF_ERROR(LoadSounds(bundle, content.sounds));
   LARARIUM_ASSIGN_OR_RETURN(content.drama, LoadText(bundle, manifest.drama));
   content.drama_file = manifest.drama;
+  if (!manifest.paradata.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, manifest.paradata));
+    LARARIUM_ASSIGN_OR_RETURN(
+        content.paradata, stage::ParseParadata(text, bundle.place() + ": " + manifest.paradata));
+  }
   return content;
 }
 

@@ -18,6 +18,7 @@
 #include "shared/render/caption_font.h"
 #include "shared/stage/caption_file.h"
 #include "shared/stage/object_use.h"
+#include "shared/stage/paradata.h"
 #include "shared/stage/place.h"
 #include "shared/vision/scene_database.h"
 #include "shared/vision/tracked_frame.h"
@@ -77,6 +78,8 @@ struct ShowContent {
   std::vector<Speech> speech;
   std::optional<render::CaptionFont> caption_font;
   std::vector<audio::SoundData> sounds;  // that things, places and the drama make
+  stage::Paradata paradata;              // what is known of all that
+  std::string language;                  // to be read in; empty: none was chosen
   std::string drama;                     // Lua source
   std::string drama_file;                // what messages call it
 };

@@ -27,6 +27,7 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
   }
   LARARIUM_RETURN_IF_ERROR(show->AddObjects(content));
   LARARIUM_ASSIGN_OR_RETURN(show->captions_, ShowCaptions::Create(content));
+  show->evidence_.emplace(content);
   show->places_.resize(content.places.size());
   for (size_t i = 0; i < content.places.size(); ++i) {
     show->places_[i].glossy = content.places[i].glossy;
@@ -94,6 +95,15 @@ void ShowRenderer::CollectProps(const StagedFrame& staged) {
   }
 }
 
+void ShowRenderer::MarkByEvidence(const StagedFrame& staged, int height) {
+  for (size_t i = 0; i < humans_.size(); ++i) {
+    humans_[i].mark = evidence_->MarkOfActor(staged.actors[i].cast, height);
+  }
+  for (size_t i = 0; i < props_.size(); ++i) {
+    props_[i].mark = evidence_->MarkOfObject(staged.objects[i].object, height);
+  }
+}
+
 void ShowRenderer::BlendReflections(const StagedFrame& staged) {
   const PlaceScene& place = places_[staged.place];
   const size_t count = std::min(place.glossy.size(), staged.probe_weights.size());
@@ -130,6 +140,9 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
   CollectHumans(staged);
   CollectProps(staged);
+  if (shows_evidence_) {
+    MarkByEvidence(staged, target.height());
+  }
   scene.occluders = place.occluders;
   scene.humans = humans_;
   scene.props = props_;
@@ -148,7 +161,7 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
     scene.look = LookOf(*place.camera, staged, picture);
   }
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
-  captions_->Draw(staged, target);
+  captions_->Draw(staged, shows_evidence_ ? &*evidence_ : nullptr, target);
   return Status();
 }
 

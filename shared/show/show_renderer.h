@@ -4,10 +4,12 @@
 // current at creation.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "shared/core/status.h"
 #include "shared/render/renderer.h"
+#include "shared/show/evidence.h"
 #include "shared/show/show.h"
 #include "shared/show/show_captions.h"
 
@@ -30,6 +32,11 @@ class ShowRenderer {
   // Of the frames from now on.
   void SetQuality(const render::Quality& quality) { renderer_->SetQuality(quality); }
 
+  // People and things in the colours of how certain they are, with a legend where the show
+  // has letters.
+  void SetEvidence(bool on) { shows_evidence_ = on; }
+  bool shows_evidence() const { return shows_evidence_; }
+
   // Fills the target with the composite: image, the occluders of the frame's
   // place, people in its light, captions.
   Status Draw(const StagedFrame& staged, const render::RenderTarget& target);
@@ -50,6 +57,7 @@ class ShowRenderer {
   Status AddObjects(const ShowContent& content);
   void CollectHumans(const StagedFrame& staged);
   void CollectProps(const StagedFrame& staged);
+  void MarkByEvidence(const StagedFrame& staged, int height);
   void BlendReflections(const StagedFrame& staged);
 
   std::unique_ptr<render::Renderer> renderer_;
@@ -58,6 +66,8 @@ class ShowRenderer {
   std::vector<render::ModelHandle> objects_;  // of each object
   std::vector<PlaceScene> places_;
   bool matte_ = false;
+  std::optional<Evidence> evidence_;  // set when created
+  bool shows_evidence_ = false;
   // Of the frame being drawn.
   std::vector<render::SceneHuman> humans_;
   std::vector<render::SceneVertices> vertices_;

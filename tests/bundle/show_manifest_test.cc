@@ -82,6 +82,17 @@ TEST(ShowManifest, ProbesMayHaveReflections) {
   EXPECT_EQ(parsed->places[0].glossy, manifest.places[0].glossy);
 }
 
+TEST(ShowManifest, ParadataAreAMember) {
+  ShowManifest manifest = Listed();
+  manifest.paradata = "paradata.json";
+  EXPECT_THAT(ParseShowManifest(FormatShowManifest(manifest), "m").message(),
+              HasSubstr("'paradata.json' is used but not listed"));
+  manifest.members.push_back({"paradata.json", 1, ComputeSha256({})});
+  const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "m");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(parsed->paradata, manifest.paradata);
+}
+
 TEST(ShowManifest, OlderBundlesHaveNoSun) {
   Json json = OfSchemaOne();
   json["places"][0].erase("sun");

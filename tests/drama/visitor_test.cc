@@ -420,5 +420,73 @@ TEST_F(VisitorTest, WrongWordsAreBlamedOnTheScript) {
   }
 }
 
+TEST_F(VisitorTest, MessagesFireByAddressAndFirstArgument) {
+  const auto fires = [&](const std::string& trigger, const std::string& keys) {
+    const auto drama = Counting(trigger);
+    drama->SetVisitor({.keys = keys});
+    PlayTo(*drama, 1.0);
+    EXPECT_EQ(FirstError(*drama), "");
+    return Count();
+  };
+  EXPECT_EQ(fires("osc('/door')", "/door,1"), 1);
+  EXPECT_EQ(fires("osc('/door')", "/door"), 1);
+  EXPECT_EQ(fires("osc('/door')", "/doors a /do"), 0);
+  EXPECT_EQ(fires("osc('/door', 1)", "/door,1,2"), 1);
+  EXPECT_EQ(fires("osc('/door', 1)", "/door,10"), 0);
+  EXPECT_EQ(fires("osc('/door', 0.1)", "/door,0.1"), 1);
+  EXPECT_EQ(fires("osc('/door', 'an oak')", "/door," + MessageText("an oak")), 1);
+  EXPECT_EQ(fires("osc('/door', true)", "/door,T"), 1);
+  EXPECT_EQ(fires("key('a')", "/a a"), 1);
+}
+
+TEST_F(VisitorTest, WhatTheLastMessageSaidIsKeptAndSought) {
+  const auto drama = Make(R"(
+    local guest = actor("guest")
+    guest:place{}
+    on(osc("/at"), function()
+      local x, who, yes, nothing = heard("/at")
+      assert(who == "guest, or" and yes == true and nothing == nil)
+      guest:place{x = x}
+    end)
+    assert(heard("/at") == nil)
+  )");
+  PlayTo(*drama, 1.0);
+  drama->SetVisitor({.keys = "/at,3.5," + MessageText("guest, or") + ",T,N"});
+  PlayTo(*drama, 5.0);
+  EXPECT_EQ(FirstError(*drama), "");
+  EXPECT_EQ(State("guest").position.x, 3.5f);
+  ASSERT_TRUE(drama->Seek(0.5).ok());
+  EXPECT_EQ(State("guest").position.x, 0.0f);
+  // The log of it, read again, gives the same drama.
+  ASSERT_TRUE(drama->Seek(5.0).ok());
+  EXPECT_EQ(State("guest").position.x, 3.5f);
+  auto log = VisitorLog::Read(drama->visitor_log().Write(), "log");
+  ASSERT_TRUE(log.ok()) << log.message();
+  drama->SetVisitorLog(*std::move(log));
+  ASSERT_TRUE(drama->Seek(0.5).ok());
+  ASSERT_TRUE(drama->Seek(4.0).ok());
+  EXPECT_EQ(State("guest").position.x, 3.5f);
+}
+
+TEST(VisitorKeys, MoreThanALogKeepsAreNotHeard) {
+  std::string keys;
+  for (int i = 0; i < 10'000; ++i) {
+    AddKey("space", keys);
+  }
+  EXPECT_LE(keys.size(), kMaxKeyBytes);
+  VisitorLog log;
+  log.Set(0, {.keys = keys});
+  EXPECT_TRUE(VisitorLog::Read(log.Write(), "log").ok());
+}
+
+TEST(VisitorKeys, TextsOfMessagesComeBackAsTheyWere) {
+  for (const char* text : {"", "oak", "an oak, 100 %", "v\xC4\xABnum\n", "'"}) {
+    EXPECT_EQ(ReadMessageText(MessageText(text)), text);
+  }
+  EXPECT_FALSE(ReadMessageText("oak").has_value());
+  EXPECT_FALSE(ReadMessageText("'%4").has_value());
+  EXPECT_FALSE(ReadMessageText("'%zz").has_value());
+}
+
 }  // namespace
 }  // namespace lararium::drama

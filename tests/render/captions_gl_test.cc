@@ -42,7 +42,7 @@ TEST_F(CaptionsTest, LettersAreWhiteOnADarkGroundWhereTheyWereLaidOut) {
   const RenderTarget target = MakeTarget(320, 240);
   Fill(target, 1.0f);
   const Caption caption = {"", glm::vec3(1.0f), CaptionSide::kHere, "a"};
-  (*painter)->Draw({&caption, 1}, target);
+  (*painter)->Draw({&caption, 1}, nullptr, target);
   const cv::Mat picture = Read(target);
   CaptionLayout layout;
   LayOut(OneLetter(), {&caption, 1}, 320, 240, layout);
@@ -70,7 +70,7 @@ TEST_F(CaptionsTest, NothingToReadDrawsNothing) {
   ASSERT_TRUE(painter.ok()) << painter.message();
   const RenderTarget target = MakeTarget(64, 48);
   Fill(target, 1.0f);
-  (*painter)->Draw({}, target);
+  (*painter)->Draw({}, nullptr, target);
   EXPECT_EQ(cv::sum(Read(target))[0], 255.0 * 64 * 48);
 }
 

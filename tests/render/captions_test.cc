@@ -123,5 +123,54 @@ TEST(CaptionLayout, TheSecondCaptionStandsAboveTheFirst) {
   EXPECT_TRUE(layout.rows.empty());
 }
 
+TEST(LegendLayout, StandsInTheUpperLeftCornerWithASwatchBesideEachEntry) {
+  const CaptionFont font = BoxFont();
+  const LegendEntry entries[] = {{glm::vec3(1.0f, 0.0f, 0.0f), 0, "abc"},
+                                 {glm::vec3(0.0f, 1.0f, 0.0f), 2, "ab"}};
+  CaptionLayout layout;
+  LayOut(font, {}, 1280, 720, layout);
+  LayOutLegend(font, {entries, "a", glm::vec3(1.0f), ""}, 1280, 720, layout);
+  ASSERT_EQ(layout.swatches.size(), 2u);
+  ASSERT_EQ(layout.rows.size(), 3u);
+  ASSERT_EQ(layout.grounds.size(), 1u);
+  const CaptionLayout::Ground& ground = layout.grounds[0];
+  EXPECT_LT(ground.to.x, 640.0f);
+  EXPECT_LT(ground.to.y, 360.0f);
+  for (size_t i = 0; i < 2; ++i) {
+    const CaptionLayout::Swatch& swatch = layout.swatches[i];
+    EXPECT_EQ(swatch.stripes, entries[i].stripes);
+    EXPECT_LT(swatch.place.to.x, layout.rows[i].baseline.x);
+    EXPECT_GT(layout.rows[i].baseline.y, swatch.place.from.y);
+    EXPECT_LT(layout.rows[i].baseline.y, swatch.place.to.y);
+    EXPECT_GT(swatch.place.from.y, ground.from.y);
+  }
+  EXPECT_LT(layout.rows[2].baseline.y, ground.to.y);
+}
+
+TEST(LegendLayout, ItsTextIsBrokenBetweenWordsAndStaysInTheLeftHalf) {
+  const CaptionFont font = BoxFont();
+  std::string text;
+  for (int i = 0; i < 200; ++i) {
+    text += "abc ";
+  }
+  CaptionLayout layout;
+  LayOutLegend(font, {{}, "", glm::vec3(1.0f), text}, 640, 480, layout);
+  ASSERT_EQ(layout.rows.size(), 8u);
+  EXPECT_LT(layout.grounds[0].to.x, 0.55f * 640.0f);
+  for (const CaptionLayout::Row& row : layout.rows) {
+    EXPECT_EQ(row.text.front(), 'a');
+    EXPECT_EQ(row.text.back(), 'c');
+  }
+  // A word that is wider than that has a row of its own, and rows end where the text says.
+  layout = {};
+  const std::string wide(300, 'a');
+  const std::string words = "abc\nab " + wide + " abc";
+  LayOutLegend(font, {{}, "", glm::vec3(1.0f), words}, 640, 480, layout);
+  ASSERT_EQ(layout.rows.size(), 4u);
+  EXPECT_EQ(layout.rows[0].text, "abc");
+  EXPECT_EQ(layout.rows[1].text, "ab");
+  EXPECT_EQ(layout.rows[2].text, wide);
+}
+
 }  // namespace
 }  // namespace lararium::render

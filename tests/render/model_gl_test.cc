@@ -135,6 +135,55 @@ TEST_F(ModelTest, CoverageMixesInLinearLightWithWhatIsBehind) {
   }
 }
 
+TEST_F(ModelTest, AMarkGivesItsColourAndKeepsLightAndShade) {
+  human::Human human = MakeHuman(Square(), 1);
+  auto handle = renderer_->AddHuman(human);
+  ASSERT_TRUE(handle.ok()) << handle.message();
+  const std::vector<glm::mat4> skin(1, kNoMotion);
+  SceneHuman shown = {.human = *handle, .skin = skin};
+  RenderScene scene = Scene();
+  scene.humans = {&shown, 1};
+  const auto mean = [&](float exposure) {
+    scene.exposure = exposure;
+    return cv::mean(Draw(scene));
+  };
+  const cv::Scalar plain = mean(0.5f);
+  EXPECT_NEAR(plain[0], plain[2], 1.0);
+  shown.mark = {.colour = {0.0f, 0.2f, 0.8f}, .share = 1.0f};
+  const cv::Scalar lit = mean(0.5f);
+  const cv::Scalar dark = mean(0.05f);
+  EXPECT_LT(lit[2], 3.0) << "no red is left";
+  EXPECT_GT(lit[0], lit[1] + 40.0) << "blue above green";
+  EXPECT_GT(lit[0], dark[0] + 40.0) << "what is darker stays darker";
+  EXPECT_GT(dark[0], 60.0) << "and is seen";
+  shown.mark.share = 0.0f;
+  EXPECT_EQ(mean(0.5f), plain);
+}
+
+TEST_F(ModelTest, StripesTellMarksApartWithoutColours) {
+  auto handle = renderer_->AddHuman(MakeHuman(Square(), 1));
+  ASSERT_TRUE(handle.ok()) << handle.message();
+  const std::vector<glm::mat4> skin(1, kNoMotion);
+  SceneHuman shown = {.human = *handle, .skin = skin};
+  RenderScene scene = Scene();
+  scene.exposure = 0.5f;
+  scene.humans = {&shown, 1};
+  std::array<double, 3> bright = {};
+  for (int stripes = 0; stripes < 3; ++stripes) {
+    shown.mark = {{0.05f, 0.05f, 0.05f}, 1.0f, stripes, 12.0f};
+    cv::Mat grey;
+    cv::extractChannel(Draw(scene), grey, 1);
+    double least = 0.0;
+    double most = 0.0;
+    cv::minMaxLoc(grey, &least, &most);
+    bright[static_cast<size_t>(stripes)] = cv::countNonZero(grey > 0.5 * (least + most) + 1.0);
+  }
+  const double all = 80.0 * 80.0;
+  EXPECT_EQ(bright[0], 0.0);
+  EXPECT_NEAR(bright[1] / all, 1.0 / 3.0, 0.05);
+  EXPECT_NEAR(bright[2] / all, 1.0 - 4.0 / 9.0, 0.06);
+}
+
 TEST_F(ModelTest, WhatIsLessCoveredThanTheCutoffIsNotThere) {
   const cv::Mat faint(16, 16, CV_8UC4, cv::Scalar(255, 255, 255, 90));
   RenderScene scene = Scene();
