@@ -51,9 +51,9 @@ track{actor = "keeper",
   },
   uses = {
     {at = 10, object = "ladle", action = "take"},
-    {at = 12, object = "ladle", action = "stir"},
-    {at = 19, object = "ladle", action = "put", on = "counter", surface = "back"},
-    {at = 22, length = 6, object = "counter", action = "wipe"},
+    {at = 13.2, object = "ladle", action = "stir"},
+    {at = 20, object = "ladle", action = "put", on = "counter", surface = "back"},
+    {at = 23, length = 6, object = "counter", action = "wipe"},
   },
   gaze = {
     {at = 31.5, length = 18, target = "patrician"},
@@ -71,9 +71,9 @@ track{actor = "server",
   walks = {{at = 0, from = {x = -0.25, z = -0.35, heading = 160}}},
   uses = {
     {at = 2, object = "door", action = "open"},
-    {at = 8, object = "lamp", action = "take"},
-    {at = 17, object = "lamp", action = "light"},
-    {at = 19.5, object = "lamp", action = "put", on = "lamp_stand"},
+    {at = 9, object = "lamp", action = "take"},
+    {at = 19, object = "lamp", action = "light"},
+    {at = 21, object = "lamp", action = "put", on = "lamp_stand"},
   },
   gaze = {{at = 27, length = 6, target = "labourer"}},
   expressions = {{at = 28, length = 6, expression = "joy", intensity = 0.6, fade = 0.5}},
@@ -89,8 +89,8 @@ track{actor = "girl",
   walks = {{at = 0, from = {x = -0.72, z = 0.10, heading = 200}}},
   uses = {
     {at = 1, object = "brazier", action = "warm_hands"},
-    {at = 10, object = "loaf", action = "take"},
-    {at = 15, object = "loaf", action = "smell"},
+    {at = 11, object = "loaf", action = "take"},
+    {at = 15.5, object = "loaf", action = "smell"},
     {at = 23.5, object = "loaf", action = "put", on = "counter", surface = "leg"},
   },
   gaze = {
@@ -108,14 +108,14 @@ track{actor = "labourer",
   walks = {{at = 0, from = {x = 0.62, z = 0.45, heading = -90}}},
   uses = {
     {at = 4, object = "beaker", action = "take"},
-    {at = 7, object = "beaker", action = "drink"},
-    {at = 14, object = "beaker", action = "drink"},
+    {at = 9, object = "beaker", action = "drink"},
+    {at = 15.5, object = "beaker", action = "drink"},
     {at = 21, object = "beaker", action = "put", on = "table", surface = "top"},
   },
   gaze = {{at = 24.5, length = 9, target = "server"}},
   expressions = {{at = 25, length = 5, expression = "sadness", intensity = 0.4, fade = 0.8}},
   gestures = {{at = 26, clip = "shrug"}},
-  speech = {{at = 25.5, length = 4, line = "laboro"}},
+  speech = {{at = 25.5, length = 6, line = "laboro"}},
 }
 
 track{actor = "patrician",
@@ -126,7 +126,7 @@ track{actor = "patrician",
   gaze = {{at = 34, length = 16, target = "keeper"}},
   gestures = {{id = "the dearest", at = 47.6, clip = "point"}},
   speech = {
-    {at = 36, length = 4, line = "quanti"},
+    {at = 34, length = 5.5, line = "quanti"},
     {at = 47.5, line = "falernum"},
   },
 }
@@ -200,6 +200,7 @@ local function hand_over()
   end)
   wait_for(reaches, "stroke")
   local gives = start(function() try(server.give, server, "cup_of_guest", patrician) end)
+  wait_for(gives, "ready")
   speak(server, "ecce")
   wait_for(gives, "stroke")
   speak(patrician, "gratias")
@@ -250,15 +251,10 @@ local function serve_the_visitor()
   speak(keeper, "pompeianum", "explain")
   keeper:express("neutral", 0, 1)
   keeper:look_at()
-  together(function()
-    try(pour, "cup", 0.60)
-    attended(keeper, 4)
-    speak(keeper, "aquam_addo")
-    keeper:look_at()
-  end, function()
-    wait(3)
-    curious_child()
-  end)
+  try(pour, "cup", 0.60)
+  attended(keeper, 4)
+  speak(keeper, "aquam_addo")
+  keeper:look_at()
   try(keeper.take, keeper, "cup")
   attended(keeper, 6)
   try(keeper.put, keeper, "cup", "counter", "top")
@@ -392,10 +388,18 @@ local function carry_water()
   try(function() labourer:use("counter", "lean") end)
 end
 
+-- The child goes to the counter, out of everybody's way, and looks after who leaves.
+local function make_room()
+  try(girl.walk_to, girl, {x = 0.05, z = -0.45, heading = 0})
+  girl:look_at(patrician)
+  wait(8)
+  girl:look_at()
+end
+
 -- ---- the prayer ----------------------------------------------------------------------
 
 local function pray()
-  try(girl.walk_to, girl, {x = -0.55, z = -0.45, heading = 0})
+  try(girl.walk_to, girl, {x = 0.05, z = -0.45, heading = 0})
   -- The painted shrine is on the wall behind the counter.
   girl:look_at{x = 0.6, y = 1.7, z = -2.58}
   server:look_at(girl)
@@ -507,17 +511,17 @@ function main()
   local which = first(visitor:looks_at(keeper, {angle = 10, seconds = 1.2}),
     visitor:stays(4, {at = "counter", metres = 2.8}), timeout(8))
   keeper:look_at()
-  local meanwhile = {start(household), start(errands)}
   if which < 3 then
-    serve_the_visitor()
+    together(serve_the_visitor, function()
+      wait(9)
+      curious_child()
+      together(household, errands)
+    end)
   else
-    quarrel()
-  end
-  for _, task in ipairs(meanwhile) do
-    wait_for(task)
+    together(quarrel, household, errands)
   end
 
-  together(patrician_leaves, clear_the_table, carry_water)
+  together(patrician_leaves, clear_the_table, carry_water, make_room)
   if now() < 200 then
     wait_for(marker("prayer"))
   end
