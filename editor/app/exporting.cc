@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "editor/app/baking.h"
+#include "editor/app/credits.h"
 #include "editor/app/lines.h"
+#include "editor/app/paradata.h"
 #include "editor/app/sounds.h"
 #include "editor/app/staging.h"
 #include "editor/bake/caption_font.h"
@@ -32,7 +34,8 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
   return content;
 }
 
-Status PackLines(const ProjectPaths& paths,
+// Lines, and what is read of the paradata.
+Status PackTexts(const ProjectPaths& paths,
                  const ProjectDocument& document,
                  exporter::ExportContent& content) {
   LARARIUM_ASSIGN_OR_RETURN(const ProjectLines lines, LoadProjectLines(paths, document));
@@ -52,9 +55,14 @@ Status PackLines(const ProjectPaths& paths,
     content.spoken.push_back({language, stage::FormatCaptions(book)});
   }
   content.captions = lines.captions;
-  if (!lines.captions.empty()) {
+  LARARIUM_ASSIGN_OR_RETURN(const stage::Paradata paradata, LoadParadata(paths));
+  if (!paradata.empty()) {
+    content.paradata = stage::FormatParadata(paradata);
+  }
+  if (!lines.captions.empty() || !paradata.empty()) {
     std::vector<std::string> ignored;  // check tells them
-    LARARIUM_ASSIGN_OR_RETURN(const render::CaptionFont font, MakeCaptionFont(lines, ignored));
+    LARARIUM_ASSIGN_OR_RETURN(const render::CaptionFont font,
+                              MakeCaptionFont(lines, paradata, ignored));
     LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFontFiles files, bake::FormatCaptionFont(font));
     content.caption_metrics = std::move(files.metrics);
     content.caption_atlas = std::move(files.atlas);
@@ -72,7 +80,8 @@ Status ExportProject(const ProjectPaths& paths,
   LARARIUM_RETURN_IF_ERROR(Bake(paths, document, progress).status());
   exporter::ExportContent content;
   content.title = document.title;
-  content.credits = document.credits;
+  LARARIUM_ASSIGN_OR_RETURN(const Credits credits, MakeCredits(paths, document));
+  content.credits = credits.text;
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
   for (const PlaceDocument& place : document.places) {
     progress.Report("packing", static_cast<double>(content.places.size()) /
@@ -92,7 +101,7 @@ Status ExportProject(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> prop, ReadBytes(paths.Prop(object.name)));
     content.objects.push_back({object.name, std::move(prop), StageFromObject(object)});
   }
-  LARARIUM_RETURN_IF_ERROR(PackLines(paths, document, content));
+  LARARIUM_RETURN_IF_ERROR(PackTexts(paths, document, content));
   LARARIUM_ASSIGN_OR_RETURN(content.sounds, LoadSounds(paths));
   return exporter::ExportBundle(content, out, progress);
 }

@@ -240,7 +240,7 @@ std::vector<std::string> CheckTable(const ProjectPaths& paths,
     }
   }
   if (!lines.captions.empty()) {
-    if (const auto font = MakeCaptionFont(lines, problems); !font.ok()) {
+    if (const auto font = MakeCaptionFont(lines, {}, problems); !font.ok()) {
       problems.push_back(font.message());
     }
   }

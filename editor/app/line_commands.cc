@@ -1,6 +1,8 @@
 #include "editor/app/line_commands.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <map>
 #include <utility>
 
 #include "editor/app/line_checks.h"
@@ -97,6 +99,79 @@ Result<std::vector<SaidLine>> RunForLines(const ProjectPaths& paths,
   return listener.said();
 }
 
+// Which line a cue of the whole drama belongs to: of those that are being said then, or can
+// still be read, the one that began last.
+const SaidLine* FindSaid(const std::vector<SaidLine>& said, double time) {
+  constexpr double kEarly = 0.1;  // seconds that a cue may come before its line
+  constexpr double kLate = 4.0;   // and after its end
+  const SaidLine* found = nullptr;
+  for (const SaidLine& line : said) {
+    if (time >= line.begin - kEarly && time < line.begin + line.seconds + kLate &&
+        (found == nullptr || line.begin >= found->begin)) {
+      found = &line;
+    }
+  }
+  return found;
+}
+
+// The cues of each line when it is said for the first time, by its own time.
+std::map<std::string, std::vector<bake::FileCue>> CuesByLine(const std::vector<bake::FileCue>& cues,
+                                                             const std::vector<SaidLine>& said,
+                                                             std::vector<std::string>& warnings) {
+  std::map<std::string, std::vector<bake::FileCue>> lines;
+  std::map<std::string, double> first;
+  for (const SaidLine& line : said) {
+    first.emplace(line.line, line.begin);
+  }
+  for (const bake::FileCue& cue : cues) {
+    const SaidLine* line = FindSaid(said, cue.begin);
+    if (line == nullptr) {
+      char text[64];
+      std::snprintf(text, sizeof(text), "nobody speaks at %.2f s: '", cue.begin);
+      warnings.push_back(text + cue.text + "'");
+    } else if (first[line->line] == line->begin) {
+      std::vector<bake::FileCue>& own = lines[line->line];
+      const double begin = std::max(cue.begin - line->begin, own.empty() ? 0.0 : own.back().end);
+      own.push_back({"", begin, std::max(cue.end - line->begin, begin + 0.001), cue.text});
+    }
+  }
+  return lines;
+}
+
+// As captions that were placed by hand: audio/SPOKEN/LINE.LANGUAGE.srt.
+Result<CommandResult> ImportCaptions(const CaptionsOptions& options,
+                                     const ProjectPaths& paths,
+                                     const std::string& spoken,
+                                     const std::string& language,
+                                     const std::vector<SaidLine>& said) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(options.import));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<bake::FileCue> cues,
+                            bake::ParseCaptionFile(text, options.import.string()));
+  std::vector<std::string> warnings;
+  const auto lines = CuesByLine(cues, said, warnings);
+  for (const auto& [line, own] : lines) {
+    std::vector<stage::CaptionCue> placed;
+    for (const bake::FileCue& cue : own) {
+      placed.push_back({cue.begin, cue.end, cue.text});
+    }
+    LARARIUM_RETURN_IF_ERROR(stage::CheckCues(placed, options.import.string() + ": " + line));
+  }
+  std::error_code error;
+  std::filesystem::create_directories(paths.Recordings(spoken), error);
+  for (const auto& [line, own] : lines) {
+    const std::string name = line + "." + language + ".srt";
+    LARARIUM_RETURN_IF_ERROR(
+        WriteFileAtomically(paths.Recordings(spoken) / name, bake::FormatSrt(own)));
+  }
+  CommandResult result;
+  for (const std::string& warning : warnings) {
+    result.text += "warning: " + options.import.string() + ": " + warning + "\n";
+  }
+  result.text += "captions of " + std::to_string(lines.size()) + " lines in " + language + "\n";
+  result.json = {{"lines", lines.size()}, {"warnings", warnings}};
+  return result;
+}
+
 }  // namespace
 
 Result<CommandResult> RunLines(const LinesOptions& options) {
@@ -129,6 +204,9 @@ Result<CommandResult> RunCaptions(const CaptionsOptions& options, Progress& prog
                             MakeCaptions(paths, document, lines, spoken));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<SaidLine> said,
                             RunForLines(paths, document, spoken, options.seconds, progress));
+  if (!options.import.empty()) {
+    return ImportCaptions(options, paths, spoken, language, said);
+  }
   const std::vector<bake::FileCue> cues = CuesOf(said, book, language);
   LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(options.out, options.out.extension() == ".vtt"
                                                                 ? bake::FormatVtt(cues)

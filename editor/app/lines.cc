@@ -9,6 +9,7 @@
 #include "editor/bake/caption_font.h"
 #include "editor/bake/caption_layout.h"
 #include "shared/core/file.h"
+#include "shared/show/evidence.h"
 #include "shared/stage/viseme_file.h"
 
 namespace lararium::app {
@@ -164,6 +165,7 @@ Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
 }
 
 Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
+                                            const stage::Paradata& paradata,
                                             std::vector<std::string>& warnings) {
   std::set<uint32_t> characters = bake::CommonCharacters();
   for (const bake::Line& line : lines.table.lines) {
@@ -172,6 +174,19 @@ Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
       if (text != line.text.end()) {
         bake::AddCharacters(text->second, characters);
       }
+    }
+  }
+  for (const stage::Paradata::Claims& claims : paradata.claims) {
+    for (const auto& [name, claim] : claims) {
+      for (const auto& [language, text] : claim.text) {
+        bake::AddCharacters(text, characters);
+      }
+    }
+  }
+  for (const std::string& language : lines.captions) {
+    for (size_t i = 0; i < stage::kCertaintyCount; ++i) {
+      const auto certainty = static_cast<stage::Certainty>(i);
+      bake::AddCharacters(show::EvidenceWord(certainty, language), characters);
     }
   }
   LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFontBake made,
@@ -211,9 +226,11 @@ Status AddLines(const ProjectPaths& paths,
       LARARIUM_ASSIGN_OR_RETURN(content.speech.emplace_back(), LoadLine(line, book, captions));
     }
   }
-  if (!captions.empty()) {
+  content.language = captions.empty() ? language : captions;
+  if (!captions.empty() || !content.paradata.empty()) {
     std::vector<std::string> ignored;
-    LARARIUM_ASSIGN_OR_RETURN(content.caption_font, MakeCaptionFont(lines, ignored));
+    LARARIUM_ASSIGN_OR_RETURN(content.caption_font,
+                              MakeCaptionFont(lines, content.paradata, ignored));
   }
   for (show::CastMember& member : content.cast) {
     const auto names = book.names.find(member.name);

@@ -13,6 +13,7 @@
 #include "shared/render/caption_font.h"
 #include "shared/show/show_content.h"
 #include "shared/stage/caption_file.h"
+#include "shared/stage/paradata.h"
 
 namespace lararium::app {
 
@@ -47,7 +48,9 @@ Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
                                         const std::string& language);
 
 // The letters of all captions and names. Adds a warning for characters that the font has not.
+// paradata: which the evidence view writes.
 Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
+                                            const stage::Paradata& paradata,
                                             std::vector<std::string>& warnings);
 
 // Adds lines, letters and speakers' names to content, whose cast is there. Fails where a line was

@@ -11,6 +11,7 @@
 #include "editor/app/reference.h"
 #include "editor/app/subcommands.h"
 #include "editor/app/terminal.h"
+#include "editor/app/timeline_commands.h"
 #include "editor/app/window.h"
 #include "shared/core/log.h"
 #include "shared/core/processor.h"
@@ -60,6 +61,13 @@ struct Runner {
   Result<CommandResult> operator()(const CaptionsOptions& options) {
     return RunCaptions(options, progress);
   }
+  Result<CommandResult> operator()(const TimelineOptions& options) {
+    return RunTimeline(options, progress);
+  }
+  Result<CommandResult> operator()(const ImportBmlOptions& options) {
+    return RunImportBml(options);
+  }
+  Result<CommandResult> operator()(const CreditsOptions& options) { return RunCredits(options); }
   Result<CommandResult> operator()(const RenderOptions& options) {
     return RunRender(options, progress, log);
   }

@@ -26,6 +26,9 @@ struct AllOptions {
   CheckOptions check;
   LinesOptions lines;
   CaptionsOptions captions;
+  TimelineOptions timeline;
+  ImportBmlOptions import_bml;
+  CreditsOptions credits;
   RenderOptions render;
   PortraitOptions portrait;
   std::string portrait_size;
@@ -153,12 +156,46 @@ void AddLines(CLI::App& app, AllOptions& options) {
 
   CaptionsOptions& out = options.captions;
   CLI::App* captions =
-      AddSubcommand(app, "captions", "Write the drama's captions by its time", out.project);
-  captions->add_option("--out", out.out, "SubRip (.srt) or WebVTT (.vtt)")->required();
+      AddSubcommand(app, "captions", "Write or read captions by the drama's time", out.project);
+  CLI::Option_group* way = captions->add_option_group("file", "What is written or read");
+  way->add_option("--out", out.out, "Write them here: SubRip (.srt) or WebVTT (.vtt)");
+  way->add_option("--import", out.import,
+                  "Take over the texts and times of such a file as captions of the lines that are "
+                  "said then")
+      ->check(CLI::ExistingFile);
+  way->require_option(1);
   captions->add_option("--language", out.language, "Of the captions; otherwise the first");
   captions->add_option("--spoken", out.spoken, "That is spoken; otherwise the first");
   captions->add_option("--seconds", out.seconds, "Of the drama that are run")
       ->check(CLI::Range(0.0, 36000.0));
+}
+
+void AddInterchange(CLI::App& app, AllOptions& options) {
+  TimelineOptions& out = options.timeline;
+  CLI::App* timeline =
+      AddSubcommand(app, "timeline", "Write the drama's timeline for other programs", out.project);
+  timeline->add_option("--out", out.out, "OpenTimelineIO (.otio)")->required();
+  timeline->add_option("--spoken", out.spoken, "Language that is spoken; otherwise the first");
+  timeline->add_option("--seconds", out.seconds, "Of the drama that are run")
+      ->check(CLI::Range(0.0, 36000.0));
+
+  ImportBmlOptions& in = options.import_bml;
+  CLI::App* bml =
+      AddSubcommand(app, "import-bml", "Add behaviours in BML to the drama's tracks", in.project);
+  bml->add_option("FILE", in.file, "Behavior Markup Language 1.0 (.xml)")
+      ->required()
+      ->check(CLI::ExistingFile);
+  bml->add_option("--actor", in.actors, "ID=NAME: who a character of the file is; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  bml->add_option("--at", in.begin, "When it begins, seconds of the drama")
+      ->check(CLI::Range(0.0, 36000.0));
+}
+
+void AddCredits(CLI::App& app, CreditsOptions& credits) {
+  CLI::App* command =
+      AddSubcommand(app, "credits", "Say who made what, and on which evidence", credits.project);
+  command->add_option("--out", credits.out, "Write them here: .txt, or .json");
 }
 
 void AddRender(CLI::App& app, RenderOptions& render) {
@@ -167,6 +204,8 @@ void AddRender(CLI::App& app, RenderOptions& render) {
   command->add_option("--video", render.video, "Video file")->required()->check(CLI::ExistingFile);
   command->add_option("--out", render.out, "The composite, with its sound (.mp4)")->required();
   command->add_option("--sound", render.sound, "Write the sound here too (.wav)");
+  command->add_flag("--evidence", render.evidence,
+                    "People and things in the colours of how certain they are");
   command->add_option("--place", render.place, "Name of the place");
   AddIntrinsics(command, render.intrinsics);
 }
@@ -380,6 +419,8 @@ void AddOthers(CLI::App& app, AllOptions& options) {
       ->check(CLI::ExistingFile);
 
   AddLines(app, options);
+  AddInterchange(app, options);
+  AddCredits(app, options.credits);
   AddRender(app, options.render);
   AddPortrait(app, options.portrait, options.portrait_size);
   AddReference(app, options.reference);
@@ -402,6 +443,9 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("check")) return options.check;
   if (app.got_subcommand("lines")) return options.lines;
   if (app.got_subcommand("captions")) return options.captions;
+  if (app.got_subcommand("timeline")) return options.timeline;
+  if (app.got_subcommand("import-bml")) return options.import_bml;
+  if (app.got_subcommand("credits")) return options.credits;
   if (app.got_subcommand("render")) return options.render;
   if (app.got_subcommand("portrait")) return options.portrait;
   if (app.got_subcommand("reference")) return options.reference;

@@ -94,10 +94,30 @@ struct LinesOptions {
 
 struct CaptionsOptions {
   std::filesystem::path project;
-  std::filesystem::path out;  // .srt or .vtt
-  std::string language;       // empty: the project's first
-  std::string spoken;         // likewise
+  std::filesystem::path out;     // .srt or .vtt; exactly one of out and import
+  std::filesystem::path import;  // of the whole drama: becomes captions of its lines
+  std::string language;          // empty: the project's first
+  std::string spoken;            // likewise
+  double seconds = 60.0;         // of the drama that are run
+};
+
+struct TimelineOptions {
+  std::filesystem::path project;
+  std::filesystem::path out;  // .otio
+  std::string spoken;         // language; empty: the project's first
   double seconds = 60.0;      // of the drama that are run
+};
+
+struct ImportBmlOptions {
+  std::filesystem::path project;
+  std::filesystem::path file;
+  std::vector<std::string> actors;  // ID=NAME
+  double begin = 0.0;               // seconds of the drama
+};
+
+struct CreditsOptions {
+  std::filesystem::path project;
+  std::filesystem::path out;  // .txt or .json; empty: only told
 };
 
 struct RenderOptions {
@@ -107,6 +127,7 @@ struct RenderOptions {
   std::vector<double> intrinsics;
   std::filesystem::path out;
   std::filesystem::path sound;
+  bool evidence = false;  // in the colours of how certain things are
 };
 
 // People in a studio; several side by side.
@@ -196,6 +217,9 @@ using Subcommand = std::variant<WindowOptions,
                                 CheckOptions,
                                 LinesOptions,
                                 CaptionsOptions,
+                                TimelineOptions,
+                                ImportBmlOptions,
+                                CreditsOptions,
                                 RenderOptions,
                                 PortraitOptions,
                                 ReferenceOptions,

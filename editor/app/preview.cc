@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "editor/app/staging.h"
+#include "shared/audio/audio_out.h"
+#include "shared/audio/mixer.h"
+#include "shared/audio/sound_player.h"
 #include "shared/capture/frame_source.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/render_target.h"
@@ -41,6 +44,8 @@ class Preview::Worker {
   PreviewPicture Describe() const;
   // Adds what the picture that was just drawn is compared with.
   Status Compare(PreviewPicture& picture);
+  // What the frame at hand sounds like, or silence.
+  void PlaySound(bool on);
 
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
@@ -53,6 +58,10 @@ class Preview::Worker {
   std::optional<vision::TrackedFrame> tracked_;
   show::StagedFrame staged_;
   std::set<std::string> told_;  // script errors
+  Log* log_ = nullptr;
+  bool sounds_ = false;                        // sound_ plays what is shown
+  bool mute_ = false;                          // nothing can be mixed
+  std::unique_ptr<audio::SoundPlayer> sound_;  // once it was asked for
 };
 
 Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPaths& paths,
@@ -60,6 +69,7 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPa
                                                                  show::ShowContent content,
                                                                  Log& log) {
   std::unique_ptr<Worker> worker(new Worker);
+  worker->log_ = &log;
   LARARIUM_ASSIGN_OR_RETURN(worker->source_, OpenSource(paths, source));
   LARARIUM_ASSIGN_OR_RETURN(const geometry::CameraModel camera,
                             content.places.front().map->camera.ForImages(
@@ -126,6 +136,27 @@ Status Preview::Worker::Compare(PreviewPicture& picture) {
   return Status();
 }
 
+// Whoever seeks or pauses hears nothing.
+void Preview::Worker::PlaySound(bool on) {
+  if (on && sound_ == nullptr && !mute_ && !show_->sounds()->clips().empty()) {
+    Result<std::unique_ptr<audio::Mixer>> mixer = audio::Mixer::Create(show_->sounds(), {});
+    mute_ = !mixer.ok();
+    if (mute_) {
+      log_->warn("{}; the preview is silent", mixer.message());
+      return;
+    }
+    sound_ = std::make_unique<audio::SoundPlayer>(
+        std::move(*mixer), [] { return audio::CreateAudioOut(audio::AudioOutKind::kDevice); },
+        *log_);
+  }
+  if (sound_ != nullptr && (on || sounds_)) {
+    audio::SoundScene silence;
+    silence.held = true;
+    sound_->Show(on ? staged_.sound : silence);
+  }
+  sounds_ = on;
+}
+
 Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const PreviewRequest& request) {
   if (request.place != nullptr && request.place != place_) {
     place_ = request.place;
@@ -139,6 +170,8 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   }
   const double time = static_cast<double>(request.frame) / source_->frames_per_second();
   show_->StageFrame(*tracked_, time, staged_);
+  PlaySound(request.sound);
+  renderer_->SetEvidence(request.evidence);
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   PreviewPicture picture = Describe();
   target_->ReadPixels(picture.bgr);

@@ -27,7 +27,9 @@ struct PreviewRequest {
   int64_t frame = 0;  // of the recording
   // Staged as it is now; nullptr: as it was.
   std::shared_ptr<const stage::Place> place;
-  bool compare = false;  // the picture without people, and where they are, besides
+  bool compare = false;   // the picture without people, and where they are, besides
+  bool evidence = false;  // people and things in the colours of how certain they are
+  bool sound = false;     // the recording plays, and is to be heard
 };
 
 struct PreviewActor {

@@ -30,6 +30,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
 
   LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(const auto renderer, show::ShowRenderer::Create(show->content()));
+  renderer->SetEvidence(job.evidence);
   LARARIUM_ASSIGN_OR_RETURN(
       const auto target, render::RenderTarget::Create(source->width() & ~1, source->height() & ~1));
   LARARIUM_ASSIGN_OR_RETURN(const auto writer,

@@ -19,6 +19,7 @@ struct RenderJob {
   std::vector<double> intrinsics;  // 4 or 8 numbers, or empty: those of the training
   std::filesystem::path out;       // .mp4, with the show's sound as headphones want it
   std::filesystem::path sound;     // .wav; empty: none
+  bool evidence = false;           // in the colours of how certain things are
 };
 
 struct RenderReport {

@@ -7,6 +7,7 @@
 
 #include "editor/app/baking.h"
 #include "editor/app/lines.h"
+#include "editor/app/paradata.h"
 #include "editor/app/sounds.h"
 #include "shared/core/file.h"
 #include "shared/geometry/glm_convert.h"
@@ -207,6 +208,7 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
         {member.name, std::make_shared<const human::Human>(std::move(human)), {}});
   }
   LARARIUM_ASSIGN_OR_RETURN(content.objects, LoadObjects(paths, document));
+  LARARIUM_ASSIGN_OR_RETURN(content.paradata, LoadParadata(paths));
   LARARIUM_RETURN_IF_ERROR(AddLines(paths, document, languages, content));
   LARARIUM_ASSIGN_OR_RETURN(content.sounds, LoadSounds(paths));
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "editor/app/baking.h"
+#include "editor/app/credits.h"
 #include "editor/app/document_fields.h"
 #include "editor/app/dry_run.h"
 #include "editor/app/exporting.h"
 #include "editor/app/line_checks.h"
 #include "editor/app/lines.h"
+#include "editor/app/paradata.h"
 #include "editor/app/project.h"
 #include "editor/app/rendering.h"
 #include "editor/app/sounds.h"
@@ -259,6 +261,9 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   for (const Status& problem : FindSilences(paths, document)) {
     problems.push_back(problem.message());
   }
+  const ParadataReport paradata = CheckParadata(paths, document);
+  problems.insert(problems.end(), paradata.problems.begin(), paradata.problems.end());
+  warnings.insert(warnings.end(), paradata.warnings.begin(), paradata.warnings.end());
   const ProjectLines lines = CheckLines(paths, document, problems);
   const DryRunReport run = DryRunAll(paths, document, lines, options, progress);
   problems.insert(problems.end(), run.problems.begin(), run.problems.end());
@@ -279,13 +284,27 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   if (problems.empty()) {
     result.text += "no problems\n";
   }
-  result.json = {{"problems", problems}, {"warnings", warnings}, {"stages", stages.json},
-                 {"tasks", run.tasks},   {"seeks", run.seeks},   {"runs", run.runs}};
+  result.json = {{"problems", problems},      {"warnings", warnings}, {"stages", stages.json},
+                 {"paradata", paradata.json}, {"tasks", run.tasks},   {"seeks", run.seeks},
+                 {"runs", run.runs}};
   if (options.seeks > 0) {
     result.text += "seeks: " + run.seeks.dump() + "\n";
   }
   result.failed = !problems.empty();
   return result;
+}
+
+Result<CommandResult> RunCredits(const CreditsOptions& options) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(Credits credits, MakeCredits(paths, document));
+  if (options.out.empty()) {
+    return CommandResult{std::move(credits.text), std::move(credits.json)};
+  }
+  LARARIUM_RETURN_IF_ERROR(options.out.extension() == ".json"
+                               ? SaveJson(options.out, credits.json)
+                               : WriteFileAtomically(options.out, credits.text));
+  return CommandResult{"wrote " + options.out.string() + "\n", std::move(credits.json)};
 }
 
 Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress, Log& log) {
@@ -300,6 +319,7 @@ Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress
   job.intrinsics = options.intrinsics;
   job.out = options.out;
   job.sound = options.sound;
+  job.evidence = options.evidence;
   LARARIUM_ASSIGN_OR_RETURN(const RenderReport report, RenderVideo(std::move(job), progress, log));
   return CommandResult{
       options.out.string() + ": " + std::to_string(report.frames) + " frames, " +

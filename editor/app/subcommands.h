@@ -45,6 +45,7 @@ Result<CommandResult> RunPrune(const PruneOptions& options, Progress& progress);
 Result<CommandResult> RunCast(const CastOptions& options);
 Result<CommandResult> RunBake(const BakeOptions& options, Progress& progress);
 Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress);
+Result<CommandResult> RunCredits(const CreditsOptions& options);
 Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress, Log& log);
 Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress);
 

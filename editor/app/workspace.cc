@@ -8,6 +8,7 @@
 #include "editor/app/baking.h"
 #include "editor/app/camera_measure.h"
 #include "editor/app/exporting.h"
+#include "editor/app/sounds.h"
 #include "editor/app/training.h"
 
 namespace lararium::app {
@@ -261,6 +262,12 @@ std::string Workspace::PreviewKey() const {
               {"scene", FileStamp(paths_.Scene(at.name))},
               {"training", at.training.path},
               {"preview", at.preview.path}};
+  for (const char* file : {"lines.csv", "lines.json", "paradata.json"}) {
+    key["texts"].push_back(FileStamp(paths_.folder / file));
+  }
+  for (const SoundFile& sound : FindSounds(paths_)) {
+    key["sounds"].push_back({sound.name, sound.built_in ? "" : FileStamp(sound.file)});
+  }
   for (const OccluderDocument& occluder : at.occluders) {
     key["occluders"].push_back({occluder.name, occluder.file});
   }
@@ -272,7 +279,8 @@ std::string Workspace::PreviewKey() const {
     key["cast"].push_back(FormatCastMember(member));
   }
   for (const ObjectDocument& object : document().objects) {
-    key["objects"].push_back(FormatObject(object));
+    key["objects"].push_back(
+        {FormatObject(object), object.file.empty() ? "" : FileStamp(paths_.Resolve(object.file))});
   }
   return key.dump();
 }
@@ -350,6 +358,7 @@ void Workspace::RequestPicture() {
   }
   PreviewRequest request;
   request.frame = frame();
+  request.sound = playing_ && sound_;
   if (place_changed_) {
     auto staged = std::make_shared<stage::Place>(*loaded_.staged);
     const PlaceDocument& at = *place();
@@ -366,13 +375,15 @@ void Workspace::RequestPicture() {
       }
     }
     loaded_.staged = staged;
-  } else if (request.frame == requested_frame_) {
+  } else if (request.frame == requested_frame_ && request.sound == requested_sound_) {
     return;
   }
   request.place = loaded_.staged;
   request.compare = compare_;
+  request.evidence = evidence_;
   place_changed_ = false;
   requested_frame_ = request.frame;
+  requested_sound_ = request.sound;
   awaiting_picture_ = true;
   preview_->Request(std::move(request));
 }
@@ -531,6 +542,11 @@ void Workspace::MeasureCameraTraits() {
 void Workspace::SetCameraLook(bool on) {
   place_changed_ |= on != camera_look_;
   camera_look_ = on;
+}
+
+void Workspace::SetEvidence(bool on) {
+  place_changed_ |= on != evidence_;
+  evidence_ = on;
 }
 
 void Workspace::SetCompare(bool compare) {

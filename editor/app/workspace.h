@@ -125,6 +125,13 @@ class Workspace {
   // Whether pictures come with what they are compared with (PreviewPicture::plain).
   void SetCompare(bool compare);
 
+  // The camera view in the colours of how certain people and things are.
+  bool shows_evidence() const { return evidence_; }
+  void SetEvidence(bool on);
+  // Whether the recording is heard while it plays.
+  bool sound() const { return sound_; }
+  void SetSound(bool on) { sound_ = on; }
+
   // The recording in the camera view.
   bool playing() const { return playing_; }
   void SetPlaying(bool playing) { playing_ = playing; }
@@ -181,9 +188,12 @@ class Workspace {
   std::unique_ptr<Preview> preview_;
   std::shared_ptr<const PreviewPicture> picture_;
   int64_t requested_frame_ = -1;
+  bool requested_sound_ = false;
   bool place_changed_ = true;
   bool camera_look_ = true;
   bool compare_ = false;
+  bool evidence_ = false;
+  bool sound_ = true;
   bool awaiting_picture_ = false;
   bool playing_ = false;
   double position_ = 0.0;             // frames

@@ -3,6 +3,8 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_MODULE_H
+#include FT_SFNT_NAMES_H
+#include FT_TRUETYPE_IDS_H
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +114,48 @@ Result<Letter> RenderLetter(FT_Face face, uint32_t character, FT_UInt index) {
   return letter;
 }
 
+// UTF-16, big-endian, as fonts have it; what lies beyond 16 bits is left out.
+std::string FromUtf16(const FT_SfntName& name) {
+  std::string text;
+  for (FT_UInt i = 0; i + 1 < name.string_len; i += 2) {
+    const auto c = static_cast<uint32_t>((name.string[i] << 8) | name.string[i + 1]);
+    if (c < 0x20 || (c >= 0xD800 && c < 0xE000)) {
+      continue;
+    }
+    if (c < 0x80) {
+      text += static_cast<char>(c);
+    } else if (c < 0x800) {
+      text += static_cast<char>(0xC0 | (c >> 6));
+      text += static_cast<char>(0x80 | (c & 0x3F));
+    } else {
+      text += static_cast<char>(0xE0 | (c >> 12));
+      text += static_cast<char>(0x80 | ((c >> 6) & 0x3F));
+      text += static_cast<char>(0x80 | (c & 0x3F));
+    }
+  }
+  return text;
+}
+
+// An entry of the font's table of names; "" where it has none.
+std::string NameInFont(FT_Face face, FT_UShort id) {
+  for (FT_UInt i = 0; i < FT_Get_Sfnt_Name_Count(face); ++i) {
+    FT_SfntName name = {};
+    if (FT_Get_Sfnt_Name(face, i, &name) == 0 && name.name_id == id &&
+        name.platform_id == TT_PLATFORM_MICROSOFT) {
+      return FromUtf16(name);
+    }
+  }
+  return "";
+}
+
 }  // namespace
+
+Result<FontCredits> ReadFontCredits(const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const Face face, Face::Open(file));
+  return FontCredits{NameInFont(face.get(), TT_NAME_ID_FULL_NAME),
+                     NameInFont(face.get(), TT_NAME_ID_COPYRIGHT),
+                     NameInFont(face.get(), TT_NAME_ID_LICENSE)};
+}
 
 std::filesystem::path CaptionFontFile() {
   return "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf";

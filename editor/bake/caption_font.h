@@ -17,6 +17,14 @@ namespace lararium::bake {
 // Inter SemiBold where Debian's fonts-inter puts it.
 std::filesystem::path CaptionFontFile();
 
+// What a font says of itself. Fails where it cannot be read.
+struct FontCredits {
+  std::string name;       // "Inter SemiBold"
+  std::string copyright;  // may be empty, as may the licence
+  std::string licence;
+};
+Result<FontCredits> ReadFontCredits(const std::filesystem::path& file);
+
 // What every show can write (ASCII, arrows, quotes, dashes, ellipsis), and the characters of
 // texts.
 void AddCharacters(std::string_view text, std::set<uint32_t>& characters);

@@ -312,4 +312,8 @@ Result<SpokenText> Synthesize(const std::string& text,
   return spoken;
 }
 
+std::string SynthesizerCredits() {
+  return std::string("eSpeak NG ") + espeak_Info(nullptr) + "; GPL-3.0-or-later";
+}
+
 }  // namespace lararium::bake

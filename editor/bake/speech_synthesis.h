@@ -47,4 +47,7 @@ Result<SpokenText> Synthesize(const std::string& text,
                               const std::string& language,
                               const VoiceSettings& voice);
 
+// The synthesiser, its version and licence: "eSpeak NG 1.51; GPL-3.0-or-later".
+std::string SynthesizerCredits();
+
 }  // namespace lararium::bake

@@ -10,6 +10,7 @@
 #include "shared/stage/caption_file.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/object_use.h"
+#include "shared/stage/paradata.h"
 #include "shared/stage/prop.h"
 #include "shared/stage/viseme_file.h"
 #include "shared/vision/scene_database.h"
@@ -32,13 +33,6 @@ struct Packing {
   };
   std::vector<PackedProp> props;
 };
-
-// The credits of a show: the project's own and then each person's, once.
-void AddCredits(std::string& credits, const std::string& more) {
-  if (!more.empty() && credits.find(more) == std::string::npos) {
-    credits += (credits.empty() || credits.ends_with('\n') ? "" : "\n") + more;
-  }
-}
 
 Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
   const stage::Place& place = content.place;
@@ -78,7 +72,6 @@ Status PackCast(const CastContent& content, size_t index, Packing& packing) {
   const std::string member = "cast/" + std::to_string(index) + ".larhuman";
   packing.members.push_back({member, content.human});
   packing.manifest.cast.push_back({content.name, member});
-  AddCredits(packing.manifest.credits, human->credits);
   return Status();
 }
 
@@ -93,7 +86,6 @@ Status PackObject(const ObjectContent& content, size_t index, Packing& packing) 
     return Status();
   }
   LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(content.prop, place));
-  AddCredits(packing.manifest.credits, prop.credits);
   LARARIUM_RETURN_IF_ERROR(stage::ObjectModel::Create(std::move(prop), place).status());
   const std::string member = "props/" + std::to_string(index) + ".larprop";
   packing.members.push_back({member, content.prop});
@@ -153,6 +145,17 @@ Status PackSound(const audio::SoundData& content, size_t index, Packing& packing
   return Status();
 }
 
+Status PackParadata(const ExportContent& content, Packing& packing) {
+  if (content.paradata.empty()) {
+    return Status();
+  }
+  LARARIUM_RETURN_IF_ERROR(stage::ParseParadata(content.paradata, "paradata").status());
+  packing.manifest.paradata = "paradata.json";
+  packing.members.push_back(
+      {packing.manifest.paradata, std::as_bytes(std::span(content.paradata))});
+  return Status();
+}
+
 // Packs the parts of one kind, one after the other.
 template <typename Content>
 Status PackAll(const std::vector<Content>& contents,
@@ -187,6 +190,7 @@ Status ExportBundle(const ExportContent& content,
   packing.manifest.captions = content.captions;
   LARARIUM_RETURN_IF_ERROR(PackCaptionFont(content, packing));
   LARARIUM_RETURN_IF_ERROR(PackAll(content.sounds, PackSound, packing, progress));
+  LARARIUM_RETURN_IF_ERROR(PackParadata(content, packing));
   progress.Report("writing", 0.0);
   LARARIUM_RETURN_IF_ERROR(bundle::WriteBundle(path, packing.manifest, packing.members));
   progress.Report("verifying", 0.0);

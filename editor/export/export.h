@@ -50,8 +50,8 @@ struct CaptionContent {
 // Everything that goes into a bundle, as plain data.
 struct ExportContent {
   std::string title;
-  std::string credits;  // of the project; those of cast and objects are added
-  std::string drama;    // Lua source
+  std::string credits;
+  std::string drama;  // Lua source
   std::vector<PlaceContent> places;
   std::vector<CastContent> cast;
   std::vector<ObjectContent> objects;
@@ -61,6 +61,7 @@ struct ExportContent {
   std::string caption_metrics;           // JSON: render::ParseCaptionFont; empty: no captions
   std::vector<std::byte> caption_atlas;  // PNG
   std::vector<audio::SoundData> sounds;
+  std::string paradata;  // JSON: stage::ParseParadata; empty: none
 };
 
 // Checks the parts with the player's own parsers, writes the bundle, and opens it

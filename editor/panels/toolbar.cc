@@ -102,7 +102,7 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   }
 }
 
-void ViewMenu(EditorState& state) {
+void ViewMenu(app::Workspace& workspace, EditorState& state) {
   const std::pair<const char*, ViewKind> views[] = {{"Through the camera", ViewKind::kCamera},
                                                     {"Around the place", ViewKind::kAround},
                                                     {"Picks", ViewKind::kPicks}};
@@ -115,6 +115,13 @@ void ViewMenu(EditorState& state) {
   ImGui::Separator();
   ImGui::MenuItem("Stage over the picture", nullptr, &state.show_stage);
   ImGui::MenuItem("Points", nullptr, &state.show_points);
+  ImGui::Separator();
+  if (ImGui::MenuItem("Evidence", "F2", workspace.shows_evidence())) {
+    workspace.SetEvidence(!workspace.shows_evidence());
+  }
+  if (ImGui::MenuItem("Sound", "M", workspace.sound())) {
+    workspace.SetSound(!workspace.sound());
+  }
 }
 
 void HandleControlKey(app::Workspace& workspace, EditorState& state, const KeyPress& press) {
@@ -171,6 +178,12 @@ void HandlePlainKey(app::Workspace& workspace, EditorState& state, int key) {
     case GLFW_KEY_R:
       SetGizmo(state, GizmoMode::kScale);
       break;
+    case GLFW_KEY_F2:
+      workspace.SetEvidence(!workspace.shows_evidence());
+      break;
+    case GLFW_KEY_M:
+      workspace.SetSound(!workspace.sound());
+      break;
     case GLFW_KEY_SPACE:
       workspace.SetPlaying(!workspace.playing());
       break;
@@ -196,7 +209,7 @@ void ShowMenuBar(app::Workspace& workspace, EditorState& state) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("View")) {
-    ViewMenu(state);
+    ViewMenu(workspace, state);
     ImGui::EndMenu();
   }
   ImGui::EndMenuBar();

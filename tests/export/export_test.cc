@@ -16,8 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 ExportContent SmallShow() {
-  human::Human human = *test::MakeTestHuman();
-  human.credits = "The figure: somebody";
+  const human::Human human = *test::MakeTestHuman();
   ExportContent content;
   content.title = "Small";
   content.credits = "The show: nobody";
@@ -47,7 +46,7 @@ TEST(Export, PacksAllThatThePlayerNeeds) {
   ASSERT_TRUE(opened.ok()) << opened.message();
   const bundle::ShowManifest& manifest = opened->manifest();
   EXPECT_EQ(manifest.title, "Small");
-  EXPECT_EQ(manifest.credits, "The show: nobody\nThe figure: somebody");
+  EXPECT_EQ(manifest.credits, content.credits);
   ASSERT_EQ(manifest.places.size(), 1u);
   EXPECT_EQ(manifest.places[0].map_from_stage.scale, 2.0);
   EXPECT_EQ(manifest.places[0].probes.at(0).light.sky[0], glm::vec3(1.0f, 2.0f, 3.0f));
@@ -92,9 +91,7 @@ TEST(Export, PacksEveryPlaceWithItsOwnMapAndOccluders) {
 TEST(Export, ObjectsOfOneModelShareItsMember) {
   const test::TemporaryFolder folder;
   ExportContent content = SmallShow();
-  stage::Prop cup = test::MakeCup();
-  cup.credits = "The cup: a potter";
-  const std::vector<std::byte> bytes = stage::SerializeProp(cup);
+  const std::vector<std::byte> bytes = stage::SerializeProp(test::MakeCup());
   geometry::Rigid3 there;
   there.translation = {0.0, 0.8, 0.0};
   content.objects = {{"cup", bytes, {}},
@@ -121,11 +118,28 @@ TEST(Export, ObjectsOfOneModelShareItsMember) {
   EXPECT_EQ(line.spoken.at("la").sound, "speech/la/greeting.flac");
   EXPECT_EQ(line.spoken.at("en").visemes, "speech/en/greeting.visemes.json");
   EXPECT_EQ(opened->manifest().captions, content.captions);
-  EXPECT_THAT(opened->manifest().credits, HasSubstr("a potter"));
 
   content.objects[2].prop.resize(40);
   EXPECT_THAT(ExportBundle(content, folder / "b.larshow", progress).message(),
               HasSubstr("object 'table'"));
+}
+
+TEST(Export, ParadataGoWithTheShow) {
+  const test::TemporaryFolder folder;
+  ExportContent content = SmallShow();
+  content.paradata =
+      R"({"schema": 1, "claims": {"people": {"keeper": {"certainty": "attested"}}}})";
+  NoProgress progress;
+  const Status status = ExportBundle(content, folder / "a.larshow", progress);
+  ASSERT_TRUE(status.ok()) << status.message();
+  const auto opened = bundle::Bundle::Open(folder / "a.larshow");
+  ASSERT_TRUE(opened.ok()) << opened.message();
+  const auto bytes = opened->member(opened->manifest().paradata);
+  ASSERT_TRUE(bytes.ok()) << bytes.message();
+  EXPECT_EQ(bytes->size(), content.paradata.size());
+  content.paradata = R"({"schema": 1, "claims": {"people": {"keeper": {"certainty": "sure"}}}})";
+  EXPECT_THAT(ExportBundle(content, folder / "b.larshow", progress).message(),
+              HasSubstr("\"certainty\" is 'sure'"));
 }
 
 TEST(Export, RefusesBrokenPartsAndKeepsTheOldFile) {
