@@ -82,6 +82,7 @@ struct Runner {
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);
   }
+  Result<CommandResult> operator()(const KeyOptions& options) { return RunKey(options); }
   Result<CommandResult> operator()(const WindowOptions& options) {
     LARARIUM_RETURN_IF_ERROR(RunWindow(options, log));
     return CommandResult{};

@@ -36,6 +36,7 @@ struct AllOptions {
   ProbeOptions probe;
   CameraOptions camera;
   ExportOptions export_;
+  KeyOptions key;
 };
 
 CLI::App* AddSubcommand(CLI::App& app,
@@ -430,6 +431,13 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   pack->add_option("--out", options.export_.out, "The bundle (.larshow)")->required();
   pack->add_option("--points", options.export_.points, "Points that each place keeps at most")
       ->check(CLI::Range(100, 10'000'000));
+  pack->add_option("--sign", options.export_.sign, "Sign it with this secret key (NAME.key)")
+      ->check(CLI::ExistingFile);
+  CLI::App* key = app.add_subcommand("key", "Make the keys that shows are signed with");
+  key->add_option("NAME", options.key.name,
+                  "Writes NAME.key, to be kept secret, and NAME.pub, for the players' --trust")
+      ->required();
+  key->fallthrough();
 }
 
 Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
@@ -452,6 +460,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("probe")) return options.probe;
   if (app.got_subcommand("camera")) return options.camera;
   if (app.got_subcommand("export")) return options.export_;
+  if (app.got_subcommand("key")) return options.key;
   return options.window;
 }
 

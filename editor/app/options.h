@@ -203,7 +203,12 @@ struct CameraOptions {
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
-  std::optional<int> points;  // of each place at most
+  std::optional<int> points;   // of each place at most
+  std::filesystem::path sign;  // a secret key; empty: the bundle is not signed
+};
+
+struct KeyOptions {
+  std::filesystem::path name;  // of the pair: NAME.key and NAME.pub
 };
 
 using Subcommand = std::variant<WindowOptions,
@@ -225,7 +230,8 @@ using Subcommand = std::variant<WindowOptions,
                                 ReferenceOptions,
                                 ProbeOptions,
                                 CameraOptions,
-                                ExportOptions>;
+                                ExportOptions,
+                                KeyOptions>;
 
 struct CommandLine {
   Subcommand subcommand;

@@ -22,6 +22,7 @@
 #include "editor/app/staging.h"
 #include "editor/app/thumbnail.h"
 #include "editor/bake/probe.h"
+#include "shared/bundle/bundle_writer.h"
 #include "shared/core/file.h"
 #include "shared/stage/stage.h"
 
@@ -332,11 +333,28 @@ Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
   MapBudget budget;
   budget.max_points = options.points.value_or(budget.max_points);
+  std::optional<bundle::SecretKey> key;
+  if (!options.sign.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(key, bundle::LoadSecretKey(options.sign));
+  }
   LARARIUM_RETURN_IF_ERROR(ExportProject(paths, document, options.out, budget, progress));
+  if (key) {
+    LARARIUM_RETURN_IF_ERROR(bundle::SignBundle(options.out, *key));
+  }
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(options.out, ignored);
   return CommandResult{"wrote " + options.out.string() + " (" + std::to_string(bytes) + " bytes)\n",
                        {{"out", options.out.string()}, {"bytes", bytes}}};
+}
+
+Result<CommandResult> RunKey(const KeyOptions& options) {
+  const std::string secret = options.name.string() + ".key";
+  const std::string open = options.name.string() + ".pub";
+  const bundle::SecretKey key = bundle::MakeSecretKey();
+  LARARIUM_RETURN_IF_ERROR(bundle::SaveSecretKey(secret, key));
+  LARARIUM_RETURN_IF_ERROR(bundle::SavePublicKey(open, key.public_key()));
+  return CommandResult{"keep " + secret + " to yourself, give " + open + " to the players\n",
+                       {{"secret", secret}, {"public", open}}};
 }
 
 }  // namespace lararium::app

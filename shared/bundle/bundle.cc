@@ -29,6 +29,28 @@ Result<ShowManifest> ReadManifest(const ZipMember& member, const std::string& pl
   return ParseShowManifest(text, place + ": " + std::string(kManifestName));
 }
 
+// What no manifest vouches for has its CRC-32.
+bool IsWhole(const ZipMember& member, size_t size) {
+  const auto* bytes = reinterpret_cast<const Bytef*>(member.data.data());
+  return member.data.size() == size && crc32_z(0, bytes, size) == member.crc32;
+}
+
+// Before anything in the manifest is believed.
+Status CheckSignature(const ZipMember& manifest,
+                      const ZipMember* signature,
+                      const PublicKey& trusted,
+                      const std::string& place) {
+  constexpr char kAsk[] = "ask whoever made the show for one that is signed with the museum's key";
+  if (signature == nullptr) {
+    return Status::Error(place, "the bundle is not signed", kAsk);
+  }
+  if (!Verifies(manifest.data, signature->data, trusted)) {
+    return Status::Error(place, "the bundle is not signed with the trusted key, or was altered",
+                         kAsk);
+  }
+  return Status();
+}
+
 // What is in the archive is what the manifest lists, in the same order.
 Status CheckListing(const ShowManifest& manifest,
                     std::span<const ZipMember> members,
@@ -75,7 +97,7 @@ Status CheckHashes(const ShowManifest& manifest,
 
 }  // namespace
 
-Result<Bundle> Bundle::Open(const std::filesystem::path& path) {
+Result<Bundle> Bundle::Open(const std::filesystem::path& path, const OpenOptions& options) {
   const std::string place = path.string();
   LARARIUM_ASSIGN_OR_RETURN(MappedFile file, MappedFile::Open(path));
   Bundle bundle(place, std::move(file));
@@ -83,8 +105,16 @@ Result<Bundle> Bundle::Open(const std::filesystem::path& path) {
   if (all.empty()) {
     return Status::Error(place, "the bundle has no members", kCopyAgain);
   }
+  bundle.is_signed_ = all.size() > 1 && all[1].name == kSignatureName;
+  if (options.trusted) {
+    LARARIUM_RETURN_IF_ERROR(
+        CheckSignature(all[0], bundle.is_signed_ ? &all[1] : nullptr, *options.trusted, place));
+  }
+  if (bundle.is_signed_ && !IsWhole(all[1], std::tuple_size_v<Signature>)) {
+    return Status::Error(place, "the bundle is damaged: its signature was changed", kCopyAgain);
+  }
   LARARIUM_ASSIGN_OR_RETURN(bundle.manifest_, ReadManifest(all[0], place));
-  const std::span<const ZipMember> members = std::span(all).subspan(1);
+  const std::span<const ZipMember> members = std::span(all).subspan(bundle.is_signed_ ? 2 : 1);
   LARARIUM_RETURN_IF_ERROR(CheckListing(bundle.manifest_, members, place));
   LARARIUM_RETURN_IF_ERROR(CheckHashes(bundle.manifest_, members, place));
   for (const ZipMember& member : members) {

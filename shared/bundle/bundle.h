@@ -6,25 +6,35 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "shared/bundle/show_manifest.h"
+#include "shared/bundle/signature.h"
 #include "shared/core/file.h"
 #include "shared/core/status.h"
 
 namespace lararium::bundle {
+
+struct OpenOptions {
+  // Only what its owner signed is opened, and nothing of anything else is looked at but the
+  // archive's structure. None: signatures do not count.
+  std::optional<PublicKey> trusted = std::nullopt;
+};
 
 class Bundle {
  public:
   // Verifies everything before it returns: the archive's structure, and the size
   // and SHA-256 of every member. Uses constant memory beside the mapped file.
   // Errors say that the file is damaged, foreign or too new, and what to do.
-  static Result<Bundle> Open(const std::filesystem::path& path);
+  static Result<Bundle> Open(const std::filesystem::path& path, const OpenOptions& options = {});
 
   const ShowManifest& manifest() const { return manifest_; }
   const std::string& place() const { return place_; }
+  // Whether it carries a signature, which counts for nothing unless a key was given.
+  bool is_signed() const { return is_signed_; }
 
   // The bytes of a member where they are mapped, aligned to 64 bytes; they live
   // as long as the bundle. The members that manifest() names always exist.
@@ -36,6 +46,7 @@ class Bundle {
   std::string place_;  // what errors call it
   MappedFile file_;
   ShowManifest manifest_;
+  bool is_signed_ = false;
   std::map<std::string, std::span<const std::byte>, std::less<>> members_;
 };
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 
+#include "shared/bundle/bundle.h"
 #include "shared/bundle/member_name.h"
 #include "shared/bundle/zip_layout.h"
 #include "shared/core/file.h"
@@ -108,7 +109,8 @@ Status Publish(const std::filesystem::path& from, const std::filesystem::path& t
 
 Status WriteBundle(const std::filesystem::path& path,
                    ShowManifest manifest,
-                   const std::vector<MemberContent>& members) {
+                   const std::vector<MemberContent>& members,
+                   const SecretKey* key) {
   std::vector<MappedFile> files;
   std::vector<Source> sources = {{std::string(kManifestName), {}}};
   manifest.members.clear();
@@ -130,6 +132,12 @@ Status WriteBundle(const std::filesystem::path& path,
     return parsed.status();
   }
   sources[0].bytes = std::as_bytes(std::span(text));
+  Signature signature = {};
+  if (key != nullptr) {
+    signature = Sign(sources[0].bytes, *key);
+    sources.insert(sources.begin() + 1,
+                   {std::string(kSignatureName), std::as_bytes(std::span(signature))});
+  }
 
   const std::filesystem::path unfinished = path.string() + ".part";
   Status status = WriteArchive(unfinished, sources);
@@ -140,6 +148,16 @@ Status WriteBundle(const std::filesystem::path& path,
     ::unlink(unfinished.c_str());
   }
   return status;
+}
+
+Status SignBundle(const std::filesystem::path& path, const SecretKey& key) {
+  LARARIUM_ASSIGN_OR_RETURN(const Bundle bundle, Bundle::Open(path));
+  std::vector<MemberContent> members;
+  for (const Member& member : bundle.manifest().members) {
+    LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.name));
+    members.push_back({member.name, bytes});
+  }
+  return WriteBundle(path, bundle.manifest(), members, &key);
 }
 
 }  // namespace lararium::bundle

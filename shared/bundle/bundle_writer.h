@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "shared/bundle/show_manifest.h"
+#include "shared/bundle/signature.h"
 #include "shared/core/status.h"
 
 namespace lararium::bundle {
@@ -23,9 +24,13 @@ struct MemberContent {
 
 // Writes manifest and members to path, in their order, replacing it as a whole
 // or leaving it as it was. manifest.members is computed here. The same content
-// gives the same bytes.
+// and key give the same bytes. key: signs the manifest; nullptr leaves it unsigned.
 Status WriteBundle(const std::filesystem::path& path,
                    ShowManifest manifest,
-                   const std::vector<MemberContent>& members);
+                   const std::vector<MemberContent>& members,
+                   const SecretKey* key = nullptr);
+
+// Signs a bundle that was written, in the place of a signature that it has.
+Status SignBundle(const std::filesystem::path& path, const SecretKey& key);
 
 }  // namespace lararium::bundle

@@ -5,6 +5,8 @@
 namespace lararium::bundle {
 
 inline constexpr std::string_view kManifestName = "manifest.json";
+// Of signed bundles, right behind the manifest, which does not list it.
+inline constexpr std::string_view kSignatureName = "manifest.sig";
 inline constexpr size_t kMaxMemberName = 200;
 
 // Names of members are relative paths of parts joined by '/'. A part begins with
