@@ -68,9 +68,39 @@ class CameraSource final : public FrameSource {
   int64_t next_index_ = 0;
 };
 
+// Sizes and formats belong together: first the format, then the size, then the rate.
+Status Configure(const std::string& name,
+                 const CameraSettings& settings,
+                 cv::VideoCapture& capture) {
+  if (settings.format.size() == 4) {
+    const std::string& f = settings.format;
+    capture.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc(f[0], f[1], f[2], f[3]));
+  }
+  if (settings.width > 0 && settings.height > 0) {
+    capture.set(cv::CAP_PROP_FRAME_WIDTH, settings.width);
+    capture.set(cv::CAP_PROP_FRAME_HEIGHT, settings.height);
+    if (static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH)) != settings.width ||
+        static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT)) != settings.height) {
+      return Status::Error(name,
+                           "has no images of " + std::to_string(settings.width) + "x" +
+                               std::to_string(settings.height),
+                           "change the device file's \"capture\"");
+    }
+  }
+  if (settings.frames_per_second > 0.0) {
+    capture.set(cv::CAP_PROP_FPS, settings.frames_per_second);
+  }
+  if (settings.exposure_ms) {
+    // V4L2: 1 is by hand; exposure counts in tenths of a millisecond.
+    capture.set(cv::CAP_PROP_AUTO_EXPOSURE, 1.0);
+    capture.set(cv::CAP_PROP_EXPOSURE, 10.0 * *settings.exposure_ms);
+  }
+  return Status();
+}
+
 }  // namespace
 
-Result<std::unique_ptr<FrameSource>> OpenCamera(int number) {
+Result<std::unique_ptr<FrameSource>> OpenCamera(int number, const CameraSettings& settings) {
   const std::string name = "camera " + std::to_string(number);
   cv::VideoCapture capture;
   bool opened = false;
@@ -84,6 +114,7 @@ Result<std::unique_ptr<FrameSource>> OpenCamera(int number) {
   if (!opened) {
     return Status::Error(name, "cannot be opened", "check that it is connected and not in use");
   }
+  LARARIUM_RETURN_IF_ERROR(Configure(name, settings, capture));
   return std::unique_ptr<FrameSource>(std::make_unique<CameraSource>(name, std::move(capture)));
 }
 

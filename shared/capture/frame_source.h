@@ -52,8 +52,18 @@ Result<std::unique_ptr<FrameSource>> OpenVideo(const std::filesystem::path& file
 // Pixels stay as stored: EXIF orientation is ignored. 30 frames per second.
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder);
 
-// A live V4L2 camera.
-Result<std::unique_ptr<FrameSource>> OpenCamera(int number);
+// How a camera is to be run; what is not set stays as the camera has it. What it refuses is
+// refused with an error but for the exposure, which not all cameras know.
+struct CameraSettings {
+  std::string format;  // four letters: "MJPG", "YUYV"; empty: any
+  int width = 0;       // pixels; 0: any
+  int height = 0;
+  double frames_per_second = 0.0;     // 0: any
+  std::optional<double> exposure_ms;  // none: automatic
+};
+
+// A live V4L2 camera. Its images are decoded by whoever calls Next().
+Result<std::unique_ptr<FrameSource>> OpenCamera(int number, const CameraSettings& settings = {});
 
 // The focal length in pixels that the EXIF data of an image file give, by its
 // 35 mm equivalent (of equal diagonal); nullopt where there is none. Reads JPEG.
