@@ -1,17 +1,11 @@
 #include "shared/render/captions.h"
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <string>
 #include <utility>
-
-#include "shared/render/gl_object.h"
-#include "shared/render/shader_program.h"
 
 namespace lararium::render {
 namespace {
@@ -105,13 +99,6 @@ std::string_view TakeRow(const CaptionFont& font, float widest, std::string_view
   return row;
 }
 
-struct Vertex {
-  glm::vec2 place;       // pixels of the target
-  glm::vec2 coordinate;  // letters: in the atlas, 0..1; grounds: pixels from the middle
-  glm::vec4 colour;
-  glm::vec2 extent;  // of a ground: half its size, pixels
-};
-
 }  // namespace
 
 void LayOut(const CaptionFont& font,
@@ -165,173 +152,47 @@ void LayOutLegend(
                                baseline - em * (kRowStep - 0.22f - kPadding)};
 }
 
-struct CaptionPainter::State {
-  CaptionFont font;
-  ShaderProgram ground_pass;
-  ShaderProgram letter_pass;
-  GlTexture atlas = GlTexture::Generate();
-  GlVertexArray vertex_array = GlVertexArray::Generate();
-  GlBuffer buffer = GlBuffer::Generate();
-  CaptionLayout layout;
-  std::vector<Vertex> vertices;
-
-  void AddQuad(glm::vec2 from, glm::vec2 to, glm::vec2 c_from, glm::vec2 c_to, glm::vec4 colour) {
-    const glm::vec2 extent = 0.5f * (c_to - c_from);
-    const Vertex corners[4] = {{from, c_from, colour, extent},
-                               {{to.x, from.y}, {c_to.x, c_from.y}, colour, extent},
-                               {{from.x, to.y}, {c_from.x, c_to.y}, colour, extent},
-                               {to, c_to, colour, extent}};
-    for (const int corner : {0, 1, 2, 2, 1, 3}) {
-      vertices.push_back(corners[corner]);
-    }
-  }
-
-  void AddText(std::string_view text, float em, glm::vec4 colour, glm::vec2& pen) {
-    const glm::vec2 atlas_size(font.atlas.cols, font.atlas.rows);
-    for (size_t at = 0; at < text.size();) {
-      const CaptionGlyph* glyph = font.Find(NextCharacter(text, at));
-      if (glyph == nullptr) {
-        continue;
-      }
-      if (glyph->to.x > glyph->from.x) {
-        AddQuad(pen + em * glyph->from, pen + em * glyph->to, glyph->atlas_from / atlas_size,
-                glyph->atlas_to / atlas_size, colour);
-      }
-      pen.x += em * glyph->advance;
-    }
-  }
-
-  void AddRow(const CaptionLayout::Row& row) {
-    const glm::vec4 colour(row.colour, 1.0f);
-    glm::vec2 pen = row.baseline;
-    if (row.side == CaptionSide::kLeft) {
-      AddText(kArrowLeft, row.em, colour, pen);
-    }
-    AddText(row.text, row.em, colour, pen);
-    if (row.side == CaptionSide::kRight) {
-      AddText(kArrowRight, row.em, colour, pen);
-    }
-  }
-
-  void Flush(const ShaderProgram& pass, glm::vec2 size) {
-    if (vertices.empty()) {
-      return;
-    }
-    glBindVertexArray(vertex_array.id());
-    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
-                 vertices.data(), GL_STREAM_DRAW);
-    pass.Use();
-    pass.Set("size_px", size);
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
-    vertices.clear();
-  }
-
-  void DefineVertices() const {
-    glBindVertexArray(vertex_array.id());
-    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
-    const std::pair<int, size_t> attributes[] = {{2, offsetof(Vertex, place)},
-                                                 {2, offsetof(Vertex, coordinate)},
-                                                 {4, offsetof(Vertex, colour)},
-                                                 {2, offsetof(Vertex, extent)}};
-    GLuint location = 0;
-    for (const auto& [count, offset] : attributes) {
-      glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                            reinterpret_cast<const void*>(offset));
-      glEnableVertexAttribArray(location++);
-    }
-    glBindVertexArray(0);
-  }
-
-  void UploadAtlas() const {
-    const cv::Mat texels = font.atlas.isContinuous() ? font.atlas : font.atlas.clone();
-    glBindTexture(GL_TEXTURE_2D, atlas.id());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, texels.cols, texels.rows, 0, GL_RED, GL_UNSIGNED_BYTE,
-                 texels.data);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
-      glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
-    }
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
-      glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
-    }
-  }
-};
-
-CaptionPainter::CaptionPainter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+CaptionPainter::CaptionPainter(std::unique_ptr<FlatPainter> flat) : flat_(std::move(flat)) {}
 CaptionPainter::~CaptionPainter() = default;
 
 Result<std::unique_ptr<CaptionPainter>> CaptionPainter::Create(CaptionFont font) {
-  auto state = std::make_unique<State>();
-  LARARIUM_ASSIGN_OR_RETURN(state->ground_pass,
-                            ShaderProgram::Create("caption.vert", "caption_ground.frag"));
-  LARARIUM_ASSIGN_OR_RETURN(state->letter_pass,
-                            ShaderProgram::Create("caption.vert", "caption_letter.frag"));
-  state->font = std::move(font);
-  state->DefineVertices();
-  state->UploadAtlas();
-  return std::unique_ptr<CaptionPainter>(new CaptionPainter(std::move(state)));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<FlatPainter> flat,
+                            FlatPainter::Create(std::move(font)));
+  return std::unique_ptr<CaptionPainter>(new CaptionPainter(std::move(flat)));
 }
 
 void CaptionPainter::Draw(std::span<const Caption> captions,
                           const Legend* legend,
                           const RenderTarget& target) {
-  State& state = *state_;
-  LayOut(state.font, captions, target.width(), target.height(), state.layout);
+  LayOut(flat_->font(), captions, target.width(), target.height(), layout_);
   if (legend != nullptr) {
-    LayOutLegend(state.font, *legend, target.width(), target.height(), state.layout);
+    LayOutLegend(flat_->font(), *legend, target.width(), target.height(), layout_);
   }
-  if (state.layout.grounds.empty()) {
+  if (layout_.grounds.empty()) {
     return;
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  glViewport(0, 0, target.width(), target.height());
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const glm::vec2 size(target.width(), target.height());
-
-  const auto add_ground = [&](const CaptionLayout::Ground& ground, const glm::vec4& colour) {
-    const glm::vec2 half = 0.5f * (ground.to - ground.from);
-    state.AddQuad(ground.from, ground.to, -half, half, colour);
-  };
-  for (const CaptionLayout::Ground& ground : state.layout.grounds) {
-    add_ground(ground, glm::vec4(0.0f, 0.0f, 0.0f, kGroundOpacity));
+  const float radius_px = kRadius * static_cast<float>(target.height());
+  flat_->Begin(target);
+  for (const CaptionLayout::Ground& ground : layout_.grounds) {
+    flat_->Rectangle(ground.from, ground.to, radius_px,
+                     glm::vec4(0.0f, 0.0f, 0.0f, kGroundOpacity));
   }
-  state.ground_pass.Use();
-  state.ground_pass.Set("radius_px", kRadius * size.y);
-  state.ground_pass.Set("stripes", 0);
-  state.ground_pass.Set("stripe_px", 1.0f);
-  state.Flush(state.ground_pass, size);
-  for (const CaptionLayout::Swatch& swatch : state.layout.swatches) {
-    add_ground(swatch.place, glm::vec4(swatch.colour, 1.0f));
-    state.ground_pass.Set("radius_px", 0.25f * kRadius * size.y);
-    state.ground_pass.Set("stripes", swatch.stripes);
-    state.ground_pass.Set("stripe_px", swatch.stripe_px);
-    state.Flush(state.ground_pass, size);
+  for (const CaptionLayout::Swatch& swatch : layout_.swatches) {
+    flat_->Rectangle(swatch.place.from, swatch.place.to, 0.25f * radius_px,
+                     glm::vec4(swatch.colour, 1.0f), {swatch.stripes, swatch.stripe_px});
   }
-
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, state.atlas.id());
-  state.letter_pass.Use();
-  state.letter_pass.Set("atlas", 0);
-  for (size_t i = 0; i < state.layout.rows.size(); ++i) {
-    const CaptionLayout::Row& row = state.layout.rows[i];
-    state.AddRow(row);
-    const bool last = i + 1 == state.layout.rows.size();
-    if (last || state.layout.rows[i + 1].em != row.em) {
-      // How many pixels of the target the whole range of the atlas' values spans.
-      state.letter_pass.Set("range_px", 2.0f * state.font.rim_px * row.em / state.font.em_px);
-      state.Flush(state.letter_pass, size);
+  for (const CaptionLayout::Row& row : layout_.rows) {
+    const glm::vec4 colour(row.colour, 1.0f);
+    glm::vec2 pen = row.baseline;
+    if (row.side == CaptionSide::kLeft) {
+      pen.x = flat_->Text(kArrowLeft, pen, row.em, colour);
+    }
+    pen.x = flat_->Text(row.text, pen, row.em, colour);
+    if (row.side == CaptionSide::kRight) {
+      flat_->Text(kArrowRight, pen, row.em, colour);
     }
   }
-  glDisable(GL_BLEND);
-  glBindVertexArray(0);
+  flat_->End();
 }
 
 }  // namespace lararium::render

@@ -12,6 +12,7 @@
 
 #include "shared/core/status.h"
 #include "shared/render/caption_font.h"
+#include "shared/render/flat_painter.h"
 #include "shared/render/render_target.h"
 
 namespace lararium::render {
@@ -88,11 +89,14 @@ class CaptionPainter {
   // Over what the target holds. legend: nullptr where there is none.
   void Draw(std::span<const Caption> captions, const Legend* legend, const RenderTarget& target);
 
- private:
-  struct State;
-  explicit CaptionPainter(std::unique_ptr<State> state);
+  // For what else is written in the same letters.
+  FlatPainter& flat() { return *flat_; }
 
-  std::unique_ptr<State> state_;
+ private:
+  explicit CaptionPainter(std::unique_ptr<FlatPainter> flat);
+
+  std::unique_ptr<FlatPainter> flat_;
+  CaptionLayout layout_;
 };
 
 }  // namespace lararium::render

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -207,19 +208,30 @@ class TextureLoader {
     return static_cast<int>(found - wanted_.begin());
   }
 
-  Result<std::vector<GlTexture>> Load() const {
+  Result<std::vector<std::shared_ptr<const GlTexture>>> Load(TexturePool& pool) const {
+    std::vector<TexturePool::Key> keys;
+    std::vector<std::shared_ptr<const GlTexture>> loaded;
+    for (const Request& request : wanted_) {
+      keys.push_back(TexturePool::KeyOf(textures_[request.texture].encoded, request.use));
+      loaded.push_back(pool.Find(keys.back()));
+    }
     std::vector<std::optional<Result<cv::Mat>>> images(wanted_.size());
     ParallelFor(wanted_.size(), [&](size_t i) {
-      const human::Texture& texture = textures_[wanted_[i].texture];
-      images[i] = DecodeTexture(texture.encoded, place_ + ": texture '" + texture.name + "'");
-      if (images[i]->ok() && wanted_[i].use == TextureUse::kColour) {
-        PremultiplySrgb(**images[i]);
+      if (loaded[i] == nullptr) {
+        const human::Texture& texture = textures_[wanted_[i].texture];
+        images[i] = DecodeTexture(texture.encoded, place_ + ": texture '" + texture.name + "'");
+        if (images[i]->ok() && wanted_[i].use == TextureUse::kColour) {
+          PremultiplySrgb(**images[i]);
+        }
       }
     });
-    std::vector<GlTexture> loaded;
     for (size_t i = 0; i < wanted_.size(); ++i) {
-      LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, std::move(*images[i]));
-      loaded.push_back(CreateSurfaceTexture(image, wanted_[i].use));
+      if (loaded[i] == nullptr) {
+        LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, std::move(*images[i]));
+        images[i].reset();
+        loaded[i] = std::make_shared<const GlTexture>(CreateSurfaceTexture(image, wanted_[i].use));
+        pool.Add(keys[i], loaded[i]);
+      }
     }
     return loaded;
   }
@@ -240,6 +252,7 @@ Status AddParts(std::span<const PartSource> sources,
                 std::span<const human::Material> materials,
                 std::span<const human::Texture> textures,
                 const std::string& place,
+                TexturePool& pool,
                 GpuModel& model) {
   TextureLoader loader(textures, place);
   for (const PartSource& source : sources) {
@@ -252,7 +265,7 @@ Status AddParts(std::span<const PartSource> sources,
       part.normal_texture = loader.Want(material.normal_texture, TextureUse::kNormal);
     }
   }
-  LARARIUM_ASSIGN_OR_RETURN(model.textures, loader.Load());
+  LARARIUM_ASSIGN_OR_RETURN(model.textures, loader.Load(pool));
   return Status();
 }
 
@@ -298,9 +311,36 @@ void WidenForArcs(std::vector<Box>& boxes) {
   }
 }
 
+// FNV-1a over words, from two seeds.
+uint64_t Hash(std::span<const std::byte> bytes, uint64_t seed) {
+  constexpr uint64_t kPrime = 0x100000001b3;
+  uint64_t hash = seed;
+  size_t at = 0;
+  for (; at + sizeof(uint64_t) <= bytes.size(); at += sizeof(uint64_t)) {
+    uint64_t word = 0;
+    std::memcpy(&word, &bytes[at], sizeof(word));
+    hash = (hash ^ word) * kPrime;
+    hash ^= hash >> 29;
+  }
+  for (; at < bytes.size(); ++at) {
+    hash = (hash ^ std::to_integer<uint64_t>(bytes[at])) * kPrime;
+  }
+  return hash;
+}
+
 }  // namespace
 
-Result<GpuModel> GpuModel::Create(const human::Human& human) {
+TexturePool::Key TexturePool::KeyOf(std::span<const std::byte> encoded, TextureUse use) {
+  return {static_cast<uint64_t>(use), encoded.size(), Hash(encoded, 0xcbf29ce484222325),
+          Hash(encoded, 0x9e3779b97f4a7c15)};
+}
+
+std::shared_ptr<const GlTexture> TexturePool::Find(const Key& key) const {
+  const auto found = textures_.find(key);
+  return found == textures_.end() ? nullptr : found->second.lock();
+}
+
+Result<GpuModel> GpuModel::Create(const human::Human& human, TexturePool& pool) {
   GpuModel model;
   const bool dual = human.skinning == human::Skinning::kDualQuaternion;
   model.skin = dual ? Skin::kDualQuaternion : Skin::kLinear;
@@ -309,7 +349,8 @@ Result<GpuModel> GpuModel::Create(const human::Human& human) {
     sources.push_back(Source(mesh));
   }
   SetBacks(human.light.meshes, sources);
-  LARARIUM_RETURN_IF_ERROR(AddParts(sources, human.materials, human.textures, human.name, model));
+  LARARIUM_RETURN_IF_ERROR(
+      AddParts(sources, human.materials, human.textures, human.name, pool, model));
   model.joint_boxes.resize(human.skeleton.size());
   const auto reach = MorphReach(human);
   for (size_t i = 0; i < human.meshes.size(); ++i) {
@@ -321,7 +362,7 @@ Result<GpuModel> GpuModel::Create(const human::Human& human) {
   return model;
 }
 
-Result<GpuModel> GpuModel::Create(const stage::Prop& prop) {
+Result<GpuModel> GpuModel::Create(const stage::Prop& prop, TexturePool& pool) {
   GpuModel model;
   model.skin = Skin::kRigid;
   std::vector<PartSource> sources;
@@ -339,7 +380,8 @@ Result<GpuModel> GpuModel::Create(const stage::Prop& prop) {
     }
   }
   SetBacks(prop.light.meshes, sources);
-  LARARIUM_RETURN_IF_ERROR(AddParts(sources, prop.materials, prop.textures, prop.name, model));
+  LARARIUM_RETURN_IF_ERROR(
+      AddParts(sources, prop.materials, prop.textures, prop.name, pool, model));
   for (size_t i = 0; i < emissions.size(); ++i) {
     model.parts[i].emission = emissions[i];
     model.parts[i].prop_part = prop_parts[i];

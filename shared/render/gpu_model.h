@@ -4,8 +4,11 @@
 // joints. A prop's joints are its movable parts. Private to render.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,9 +17,28 @@
 #include "shared/human/human.h"
 #include "shared/render/gl_object.h"
 #include "shared/render/screen_bounds.h"
+#include "shared/render/surface_texture.h"
 #include "shared/stage/prop.h"
 
 namespace lararium::render {
+
+// Textures of the models that there are: those of equal files are on the GPU once. People share
+// eyes, teeth and fabrics.
+class TexturePool {
+ public:
+  // What files are told apart by: use, size, and two hashes, by which no two files agree by chance.
+  using Key = std::array<uint64_t, 4>;
+  static Key KeyOf(std::span<const std::byte> encoded, TextureUse use);
+
+  // nullptr: there is none any more, or yet.
+  std::shared_ptr<const GlTexture> Find(const Key& key) const;
+  void Add(const Key& key, const std::shared_ptr<const GlTexture>& texture) {
+    textures_[key] = texture;
+  }
+
+ private:
+  std::map<Key, std::weak_ptr<const GlTexture>> textures_;
+};
 
 struct GpuModel {
   static constexpr int kNoTexture = -1;
@@ -52,7 +74,7 @@ struct GpuModel {
     bool covered() const { return alpha_cutoff > 0.0f; }
   };
 
-  std::vector<GlTexture> textures;
+  std::vector<std::shared_ptr<const GlTexture>> textures;
   std::vector<Part> parts;  // of a human: parallel to its meshes
   enum class Skin { kLinear, kDualQuaternion, kRigid };
   static constexpr size_t kSkins = 3;
@@ -68,8 +90,8 @@ struct GpuModel {
   }
 
   // Fails where a texture cannot be decoded.
-  static Result<GpuModel> Create(const human::Human& human);
-  static Result<GpuModel> Create(const stage::Prop& prop);
+  static Result<GpuModel> Create(const human::Human& human, TexturePool& pool);
+  static Result<GpuModel> Create(const stage::Prop& prop, TexturePool& pool);
 
   // Vertices for the next draw of a part; one for each of its own. The buffer's old
   // content is orphaned, so that nothing waits for draws under way.

@@ -249,7 +249,7 @@ void ModelPass::SetLight(const ModelDraw& draw, Program& program, bool skin) {
 void ModelPass::BindTextures(const GpuModel& model, const GpuModel::Part& part) const {
   const auto texture = [&](int index) {
     return index == GpuModel::kNoTexture ? white_.id()
-                                         : model.textures[static_cast<size_t>(index)].id();
+                                         : model.textures[static_cast<size_t>(index)]->id();
   };
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, texture(part.normal_texture));

@@ -43,6 +43,8 @@ Result<RenderTarget> RenderTarget::Create(int width, int height) {
   return target;
 }
 
+void RenderTarget::Finish() { glFinish(); }
+
 void RenderTarget::ReadPixels(cv::Mat& bgr) const {
   read_.create(height_, width_, CV_8UC4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());

@@ -20,6 +20,9 @@ class RenderTarget {
   uint32_t texture() const { return colour_.id(); }
   uint32_t framebuffer() const { return framebuffer_.id(); }
 
+  // Waits until the drawing is done.
+  static void Finish();
+
   // Waits for the drawing. bgr: CV_8UC3, allocated when its size is another.
   void ReadPixels(cv::Mat& bgr) const;
 

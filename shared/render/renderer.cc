@@ -101,10 +101,10 @@ MeshHandle Renderer::AddMesh(const geometry::TriangleMesh& mesh) {
   return state_->meshes.Add(GpuMesh::Create(mesh));
 }
 Result<ModelHandle> Renderer::AddHuman(const human::Human& human) {
-  return state_->AddModel(GpuModel::Create(human));
+  return state_->AddModel(GpuModel::Create(human, state_->textures));
 }
 Result<ModelHandle> Renderer::AddProp(const stage::Prop& prop) {
-  return state_->AddModel(GpuModel::Create(prop));
+  return state_->AddModel(GpuModel::Create(prop, state_->textures));
 }
 void Renderer::RemoveMesh(MeshHandle mesh) { state_->meshes.Remove(mesh); }
 void Renderer::RemoveModel(ModelHandle model) { state_->models.Remove(model); }

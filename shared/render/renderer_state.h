@@ -42,6 +42,7 @@ struct Renderer::State {
   ImageSize picture_size;     // likewise
   SlotMap<GpuMesh> meshes;
   SlotMap<GpuModel> models;
+  TexturePool textures;
   std::vector<ModelDraw> draws;      // of the picture at hand: what may be seen in it
   std::vector<ModelDraw> all_draws;  // likewise: all
 

@@ -81,6 +81,8 @@ std::string KeyName(int key) {
       return "page_up";
     case GLFW_KEY_PAGE_DOWN:
       return "page_down";
+    case GLFW_KEY_HOME:
+      return "home";
     default:
       return "";
   }
