@@ -83,6 +83,20 @@ void SoundPlayer::Open() {
   }
 }
 
+// A ramp over the block; loudness is felt by its logarithm, roughly its square.
+void SoundPlayer::ApplyVolume(std::span<float> stereo) {
+  const float wanted = std::clamp(volume_.load(), 0.0f, 1.0f);
+  if (wanted == 1.0f && heard_volume_ == 1.0f) {
+    return;
+  }
+  const float step = (wanted - heard_volume_) / static_cast<float>(stereo.size());
+  for (float& sample : stereo) {
+    heard_volume_ += step;
+    sample *= heard_volume_ * heard_volume_;
+  }
+  heard_volume_ = wanted;
+}
+
 void SoundPlayer::Run(const std::stop_token& stop) {
   std::array<float, 2 * Mixer::kBlockFrames> block = {};
   constexpr double kBlockSeconds = static_cast<double>(Mixer::kBlockFrames) / Mixer::kRate;
@@ -97,6 +111,7 @@ void SoundPlayer::Run(const std::stop_token& stop) {
       const double begin =
           scene_.held ? scene_.time : clock_.Next(scene_.time, shown_, heard, kBlockSeconds);
       mixer_->Render(scene_, begin, block);
+      ApplyVolume(block);
     }
     if (const Status status = out_->Write(block); !status.ok()) {
       log_.warn("{}; the show goes on in silence", status.message());

@@ -2,11 +2,13 @@
 
 // Plays a show's sound in real time, on a thread of its own.
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <thread>
 
@@ -51,9 +53,13 @@ class SoundPlayer {
   // nothing once the player has held as many voices.
   void Show(const SoundScene& scene);
 
+  // How loud all of it is, 0 to 1, without a click. Any thread.
+  void SetVolume(float volume) { volume_ = volume; }
+
  private:
   void Run(const std::stop_token& stop);
   void Open();
+  void ApplyVolume(std::span<float> stereo);
   // The newest scene, silenced where it is old; none: nothing was shown yet.
   bool TakeScene(std::chrono::steady_clock::time_point now);
 
@@ -64,7 +70,9 @@ class SoundPlayer {
   SoundScene newest_;  // with the mutex
   std::chrono::steady_clock::time_point newest_shown_;
   bool any_ = false;
+  std::atomic<float> volume_ = 1.0f;
   // Of the thread.
+  float heard_volume_ = 1.0f;  // at the end of the last block
   SoundScene scene_;
   std::chrono::steady_clock::time_point shown_;
   std::unique_ptr<AudioOut> out_;

@@ -22,10 +22,15 @@ void TimedStage(const FrameStages& stages,
                 vision::TrackedFrame tracked,
                 double time,
                 StagedFrame& staged) {
-  ScopedStageTimer timer(stages.statistics.simulate);
-  stages.statistics.tracking.Add(tracked);
-  stages.show.StageFrame(std::move(tracked), time, staged);
-  timer.AddCpu(staged.helpers_cpu_ms);
+  const Clock::time_point begin = Clock::now();
+  {
+    ScopedStageTimer timer(stages.statistics.simulate);
+    stages.statistics.tracking.Add(tracked);
+    stages.show.StageFrame(std::move(tracked), time, staged);
+    timer.AddCpu(staged.helpers_cpu_ms);
+  }
+  staged.staged = Clock::now();
+  staged.stage_ms = std::chrono::duration<double, std::milli>(staged.staged - begin).count();
 }
 
 // Sleeps until due, or until stop is requested.
@@ -44,7 +49,9 @@ Result<bool> LockStep::Next(StagedFrame& staged) {
     return false;
   }
   staged.arrival = Clock::now();
-  TimedStage(stages_, TimedTrack(stages_, *frame), clock_.ShowTime(*frame), staged);
+  vision::TrackedFrame tracked = TimedTrack(stages_, *frame);
+  staged.located = Clock::now();
+  TimedStage(stages_, std::move(tracked), clock_.ShowTime(*frame), staged);
   return true;
 }
 
@@ -101,7 +108,8 @@ void RealtimePipeline::Capture(const std::stop_token& stop) {
 
 void RealtimePipeline::Track(const std::stop_token& stop) {
   while (std::optional<CapturedFrame> captured = captured_.Take(stop)) {
-    located_.Put({TimedTrack(stages_, captured->frame), captured->arrival});
+    vision::TrackedFrame tracked = TimedTrack(stages_, captured->frame);
+    located_.Put({std::move(tracked), captured->arrival, Clock::now()});
   }
   located_.Close();
 }
@@ -114,6 +122,7 @@ void RealtimePipeline::Simulate(const std::stop_token& stop) {
       staged = std::make_unique<StagedFrame>();
     }
     staged->arrival = located->arrival;
+    staged->located = located->located;
     const double time = clock.ShowTime(located->tracked.frame);
     TimedStage(stages_, std::move(located->tracked), time, *staged);
     staged_.Put(std::move(staged));

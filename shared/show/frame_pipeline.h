@@ -85,6 +85,7 @@ class RealtimePipeline {
   struct LocatedFrame {
     vision::TrackedFrame tracked;
     std::chrono::steady_clock::time_point arrival;
+    std::chrono::steady_clock::time_point located;
   };
 
   void Capture(const std::stop_token& stop);

@@ -11,6 +11,7 @@
 #include <map>
 #include <utility>
 
+#include "shared/core/check.h"
 #include "shared/human/skinning.h"
 
 namespace lararium::show {
@@ -69,7 +70,25 @@ light::Transfer Unpack(const LightTransfer& transfer, const LightTransfer::Mesh&
   return unpacked;
 }
 
+UnpackedLight UnpackAll(const LightTransfer& light) {
+  UnpackedLight unpacked;
+  for (const LightTransfer::Mesh& mesh : light.meshes) {
+    unpacked.push_back(Unpack(light, mesh));
+  }
+  return unpacked;
+}
+
 }  // namespace
+
+std::shared_ptr<const UnpackedLight> TakeLight(human::Human& human) {
+  auto unpacked = std::make_shared<UnpackedLight>();
+  for (LightTransfer::Mesh& mesh : human.light.meshes) {
+    unpacked->push_back(Unpack(human.light, mesh));
+    mesh.coefficients = {};
+    mesh.scale = {};
+  }
+  return unpacked;
+}
 
 void SphereSet::Resize(size_t count) {
   for (std::vector<float>* values : {&x, &y, &z, &radius}) {
@@ -104,10 +123,15 @@ void SphereSet::Append(const SphereSet& more) {
   radius.insert(radius.end(), more.radius.begin(), more.radius.end());
 }
 
-PersonLight::PersonLight(std::shared_ptr<const human::Human> human)
+PersonLight::PersonLight(std::shared_ptr<const human::Human> human,
+                         std::shared_ptr<const UnpackedLight> light)
     : human_(std::move(human)),
       skin_(human_->skeleton.size(), glm::mat4(1.0f)),
-      receiver_light_(human_->light.count, human_->light.receivers.size()) {
+      receiver_light_(human_->light.count, human_->light.receivers.size()),
+      transfers_(light != nullptr
+                     ? std::move(light)
+                     : std::make_shared<const UnpackedLight>(UnpackAll(human_->light))) {
+  CHECK(transfers_->size() == human_->light.meshes.size());
   const size_t slots = receiver_light_.receivers();
   const int count = VisibilityCount(human_->light);
   own_log_ = stage_log_ = light::ShRows(count, slots);
@@ -164,7 +188,6 @@ void PersonLight::MakeMeshes() {
     const LightTransfer::Mesh& mesh = human_->light.meshes[i];
     MeshLight& made = meshes_.emplace_back();
     made.levels = render::FindMeshLevels(human_->meshes[i]);
-    made.transfer = Unpack(human_->light, mesh);
     made.receivers.resize(mesh.receivers.size());
     for (size_t v = 0; v < made.receivers.size(); ++v) {
       for (size_t i = 0; i < light::kReceiversOfVertex; ++i) {
@@ -321,9 +344,10 @@ void PersonLight::Update(const light::LightMatrix& light,
 
 void PersonLight::LightVertices(float detail, std::span<glm::vec3> irradiance) const {
   size_t first = 0;
-  for (const MeshLight& mesh : meshes_) {
+  for (size_t i = 0; i < meshes_.size(); ++i) {
+    const MeshLight& mesh = meshes_[i];
     const size_t count = mesh.receivers.size();
-    light::LightVerticesJob{&mesh.transfer, mesh.receivers, &receiver_light_, pose_weights_,
+    light::LightVerticesJob{&(*transfers_)[i], mesh.receivers, &receiver_light_, pose_weights_,
                             irradiance.subspan(first, count)}
         .Run(0, render::LevelAllowed(mesh.levels, detail).vertices);
     first += count;

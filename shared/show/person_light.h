@@ -38,10 +38,17 @@ struct SphereSet {
   light::Spheres spheres() const { return {x, y, z, radius}; }
 };
 
+// A human's transfer vectors, of each mesh, as they are read from frame to frame.
+using UnpackedLight = std::vector<light::Transfer>;
+// Takes the vectors out of the human, where they are no longer: they are most of its memory.
+std::shared_ptr<const UnpackedLight> TakeLight(human::Human& human);
+
 class PersonLight {
  public:
-  // The human's light transfer must not be empty.
-  explicit PersonLight(std::shared_ptr<const human::Human> human);
+  // The human's light transfer must not be empty. light: what was taken out of it; nullptr where
+  // nothing was.
+  explicit PersonLight(std::shared_ptr<const human::Human> human,
+                       std::shared_ptr<const UnpackedLight> light = nullptr);
 
   // Where the person's blockers are; before Update, and for other people's. Allocates
   // nothing, like all below.
@@ -78,7 +85,6 @@ class PersonLight {
     light::Turns turns() const { return {w, x, y, z}; }
   };
   struct MeshLight {
-    light::Transfer transfer;
     std::vector<light::VertexReceivers> receivers;
     std::vector<render::MeshLevel> levels;
   };
@@ -126,6 +132,7 @@ class PersonLight {
   std::vector<light::Lamp> near_lamps_;
   std::vector<float> pose_weights_;  // [slot][light::kMaxKeyPoses]
   light::ReceiverLight receiver_light_;
+  std::shared_ptr<const UnpackedLight> transfers_;  // of each mesh
   std::vector<MeshLight> meshes_;
 };
 

@@ -8,6 +8,7 @@
 #include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/light/probe_weights.h"
+#include "shared/show/picture_camera.h"
 
 namespace lararium::show {
 namespace {
@@ -50,20 +51,24 @@ Status Show::FillStage() {
   details_.resize(bodies_.size());
   requests_.resize(bodies_.size());
   std::vector<std::shared_ptr<const human::Human>> cast;
+  std::vector<std::shared_ptr<const UnpackedLight>> light;
   for (const CastMember& member : content_.cast) {
     cast.push_back(member.human);
+    light.push_back(member.light);
     levels_.push_back(render::FindDetailLevels(*member.human));
   }
   for (const StageObject& object : content_.objects) {
     LARARIUM_ASSIGN_OR_RETURN(const stage::ObjectId id, stage_.AddObject(object.name, object.model,
                                                                          object.stage_from_object));
     object_ids_.push_back(id);
-    cast.push_back(FigureOf(object.model->prop()));
+    const std::shared_ptr<human::Human> figure = FigureOf(object.model->prop());
+    light.push_back(TakeLight(*figure));
+    cast.push_back(figure);
     things_.push_back({std::vector<glm::mat4>(object.model->prop().parts.size()),
                        {},
                        ThingMemory(RadiusOf(object.model->prop()))});
   }
-  light_.emplace(cast);
+  light_.emplace(cast, light);
   for (Speech& speech : content_.speech) {
     LARARIUM_RETURN_IF_ERROR(stage_.AddSpeech(speech.name, speech.visemes));
   }
@@ -132,7 +137,30 @@ double Show::DramaTime(double time) {
   } else if (drama_->holds()) {
     held_seconds_ += passed;
   }
-  return std::max(time - held_seconds_, 0.0);
+  return std::clamp(time - start_ - held_seconds_, 0.0, drama::Drama::kMaxTime);
+}
+
+void Show::RestartAt(double seconds) {
+  const std::lock_guard lock(input_mutex_);
+  restart_ = std::clamp(seconds, 0.0, drama::Drama::kMaxTime);
+}
+
+void Show::TakeRestart(double time) {
+  std::optional<double> restart;
+  {
+    const std::lock_guard lock(input_mutex_);
+    restart = std::exchange(restart_, std::nullopt);
+  }
+  if (restart) {
+    start_ = time - *restart;
+    last_time_ = time;
+    held_seconds_ = 0.0;
+    gain_filter_.Reset();
+    camera_motion_.Reset();
+    if (ladder_) {
+      ladder_->Reset();
+    }
+  }
 }
 
 void Show::SetHour(float hour) {
@@ -152,26 +180,50 @@ void Show::PressKey(std::string_view key) {
   drama::AddKey(key, keys_);
 }
 
+LostLadder::View Show::Climb(const vision::TrackedFrame& tracked,
+                             const std::optional<geometry::Rigid3>& camera_from_stage,
+                             uint32_t place) {
+  if (ladder_) {
+    return ladder_->Update(tracked.frame.capture_time, camera_from_stage, place, tracked.camera);
+  }
+  LostLadder::View view;
+  view.rung = camera_from_stage ? LostLadder::Rung::kShown : LostLadder::Rung::kGone;
+  view.camera_from_stage = camera_from_stage;
+  view.place = place;
+  view.opacity = 1.0f;
+  return view;
+}
+
 void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
-  staged.camera_from_stage.reset();
-  staged.motion.reset();
+  std::optional<geometry::Rigid3> located;
+  uint32_t place = place_;
   if (tracked.camera_from_map) {
     CHECK(tracked.map < content_.places.size());
-    if (tracked.map != place_) {
-      gain_filter_.Reset();
-      camera_motion_.Reset();
-    }
-    place_ = tracked.map;
-    staged.camera_from_stage =
-        stage::CameraFromStage(content_.places[place_].stage, *tracked.camera_from_map);
+    place = tracked.map;
+    located = stage::CameraFromStage(content_.places[place].stage, *tracked.camera_from_map);
+  }
+  const LostLadder::View view = Climb(tracked, located, place);
+  if (view.place != place_) {
+    gain_filter_.Reset();
+    camera_motion_.Reset();
+  }
+  place_ = view.place;
+  staged.place = place_;
+  staged.rung = view.rung;
+  staged.opacity = view.opacity;
+  staged.lost_seconds = view.lost_seconds;
+  staged.camera_from_stage = view.camera_from_stage ? view.camera_from_stage : located;
+  staged.motion.reset();
+  if (located && place == place_) {
     staged.motion = camera_motion_.Update(tracked.frame.index, *staged.camera_from_stage);
-    staged.gain = gain_filter_.Update(tracked.gain, tracked.frame.capture_time);
+    gain_ = gain_filter_.Update(tracked.gain, tracked.frame.capture_time);
   } else {
     gain_filter_.Reset();
     camera_motion_.Reset();
   }
-  TellOfVisitor(staged.camera_from_stage);
-  staged.place = place_;
+  staged.gain = gain_;
+  guide_.Update(view.guide, tracked, content_.places[place].map.get(), staged.guide);
+  TellOfVisitor(located);
   staged.tracked = std::move(tracked);
 }
 
@@ -179,26 +231,30 @@ void Show::ChooseDetails(const StagedFrame& staged) {
   if (!staged.camera_from_stage) {
     return;  // nothing is drawn: as it was
   }
-  geometry::CameraModel display = staged.tracked.camera.DisplayPinhole();
-  if (picture_width_ > 0) {
-    display = display.Resized(picture_width_, picture_width_ * display.height / display.width);
-  }
+  const geometry::CameraModel& camera = staged.tracked.camera;
+  const int width = picture_width_ > 0 ? picture_width_ : camera.width;
+  const int height = picture_height_ > 0 ? picture_height_ : width * camera.height / camera.width;
+  const geometry::CameraModel display = PictureCamera(camera, width, height).Resized(width, height);
   for (size_t cast = 0; cast < requests_.size(); ++cast) {
     requests_[cast].levels = levels_[cast];
     requests_[cast].pixels_per_metre = 0.0f;
   }
+  // Who may be drawn more roughly is simulated as if seen from further away.
+  render::DetailOptions options;
+  {
+    const std::lock_guard lock(input_mutex_);
+    options = detail_options_;
+  }
+  const float share = render::Quality().detail_px / options.tolerance_px;
   for (const Visible& visible : visible_) {
     const glm::vec3 middle = visible.state->position + glm::vec3(0.0f, 0.5f * kPersonHeight, 0.0f);
     const float scale = render::PixelsPerMetre(display, *staged.camera_from_stage, middle);
     const bool seen = render::MaySee(display, *staged.camera_from_stage, middle, kPersonReach);
     BodyDetail& detail = details_[visible.cast];
-    detail = ChooseBodyDetail(kPersonHeight * scale, !seen, detail);
+    detail = ChooseBodyDetail(kPersonHeight * scale * share, !seen, detail);
     requests_[visible.cast].pixels_per_metre = seen ? scale : 0.0f;
   }
-  {
-    const std::lock_guard lock(input_mutex_);
-    detail_chooser_.SetOptions(detail_options_);
-  }
+  detail_chooser_.SetOptions(options);
   detail_chooser_.Choose(requests_);
 }
 
@@ -487,7 +543,8 @@ void Show::StageSounds(StagedFrame& staged) {
 }
 
 void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged) {
-  time = std::clamp(time, 0.0, drama::Drama::kMaxTime);
+  time = std::max(time, 0.0);
+  TakeRestart(time);
   Locate(std::move(tracked), staged);
   time = DramaTime(time);
   AdvanceTo(time);

@@ -25,6 +25,8 @@
 #include "shared/show/body.h"
 #include "shared/show/camera_motion.h"
 #include "shared/show/gain_filter.h"
+#include "shared/show/lost_guide.h"
+#include "shared/show/lost_ladder.h"
 #include "shared/show/show_content.h"
 #include "shared/show/sound_director.h"
 #include "shared/show/stage_light.h"
@@ -86,15 +88,23 @@ struct StagedFrame {
   // Index into ShowContent::places: where the pose lies; without a pose, where the
   // last one lay.
   uint32_t place = 0;
-  std::optional<geometry::Rigid3> camera_from_stage;  // rigid, metric; set when tracking
-  std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};     // of tracked, steadied by GainFilter
-  std::optional<CameraMotion> motion;                 // none: not known
-  double time = 0.0;                                  // of the drama, seconds
+  // Rigid, metric; set when tracking, and while people are held without a pose (lost_ladder.h).
+  std::optional<geometry::Rigid3> camera_from_stage;
+  float opacity = 1.0f;  // of people and what they do to the light
+  LostLadder::Rung rung = LostLadder::Rung::kShown;
+  double lost_seconds = 0.0;  // without a pose
+  StagedGuide guide;          // what tells a visitor who has lost the place where to look
+  std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};  // of tracked, steadied by GainFilter
+  std::optional<CameraMotion> motion;              // none: not known
+  double time = 0.0;                               // of the drama, seconds
   light::ProbeLight light;  // on real surfaces in view, stage axes; its sun is everybody's
   // The sky at the hour of the image, where the drama has set another hour.
   std::optional<light::ShRgb> picture_light;
   std::vector<float> probe_weights;               // of each probe of the place, likewise
   std::chrono::steady_clock::time_point arrival;  // when the image was there
+  std::chrono::steady_clock::time_point located;  // when its pose was
+  std::chrono::steady_clock::time_point staged;   // when all of this was
+  double stage_ms = 0.0;                          // that staging it took
   std::vector<StagedActor> actors;
   // Of all actors and objects, one after the other.
   std::vector<glm::mat4> skin;
@@ -135,6 +145,11 @@ class Show {
   // How finely people are shaped, lit and drawn from the next frame on.
   void SetQuality(const render::Quality& quality);
 
+  // The next frame shows the drama at this time of its own (seconds), and from there on: for the
+  // next visitor, or after a restart. Nobody is seen before they are found again.
+  // From any thread.
+  void RestartAt(double seconds);
+
   // For interactive staging: another transform, nudge, light or occluders of
   // places[index].
   void SetPlace(size_t index, stage::Place place) {
@@ -143,9 +158,17 @@ class Show {
     camera_motion_.Reset();  // poses of before mean another stage
   }
 
-  // How wide pictures will be drawn, which decides on levels of detail; as wide as the
-  // camera's images unless set. Not while a frame is being staged.
-  void SetPictureWidth(int width) { picture_width_ = width; }
+  // From now on people fade while tracking is lost, and the visitor is guided; without it they
+  // are gone with the pose. Not while a frame is being staged.
+  void SetLostLadder(const LostLadderOptions& options) { ladder_.emplace(options); }
+
+  // How large pictures will be drawn, which decides on levels of detail; as large as the
+  // camera's images unless set. height: 0 keeps their proportions. Not while a frame is being
+  // staged.
+  void SetPictureSize(int width, int height) {
+    picture_width_ = width;
+    picture_height_ = height;
+  }
 
   // Brings the drama to time (seconds, at least 0) and fills staged. The drama
   // runs in ticks of 1/120 s; what lies between two ticks is interpolated. Going
@@ -162,10 +185,14 @@ class Show {
   void AdvanceTo(double time);
   void TickOnce();
   void TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage);
-  // The drama's time at a time of the frames: less what it was held.
+  void TakeRestart(double time);
+  // The drama's time at a time of the frames: since it began, less what it was held.
   double DramaTime(double time);
   // Fills what of staged depends on where the camera is.
   void Locate(vision::TrackedFrame tracked, StagedFrame& staged);
+  LostLadder::View Climb(const vision::TrackedFrame& tracked,
+                         const std::optional<geometry::Rigid3>& camera_from_stage,
+                         uint32_t place);
   // What of each visible actor is simulated, and how finely it is drawn, by how it is seen.
   void ChooseDetails(const StagedFrame& staged);
   // Bodies step, then write what moves; people are spread over the cores.
@@ -199,17 +226,23 @@ class Show {
   std::vector<render::DetailRequest> requests_;           // likewise
   render::DetailChooser detail_chooser_;
   int picture_width_ = 0;                    // 0: the camera's
+  int picture_height_ = 0;                   // 0: in proportion
   std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
   std::mutex input_mutex_;
   std::string keys_;    // pressed since the last frame
   float hour_ = -1.0f;  // of the day; below 0: unknown
+  std::optional<double> restart_;
+  double start_ = 0.0;  // of the drama, in the time of the frames
   render::DetailOptions detail_options_;
   float picture_hour_ = -1.0f;  // hour_ as of the frame
   double last_time_ = 0.0;      // of the frames
   double held_seconds_ = 0.0;
   GainFilter gain_filter_;
+  std::array<float, 3> gain_ = {1.0f, 1.0f, 1.0f};  // while there was a pose
+  std::optional<LostLadder> ladder_;
+  LostGuide guide_;
   CameraMotionTracker camera_motion_;
   int64_t tick_ = 0;               // that current_ shows
   stage::StageSnapshot previous_;  // one tick before

@@ -2,13 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
+#include "shared/render/notice.h"
 #include "shared/show/evidence.h"
 
 namespace lararium::show {
 namespace {
 
 constexpr size_t kMostAtOnce = 2;
+
+// Of the staff's dot, sRGB.
+constexpr glm::vec3 kGood = {0.35f, 0.80f, 0.45f};
+constexpr glm::vec3 kPoor = {0.95f, 0.75f, 0.25f};
+constexpr glm::vec3 kBad = {0.92f, 0.35f, 0.30f};
+constexpr double kLongLoss = 2.0;  // seconds
 
 // Light colours that differ at a glance on a dark ground, also for the colour-blind (after
 // Okabe & Ito, Color Universal Design, 2008, lightened), by the order of the cast.
@@ -105,23 +113,66 @@ void CollectCaptions(const CaptionTexts& texts,
   }
 }
 
+std::string TrackingText(const StagedFrame& staged) {
+  const vision::TrackedFrame& tracked = staged.tracked;
+  char text[96];
+  if (tracked.camera_from_map) {
+    std::snprintf(text, sizeof(text), "%s %.2f", tracked.followed ? "following" : "found",
+                  static_cast<double>(tracked.confidence));
+    return text;
+  }
+  const char* what = staged.rung == LostLadder::Rung::kSearching ? "searching" : "lost";
+  std::snprintf(text, sizeof(text), "%s for %.1f s: %s", what, staged.lost_seconds,
+                std::string(vision::Name(tracked.reason)).c_str());
+  return text;
+}
+
 Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& content) {
   std::unique_ptr<ShowCaptions> captions(new ShowCaptions());
   captions->texts_ = TextsOf(content);
-  if (content.caption_font) {
-    LARARIUM_ASSIGN_OR_RETURN(captions->painter_,
-                              render::CaptionPainter::Create(*content.caption_font));
+  for (const ShowPlace& place : content.places) {
+    captions->guides_.push_back(place.guide);
   }
+  captions->dark_guide_ = content.dark_guide;
+  LARARIUM_ASSIGN_OR_RETURN(
+      captions->painter_,
+      render::CaptionPainter::Create(content.caption_font.value_or(render::CaptionFont())));
   captions->captions_.reserve(kMostAtOnce);
   return captions;
+}
+
+void ShowCaptions::DrawGuide(const StagedFrame& staged, const render::RenderTarget& target) {
+  render::Notice notice;
+  notice.opacity = staged.guide.opacity;
+  if (staged.guide.dark) {
+    notice.text = dark_guide_;
+  } else {
+    notice.text = guides_[staged.place];
+    notice.picture = staged.guide.picture;
+    notice.picture_number = staged.guide.picture_number;
+  }
+  render::DrawNotice(painter_->flat(), notice, target);
 }
 
 void ShowCaptions::Draw(const StagedFrame& staged,
                         Evidence* evidence,
                         const render::RenderTarget& target) {
-  if (painter_ != nullptr && (!staged.lines.empty() || evidence != nullptr)) {
+  const bool has_letters = !painter_->flat().font().glyphs.empty();
+  if (has_letters && (!staged.lines.empty() || evidence != nullptr)) {
     CollectCaptions(texts_, staged, captions_);
     painter_->Draw(captions_, evidence != nullptr ? &evidence->LegendOf(staged) : nullptr, target);
+  }
+  if (staged.guide.opacity > 0.0f) {
+    DrawGuide(staged, target);
+  }
+  if (staff_) {
+    const bool tracking = staged.tracked.camera_from_map.has_value();
+    const bool gone = staged.lost_seconds > kLongLoss;
+    render::DrawStatus(painter_->flat(),
+                       tracking ? kGood
+                       : gone   ? kBad
+                                : kPoor,
+                       TrackingText(staged) + *staff_, target);
   }
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
-// What is to be read at the moment of a frame, over its finished picture.
+// What is to be read at the moment of a frame, over its finished picture: captions, what tells a
+// visitor who has lost the place where to look, and, for staff alone, how tracking is.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shared/core/status.h"
@@ -33,10 +36,16 @@ void CollectCaptions(const CaptionTexts& texts,
 
 class Evidence;
 
-// Captions of a show that has letters for them.
+// How tracking is, for staff: "following 0.98", "lost for 3.2 s: too dark".
+std::string TrackingText(const StagedFrame& staged);
+
+// A show that has no letters has pictures only.
 class ShowCaptions {
  public:
   static Result<std::unique_ptr<ShowCaptions>> Create(const ShowContent& content);
+
+  // From now on the tracking's state is shown, with this behind it; nullopt: not.
+  void SetStaff(std::optional<std::string> more) { staff_ = std::move(more); }
 
   // evidence: whose legend is drawn too; nullptr: none.
   void Draw(const StagedFrame& staged, Evidence* evidence, const render::RenderTarget& target);
@@ -44,8 +53,13 @@ class ShowCaptions {
  private:
   ShowCaptions() = default;
 
+  void DrawGuide(const StagedFrame& staged, const render::RenderTarget& target);
+
   CaptionTexts texts_;
-  std::unique_ptr<render::CaptionPainter> painter_;  // none: the show has no captions
+  std::vector<std::string> guides_;  // of each place
+  std::string dark_guide_;
+  std::optional<std::string> staff_;
+  std::unique_ptr<render::CaptionPainter> painter_;
   std::vector<render::Caption> captions_;
 };
 

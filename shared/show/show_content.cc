@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shared/geometry/glm_convert.h"
+#include "shared/show/guide_texts.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/viseme_file.h"
 
@@ -209,12 +210,45 @@ void NameSpeakers(const CaptionBooks& books,
   }
 }
 
+// The first caption of a line in any book; "" where there is none.
+std::string FirstCaption(const CaptionBooks& books,
+                         const std::string& line,
+                         std::string_view language) {
+  for (const auto& [spoken, book] : books) {
+    const auto* cues = FindIn(book.lines, line, language);
+    if (cues != nullptr && !cues->empty()) {
+      return cues->front().text;
+    }
+  }
+  return "";
+}
+
+// What is said to whoever has lost the place is to be read even where captions are off.
+void LoadGuide(const CaptionBooks& books, std::string_view language, ShowContent& content) {
+  if (!content.caption_font) {
+    return;
+  }
+  const GuideTexts known = BuiltInGuide(language, *content.caption_font);
+  content.dark_guide = known.dark;
+  for (ShowPlace& place : content.places) {
+    place.guide = FirstCaption(books, "guide_" + place.stage.name, language);
+    if (place.guide.empty()) {
+      place.guide = FirstCaption(books, "guide", language);
+    }
+    if (place.guide.empty()) {
+      place.guide = known.look;
+    }
+  }
+}
+
 Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, ShowContent& content) {
   const bundle::ShowManifest& manifest = bundle.manifest();
   std::vector<std::string> spoken;
   for (const bundle::SpokenLanguage& language : manifest.spoken) {
     spoken.push_back(language.name);
   }
+  content.spoken_languages = spoken;
+  content.caption_languages = manifest.captions;
   LanguageChoice languages;
   LARARIUM_ASSIGN_OR_RETURN(languages.spoken,
                             ChooseLanguage(spoken, choice.spoken, "speech", bundle.place()));
@@ -228,8 +262,7 @@ Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, Sho
                               LoadLine(bundle, entry, languages, books));
   }
   NameSpeakers(books, languages, content);
-  content.language = languages.captions.empty() ? languages.spoken : languages.captions;
-  // Also where no captions are wanted: the evidence view is read.
+  // Also where no captions are wanted: guide and evidence view are read.
   if (manifest.caption_font) {
     LARARIUM_ASSIGN_OR_RETURN(const std::string metrics,
                               LoadText(bundle, manifest.caption_font->metrics));
@@ -239,6 +272,12 @@ Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, Sho
         render::ParseCaptionFont(metrics, atlas,
                                  bundle.place() + ": " + manifest.caption_font->metrics));
   }
+  std::string read = languages.captions;
+  if (read.empty()) {
+    read = manifest.captions.empty() ? languages.spoken : manifest.captions.front();
+  }
+  content.language = read;
+  LoadGuide(books, read, content);
   return Status();
 }
 
@@ -283,8 +322,11 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.human));
     LARARIUM_ASSIGN_OR_RETURN(human::Human human,
                               human::ParseHuman(bytes, bundle.place() + ": " + member.human));
-    content.cast.push_back(
-        {member.name, std::make_shared<const human::Human>(std::move(human)), {}});
+    std::shared_ptr<const UnpackedLight> light = TakeLight(human);
+    content.cast.push_back({member.name,
+                            std::make_shared<const human::Human>(std::move(human)),
+                            {},
+                            std::move(light)});
   }
 
   LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, content.objects));

@@ -16,6 +16,7 @@
 #include "shared/human/human.h"
 #include "shared/light/glossy_map.h"
 #include "shared/render/caption_font.h"
+#include "shared/show/person_light.h"
 #include "shared/stage/caption_file.h"
 #include "shared/stage/object_use.h"
 #include "shared/stage/paradata.h"
@@ -29,6 +30,8 @@ struct CastMember {
   std::string name;  // as the drama calls the actor
   std::shared_ptr<const human::Human> human;
   std::string title = {};  // as captions call the actor; empty: they do not
+  // What was taken out of the human's light; nullptr: it has all of it.
+  std::shared_ptr<const UnpackedLight> light = nullptr;
 };
 
 // A thing that people use, or scenery.
@@ -68,6 +71,7 @@ struct ShowPlace {
   std::shared_ptr<const vision::SceneDatabase> map;
   // What rough surfaces mirror of each of the stage's probes; may be empty.
   std::vector<light::GlossyMap> glossy = {};
+  std::string guide = {};  // says where to look when tracking is lost; may be empty
 };
 
 struct ShowContent {
@@ -76,10 +80,13 @@ struct ShowContent {
   std::vector<CastMember> cast;
   std::vector<StageObject> objects;
   std::vector<Speech> speech;
+  std::vector<std::string> spoken_languages;   // that it could be heard in
+  std::vector<std::string> caption_languages;  // likewise read
   std::optional<render::CaptionFont> caption_font;
+  std::string dark_guide;                // what is said instead where the camera sees nothing
   std::vector<audio::SoundData> sounds;  // that things, places and the drama make
   stage::Paradata paradata;              // what is known of all that
-  std::string language;                  // to be read in; empty: none was chosen
+  std::string language;                  // what is to be read is in it
   std::string drama;                     // Lua source
   std::string drama_file;                // what messages call it
 };

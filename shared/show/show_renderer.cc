@@ -8,6 +8,7 @@
 
 #include "shared/geometry/glm_convert.h"
 #include "shared/show/camera_look.h"
+#include "shared/show/picture_camera.h"
 
 namespace lararium::show {
 namespace {
@@ -47,6 +48,12 @@ void ShowRenderer::SetPlace(size_t index, const stage::Place& place) {
         {renderer_->AddMesh(occluder.mesh), geometry::ToGlm(occluder.stage_from_mesh)});
   }
   scene.camera = place.camera;
+}
+
+Status ShowRenderer::SetTexts(const ShowContent& content) {
+  LARARIUM_ASSIGN_OR_RETURN(captions_, ShowCaptions::Create(content));
+  evidence_.emplace(content);
+  return Status();
 }
 
 // Objects of one model share what is on the GPU.
@@ -135,8 +142,9 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   render::RenderScene scene;
   scene.background = tracked.frame.bgr;
   scene.camera = tracked.camera;
-  scene.display = tracked.camera.DisplayPinhole();
+  scene.display = PictureCamera(tracked.camera, target.width(), target.height());
   scene.camera_from_stage = staged.camera_from_stage;
+  scene.people_opacity = staged.opacity;
   const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
   CollectHumans(staged);
   CollectProps(staged);

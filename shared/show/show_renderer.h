@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "shared/core/status.h"
@@ -36,6 +38,12 @@ class ShowRenderer {
   // has letters.
   void SetEvidence(bool on) { shows_evidence_ = on; }
   bool shows_evidence() const { return shows_evidence_; }
+
+  // For staff, over the picture: how tracking is, and more; nullopt: nothing.
+  void SetStaff(std::optional<std::string> more) { captions_->SetStaff(std::move(more)); }
+
+  // Other texts, of the same show in another language.
+  Status SetTexts(const ShowContent& content);
 
   // Fills the target with the composite: image, the occluders of the frame's
   // place, people in its light, captions.

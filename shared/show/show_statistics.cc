@@ -1,6 +1,9 @@
 #include "shared/show/show_statistics.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdio>
 
 namespace lararium::show {
 namespace {
@@ -49,6 +52,17 @@ double PeakResidentMebibytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+double ResidentMebibytes() {
+  long pages = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "re")) {
+    if (std::fscanf(file, "%*s %ld", &pages) != 1) {
+      pages = 0;
+    }
+    std::fclose(file);
+  }
+  return static_cast<double>(pages) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
 Json ShowStatistics::ToJson() const {
   const std::vector<int64_t>& counts = tracking.frames_in_map();
   Json frames_in_place = Json::object();
@@ -60,6 +74,14 @@ Json ShowStatistics::ToJson() const {
           {"simulate", simulate.ToJson()},
           {"render", render.ToJson()},
           {"total", total.ToJson()},
+          {"age",
+           {{"located", located_age.ToJson()},
+            {"staged", staged_age.ToJson()},
+            {"drawn", drawn_age.ToJson()},
+            {"shown", shown_age.ToJson()}}},
+          {"interval", interval.ToJson()},
+          {"frames_per_second", interval.count() == 0 ? 0.0 : 1000.0 / interval.mean()},
+          {"quality", quality},
           {"frames", tracking.frames()},
           {"tracked_fraction", tracking.tracked_fraction()},
           {"followed_fraction", tracking.followed_fraction()},
@@ -68,6 +90,7 @@ Json ShowStatistics::ToJson() const {
           {"confidence", tracking.mean_confidence()},
           {"frames_in_place", frames_in_place},
           {"peak_resident_mib", PeakResidentMebibytes()},
+          {"resident_mib", ResidentMebibytes()},
           {"startup_seconds", startup_seconds},
           {"dropped_frames", dropped_frames},
           {"gpu", gpu}};

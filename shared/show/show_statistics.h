@@ -47,6 +47,13 @@ struct ShowStatistics {
   StageTimes simulate;
   StageTimes render;
   DurationHistogram total;  // from an image's arrival until it is composited
+  // How old an image is when it is located, staged, drawn and handed to the display.
+  DurationHistogram located_age;
+  DurationHistogram staged_age;
+  DurationHistogram drawn_age;
+  DurationHistogram shown_age;
+  DurationHistogram interval;     // between pictures
+  Json quality = Json::object();  // QualityController::ToJson
   TrackingStatistics tracking;
   std::vector<std::string> places;  // names, in the order of the tracker's maps
   uint64_t dropped_frames = 0;
@@ -58,5 +65,7 @@ struct ShowStatistics {
 
 // The most memory that this process has had resident, in MiB.
 double PeakResidentMebibytes();
+// And what it has now; 0 where that is not known.
+double ResidentMebibytes();
 
 }  // namespace lararium::show

@@ -7,8 +7,10 @@
 
 namespace lararium::show {
 
-StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast) {
-  for (const std::shared_ptr<const human::Human>& human : cast) {
+StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast,
+                       std::span<const std::shared_ptr<const UnpackedLight>> light) {
+  for (size_t i = 0; i < cast.size(); ++i) {
+    const std::shared_ptr<const human::Human>& human = cast[i];
     size_t vertices = 0;
     for (const human::SkinnedMesh& mesh : human->meshes) {
       vertices += mesh.positions.size();
@@ -16,7 +18,9 @@ StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast
     vertex_counts_.push_back(vertices);
     lights_.push_back(!human->light.empty());
     const bool shades = !human->light.blockers.empty();
-    people_.push_back(lights_.back() || shades ? std::make_unique<PersonLight>(human) : nullptr);
+    people_.push_back(lights_.back() || shades
+                          ? std::make_unique<PersonLight>(human, light.empty() ? nullptr : light[i])
+                          : nullptr);
   }
   matrices_.resize(people_.size());
   others_.resize(people_.size());

@@ -29,8 +29,10 @@ struct LitActor {
 class StageLight {
  public:
   // cast: who may be on stage, figures of things among them (thing_light.h). Those without
-  // baked transfer take no shade; those without blockers cast none.
-  explicit StageLight(std::span<const std::shared_ptr<const human::Human>> cast);
+  // baked transfer take no shade; those without blockers cast none. light: what was taken out of
+  // each (TakeLight); empty where nothing was.
+  explicit StageLight(std::span<const std::shared_ptr<const human::Human>> cast,
+                      std::span<const std::shared_ptr<const UnpackedLight>> light = {});
 
   bool Lights(uint32_t cast) const { return lights_[cast]; }
   // Vertices of all meshes of a member.

@@ -66,7 +66,7 @@ human::SkinnedMesh MeshOf(const stage::PropMesh& mesh) {
 
 }  // namespace
 
-std::shared_ptr<const human::Human> FigureOf(const stage::Prop& prop) {
+std::shared_ptr<human::Human> FigureOf(const stage::Prop& prop) {
   auto figure = std::make_shared<human::Human>();
   figure->name = prop.name;
   figure->skeleton = SkeletonOf(prop);

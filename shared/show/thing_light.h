@@ -20,7 +20,7 @@
 namespace lararium::show {
 
 // Without light where the prop has none; blockers it has always.
-std::shared_ptr<const human::Human> FigureOf(const stage::Prop& prop);
+std::shared_ptr<human::Human> FigureOf(const stage::Prop& prop);
 
 // The figure's matrices where its actor frame is that of the first part. A part that is not
 // there is very far away, where it keeps no light off anything.

@@ -102,7 +102,7 @@ Status Bench::Prepare(const Arguments& arguments) {
     tracked_.push_back(poses->Track(*frame));
   }
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), {}, *log_));
-  show_->SetPictureWidth(arguments.width);
+  show_->SetPictureSize(arguments.width, arguments.height);
   LARARIUM_ASSIGN_OR_RETURN(context_, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(show_->content()));
   LARARIUM_ASSIGN_OR_RETURN(target_,

@@ -249,5 +249,63 @@ TEST_F(ShowTest, ActorsAreInTheLightOfWhereTheyStandAndOfTheDramasHour) {
   }
 }
 
+TEST_F(ShowTest, WhileTrackingIsLostPeopleAreHeldThenFadeThenTheVisitorIsGuided) {
+  const std::unique_ptr<Show> show = Make();
+  show->SetLostLadder({});
+  StagedFrame staged;
+  const auto stage = [&](double time, bool tracked) {
+    vision::TrackedFrame frame = test::FakePoses().Track({});
+    frame.camera = geometry::CameraModel{64, 48, 50.0, 50.0, 31.5, 23.5};
+    frame.frame.capture_time = time;
+    if (!tracked) {
+      frame.camera_from_map.reset();
+    }
+    show->StageFrame(frame, time, staged);
+  };
+  double time = 0.0;
+  for (; time < 1.0; time += 1.0 / 30.0) {
+    stage(time, true);
+  }
+  const auto seen = staged.camera_from_stage;
+  EXPECT_EQ(staged.opacity, 1.0f);
+  stage(time, false);
+  EXPECT_EQ(staged.opacity, 1.0f);
+  EXPECT_EQ(staged.rung, LostLadder::Rung::kHeld);
+  ASSERT_TRUE(staged.camera_from_stage);
+  EXPECT_NEAR((staged.camera_from_stage->Center() - seen->Center()).norm(), 0.0, 1e-6);
+  EXPECT_EQ(staged.gain, (std::array<float, 3>{1.0f, 1.0f, 1.0f}));
+  for (const double end = time + 3.5; time < end; time += 1.0 / 30.0) {
+    stage(time, false);
+  }
+  EXPECT_EQ(staged.opacity, 0.0f);
+  EXPECT_FALSE(staged.camera_from_stage);
+  EXPECT_EQ(staged.guide.opacity, 1.0f);
+  EXPECT_FALSE(staged.actors.empty()) << "the drama runs on";
+  stage(time, true);
+  EXPECT_LT(staged.opacity, 0.2f);
+  EXPECT_TRUE(staged.camera_from_stage);
+}
+
+TEST_F(ShowTest, TheNextVisitorSeesTheDramaFromItsBeginning) {
+  const std::unique_ptr<Show> show = Make();
+  StagedFrame staged = At(*show, 0.7);
+  EXPECT_NEAR(PositionX(staged), 0.7, 1e-4);
+  show->RestartAt(0.0);
+  EXPECT_NEAR(PositionX(At(*show, 20.0)), 0.0, 1e-4);
+  EXPECT_NEAR(PositionX(At(*show, 20.3)), 0.3, 1e-4);
+  show->RestartAt(0.5);
+  EXPECT_NEAR(PositionX(At(*show, 21.0)), 0.5, 1e-4);
+  EXPECT_NEAR(PositionX(At(*show, 21.2)), 0.7, 1e-4);
+}
+
+TEST_F(ShowTest, AKioskRunsForDays) {
+  const std::unique_ptr<Show> show = Make();
+  const double days = 5.0 * 24.0 * 3600.0;
+  At(*show, 0.0);
+  show->RestartAt(0.0);
+  EXPECT_NEAR(PositionX(At(*show, days)), 0.0, 1e-4);
+  EXPECT_NEAR(PositionX(At(*show, days + 0.25)), 0.25, 1e-4);
+}
+
 }  // namespace
 }  // namespace lararium::show

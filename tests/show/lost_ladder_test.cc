@@ -1,0 +1,175 @@
+#include "shared/show/lost_ladder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shared/core/random.h"
+
+namespace lararium::show {
+namespace {
+
+using geometry::Rigid3;
+using Rung = LostLadder::Rung;
+
+constexpr double kFrame = 1.0 / 30.0;
+
+geometry::CameraModel Display() {
+  geometry::CameraModel camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 525.0;
+  camera.cx = 319.5;
+  camera.cy = 239.5;
+  return camera;
+}
+
+// Somebody who looks about: up to some 25 pixels from frame to frame.
+Rigid3 Walk(double time) {
+  const Eigen::Vector3d turn(0.15 * std::sin(1.9 * time), 0.6 * std::sin(1.1 * time), 0.0);
+  return {geometry::RotationFromVector(turn),
+          {0.2 * std::sin(time), 0.0, 2.0 + 0.3 * std::cos(0.7 * time)}};
+}
+
+LostLadder::View At(LostLadder& ladder, double time, bool tracked, uint32_t place = 0) {
+  return ladder.Update(time, tracked ? std::optional(Walk(time)) : std::nullopt, place, Display());
+}
+
+// Tracked for two seconds: everybody is seen.
+double Settle(LostLadder& ladder) {
+  double time = 0.0;
+  for (; time < 2.0; time += kFrame) {
+    At(ladder, time, true);
+  }
+  return time;
+}
+
+TEST(LostLadder, WithAPosePeopleAreWhereItSaysAfterTheyAppeared) {
+  LostLadder ladder;
+  EXPECT_EQ(At(ladder, 0.0, true).opacity, 0.0f) << "they do not pop up";
+  const double time = Settle(ladder);
+  const LostLadder::View view = At(ladder, time, true);
+  EXPECT_EQ(view.rung, Rung::kShown);
+  EXPECT_EQ(view.opacity, 1.0f);
+  EXPECT_EQ(view.guide, 0.0f);
+  ASSERT_TRUE(view.camera_from_stage);
+  EXPECT_NEAR(PictureShiftOf(Display(), Walk(time), *view.camera_from_stage), 0.0, 1e-6);
+}
+
+TEST(LostLadder, ClimbsDownInItsOrder) {
+  LostLadder ladder;
+  const double lost = Settle(ladder);
+  std::vector<Rung> rungs;
+  float opacity = 1.0f;
+  for (double time = lost; time < lost + 4.0; time += kFrame) {
+    const LostLadder::View view = At(ladder, time, false);
+    if (rungs.empty() || rungs.back() != view.rung) {
+      rungs.push_back(view.rung);
+    }
+    EXPECT_LE(view.opacity, opacity);
+    opacity = view.opacity;
+    const double since = time - lost;
+    EXPECT_EQ(view.opacity == 1.0f, since < 0.25 - 1e-9) << since;
+    EXPECT_EQ(view.guide > 0.0f, since >= 2.0) << since;
+    EXPECT_EQ(view.camera_from_stage.has_value(), view.opacity > 0.0f);
+    EXPECT_NEAR(view.lost_seconds, since, 1e-9);
+  }
+  EXPECT_EQ(rungs, (std::vector<Rung>{Rung::kHeld, Rung::kFading, Rung::kGone}));
+}
+
+TEST(LostLadder, WhoNeverFoundThePlaceIsGuidedToo) {
+  LostLadder ladder;
+  for (double time = 0.0; time < 2.5; time += kFrame) {
+    EXPECT_EQ(At(ladder, time, false).rung, Rung::kSearching);
+  }
+  EXPECT_GT(At(ladder, 2.5, false).guide, 0.9f);
+}
+
+TEST(LostLadder, OneLostFrameIsNotSeenHoweverFastTheCameraTurns) {
+  LostLadder ladder;
+  double time = Settle(ladder);
+  for (int lost = 0; lost < 60; ++lost) {
+    for (int i = 0; i < 12; ++i, time += kFrame) {
+      const LostLadder::View view = At(ladder, time, i != 5);
+      EXPECT_EQ(view.opacity, 1.0f) << time;
+      ASSERT_TRUE(view.camera_from_stage);
+      EXPECT_LT(PictureShiftOf(Display(), Walk(time), *view.camera_from_stage), 4.0) << time;
+    }
+  }
+}
+
+TEST(LostLadder, NothingThatIsSeenJumpsWhateverIsLost) {
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    LostLadder ladder;
+    std::optional<Rigid3> before;
+    float opacity = 0.0f;
+    bool tracked = true;
+    double step = kFrame;
+    for (double time = 0.0; time < 30.0; time += step) {
+      if (random.Uniform() < (tracked ? 0.03 : 0.1)) {
+        tracked = !tracked;
+      }
+      const LostLadder::View view = At(ladder, time, tracked);
+      EXPECT_LE(std::abs(view.opacity - opacity), step / 0.12 + 1e-5) << seed << " " << time;
+      if (before && view.camera_from_stage && std::min(opacity, view.opacity) > 0.12f) {
+        const double moved = PictureShiftOf(Display(), *before, *view.camera_from_stage);
+        const double camera = PictureShiftOf(Display(), Walk(time - step), Walk(time));
+        EXPECT_LT(moved, camera + 8.0) << seed << " " << time << " opacity " << view.opacity;
+      }
+      before = view.camera_from_stage;
+      opacity = view.opacity;
+      step = kFrame * (0.6 + 0.8 * random.Uniform());
+    }
+  }
+}
+
+TEST(LostLadder, FoundAtAnotherPlacePeopleGoBeforeTheyComeThere) {
+  LostLadder ladder;
+  double time = Settle(ladder);
+  At(ladder, time += kFrame, false);
+  float opacity = 1.0f;
+  for (int i = 0; i < 60; ++i) {
+    const LostLadder::View view = At(ladder, time += kFrame, true, 1);
+    if (view.place == 0) {
+      EXPECT_LT(view.opacity, opacity);
+    }
+    if (view.place == 1 && opacity > 0.0f && i < 6) {
+      EXPECT_LT(view.opacity, 0.3f);
+    }
+    opacity = view.opacity;
+  }
+  EXPECT_EQ(opacity, 1.0f);
+  EXPECT_EQ(At(ladder, time + kFrame, true, 1).place, 1u);
+}
+
+TEST(LostLadder, ALeapInTimeShowsTheFrameAsItIs) {
+  LostLadder ladder;
+  Settle(ladder);
+  EXPECT_EQ(At(ladder, 100.0, true).opacity, 1.0f) << "ahead";
+  EXPECT_EQ(At(ladder, 5.0, true).opacity, 1.0f) << "back";
+  EXPECT_EQ(At(ladder, 90.0, false).opacity, 0.0f);
+  EXPECT_EQ(At(ladder, 90.0, false).guide, 0.0f);
+}
+
+TEST(LostLadder, TheNextVisitorBeginsAnew) {
+  LostLadder ladder;
+  const double time = Settle(ladder);
+  ladder.Reset();
+  EXPECT_FALSE(ladder.last_pose());
+  EXPECT_EQ(At(ladder, time + kFrame, true).opacity, 0.0f);
+}
+
+TEST(LostLadderOptions, ThatMakeNoSenseAreRefused) {
+  LostLadderOptions options;
+  EXPECT_TRUE(options.Validate().ok());
+  options.fade = -1.0;
+  EXPECT_FALSE(options.Validate().ok());
+  options = {};
+  options.hold = std::nan("");
+  EXPECT_FALSE(options.Validate().ok());
+}
+
+}  // namespace
+}  // namespace lararium::show
