@@ -1,13 +1,17 @@
 #include "player/device_file.h"
 
+#include <utility>
 #include <vector>
 
+#include "shared/core/file.h"
 #include "shared/core/json.h"
 
 namespace lararium::player {
 namespace {
 
 using geometry::CameraModel;
+
+constexpr uint64_t kMaxDeviceBytes = 1 << 20;
 
 Result<CameraModel> ParseCamera(const JsonView& view) {
   LARARIUM_ASSIGN_OR_RETURN(const int64_t width, view.Integer("width", 16, 16384));
@@ -22,11 +26,54 @@ Result<CameraModel> ParseCamera(const JsonView& view) {
   return camera.ok() ? camera : camera.status().At(view.place());
 }
 
+Result<capture::CameraSettings> ParseCapture(const JsonView& view) {
+  capture::CameraSettings settings;
+  if (view.Has("format")) {
+    LARARIUM_ASSIGN_OR_RETURN(settings.format, view.Text("format", 4));
+    if (settings.format.size() != 4) {
+      return view.Problem("\"format\" must have four letters", "as MJPG or YUYV");
+    }
+  }
+  if (view.Has("width") || view.Has("height")) {
+    LARARIUM_ASSIGN_OR_RETURN(const int64_t width, view.Integer("width", 16, 16384));
+    LARARIUM_ASSIGN_OR_RETURN(const int64_t height, view.Integer("height", 16, 16384));
+    settings.width = static_cast<int>(width);
+    settings.height = static_cast<int>(height);
+  }
+  if (view.Has("frames_per_second")) {
+    LARARIUM_ASSIGN_OR_RETURN(settings.frames_per_second,
+                              view.Number("frames_per_second", 1.0, 1000.0));
+  }
+  if (view.Has("exposure_ms")) {
+    LARARIUM_ASSIGN_OR_RETURN(settings.exposure_ms, view.Number("exposure_ms", 0.01, 1000.0));
+  }
+  return settings;
+}
+
+Result<show::LostLadderOptions> ParseLost(const JsonView& view) {
+  show::LostLadderOptions lost;
+  const std::pair<const char*, double*> fields[] = {{"hold", &lost.hold},
+                                                    {"fade", &lost.fade},
+                                                    {"appear", &lost.appear},
+                                                    {"guide_after", &lost.guide_after}};
+  for (const auto& [name, seconds] : fields) {
+    if (view.Has(name)) {
+      LARARIUM_ASSIGN_OR_RETURN(*seconds, view.Number(name, 0.0, 60.0));
+    }
+  }
+  return lost;
+}
+
 }  // namespace
 
 Result<Device> LoadDevice(const std::filesystem::path& file) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  const JsonView view(json, file.string());
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxDeviceBytes));
+  return ParseDevice(text, file.string());
+}
+
+Result<Device> ParseDevice(std::string_view text, const std::string& place) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
+  const JsonView view(json, place);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
   if (schema != 1) {
     return view.Problem("was written for a newer player", "update the player");
@@ -40,8 +87,16 @@ Result<Device> LoadDevice(const std::filesystem::path& file) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView look, view.Field("look"));
     LARARIUM_ASSIGN_OR_RETURN(device.look, light::ParseCameraTraits(look));
   }
-  if (!device.camera && !device.look) {
-    return view.Problem("has neither \"camera\" nor \"look\"",
+  if (view.Has("capture")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView capture, view.Field("capture"));
+    LARARIUM_ASSIGN_OR_RETURN(device.capture, ParseCapture(capture));
+  }
+  if (view.Has("lost")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView lost, view.Field("lost"));
+    LARARIUM_ASSIGN_OR_RETURN(device.lost, ParseLost(lost));
+  }
+  if (!view.Has("camera") && !view.Has("look") && !view.Has("capture") && !view.Has("lost")) {
+    return view.Problem("has none of \"camera\", \"look\", \"capture\", \"lost\"",
                         "docs/file-formats.md says what they hold");
   }
   return device;

@@ -4,10 +4,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 
+#include "shared/capture/frame_source.h"
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/light/camera_traits.h"
+#include "shared/show/lost_ladder.h"
 
 namespace lararium::player {
 
@@ -15,8 +19,12 @@ namespace lararium::player {
 struct Device {
   std::optional<geometry::CameraModel> camera;  // its calibration
   std::optional<light::CameraTraits> look;      // how noisy and soft its images are
+  capture::CameraSettings capture;              // how it is run
+  show::LostLadderOptions lost;                 // what happens while tracking is lost, and when
 };
 
 Result<Device> LoadDevice(const std::filesystem::path& file);
+// place: what errors call the text.
+Result<Device> ParseDevice(std::string_view text, const std::string& place);
 
 }  // namespace lararium::player

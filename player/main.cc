@@ -3,7 +3,9 @@
 #include <variant>
 
 #include "player/benchmark.h"
+#include "player/doctor.h"
 #include "player/info.h"
+#include "player/latency.h"
 #include "player/options.h"
 #include "player/play.h"
 #include "shared/core/log.h"
@@ -39,9 +41,24 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", log.message().c_str());
     return 1;
   }
+  if (const auto* doctor = std::get_if<DoctorOptions>(&command)) {
+    return RunDoctor(*doctor, **log) ? 0 : 1;
+  }
+  if (const auto* latency = std::get_if<LatencyOptions>(&command)) {
+    return Report(MeasureLatency(*latency), **log);
+  }
   if (play == nullptr) {
     return Report(PrintInfo(std::get<InfoOptions>(command)), **log);
   }
-  return play->benchmark.empty() ? Report(Play(*play, start, **log), **log)
-                                 : Report(Benchmark(*play, **log), **log);
+  if (!play->benchmark.empty()) {
+    return Report(Benchmark(*play, **log), **log);
+  }
+  if (!play->kiosk) {
+    return Report(Play(*play, start, **log), **log);
+  }
+  const auto child = [&](const ChildStart& number, Heartbeat& heartbeat) {
+    const auto begun = number.number == 0 ? start : std::chrono::steady_clock::now();
+    return Report(Play(*play, begun, **log, number, heartbeat), **log);
+  };
+  return Supervise(child, {}, **log);
 }

@@ -1,6 +1,7 @@
 #include "player/options.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <map>
 
 #include "player/osc.h"
@@ -23,8 +24,21 @@ std::map<std::string, Listening> ListeningNames() {
           {"none", Listening::kNone}};
 }
 
+// nullopt: it is none.
+std::optional<PictureSize> ParseSize(const std::string& text) {
+  PictureSize size;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%4dx%4d%c", &size.width, &size.height, &rest) != 2) {
+    return std::nullopt;
+  }
+  const auto fits = [](int side) { return side >= 16 && side <= 8192 && side % 2 == 0; };
+  return fits(size.width) && fits(size.height) ? std::optional(size) : std::nullopt;
+}
+
 void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
+  app.add_option("--trust", play.trust, "Play only what was signed with the key of this .pub file")
+      ->check(CLI::ExistingFile);
   app.add_option("--place", play.place, "Only this place of the bundle; all otherwise");
   app.add_option("--language", play.language,
                  "Language that people speak, as la or en; otherwise as the author chose");
@@ -56,6 +70,31 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_flag("--headless", play.headless, "Draw off screen");
   app.add_option("--monitor", play.monitor, "Full screen on this monitor")
       ->check(CLI::Range(0, kLargestCount));
+  app.add_option_function<std::string>(
+         "--size", [&play](const std::string& size) { play.size = ParseSize(size); },
+         "Size of the pictures, as 1280x720; as the camera's images unless given")
+      ->check(CLI::Validator(
+          [](const std::string& size) {
+            return ParseSize(size) ? "" : "takes WIDTHxHEIGHT, both even, of 16 to 8192";
+          },
+          "WxH"));
+  app.add_option_function<std::string>(
+         "--quality",
+         [&play](const std::string& quality) {
+           play.quality = quality == "auto" ? std::nullopt : std::optional(std::stoi(quality));
+         },
+         "0, the finest, to 4; auto: as fine as keeps the frame rate")
+      ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4"}));
+  app.add_option_function<std::string>(
+         "--sandbox", [&play](const std::string& sandbox) { play.sandbox = sandbox == "on"; },
+         "on: no other programs, no network, no settings of the machine; off")
+      ->check(CLI::IsMember({"on", "off"}));
+  app.add_flag("--staff", play.staff, "Show how tracking is, in a corner of the picture");
+  app.add_flag("--loop", play.loop, "Begin a video or folder again at its end");
+  CLI::Option* kiosk = app.add_flag("--kiosk", play.kiosk,
+                                    "Full screen, watched over, for one visitor after the other");
+  app.add_option("--state", play.state, "Folder in which a kiosk remembers where it was")
+      ->needs(kiosk);
   app.add_option_function<std::string>(
          "--pace",
          [&play](const std::string& pace) {
@@ -108,16 +147,36 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
 Command ParseCommandLine(int argc, const char* const* argv) {
   PlayOptions play;
   InfoOptions info;
+  DoctorOptions doctor;
+  LatencyOptions latency;
   CLI::App app("Plays a Lararium show: people of the past on the place before the camera.");
   app.set_version_flag("--version", LARARIUM_VERSION);
   AddPlayOptions(app, play);
   CLI::App* info_command = app.add_subcommand("info", "Say what a bundle holds");
   info_command->add_option("SHOW", info.show)->required()->check(CLI::ExistingFile);
+  CLI::App* doctor_command =
+      app.add_subcommand("doctor", "Look at camera, display, sound, disk and show; say what to do");
+  doctor_command->add_option("SHOW", doctor.show)->check(CLI::ExistingFile);
+  doctor_command->add_option("--trust", doctor.trust, "The museum's key (.pub)")
+      ->check(CLI::ExistingFile);
+  doctor_command->add_option("--device", doctor.device, "Device file")->check(CLI::ExistingFile);
+  doctor_command->add_option("--state", doctor.state, "The kiosk's folder");
+  doctor_command->add_option("--camera", doctor.camera, "Number of the camera")
+      ->check(CLI::NonNegativeNumber);
+  doctor_command->add_option("--monitor", doctor.monitor, "Number of the monitor")
+      ->check(CLI::NonNegativeNumber);
+  doctor_command->add_flag("--json", doctor.json, "Print one JSON object");
+  CLI::App* latency_command = app.add_subcommand(
+      "latency", "Flash the display, watch it by the camera: how late is what is shown seen?");
+  latency_command->add_option("--camera", latency.camera, "Number of the camera")
+      ->check(CLI::NonNegativeNumber);
+  latency_command->add_option("--monitor", latency.monitor, "Full screen on this monitor")
+      ->check(CLI::NonNegativeNumber);
 
   try {
     app.parse(argc, argv);
     const size_t numbers = play.intrinsics.size();
-    if (!*info_command && play.show.empty()) {
+    if (!*info_command && !*doctor_command && !*latency_command && play.show.empty()) {
       throw CLI::RequiredError("SHOW");
     }
     if (numbers != 0 && numbers != 4 && numbers != 8) {
@@ -129,6 +188,12 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     if (!play.benchmark.empty() && (play.camera || !play.video.empty() || !play.images.empty())) {
       throw CLI::ValidationError("--benchmark", "takes its images from its own folder");
     }
+    if (!play.benchmark.empty() && play.kiosk) {
+      throw CLI::ValidationError("--kiosk", "cannot go with --benchmark");
+    }
+    if (play.loop && play.video.empty() && play.images.empty()) {
+      throw CLI::ValidationError("--loop", "goes with --video or --images");
+    }
     if (play.headless && play.monitor >= 0) {
       throw CLI::ValidationError("--monitor", "cannot go with --headless");
     }
@@ -137,6 +202,12 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   }
   if (*info_command) {
     return info;
+  }
+  if (*doctor_command) {
+    return doctor;
+  }
+  if (*latency_command) {
+    return latency;
   }
   return play;
 }

@@ -18,9 +18,16 @@ enum class Pace { kRealtime, kFast };
 // Where sound is heard. Headphones: mixed for two ears (HRTF).
 enum class Listening { kHeadphones, kSpeakers, kNone };
 
+// Pixels.
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
 struct PlayOptions {
   std::filesystem::path show;
-  std::string place;  // empty: all of the bundle
+  std::filesystem::path trust;  // public key; only what it signed is played. Empty: anything
+  std::string place;            // empty: all of the bundle
 
   std::string language;  // that people speak; empty: as the author chose
   std::string captions;  // likewise what is to be read; "off": nothing
@@ -39,7 +46,15 @@ struct PlayOptions {
   std::string osc;  // where to listen for messages; empty: nowhere
 
   bool headless = false;
-  int monitor = -1;  // full screen there; -1: a window
+  int monitor = -1;                 // full screen there; -1: a window
+  std::optional<PictureSize> size;  // of the pictures; none: as the camera's images
+  // The level of quality, 0 the finest; none: as the device can keep up. In --pace fast the finest.
+  std::optional<int> quality;
+  bool sandbox = true;          // gives up what it does not need of the system
+  bool staff = false;           // how tracking is, in a corner of the picture
+  bool kiosk = false;           // watched over, full screen, for one visitor after the other
+  std::filesystem::path state;  // the kiosk's folder
+  bool loop = false;            // a recorded source begins again at its end
   Pace pace = Pace::kRealtime;
   int64_t frames = 0;  // 0: all
   int threads = 0;     // 0: as many as cores
@@ -68,9 +83,26 @@ struct InfoOptions {
   std::filesystem::path show;
 };
 
+// Looks at the machine.
+struct DoctorOptions {
+  std::filesystem::path show;  // empty: without one
+  std::filesystem::path trust;
+  std::filesystem::path device;
+  std::filesystem::path state;
+  int camera = 0;
+  int monitor = -1;  // any
+  bool json = false;
+};
+
+// Measures how late what is shown is seen.
+struct LatencyOptions {
+  int camera = 0;
+  int monitor = -1;  // a window
+};
+
 // What to do, or the exit code where the command line asked for help or is wrong
 // (its message is printed).
-using Command = std::variant<PlayOptions, InfoOptions, int>;
+using Command = std::variant<PlayOptions, InfoOptions, DoctorOptions, LatencyOptions, int>;
 Command ParseCommandLine(int argc, const char* const* argv);
 
 }  // namespace lararium::player

@@ -1,7 +1,13 @@
 #include "player/play.h"
 
+#include <malloc.h>
+
+#include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <ctime>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -10,14 +16,21 @@
 
 #include "player/camera_choice.h"
 #include "player/device_file.h"
+#include "player/kiosk.h"
 #include "player/osc.h"
+#include "player/power_sensors.h"
 #include "player/recorder.h"
+#include "player/sandbox.h"
 #include "player/screen.h"
 #include "shared/audio/sound_player.h"
 #include "shared/bundle/bundle.h"
+#include "shared/bundle/signature.h"
+#include "shared/capture/looped_source.h"
+#include "shared/capture/steady_camera.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/core/parallel.h"
+#include "shared/render/quality.h"
 #include "shared/show/frame_pipeline.h"
 #include "shared/show/show_renderer.h"
 #include "shared/vision/pose_smoother.h"
@@ -30,6 +43,12 @@ using SteadyClock = std::chrono::steady_clock;
 
 // The drawing thread looks for input at least this often.
 constexpr std::chrono::milliseconds kInputInterval(10);
+constexpr std::chrono::seconds kPowerInterval(5);
+constexpr std::chrono::seconds kLongestSilence(8);
+// Of the time between two images of the camera: what the slowest stage may take.
+constexpr double kBudgetShare = 0.95;
+// Share of what the finer one costs, until it has been measured.
+constexpr double kCostOfLevel = 0.7;
 
 // Not the drama's: switches the evidence view.
 constexpr std::string_view kEvidenceKey = "f2";
@@ -47,27 +66,19 @@ float HourNow() {
          static_cast<float>(local.tm_sec) / 3600.0f;
 }
 
-Result<std::unique_ptr<capture::FrameSource>> OpenSource(const PlayOptions& options) {
-  if (!options.video.empty()) {
-    return capture::OpenVideo(options.video);
+Result<show::ShowContent> LoadContent(const PlayOptions& options,
+                                      const show::LanguageChoice& languages) {
+  bundle::OpenOptions opening;
+  if (!options.trust.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(opening.trusted, bundle::LoadPublicKey(options.trust));
   }
-  if (!options.images.empty()) {
-    return capture::OpenImageFolder(options.images);
-  }
-  return capture::OpenCamera(options.camera.value_or(0));
-}
-
-Result<show::ShowContent> LoadContent(const PlayOptions& options) {
-  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
-  return show::LoadShowContent(bundle, options.place, {options.language, options.captions});
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle,
+                            bundle::Bundle::Open(options.show, opening));
+  return show::LoadShowContent(bundle, options.place, languages);
 }
 
 // Where the device says nothing of its camera, each place keeps what the bundle says.
-Status SetLook(const PlayOptions& options, show::ShowContent& content) {
-  Device device;
-  if (!options.device.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(device, LoadDevice(options.device));
-  }
+void SetLook(const PlayOptions& options, const Device& device, show::ShowContent& content) {
   for (show::ShowPlace& place : content.places) {
     if (!options.camera_look) {
       place.stage.camera.reset();
@@ -75,7 +86,6 @@ Status SetLook(const PlayOptions& options, show::ShowContent& content) {
       place.stage.camera = device.look;
     }
   }
-  return Status();
 }
 
 std::vector<TrainedCamera> TrainedCameras(const show::ShowContent& content) {
@@ -89,40 +99,56 @@ std::vector<TrainedCamera> TrainedCameras(const show::ShowContent& content) {
 // One run of a show: all that lives from its first frame to its last.
 class Performance {
  public:
-  Performance(const PlayOptions& options, SteadyClock::time_point started, Log& log)
-      : options_(options), started_(started), log_(log) {}
+  Performance(const PlayOptions& options,
+              SteadyClock::time_point started,
+              Log& log,
+              const ChildStart& start,
+              Heartbeat heartbeat)
+      : options_(options),
+        started_(started),
+        log_(log),
+        heartbeat_(heartbeat),
+        languages_{options.language, options.captions} {
+    if (options.kiosk) {
+      kiosk_.emplace(options.state.empty() ? DefaultStateFolder() : options.state, start, log);
+    }
+  }
 
   Status Prepare();
   Status Run();
 
  private:
   show::FrameStages stages() { return {*source_, *poses_, *show_, statistics_}; }
-  bool KeepGoing() {
-    const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
-    const bool keep_going = g_end_requested == 0 && !enough && screen_->KeepGoing();
-    for (const std::string& key : screen_->TakeKeys()) {
-      if (key == kEvidenceKey) {
-        renderer_->SetEvidence(!renderer_->shows_evidence());
-      } else {
-        show_->PressKey(key);
-      }
-    }
-    for (const std::string& message : osc_ != nullptr ? osc_->Take() : std::vector<std::string>()) {
-      show_->PressKey(message);
-    }
-    if (options_.pace == Pace::kRealtime) {
-      show_->SetHour(HourNow());
-    }
-    return keep_going;
+  double Seconds(SteadyClock::time_point time) const {
+    return std::chrono::duration<double>(time - started_).count();
   }
+  bool KeepGoing();
+  void PressKeys();
+  Status OpenSource();
+  Result<show::ShowContent> LoadInChosenLanguages();
+  Status CreateTracker(const show::ShowContent& content);
+  Status CreateShow(show::ShowContent content);
+  Status PrepareDrawing(const show::ShowContent& content);
+  Status ChangeLanguages();
+  Status PrepareQuality();
   void OpenSound();
   Status RunLockStep();
   Status RunRealtime();
   Status DrawFrame(const show::StagedFrame& staged);
+  void AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn);
+  void ChooseQuality(SteadyClock::time_point now, double work_ms);
+  void SetLevel(size_t level);
+  void ShowToStaff();
 
   const PlayOptions& options_;
   SteadyClock::time_point started_;
   Log& log_;
+  Heartbeat heartbeat_;
+  std::optional<Kiosk> kiosk_;
+  show::LanguageChoice languages_;
+  bool languages_changed_ = false;
+  Device device_;
+  PictureSize size_;
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
   std::unique_ptr<show::Show> show_;
@@ -132,21 +158,90 @@ class Performance {
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
+  std::optional<show::QualityController> quality_;
+  SteadyClock::time_point power_read_;
   show::ShowStatistics statistics_;
+  SteadyClock::time_point last_shown_;
   int64_t drawn_frames_ = 0;
 };
 
-Status Performance::Prepare() {
-  LARARIUM_ASSIGN_OR_RETURN(source_, OpenSource(options_));
-  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_));
+bool Performance::KeepGoing() {
+  const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
+  const bool keep_going = g_end_requested == 0 && !enough && screen_->KeepGoing();
+  PressKeys();
+  // Alive as long as pictures come, also while the camera takes its time.
+  if (drawn_frames_ > 0 && SteadyClock::now() - last_shown_ < kLongestSilence) {
+    heartbeat_.Beat();
+  }
+  if (options_.pace == Pace::kRealtime) {
+    show_->SetHour(HourNow());
+  }
+  return keep_going;
+}
+
+void Performance::PressKeys() {
+  for (const std::string& message : osc_ != nullptr ? osc_->Take() : std::vector<std::string>()) {
+    show_->PressKey(message);
+  }
+  for (const std::string& key : screen_->TakeKeys()) {
+    if (key == kEvidenceKey) {
+      renderer_->SetEvidence(!renderer_->shows_evidence());
+      continue;
+    }
+    show_->PressKey(key);
+    if (!kiosk_) {
+      continue;
+    }
+    const Kiosk::Change change =
+        kiosk_->Press(key, Seconds(SteadyClock::now()), show_->content().spoken_languages,
+                      show_->content().caption_languages, *show_);
+    if (change.volume && sound_ != nullptr) {
+      sound_->SetVolume(static_cast<float>(kiosk_->state().volume));
+    }
+    languages_changed_ = languages_changed_ || change.languages;
+  }
+}
+
+Status Performance::OpenSource() {
+  if (options_.video.empty() && options_.images.empty()) {
+    const auto open = [number = options_.camera.value_or(0), settings = device_.capture] {
+      return capture::OpenCamera(number, settings);
+    };
+    LARARIUM_ASSIGN_OR_RETURN(source_, open());
+    source_ = capture::MakeSteady(
+        std::move(source_),
+        capture::RealWorld(open, [this](bool connected, const std::string& why) {
+          if (connected) {
+            log_.info("the camera is back");
+          } else {
+            log_.warn("{}; waiting for it", why);
+          }
+        }));
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(source_, options_.video.empty()
+                                         ? capture::OpenImageFolder(options_.images)
+                                         : capture::OpenVideo(options_.video));
+  if (options_.loop) {
+    source_ = capture::Loop(std::move(source_));
+  }
+  return Status();
+}
+
+Status Performance::CreateShow(show::ShowContent content) {
+  drama::DramaOptions drama;
+  drama.seed = options_.seed;
+  LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
+  show_->SetLostLadder(device_.lost);
+  show_->SetPictureSize(size_.width, size_.height);
+  return Status();
+}
+
+Status Performance::CreateTracker(const show::ShowContent& content) {
   LARARIUM_ASSIGN_OR_RETURN(
       const CameraChoice choice,
       ChooseCamera(options_, TrainedCameras(content), source_->width(), source_->height()));
   log_.info("camera intrinsics from {}", choice.origin);
-  LARARIUM_RETURN_IF_ERROR(SetLook(options_, content));
-  for (const show::ShowPlace& place : content.places) {
-    statistics_.places.push_back(place.stage.name);
-  }
   vision::TrackerOptions tracking;
   tracking.seed = options_.seed;
   tracking.threads = options_.threads;
@@ -156,29 +251,131 @@ Status Performance::Prepare() {
       poses_, vision::CreateTracker(show::Maps(content.places), choice.camera, tracking));
   show::SetOccluders(content.places, *poses_);
   poses_ = vision::Smooth(std::move(poses_), show::Maps(content.places), options_.smoothing);
-  drama::DramaOptions drama;
-  drama.seed = options_.seed;
-  LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
+  return Status();
+}
 
+// What the last visitor chose may be of another show.
+Result<show::ShowContent> Performance::LoadInChosenLanguages() {
+  if (kiosk_ && options_.language.empty()) {
+    languages_.spoken = kiosk_->state().language;
+  }
+  if (kiosk_ && options_.captions.empty()) {
+    languages_.captions = kiosk_->state().captions;
+  }
+  Result<show::ShowContent> loaded = LoadContent(options_, languages_);
+  if (!loaded.ok() && kiosk_) {
+    languages_ = {options_.language, options_.captions};
+    loaded = LoadContent(options_, languages_);
+  }
+  if (loaded.ok()) {
+    SetLook(options_, device_, *loaded);
+  }
+  return loaded;
+}
+
+Status Performance::Prepare() {
+  if (!options_.device.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(device_, LoadDevice(options_.device));
+  }
+  LARARIUM_RETURN_IF_ERROR(OpenSource());
+  // Videos have even sides.
+  size_ = options_.size.value_or(PictureSize{source_->width() & ~1, source_->height() & ~1});
+  LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content, LoadInChosenLanguages());
+  for (const show::ShowPlace& place : content.places) {
+    statistics_.places.push_back(place.stage.name);
+  }
+  // Drivers take their time, and so does the drama: beside each other.
+  std::future<Status> prepared = std::async(std::launch::async, [&]() -> Status {
+    LARARIUM_RETURN_IF_ERROR(CreateTracker(content));
+    return CreateShow(content);
+  });
+  const Status drawing = PrepareDrawing(content);
+  const Status playing = prepared.get();
+  LARARIUM_RETURN_IF_ERROR(playing);
+  LARARIUM_RETURN_IF_ERROR(drawing);
   if (!options_.visitor.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(drama::VisitorLog visitor, drama::VisitorLog::Load(options_.visitor));
     show_->drama().SetVisitorLog(std::move(visitor));
   }
-
-  LARARIUM_ASSIGN_OR_RETURN(screen_, Screen::Open(options_, show_->content().title));
-  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(show_->content()));
-  renderer_->SetEvidence(options_.evidence);
-  // Videos have even sides.
-  LARARIUM_ASSIGN_OR_RETURN(
-      target_, render::RenderTarget::Create(source_->width() & ~1, source_->height() & ~1));
+  if (kiosk_ && kiosk_->ResumeAt(content.title) > 0.0) {
+    show_->RestartAt(kiosk_->ResumeAt(content.title));
+  }
+  LARARIUM_RETURN_IF_ERROR(PrepareQuality());
   LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, *target_, *show_));
   OpenSound();
   if (!options_.osc.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(const OscAddress address, ParseOscAddress(options_.osc));
     LARARIUM_ASSIGN_OR_RETURN(osc_, OscListener::Open(address, log_));
   }
+  return Status();
+}
+
+Status Performance::PrepareDrawing(const show::ShowContent& content) {
+  LARARIUM_ASSIGN_OR_RETURN(screen_, Screen::Open(options_, content.title));
+  LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(size_.width, size_.height));
+  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content));
+  renderer_->SetEvidence(options_.evidence);
   statistics_.gpu = render::GraphicsDeviceName();
   return Status();
+}
+
+// In lock-step the level does not depend on how long anything takes.
+Status Performance::PrepareQuality() {
+  const auto level = static_cast<size_t>(options_.quality.value_or(0));
+  if (options_.quality || options_.pace == Pace::kFast) {
+    SetLevel(level);
+    return Status();
+  }
+  show::QualityOptions options;
+  options.expected_cost.resize(render::QualityLadder().size());
+  for (size_t i = 0; i < options.expected_cost.size(); ++i) {
+    options.expected_cost[i] = std::pow(kCostOfLevel, static_cast<double>(i));
+  }
+  options.budget_ms = kBudgetShare * 1000.0 / std::clamp(source_->frames_per_second(), 15.0, 60.0);
+  LARARIUM_RETURN_IF_ERROR(options.Validate());
+  quality_.emplace(options);
+  SetLevel(0);
+  return Status();
+}
+
+void Performance::SetLevel(size_t level) {
+  const std::span<const render::Quality> ladder = render::QualityLadder();
+  const render::Quality& quality = ladder[std::min(level, ladder.size() - 1)];
+  renderer_->SetQuality(quality);
+  show_->SetQuality(quality);
+}
+
+void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
+  if (!quality_) {
+    return;
+  }
+  const double time = Seconds(now);
+  const size_t before = quality_->level();
+  quality_->AddFrame(time, work_ms);
+  if (now - power_read_ > kPowerInterval) {
+    power_read_ = now;
+    quality_->SetPower(time, ReadPower());
+  }
+  if (quality_->level() != before) {
+    const show::QualityStep& step = quality_->steps().back();
+    log_.info("quality {} instead of {}: {}", quality_->level(), before, show::Name(step.reason));
+    SetLevel(quality_->level());
+  }
+}
+
+// Another language needs other texts and voices; the drama goes on where it is.
+Status Performance::ChangeLanguages() {
+  languages_changed_ = false;
+  languages_ = {kiosk_->state().language, kiosk_->state().captions};
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_, languages_));
+  SetLook(options_, device_, content);
+  sound_.reset();
+  const double time = kiosk_->state().seconds;
+  LARARIUM_RETURN_IF_ERROR(CreateShow(std::move(content)));
+  show_->RestartAt(time);
+  OpenSound();
+  log_.info("language '{}', captions '{}'", languages_.spoken, languages_.captions);
+  return renderer_->SetTexts(show_->content());
 }
 
 // A show without sound is better than none.
@@ -198,24 +395,63 @@ void Performance::OpenSound() {
   }
   sound_ = std::make_unique<audio::SoundPlayer>(
       std::move(*mixer), [] { return audio::CreateAudioOut(audio::AudioOutKind::kDevice); }, log_);
+  if (kiosk_) {
+    sound_->SetVolume(static_cast<float>(kiosk_->state().volume));
+  }
+}
+
+void Performance::ShowToStaff() {
+  char more[64];
+  const double rate =
+      statistics_.interval.count() == 0 ? 0.0 : 1000.0 / statistics_.interval.mean();
+  std::snprintf(more, sizeof(more), "   quality %zu   %.0f/s",
+                quality_ ? quality_->level() : static_cast<size_t>(options_.quality.value_or(0)),
+                rate);
+  renderer_->SetStaff(more);
+}
+
+void Performance::AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn) {
+  const SteadyClock::time_point now = SteadyClock::now();
+  const auto milliseconds = [](SteadyClock::duration duration) {
+    return std::chrono::duration<double, std::milli>(duration).count();
+  };
+  statistics_.located_age.Add(milliseconds(staged.located - staged.arrival));
+  statistics_.staged_age.Add(milliseconds(staged.staged - staged.arrival));
+  statistics_.drawn_age.Add(milliseconds(drawn - staged.arrival));
+  statistics_.shown_age.Add(milliseconds(now - staged.arrival));
+  statistics_.total.Add(milliseconds(now - staged.arrival));
+  if (drawn_frames_ == 0) {
+    statistics_.startup_seconds = Seconds(now);
+  } else {
+    statistics_.interval.Add(milliseconds(now - last_shown_));
+  }
+  last_shown_ = now;
+  ++drawn_frames_;
 }
 
 Status Performance::DrawFrame(const show::StagedFrame& staged) {
+  if (options_.staff) {
+    ShowToStaff();
+  }
+  const SteadyClock::time_point begin = SteadyClock::now();
+  SteadyClock::time_point drawn;
   {
     const ScopedStageTimer timer(statistics_.render);
     LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_));
+    target_->Finish();
+    drawn = SteadyClock::now();
     screen_->Present(*target_);
   }
   if (sound_ != nullptr) {
     sound_->Show(staged.sound);
   }
-  const SteadyClock::time_point now = SteadyClock::now();
-  if (drawn_frames_ == 0) {
-    statistics_.startup_seconds = std::chrono::duration<double>(now - started_).count();
+  AddTimes(staged, drawn);
+  const double draw_ms = std::chrono::duration<double, std::milli>(drawn - begin).count();
+  ChooseQuality(last_shown_, std::max(draw_ms, staged.stage_ms));
+  heartbeat_.Beat();
+  if (kiosk_) {
+    kiosk_->AfterFrame(Seconds(last_shown_), staged, *show_);
   }
-  const std::chrono::duration<double, std::milli> total = now - staged.arrival;
-  statistics_.total.Add(total.count());
-  ++drawn_frames_;
   return recorder_->Add(staged, *target_);
 }
 
@@ -233,20 +469,28 @@ Status Performance::RunLockStep() {
 }
 
 Status Performance::RunRealtime() {
-  show::RealtimePipeline pipeline(stages());
-  while (!pipeline.Finished() && KeepGoing()) {
-    if (std::unique_ptr<show::StagedFrame> staged = pipeline.Take(kInputInterval)) {
+  std::optional<show::RealtimePipeline> pipeline(std::in_place, stages());
+  while (!pipeline->Finished() && KeepGoing()) {
+    if (languages_changed_) {
+      pipeline.reset();
+      LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
+      pipeline.emplace(stages());
+    }
+    if (std::unique_ptr<show::StagedFrame> staged = pipeline->Take(kInputInterval)) {
       LARARIUM_RETURN_IF_ERROR(DrawFrame(*staged));
-      pipeline.Recycle(std::move(staged));
+      pipeline->Recycle(std::move(staged));
     }
   }
-  pipeline.Stop();
-  return pipeline.status();
+  pipeline->Stop();
+  return pipeline->status();
 }
 
 Status Performance::Run() {
   LARARIUM_RETURN_IF_ERROR(options_.pace == Pace::kFast ? RunLockStep() : RunRealtime());
   LARARIUM_RETURN_IF_ERROR(recorder_->Finish());
+  if (quality_) {
+    statistics_.quality = quality_->ToJson();
+  }
   if (!options_.stats_out.empty()) {
     LARARIUM_RETURN_IF_ERROR(SaveJson(options_.stats_out, statistics_.ToJson()));
   }
@@ -259,17 +503,38 @@ Status Performance::Run() {
   return Status();
 }
 
+// Loading makes and drops much that is large, playing little of it again and again.
+// At first what is large goes back to the system as soon as it is dropped.
+void BeginLoading() { ::mallopt(M_MMAP_THRESHOLD, 128 << 10); }
+// From here on it is kept for the next frame.
+void EndLoading() {
+  ::malloc_trim(0);
+  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
+}
+
 }  // namespace
 
-Status Play(const PlayOptions& options, SteadyClock::time_point started, Log& log) {
+Status Play(const PlayOptions& options,
+            SteadyClock::time_point started,
+            Log& log,
+            const ChildStart& start,
+            Heartbeat heartbeat) {
   std::signal(SIGINT, RequestEnd);
   std::signal(SIGTERM, RequestEnd);
   std::optional<ThreadLimit> limit;
   if (options.threads > 0) {
     limit.emplace(options.threads);
   }
-  Performance performance(options, started, log);
+  Performance performance(options, started, log, start, heartbeat);
+  BeginLoading();
   LARARIUM_RETURN_IF_ERROR(performance.Prepare());
+  EndLoading();
+  if (options.sandbox) {
+    if (const Status status = EnterSandbox(); !status.ok()) {
+      log.warn("{}", status.message());
+    }
+  }
   return performance.Run();
 }
 

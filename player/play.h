@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "player/options.h"
+#include "player/watchdog.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 
@@ -10,6 +11,11 @@ namespace lararium::player {
 
 // Runs a show until its source ends, the window closes, or the process is asked
 // to end (SIGINT, SIGTERM). started: when the program did, for the statistics.
-Status Play(const PlayOptions& options, std::chrono::steady_clock::time_point started, Log& log);
+// start, heartbeat: of a kiosk's show (watchdog.h).
+Status Play(const PlayOptions& options,
+            std::chrono::steady_clock::time_point started,
+            Log& log,
+            const ChildStart& start = {},
+            Heartbeat heartbeat = Heartbeat());
 
 }  // namespace lararium::player

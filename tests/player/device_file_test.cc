@@ -38,7 +38,7 @@ TEST_F(DeviceFileTest, HoldsCalibrationOrLookOrBoth) {
 
 TEST_F(DeviceFileTest, ErrorsNameTheFileAndTheField) {
   const std::string empty = Load(R"({"schema": 1})").status().message();
-  EXPECT_NE(empty.find("device.json: has neither"), std::string::npos) << empty;
+  EXPECT_NE(empty.find("device.json: has none of"), std::string::npos) << empty;
   const std::string noisy =
       Load(R"({"schema": 1, "look": {"width": 640, "noise": [-1, 0], "blur_px": 0, "knee": 1}})")
           .status()

@@ -1,0 +1,361 @@
+#include "player/doctor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/core.hpp>
+#include <system_error>
+#include <utility>
+
+#include "player/camera_choice.h"
+#include "player/device_file.h"
+#include "player/kiosk.h"
+#include "player/power_sensors.h"
+#include "shared/audio/audio_out.h"
+#include "shared/bundle/bundle.h"
+#include "shared/capture/frame_source.h"
+#include "shared/core/processor.h"
+#include "shared/render/graphics_context.h"
+#include "shared/render/window.h"
+#include "shared/show/show.h"
+#include "shared/vision/tracker.h"
+
+namespace lararium::player {
+namespace {
+
+constexpr int kProbeImages = 45;
+constexpr double kProbeSeconds = 4.0;
+constexpr double kSlowest = 20.0;  // images per second that people still move smoothly at
+constexpr double kDark = 12.0;     // of 255
+constexpr double kFrozen = 0.01;
+constexpr uint64_t kLeastFree = uint64_t{64} << 20;
+constexpr double kHot = 80.0;
+
+std::string Text(const char* format, double value) {
+  char text[128];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+int CountCameras() {
+  int count = 0;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev", ignored)) {
+    count += entry.path().filename().string().rfind("video", 0) == 0 ? 1 : 0;
+  }
+  return count;
+}
+
+Status Images(capture::FrameSource& source, vision::PoseSource* poses, CameraProbe& probe) {
+  cv::Mat before;
+  const auto begin = std::chrono::steady_clock::now();
+  while (probe.images < kProbeImages && probe.seconds < kProbeSeconds) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::optional<geometry::Frame> frame, source.Next());
+    if (!frame) {
+      break;
+    }
+    ++probe.images;
+    probe.brightness += cv::mean(frame->grey)[0];
+    if (!before.empty()) {
+      cv::Mat difference;
+      cv::absdiff(before, frame->grey, difference);
+      probe.change += cv::mean(difference)[0];
+    }
+    before = frame->grey.clone();
+    if (poses != nullptr) {
+      probe.tracked = probe.tracked.value_or(0) + (poses->Track(*frame).camera_from_map ? 1 : 0);
+    }
+    probe.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  probe.brightness /= std::max(probe.images, 1);
+  probe.change /= std::max(probe.images - 1, 1);
+  return Status();
+}
+
+Result<std::unique_ptr<vision::PoseSource>> TrackerOf(const PlayOptions& play,
+                                                      const show::ShowContent& content,
+                                                      const CameraProbe& probe) {
+  std::vector<TrainedCamera> trained;
+  for (const show::ShowPlace& place : content.places) {
+    trained.push_back({place.stage.name, place.map->camera});
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const CameraChoice choice,
+                            ChooseCamera(play, trained, probe.width, probe.height));
+  return vision::CreateTracker(show::Maps(content.places), choice.camera, {});
+}
+
+CameraProbe ProbeCamera(const DoctorOptions& options, const show::ShowContent* content) {
+  CameraProbe probe;
+  probe.devices = CountCameras();
+  Device device;
+  PlayOptions play;
+  play.device = options.device;
+  if (!options.device.empty()) {
+    Result<Device> loaded = LoadDevice(options.device);
+    if (!loaded.ok()) {
+      probe.problem = loaded.status();
+      return probe;
+    }
+    device = *loaded;
+  }
+  Result<std::unique_ptr<capture::FrameSource>> source =
+      capture::OpenCamera(options.camera, device.capture);
+  if (!source.ok()) {
+    probe.problem = source.status();
+    return probe;
+  }
+  probe.width = (*source)->width();
+  probe.height = (*source)->height();
+  std::unique_ptr<vision::PoseSource> poses;
+  if (content != nullptr) {
+    auto tracker = TrackerOf(play, *content, probe);
+    if (tracker.ok()) {
+      poses = std::move(*tracker);
+    } else {
+      probe.calibration_problem = tracker.message();
+    }
+  }
+  probe.problem = Images(**source, poses.get(), probe);
+  return probe;
+}
+
+Result<std::string> OpenGraphics() {
+  LARARIUM_ASSIGN_OR_RETURN(const render::OffscreenContext context,
+                            render::CreateOffscreenContext());
+  return render::GraphicsDeviceName();
+}
+
+Result<std::string> OpenDisplay(int monitor) {
+  render::WindowOptions wanted;
+  wanted.visible = false;
+  if (monitor >= 0) {
+    wanted.monitor = monitor;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const render::Window window, render::Window::Create(wanted));
+  const render::Window::Size size = window.framebuffer_size();
+  return std::to_string(size.width) + "x" + std::to_string(size.height) + ", drawn by " +
+         render::GraphicsDeviceName();
+}
+
+Result<std::string> OpenSoundDevice() {
+  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<audio::AudioOut> out,
+                            audio::CreateAudioOut(audio::AudioOutKind::kDevice));
+  return out->name();
+}
+
+Result<show::ShowContent> OpenShow(const DoctorOptions& options) {
+  bundle::OpenOptions opening;
+  if (!options.trust.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(opening.trusted, bundle::LoadPublicKey(options.trust));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle,
+                            bundle::Bundle::Open(options.show, opening));
+  return show::LoadShowContent(bundle);
+}
+
+// The show, and whether its drama begins.
+std::vector<Finding> JudgeShow(const Result<show::ShowContent>& content, bool trusted, Log& log) {
+  if (!content.ok()) {
+    return {{"bundle", Verdict::kBad, content.message(), "copy the show to this machine again"}};
+  }
+  std::vector<Finding> findings = {
+      {"bundle", trusted ? Verdict::kGood : Verdict::kWarning,
+       "\"" + content->title + "\", undamaged" +
+           (trusted ? " and signed with the trusted key" : ""),
+       trusted ? "" : "play with --trust KEY.pub, so that no other show can be slipped in"}};
+  for (const show::ShowPlace& place : content->places) {
+    const size_t points = place.map->points.size();
+    const bool images = std::any_of(place.map->keyframes.begin(), place.map->keyframes.end(),
+                                    [](const auto& keyframe) { return !keyframe.grey.empty(); });
+    findings.push_back(
+        {"map", images ? Verdict::kGood : Verdict::kWarning,
+         "place " + place.stage.name + ": " + std::to_string(points) + " points, " +
+             std::to_string(place.map->keyframes.size()) + " keyframes",
+         images ? "" : "export with images of keyframes: visitors are guided by them"});
+  }
+  const auto show = show::Show::Create(*content, {}, log);
+  if (!show.ok()) {
+    findings.push_back({"drama", Verdict::kBad, show.message(), "ask whoever made the show"});
+  } else if (!(*show)->drama().errors().empty()) {
+    findings.push_back({"drama", Verdict::kWarning, (*show)->drama().errors().front().message,
+                        "ask whoever made the show; it plays without this part"});
+  }
+  return findings;
+}
+
+Finding LookAtDisk(std::filesystem::path folder) {
+  if (folder.empty()) {
+    folder = DefaultStateFolder();
+  }
+  const Status written = SaveKioskState(folder / "doctor", {});
+  std::error_code ignored;
+  const auto space = std::filesystem::space(folder, ignored);
+  std::filesystem::remove_all(folder / "doctor", ignored);
+  return JudgeDisk(written, ignored ? 0 : space.available, folder.string());
+}
+
+}  // namespace
+
+Finding JudgeCamera(const CameraProbe& probe) {
+  const auto bad = [](std::string found, std::string advice) {
+    return Finding{"camera", Verdict::kBad, std::move(found), std::move(advice)};
+  };
+  if (probe.devices == 0) {
+    return bad("none is connected",
+               "plug it in; then \"ls /dev/video*\" must list it. Try another cable or socket");
+  }
+  if (!probe.problem.ok()) {
+    return bad(probe.problem.message(),
+               "close other programs that use it, and let the user be in the group \"video\"");
+  }
+  if (probe.images == 0) {
+    return bad("gives no images", "unplug it, wait a little, plug it in again");
+  }
+  const double rate = probe.images / std::max(probe.seconds, 1e-3);
+  const std::string found = std::to_string(probe.width) + "x" + std::to_string(probe.height) +
+                            ", " + Text("%.1f images a second", rate);
+  if (probe.brightness < kDark) {
+    return bad(found + ", all dark", "take off the lens cap, or turn on the light");
+  }
+  if (probe.calibration_problem) {
+    return bad(found + "; " + *probe.calibration_problem,
+               "give the size that it was calibrated for in the device file's \"capture\"");
+  }
+  if (probe.change < kFrozen) {
+    return {"camera", Verdict::kWarning, found + ", which do not change",
+            "move it; if that changes nothing, unplug it and plug it in again"};
+  }
+  if (probe.tracked == 0) {
+    return {"camera", Verdict::kWarning, found + "; the place was not found in them",
+            "point it at the place of the show, in the light that it was filmed in"};
+  }
+  if (rate < kSlowest) {
+    return {"camera", Verdict::kWarning, found,
+            "more light lets it expose for less long; or set \"format\" MJPG and "
+            "\"frames_per_second\" in the device file's \"capture\""};
+  }
+  const std::string tracked = probe.tracked
+                                  ? "; the place was found in " + std::to_string(*probe.tracked) +
+                                        " of " + std::to_string(probe.images)
+                                  : "";
+  return {"camera", Verdict::kGood, found + tracked};
+}
+
+Finding JudgeGraphics(const Result<std::string>& device) {
+  if (!device.ok()) {
+    return {"graphics", Verdict::kBad, device.message(),
+            "install the driver of the graphics card, or libgl1-mesa-dri"};
+  }
+  const bool software = device->find("llvmpipe") != std::string::npos ||
+                        device->find("softpipe") != std::string::npos;
+  return {"graphics", software ? Verdict::kWarning : Verdict::kGood, *device,
+          software ? "this draws on the processor: with a graphics card's driver people are finer"
+                   : ""};
+}
+
+Finding JudgeDisplay(const Result<std::string>& window, bool wanted) {
+  if (window.ok()) {
+    return {"display", Verdict::kGood, *window};
+  }
+  return {"display", wanted ? Verdict::kBad : Verdict::kWarning, window.message(),
+          "log in to the desktop, connect the headset or monitor, and choose it with --monitor"};
+}
+
+Finding JudgeSound(const Result<std::string>& out) {
+  if (out.ok()) {
+    return {"sound", Verdict::kGood, *out};
+  }
+  return {"sound", Verdict::kWarning, out.message(),
+          "connect headphones and let the user be in the group \"audio\"; without it the show is "
+          "silent"};
+}
+
+Finding JudgeDisk(const Status& written, uint64_t free_bytes, const std::string& folder) {
+  if (!written.ok()) {
+    return {"disk", Verdict::kWarning, written.message(),
+            "give a folder that can be written with --state; without it a show begins anew after "
+            "a failure"};
+  }
+  const std::string found =
+      folder + ": " + Text("%.0f MiB free", static_cast<double>(free_bytes) / (1 << 20));
+  if (free_bytes < kLeastFree) {
+    return {"disk", Verdict::kWarning, found, "make room"};
+  }
+  return {"disk", Verdict::kGood, found};
+}
+
+Finding JudgePower(const show::PowerState& power) {
+  std::string found = power.celsius ? Text("%.0f degrees", *power.celsius) : "no thermometer";
+  found += power.battery ? Text(", battery %.0f %%", 100.0 * *power.battery) : ", on mains";
+  if (power.celsius && *power.celsius >= kHot) {
+    return {"power", Verdict::kWarning, found, "let it cool and clean its fan: quality is reduced"};
+  }
+  if (power.battery && *power.battery < show::QualityOptions().low_battery) {
+    return {"power", Verdict::kWarning, found, "charge it: quality is reduced"};
+  }
+  return {"power", Verdict::kGood, found};
+}
+
+std::string FormatFindings(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& finding : findings) {
+    const char* verdict = finding.verdict == Verdict::kGood      ? "good   "
+                          : finding.verdict == Verdict::kWarning ? "warning"
+                                                                 : "BAD    ";
+    std::string what = finding.what;
+    what.resize(std::max<size_t>(what.size(), 9), ' ');
+    text += std::string(verdict) + "  " + what + " " + finding.found + "\n";
+    if (!finding.advice.empty()) {
+      text += "                    do: " + finding.advice + "\n";
+    }
+  }
+  return text;
+}
+
+Json FindingsToJson(const std::vector<Finding>& findings) {
+  Json list = Json::array();
+  for (const Finding& finding : findings) {
+    const char* verdict = finding.verdict == Verdict::kGood      ? "good"
+                          : finding.verdict == Verdict::kWarning ? "warning"
+                                                                 : "bad";
+    list.push_back({{"what", finding.what},
+                    {"verdict", verdict},
+                    {"found", finding.found},
+                    {"advice", finding.advice}});
+  }
+  return {{"findings", list}};
+}
+
+bool RunDoctor(const DoctorOptions& options, Log& log) {
+  std::vector<Finding> findings;
+  const Status processor = CheckProcessor();
+  findings.push_back({"processor", processor.ok() ? Verdict::kGood : Verdict::kBad,
+                      processor.ok() ? "has what the player needs" : processor.message()});
+  std::optional<show::ShowContent> content;
+  if (!options.show.empty()) {
+    Result<show::ShowContent> opened = OpenShow(options);
+    for (Finding& finding : JudgeShow(opened, !options.trust.empty(), log)) {
+      findings.push_back(std::move(finding));
+    }
+    if (opened.ok()) {
+      content = std::move(*opened);
+    }
+  }
+  findings.push_back(JudgeCamera(ProbeCamera(options, content ? &*content : nullptr)));
+  findings.push_back(JudgeGraphics(OpenGraphics()));
+  findings.push_back(JudgeDisplay(OpenDisplay(options.monitor), true));
+  findings.push_back(JudgeSound(OpenSoundDevice()));
+  findings.push_back(LookAtDisk(options.state));
+  findings.push_back(JudgePower(ReadPower()));
+  const bool bad = std::any_of(findings.begin(), findings.end(),
+                               [](const Finding& f) { return f.verdict == Verdict::kBad; });
+  if (options.json) {
+    std::printf("%s\n", FindingsToJson(findings).dump(2).c_str());
+  } else {
+    std::printf("%s", FormatFindings(findings).c_str());
+  }
+  return !bad;
+}
+
+}  // namespace lararium::player

@@ -1,0 +1,63 @@
+#include "player/kiosk_state.h"
+
+#include <system_error>
+
+#include "shared/core/file.h"
+#include "shared/core/json.h"
+
+namespace lararium::player {
+namespace {
+
+constexpr int64_t kSchema = 1;
+constexpr size_t kMaxText = 1000;
+constexpr uint64_t kMaxBytes = 1 << 16;
+constexpr double kMaxSeconds = 1e6;
+
+std::filesystem::path StateFile(const std::filesystem::path& folder) {
+  return folder / "state.json";
+}
+
+}  // namespace
+
+Result<KioskState> LoadKioskState(const std::filesystem::path& folder) {
+  const std::filesystem::path path = StateFile(folder);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    return KioskState();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(path, kMaxBytes));
+  return ParseKioskState(text, path.string());
+}
+
+Result<KioskState> ParseKioskState(std::string_view text, const std::string& place) {
+  KioskState state;
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
+  const JsonView view(json, place);
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
+  if (schema != kSchema) {
+    return view.Problem("was written by a newer player", "remove it");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(state.title, view.Text("title", kMaxText));
+  LARARIUM_ASSIGN_OR_RETURN(state.seconds, view.Number("seconds", 0.0, kMaxSeconds));
+  LARARIUM_ASSIGN_OR_RETURN(state.language, view.Text("language", kMaxText));
+  LARARIUM_ASSIGN_OR_RETURN(state.captions, view.Text("captions", kMaxText));
+  LARARIUM_ASSIGN_OR_RETURN(state.volume, view.Number("volume", 0.0, 1.0));
+  return state;
+}
+
+Status SaveKioskState(const std::filesystem::path& folder, const KioskState& state) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    return Status::Error(folder.string(), "cannot be made: " + error.message(),
+                         "name another folder with --state");
+  }
+  return SaveJson(StateFile(folder), {{"schema", kSchema},
+                                      {"title", state.title},
+                                      {"seconds", state.seconds},
+                                      {"language", state.language},
+                                      {"captions", state.captions},
+                                      {"volume", state.volume}});
+}
+
+}  // namespace lararium::player

@@ -1,0 +1,30 @@
+#pragma once
+
+// What a kiosk remembers across restarts: where the show is, and how the visitor wants it.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "shared/core/status.h"
+
+namespace lararium::player {
+
+struct KioskState {
+  std::string title;     // of the show that the time is of
+  double seconds = 0.0;  // of the drama
+  std::string language;  // spoken; empty: as the author chose
+  std::string captions;  // likewise
+  double volume = 1.0;   // 0..1
+
+  friend bool operator==(const KioskState&, const KioskState&) = default;
+};
+
+// folder: of the player's alone. A folder without a state has the state of a new show.
+Result<KioskState> LoadKioskState(const std::filesystem::path& folder);
+// place: what errors call the text.
+Result<KioskState> ParseKioskState(std::string_view text, const std::string& place);
+// As a whole or not at all.
+Status SaveKioskState(const std::filesystem::path& folder, const KioskState& state);
+
+}  // namespace lararium::player

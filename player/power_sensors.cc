@@ -1,0 +1,64 @@
+#include "player/power_sensors.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <system_error>
+
+namespace lararium::player {
+namespace {
+
+std::optional<std::string> FirstLine(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  return std::getline(file, line) ? std::optional(line) : std::nullopt;
+}
+
+std::optional<double> Number(const std::filesystem::path& path) {
+  const std::optional<std::string> line = FirstLine(path);
+  if (!line || line->empty()) {
+    return std::nullopt;
+  }
+  char* end = nullptr;
+  const double value = std::strtod(line->c_str(), &end);
+  return end == line->c_str() ? std::nullopt : std::optional(value);
+}
+
+template <typename Visit>
+void ForEachFolder(const std::filesystem::path& parent, const std::string& prefix, Visit visit) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(parent, ignored)) {
+    if (entry.path().filename().string().rfind(prefix, 0) == 0) {
+      visit(entry.path());
+    }
+  }
+}
+
+// Sensors that are not connected report nonsense.
+constexpr double kLeastCelsius = 1.0;
+constexpr double kMostCelsius = 150.0;
+
+}  // namespace
+
+show::PowerState ReadPower(const std::filesystem::path& sys) {
+  show::PowerState power;
+  ForEachFolder(sys / "class/thermal", "thermal_zone", [&](const std::filesystem::path& zone) {
+    const std::optional<double> thousandths = Number(zone / "temp");
+    if (thousandths && *thousandths >= 1e3 * kLeastCelsius && *thousandths <= 1e3 * kMostCelsius) {
+      power.celsius = std::max(power.celsius.value_or(0.0), *thousandths / 1000.0);
+    }
+  });
+  ForEachFolder(sys / "class/power_supply", "", [&](const std::filesystem::path& supply) {
+    const std::optional<double> percent = Number(supply / "capacity");
+    if (FirstLine(supply / "type") == "Battery" && FirstLine(supply / "scope") != "Device" &&
+        FirstLine(supply / "status") == "Discharging" && percent && *percent >= 0.0 &&
+        *percent <= 100.0) {
+      power.battery = std::min(power.battery.value_or(1.0), *percent / 100.0);
+    }
+  });
+  return power;
+}
+
+}  // namespace lararium::player

@@ -1,0 +1,26 @@
+// Any text as a device file, as a kiosk's state, and as the key that shows must be signed with.
+
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "player/device_file.h"
+#include "player/kiosk_state.h"
+#include "shared/bundle/signature.h"
+#include "shared/core/check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace lararium;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  if (const auto device = player::ParseDevice(text, "device.json"); device.ok()) {
+    CHECK(device->lost.Validate().ok());
+    CHECK(!device->camera || device->camera->Validate().ok());
+  }
+  if (const auto state = player::ParseKioskState(text, "state.json"); state.ok()) {
+    CHECK(state->seconds >= 0.0 && state->volume >= 0.0 && state->volume <= 1.0);
+  }
+  if (const auto key = bundle::ParsePublicKey(text, "museum.pub"); key.ok()) {
+    CHECK(!bundle::Verifies({}, {}, *key));
+  }
+  return 0;
+}

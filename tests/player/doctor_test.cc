@@ -1,0 +1,84 @@
+#include "player/doctor.h"
+
+#include <gmock/gmock.h>
+
+namespace lararium::player {
+namespace {
+
+using ::testing::HasSubstr;
+
+CameraProbe Good() {
+  CameraProbe probe;
+  probe.devices = 1;
+  probe.width = 640;
+  probe.height = 480;
+  probe.images = 45;
+  probe.seconds = 1.5;
+  probe.brightness = 90.0;
+  probe.change = 2.0;
+  return probe;
+}
+
+TEST(Doctor, ACameraThatGivesImagesIsGood) {
+  const Finding finding = JudgeCamera(Good());
+  EXPECT_EQ(finding.verdict, Verdict::kGood);
+  EXPECT_EQ(finding.found, "640x480, 30.0 images a second");
+  EXPECT_TRUE(finding.advice.empty());
+}
+
+TEST(Doctor, EachFaultOfACameraHasItsAdvice) {
+  struct Fault {
+    std::function<void(CameraProbe&)> change;
+    Verdict verdict;
+    std::string advice;
+  };
+  const Fault faults[] = {
+      {[](CameraProbe& p) { p.devices = 0; }, Verdict::kBad, "plug it in"},
+      {[](CameraProbe& p) { p.problem = Status::Error("camera 0", "cannot be opened"); },
+       Verdict::kBad, "group \"video\""},
+      {[](CameraProbe& p) { p.images = 0; }, Verdict::kBad, "unplug it"},
+      {[](CameraProbe& p) { p.brightness = 3.0; }, Verdict::kBad, "lens cap"},
+      {[](CameraProbe& p) { p.calibration_problem = "no calibration for 640x360"; }, Verdict::kBad,
+       "calibrated"},
+      {[](CameraProbe& p) { p.change = 0.0; }, Verdict::kWarning, "move it"},
+      {[](CameraProbe& p) { p.tracked = 0; }, Verdict::kWarning, "point it at the place"},
+      {[](CameraProbe& p) { p.seconds = 4.5; }, Verdict::kWarning, "more light"}};
+  for (const Fault& fault : faults) {
+    CameraProbe probe = Good();
+    fault.change(probe);
+    const Finding finding = JudgeCamera(probe);
+    EXPECT_EQ(finding.verdict, fault.verdict) << fault.advice;
+    EXPECT_THAT(finding.advice, HasSubstr(fault.advice));
+  }
+}
+
+TEST(Doctor, SaysWhatElseIsWrong) {
+  const Status lost = Status::Error("x", "is not there");
+  EXPECT_EQ(JudgeGraphics(std::string("AMD Radeon")).verdict, Verdict::kGood);
+  EXPECT_EQ(JudgeGraphics(std::string("llvmpipe (LLVM 15)")).verdict, Verdict::kWarning);
+  EXPECT_EQ(JudgeGraphics(lost).verdict, Verdict::kBad);
+  EXPECT_EQ(JudgeDisplay(lost, true).verdict, Verdict::kBad);
+  EXPECT_EQ(JudgeDisplay(std::string("1920x1080"), true).verdict, Verdict::kGood);
+  EXPECT_EQ(JudgeSound(lost).verdict, Verdict::kWarning);
+  EXPECT_EQ(JudgeDisk(Status(), uint64_t{1} << 34, "/x").verdict, Verdict::kGood);
+  EXPECT_EQ(JudgeDisk(Status(), 1000, "/x").verdict, Verdict::kWarning);
+  EXPECT_EQ(JudgeDisk(lost, 1000, "/x").verdict, Verdict::kWarning);
+  EXPECT_EQ(JudgePower({90.0, std::nullopt}).verdict, Verdict::kWarning);
+  EXPECT_EQ(JudgePower({40.0, 0.05}).verdict, Verdict::kWarning);
+  EXPECT_EQ(JudgePower({40.0, 0.9}).verdict, Verdict::kGood);
+}
+
+TEST(Doctor, PrintsAdviceBelowWhatItIsFor) {
+  const std::string text = FormatFindings(
+      {{"camera", Verdict::kGood, "fine"}, {"sound", Verdict::kWarning, "none", "connect it"}});
+  EXPECT_EQ(text,
+            "good     camera    fine\n"
+            "warning  sound     none\n"
+            "                    do: connect it\n");
+  EXPECT_EQ(
+      FindingsToJson({{"disk", Verdict::kBad, "full", "make room"}})["findings"][0]["verdict"],
+      "bad");
+}
+
+}  // namespace
+}  // namespace lararium::player

@@ -1,0 +1,57 @@
+#include "player/power_sensors.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/test_files.h"
+
+namespace lararium::player {
+namespace {
+
+// A double of /sys.
+class PowerSensorsTest : public ::testing::Test {
+ protected:
+  void Put(const std::string& path, const std::string& text) {
+    const std::filesystem::path file = folder_.path() / "class" / path;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::trunc) << text;
+  }
+  show::PowerState Read() { return ReadPower(folder_.path()); }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(PowerSensorsTest, WhereNothingIsKnownNothingIsSaid) {
+  EXPECT_FALSE(Read().celsius);
+  EXPECT_FALSE(Read().battery);
+  EXPECT_FALSE(ReadPower("/nowhere").celsius);
+}
+
+TEST_F(PowerSensorsTest, TheHottestZoneCounts) {
+  Put("thermal/thermal_zone0/temp", "41500\n");
+  Put("thermal/thermal_zone1/temp", "78250\n");
+  Put("thermal/thermal_zone2/temp", "-274000\n");
+  Put("thermal/thermal_zone3/temp", "nonsense\n");
+  Put("thermal/thermal_zone4/temp", "");
+  Put("thermal/cooling_device0/temp", "99000\n");
+  EXPECT_EQ(Read().celsius, 78.25);
+}
+
+TEST_F(PowerSensorsTest, OnlyAnEmptyingBatteryCounts) {
+  Put("power_supply/AC/type", "Mains\n");
+  Put("power_supply/BAT0/type", "Battery\n");
+  Put("power_supply/BAT0/status", "Discharging\n");
+  Put("power_supply/BAT0/capacity", "37\n");
+  EXPECT_EQ(Read().battery, 0.37);
+  Put("power_supply/mouse/type", "Battery\n");
+  Put("power_supply/mouse/scope", "Device\n");
+  Put("power_supply/mouse/status", "Discharging\n");
+  Put("power_supply/mouse/capacity", "3\n");
+  EXPECT_EQ(Read().battery, 0.37) << "a mouse's battery is another matter";
+  Put("power_supply/BAT0/status", "Charging\n");
+  EXPECT_FALSE(Read().battery);
+}
+
+}  // namespace
+}  // namespace lararium::player
