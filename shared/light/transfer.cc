@@ -43,13 +43,25 @@ inline void BlendReceivers(const ReceiverLight& packed,
   }
 }
 
+inline bool AnyChanged(const uint8_t* changed, const VertexReceivers& receivers) {
+  bool any = false;
+  for (size_t r = 0; r < kReceiversOfVertex; ++r) {
+    any |= receivers.weight[r] > 0 && changed[receivers.receiver[r]] != 0;
+  }
+  return any;
+}
+
 // Rows of so many registers for each channel.
 template <size_t OfChannel>
 void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
   constexpr size_t kRegisters = 3 * OfChannel;
   const Transfer& transfer = *job.transfer;
   const size_t pose_stride = transfer.vertices * kRegisters * kShortLanes;
+  const uint8_t* changed = job.changed.empty() ? nullptr : job.changed.data();
   for (size_t v = begin; v < end; ++v) {
+    if (changed != nullptr && !AnyChanged(changed, job.receivers[v])) {
+      continue;
+    }
     ShortLanes light[kRegisters] = {};
     Lanes weights = {};
     BlendReceivers(*job.light, job.receivers[v], job.pose_weights.data(), light, weights);
@@ -172,8 +184,12 @@ void DecodeTransfer(const Transfer& transfer,
 void PackReceiverLight(const ShRowsRgb& light, ReceiverLight& packed) {
   const size_t padded = packed.stride() / 3;
   const float most = LargestOf(light);
-  packed.set_unit(most / kLargestShort);
-  const float inverse = most > 0.0f ? kLargestShort / most : 0.0f;
+  const float held = packed.unit() * kLargestShort;
+  if (most > held || most < 0.5f * held || !(held > 0.0f)) {
+    // With room to grow.
+    packed.set_unit(std::max(1.2f * most, 1e-30f) / kLargestShort);
+  }
+  const float inverse = 1.0f / packed.unit();
   for (size_t channel = 0; channel < 3; ++channel) {
     const ShRows& rows = light[channel];
     CHECK(rows.count() == packed.count() && rows.receivers() == packed.receivers());
@@ -198,6 +214,7 @@ void LightVerticesJob::Run(size_t begin, size_t end) const {
   CHECK(transfer != nullptr && light != nullptr && light->count() == transfer->count &&
         receivers.size() == transfer->vertices && irradiance.size() == transfer->vertices &&
         pose_weights.size() == light->receivers() * kMaxKeyPoses &&
+        (changed.empty() || changed.size() == light->receivers()) &&
         transfer->poses <= kMaxKeyPoses && begin <= end && end <= transfer->vertices);
   switch (transfer->padded_count() / kShortLanes) {
     case 1:

@@ -70,7 +70,8 @@ class ReceiverLight {
 };
 
 // light: in the receivers' bone frames (sh_turn.h). Each is off by half a unit at most: by
-// 1/64000 of the largest coefficient that any receiver has.
+// 1/64000 to 1/32000 of the largest coefficient that any receiver has. The unit stays while it
+// is within these, so that what was packed before can be compared.
 void PackReceiverLight(const ShRowsRgb& light, ReceiverLight& packed);
 
 // The receivers that light a vertex. Weights in 1/255, sum 255, the largest first; those
@@ -89,6 +90,9 @@ struct LightVerticesJob {
   const ReceiverLight* light = nullptr;
   std::span<const float> pose_weights;
   std::span<glm::vec3> irradiance;  // [vertex]
+  // Of each receiver whether its light has changed; vertices none of whose receivers has stay as
+  // they are. Empty: all have.
+  std::span<const uint8_t> changed = {};
 
   void Run(size_t begin, size_t end) const;
 };

@@ -37,13 +37,31 @@ constexpr float kBodyReach = 1.0f;
 constexpr size_t kBlockersOfGroup = 6;
 constexpr float kSmall = 0.3f;
 
-void DampBrightening(light::ShRows& log) {
-  for (size_t receiver = 0; receiver < log.receivers(); ++receiver) {
+// Further than this nothing moves from one frame to the next but by a leap, metres; and no light
+// changes by such a share.
+constexpr float kLeap = 0.2f;
+constexpr float kRelit = 0.02f;
+// Things have no more receivers; they are lit only when something has changed.
+constexpr size_t kFew = 64;
+
+// One part in so many of a receiver's light is a step of eight bits; key poses differ by a third
+// of that light at most.
+constexpr int kSeenParts = 128;
+constexpr float kSeenWeight = 1.0f / 48.0f;
+
+void DampBrightening(light::ReceiverRange range, light::ShRows& log) {
+  for (size_t receiver = range.begin; receiver < range.end; ++receiver) {
     if (log.at(0, receiver) > 0.0f) {
       for (int k = 0; k < log.count(); ++k) {
         log.at(k, receiver) *= kBrightening;
       }
     }
+  }
+}
+
+void CopyRows(const light::ShRows& from, light::ReceiverRange range, light::ShRows& to) {
+  for (int k = 0; k < from.count(); ++k) {
+    std::copy(from.row(k) + range.begin, from.row(k) + range.end, to.row(k) + range.begin);
   }
 }
 
@@ -130,14 +148,17 @@ PersonLight::PersonLight(std::shared_ptr<const human::Human> human,
       receiver_light_(human_->light.count, human_->light.receivers.size()),
       transfers_(light != nullptr
                      ? std::move(light)
-                     : std::make_shared<const UnpackedLight>(UnpackAll(human_->light))) {
+                     : std::make_shared<const UnpackedLight>(UnpackAll(human_->light))),
+      used_light_(receiver_light_) {
   CHECK(transfers_->size() == human_->light.meshes.size());
   const size_t slots = receiver_light_.receivers();
   const int count = VisibilityCount(human_->light);
-  own_log_ = stage_log_ = light::ShRows(count, slots);
+  own_log_ = own_stage_log_ = stage_log_ = light::ShRows(count, slots);
   shadowed_ = turned_ = lamp_light_ = RowsRgb(count, slots);
   near_lamps_.reserve(light::kMaxLamps);
   pose_weights_.resize(slots * light::kMaxKeyPoses);
+  used_weights_ = pose_weights_;
+  changed_.assign(slots, 1);
   GroupBlockers();
   blockers_.Resize(human_->light.blockers.size());
   OrderReceivers();
@@ -188,6 +209,7 @@ void PersonLight::MakeMeshes() {
     const LightTransfer::Mesh& mesh = human_->light.meshes[i];
     MeshLight& made = meshes_.emplace_back();
     made.levels = render::FindMeshLevels(human_->meshes[i]);
+    made.irradiance.resize(mesh.receivers.size());
     made.receivers.resize(mesh.receivers.size());
     for (size_t v = 0; v < made.receivers.size(); ++v) {
       for (size_t i = 0; i < light::kReceiversOfVertex; ++i) {
@@ -203,14 +225,14 @@ void PersonLight::FindKeyLogs() {
   for (const std::vector<human::JointTransform>& pose : human_->light.key_poses) {
     Pose(human::SkinOfPose(skeleton, pose), glm::mat4(1.0f));
     PlaceReceivers();
-    OwnLog(key_logs_.emplace_back(own_log_.count(), own_log_.receivers()));
+    OwnLog({0, own_log_.receivers()},
+           key_logs_.emplace_back(own_log_.count(), own_log_.receivers()));
   }
 }
 
-void PersonLight::OwnLog(light::ShRows& log) const {
-  const light::ReceiverRange all = {0, log.receivers()};
-  light::ClearLogVisibility(all, log);
-  light::AddLogVisibility(blockers_.spheres(), points(), stage_from_bind_.turns(), all, log);
+void PersonLight::OwnLog(light::ReceiverRange range, light::ShRows& log) const {
+  light::ClearLogVisibility(range, log);
+  light::AddLogVisibility(blockers_.spheres(), points(), stage_from_bind_.turns(), range, log);
 }
 
 void PersonLight::Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor) {
@@ -219,8 +241,12 @@ void PersonLight::Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_f
   for (size_t i = 0; i < blockers_.size(); ++i) {
     const LightTransfer::Blocker& blocker = human_->light.blockers[blocker_order_[i]];
     const glm::vec4 in_actor = skin_[blocker.joint] * glm::vec4(blocker.centre, 1.0f);
-    blockers_.Set(i, stage_from_actor * in_actor, blocker.radius);
+    const glm::vec3 centre = stage_from_actor * in_actor;
+    const glm::vec3 before(blockers_.x[i], blockers_.y[i], blockers_.z[i]);
+    leapt_ = leapt_ || !(glm::distance(centre, before) < kLeap);
+    blockers_.Set(i, centre, blocker.radius);
   }
+  ++poses_;
   MergeGroups();
 }
 
@@ -317,7 +343,7 @@ void PersonLight::AddLamps(const light::Spheres& others, std::span<const light::
   for (light::ShRows& rows : lamp_light_) {
     rows.Clear();
   }
-  light::AddLamps(near_lamps_, points(), stage_log_, others, {0, receiver_light_.receivers()},
+  light::AddLamps(near_lamps_, points(), own_stage_log_, others, {0, receiver_light_.receivers()},
                   lamp_light_);
 }
 
@@ -325,32 +351,89 @@ void PersonLight::Update(const light::LightMatrix& light,
                          const light::Spheres& others,
                          std::span<const light::Lamp> lamps) {
   const light::ReceiverRange all = {0, receiver_light_.receivers()};
+  const light::ReceiverRange now = ChooseReceivers(light);
   PlaceReceivers();
-  OwnLog(own_log_);
-  light::KeyPoseWeights(key_logs_, own_log_, {}, all, pose_weights_);
-  light::SubtractKeyPoses(key_logs_, own_log_, pose_weights_, all, own_log_);
-  DampBrightening(own_log_);
-  light::TurnRows(own_log_, stage_from_bind_.turns(), light::TurnDirection::kForth, all,
-                  stage_log_);
+  OwnLog(now, own_log_);
+  light::KeyPoseWeights(key_logs_, own_log_, {}, now, pose_weights_);
+  light::SubtractKeyPoses(key_logs_, own_log_, pose_weights_, now, own_log_);
+  DampBrightening(now, own_log_);
+  light::TurnRows(own_log_, stage_from_bind_.turns(), light::TurnDirection::kForth, now,
+                  own_stage_log_);
   AddLamps(others, lamps);
-  light::AddLogVisibility(others, points(), all, stage_log_);
-  light::ShadowLight(light, stage_log_, all, shadowed_);
-  for (size_t channel = 0; !near_lamps_.empty() && channel < 3; ++channel) {
-    shadowed_[channel].Add(lamp_light_[channel]);
+  CopyRows(own_stage_log_, now, stage_log_);
+  light::AddLogVisibility(others, points(), now, stage_log_);
+  light::ShadowLight(light, stage_log_, now, shadowed_);
+  const bool lamps_shine = !near_lamps_.empty();
+  for (size_t channel = 0; lamps_shine && channel < 3; ++channel) {
+    lamp_light_[channel].Add(shadowed_[channel]);
   }
-  light::TurnRows(shadowed_, stage_from_bind_.turns(), light::TurnDirection::kBack, all, turned_);
+  light::TurnRows(lamps_shine ? lamp_light_ : shadowed_, stage_from_bind_.turns(),
+                  light::TurnDirection::kBack, all, turned_);
   light::PackReceiverLight(turned_, receiver_light_);
+  FindChanged();
 }
 
-void PersonLight::LightVertices(float detail, std::span<glm::vec3> irradiance) const {
-  size_t first = 0;
+light::ReceiverRange PersonLight::ChooseReceivers(const light::LightMatrix& light) {
+  const size_t count = receiver_light_.receivers();
+  bool relit = false;
+  for (size_t k = 0; k < static_cast<size_t>(light.count()); ++k) {
+    const float moved = std::abs(light.channel(1)[k] - seen_light_[k]);
+    relit = relit || !(moved <= kRelit * std::abs(seen_light_[0]));
+  }
+  std::copy_n(light.channel(1), light.count(), seen_light_.begin());
+  const bool gradual = poses_ == 1 && !leapt_ && !relit && count > kFew;
+  poses_ = 0;
+  leapt_ = false;
+  if (!gradual) {
+    return {0, count};
+  }
+  const size_t middle = light::PaddedToLanes(count / 2);
+  second_half_ = !second_half_;
+  return second_half_ ? light::ReceiverRange{middle, count} : light::ReceiverRange{0, middle};
+}
+
+void PersonLight::FindChanged() {
+  const bool rescaled = receiver_light_.unit() != used_light_.unit();
+  used_light_.set_unit(receiver_light_.unit());
+  const size_t stride = receiver_light_.stride();
+  for (size_t i = 0; i < changed_.size(); ++i) {
+    const int16_t* light = receiver_light_.row(i);
+    int16_t* used = used_light_.row(i);
+    const float* weights = &pose_weights_[i * light::kMaxKeyPoses];
+    float* used_weights = &used_weights_[i * light::kMaxKeyPoses];
+    int brightest = 0, moved = 0;
+    for (size_t k = 0; k < stride; ++k) {
+      moved = std::max(moved, std::abs(light[k] - used[k]));
+    }
+    for (size_t channel = 0; channel < 3; ++channel) {
+      brightest = std::max(brightest, std::abs(int{light[channel * stride / 3]}));
+    }
+    float weighed = 0.0f;
+    for (size_t k = 0; k < light::kMaxKeyPoses; ++k) {
+      weighed = std::max(weighed, std::abs(weights[k] - used_weights[k]));
+    }
+    changed_[i] = rescaled || moved * kSeenParts > brightest || weighed > kSeenWeight ? 1 : 0;
+    if (changed_[i] != 0) {
+      std::copy_n(light, stride, used);
+      std::copy_n(weights, light::kMaxKeyPoses, used_weights);
+    }
+  }
+}
+
+void PersonLight::LightVertices(float detail, std::span<glm::vec3> irradiance) {
+  auto to = irradiance.begin();
   for (size_t i = 0; i < meshes_.size(); ++i) {
-    const MeshLight& mesh = meshes_[i];
-    const size_t count = mesh.receivers.size();
-    light::LightVerticesJob{&(*transfers_)[i], mesh.receivers, &receiver_light_, pose_weights_,
-                            irradiance.subspan(first, count)}
-        .Run(0, render::LevelAllowed(mesh.levels, detail).vertices);
-    first += count;
+    MeshLight& mesh = meshes_[i];
+    const size_t wanted = render::LevelAllowed(mesh.levels, detail).vertices;
+    light::LightVerticesJob job{&(*transfers_)[i], mesh.receivers, &used_light_, used_weights_,
+                                mesh.irradiance};
+    // What a coarser level left out is lit by what is used now.
+    job.Run(std::min(mesh.lit, wanted), wanted);
+    job.changed = changed_;
+    job.Run(0, std::min(mesh.lit, wanted));
+    mesh.lit = wanted;
+    std::copy_n(mesh.irradiance.begin(), wanted, to);
+    to += static_cast<ptrdiff_t>(mesh.irradiance.size());
   }
 }
 

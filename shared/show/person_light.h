@@ -62,6 +62,8 @@ class PersonLight {
 
   // The light of the stage at the receivers of the last pose. others: blockers that are
   // not the person's own, stage axes. Lamps that give next to nothing are passed over.
+  // Where all moves and changes gradually, half of a person's receivers look anew for what hides
+  // their light in each frame, in turn; the others know it as it was one frame before.
   void Update(const light::LightMatrix& light,
               const light::Spheres& others,
               std::span<const light::Lamp> lamps);
@@ -69,7 +71,8 @@ class PersonLight {
   // Irradiance, without albedo, of the vertices that each mesh's level of detail takes where
   // `detail` metres may be off (render/detail.h). irradiance: of all vertices of all meshes in
   // a row; the others stay as they are.
-  void LightVertices(float detail, std::span<glm::vec3> irradiance) const;
+  // Vertices whose light has changed by less than can be seen keep it.
+  void LightVertices(float detail, std::span<glm::vec3> irradiance);
 
  private:
   // Receivers that follow one joint, next to each other.
@@ -87,6 +90,8 @@ class PersonLight {
   struct MeshLight {
     std::vector<light::VertexReceivers> receivers;
     std::vector<render::MeshLevel> levels;
+    std::vector<glm::vec3> irradiance;  // as last worked out
+    size_t lit = 0;                     // how many of them were
   };
 
   // Blockers [begin, end) of blockers_, and the one ball for them.
@@ -104,12 +109,16 @@ class PersonLight {
   // Where receivers are with the joints of the last pose, and how they are turned.
   void PlaceReceivers();
   light::Points points() const { return {stage_points_.x, stage_points_.y, stage_points_.z}; }
+  // Which receivers look anew: all of them after leaps, gaps and changes of light.
+  light::ReceiverRange ChooseReceivers(const light::LightMatrix& light);
+  // What of receiver_light_ differs from what vertices were lit by, by more than is not seen.
+  void FindChanged();
   // Lamps as seen from the receivers of the last pose, past their own body and others.
   void AddLamps(const light::Spheres& others, std::span<const light::Lamp> lamps);
   void MakeMeshes();
   void FindKeyLogs();
   // The log visibility past own blockers, as posed, in the bind pose's axes.
-  void OwnLog(light::ShRows& log) const;
+  void OwnLog(light::ReceiverRange range, light::ShRows& log) const;
 
   std::shared_ptr<const human::Human> human_;
   std::vector<Group> groups_;
@@ -125,6 +134,7 @@ class PersonLight {
   glm::mat4 stage_from_actor_ = glm::mat4(1.0f);
   std::vector<light::ShRows> key_logs_;  // of each key pose
   light::ShRows own_log_;
+  light::ShRows own_stage_log_;
   light::ShRows stage_log_;
   light::ShRowsRgb shadowed_;
   light::ShRowsRgb turned_;
@@ -133,6 +143,14 @@ class PersonLight {
   std::vector<float> pose_weights_;  // [slot][light::kMaxKeyPoses]
   light::ReceiverLight receiver_light_;
   std::shared_ptr<const UnpackedLight> transfers_;  // of each mesh
+  bool leapt_ = true;                   // since the last Update
+  int poses_ = 0;                       // likewise
+  bool second_half_ = false;            // of the receivers is next
+  std::array<float, 25> seen_light_{};  // of the last Update: its mean with each basis function
+  // What vertices were lit by, and whether that is new.
+  light::ReceiverLight used_light_;
+  std::vector<float> used_weights_;
+  std::vector<uint8_t> changed_;
   std::vector<MeshLight> meshes_;
 };
 
