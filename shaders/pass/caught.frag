@@ -1,9 +1,10 @@
-// What every pixel of a real surface keeps of its light and gains by lamps.
+// What every pixel of a real surface, or one in every few, keeps of its light and gains by lamps.
 
 #include "caught_shadow.glsl"
 
 uniform sampler2D people;    // coverage in alpha
 uniform vec4 people_bounds;  // left, bottom, right, top: nobody is outside
+uniform int caught_step;     // cells along each side for one value
 uniform int hidden_margin;   // cells within an edge of people that are seen through it
 
 layout(location = 0) out vec4 caught;
@@ -16,7 +17,8 @@ float Covered(ivec2 cell) {
 }
 
 void main() {
-  ivec2 cell = ivec2(gl_FragCoord.xy);
+  ivec2 cell = min(ivec2(gl_FragCoord.xy) * caught_step + caught_step / 2,
+                   ivec2(catcher_bounds.zw) - 1);
   // People hide what is behind them, shadows too.
   ivec2 aside = ivec2(hidden_margin, -hidden_margin);
   float covered = min(min(Covered(cell + aside.xx), Covered(cell + aside.yy)),

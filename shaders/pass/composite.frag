@@ -9,6 +9,7 @@
 
 uniform sampler2D caught;      // what real surfaces keep of their light
 uniform vec4 catcher_bounds;   // left, bottom, right, top of the layer: it means nothing outside
+uniform float caught_step;     // of the layer's pixels, for one of caught
 uniform float picture_height;
 uniform float layer_scale;     // of the layer's pixels, which have people and shadows
 uniform float people_opacity;  // of people and of what they do to the light
@@ -36,7 +37,9 @@ void main() {
   vec3 kept = vec3(1.0);
   int may_catch = Within(cell, catcher_bounds) && person.a < 0.999 ? 1 : 0;
   for (int i = 0; i < may_catch; ++i) {
-    vec2 at = clamp(cell, catcher_bounds.xy + 0.5, catcher_bounds.zw - 0.5);
+    vec2 at = (cell - 0.5 * (caught_step - 1.0)) / caught_step;
+    at = clamp(at, floor(catcher_bounds.xy / caught_step) + 0.5,
+               ceil(catcher_bounds.zw / caught_step) - 0.5);
     kept = textureLod(caught, at / vec2(textureSize(caught, 0)), 0.0).rgb;
   }
   person *= people_opacity;

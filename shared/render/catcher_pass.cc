@@ -11,7 +11,8 @@
 namespace lararium::render {
 namespace {
 
-constexpr int kLeastCell = 4;  // of Quality::shadow_cell
+constexpr int kLeastCell = 4;    // of Quality::shadow_cell
+constexpr int kHalvingCell = 8;  // from here on shadows are half as fine as the layer
 constexpr uint32_t kBlockerBinding = 1;
 
 // Less of the sky's light than this from a lamp is not seen on real surfaces.
@@ -252,9 +253,10 @@ void CatcherPass::DrawRatio(const PictureView& view) const {
 void CatcherPass::DrawCaught(const SunPass& sun,
                              const PictureView& view,
                              const Hiding& hiding) const {
+  const ImageSize size = Coarse(view.size, step_);
   glBindFramebuffer(GL_FRAMEBUFFER, caught_framebuffer_.id());
-  glViewport(0, 0, view.size.width, view.size.height);
-  Limit(bounds_);
+  glViewport(0, 0, size.width, size.height);
+  Limit(Coarse(bounds_, step_));
   caught_shaders_.Use();
   BindSurfaces(caught_shaders_, view, 0);
   const auto bind = [&](GLuint texture, int unit, const char* name) {
@@ -268,7 +270,8 @@ void CatcherPass::DrawCaught(const SunPass& sun,
   const PixelBounds& people = hiding.bounds;
   caught_shaders_.Set("people_bounds",
                       glm::vec4(people.left, people.bottom, people.right, people.top));
-  caught_shaders_.Set("hidden_margin", hiding.margin);
+  caught_shaders_.Set("hidden_margin", hiding.margin + (step_ > 1 ? step_ : 0));
+  caught_shaders_.Set("caught_step", step_);
   sun.BindFor(caught_shaders_);
   glBindVertexArray(no_vertices_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -288,6 +291,7 @@ Status CatcherPass::Draw(const RenderScene& scene,
     return Status();
   }
   cell_ = quality.shadow_cell;
+  step_ = cell_ < kHalvingCell ? 1 : 2;
   LARARIUM_RETURN_IF_ERROR(Prepare(view.most));
   UploadSky(scene.light, PictureLight(scene));
   UploadBlockers();
@@ -301,6 +305,7 @@ void CatcherPass::BindFor(const ShaderProgram& shaders, uint32_t unit) const {
   glActiveTexture(GL_TEXTURE0 + unit);
   glBindTexture(GL_TEXTURE_2D, caught_.id());
   shaders.Set("caught", static_cast<int>(unit));
+  shaders.Set("caught_step", static_cast<float>(step_));
   shaders.Set("catcher_bounds",
               glm::vec4(bounds_.left, bounds_.bottom, bounds_.right, bounds_.top));
 }

@@ -87,6 +87,7 @@ class CatcherPass {
   bool sky_is_there_ = false;
   ImageSize most_;
   int cell_ = 4;  // Quality::shadow_cell
+  int step_ = 1;  // pixels of the layer for one of caught_, along each side
   GlTexture normal_;
   GlTexture depth_;
   GlFramebuffer surface_framebuffer_;

@@ -6,11 +6,15 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace lararium::render {
 namespace {
 
 constexpr std::array<int, 2> kMapSizes = {1024, 512};
+// The map of occluders stays while it holds what is asked for and is not so much larger.
+constexpr float kRoom = 0.3f;  // metres
+constexpr float kMostKept = 2.0f;
 // Shadows of a low sun end somewhere.
 constexpr float kLongestShadow = 15.0f;  // metres
 
@@ -138,7 +142,40 @@ glm::mat4 SunPass::Begin(const Map& map) {
   return clip_from_map * map.map_from_stage;
 }
 
-void SunPass::DrawOccluders(const RenderScene& scene, const SlotMap<GpuMesh>& meshes) const {
+bool SunPass::KeepsOccluders(const RenderScene& scene,
+                             const glm::mat4& sun_from_stage,
+                             const Box& covered) const {
+  const auto same = [](const SceneOccluder& a, const SceneOccluder& b) {
+    return a.mesh == b.mesh && a.stage_from_mesh == b.stage_from_mesh;
+  };
+  const auto holds = [&](const Box& box) {
+    return glm::all(glm::greaterThanEqual(covered.low, box.low)) &&
+           glm::all(glm::lessThanEqual(covered.high, box.high));
+  };
+  const glm::vec3 wanted = covered.high - covered.low;
+  const glm::vec3 kept = kept_.covered.high - kept_.covered.low;
+  return kept_.chosen == occluders_.chosen && kept_.sun_from_stage == sun_from_stage &&
+         !kept_.covered.empty() && holds(kept_.covered) &&
+         kept.x * kept.y < kMostKept * (wanted.x + 2.0f * kRoom) * (wanted.y + 2.0f * kRoom) &&
+         std::equal(kept_.occluders.begin(), kept_.occluders.end(), scene.occluders.begin(),
+                    scene.occluders.end(), same);
+}
+
+void SunPass::DrawOccluders(const RenderScene& scene,
+                            const SlotMap<GpuMesh>& meshes,
+                            const glm::mat4& sun_from_stage,
+                            const Box& covered) {
+  if (KeepsOccluders(scene, sun_from_stage, covered)) {
+    return;
+  }
+  kept_.occluders.assign(scene.occluders.begin(), scene.occluders.end());
+  kept_.sun_from_stage = sun_from_stage;
+  kept_.covered = covered;
+  // Sideways with room for people to move.
+  kept_.covered.low -= glm::vec3(kRoom, kRoom, 0.0f);
+  kept_.covered.high += glm::vec3(kRoom, kRoom, 0.0f);
+  kept_.chosen = occluders_.chosen;
+  Fit(kept_.covered, sun_from_stage, occluders_);
   const glm::mat4 clip_from_stage = Begin(occluders_);
   occluder_shaders_.Use();
   for (const SceneOccluder& occluder : scene.occluders) {
@@ -183,8 +220,7 @@ void SunPass::Draw(const RenderScene& scene,
     covered.low.z = depths.low.z;
     covered.high.z = depths.high.z;
   }
-  Fit(Widened(covered, 0.05f), sun_from_stage, occluders_);
-  DrawOccluders(scene, meshes);
+  DrawOccluders(scene, meshes, sun_from_stage, Widened(covered, 0.05f));
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_TEST);
 }

@@ -11,6 +11,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
 #include "shared/core/id.h"
 #include "shared/core/status.h"
@@ -70,10 +71,25 @@ class SunPass {
   static glm::mat4 Begin(const Map& map);
   // box: in the axes of sun_from_stage.
   static void Fit(const Box& box, const glm::mat4& sun_from_stage, Map& map);
-  void DrawOccluders(const RenderScene& scene, const SlotMap<GpuMesh>& meshes) const;
+  // covered: in the axes of sun_from_stage. What has not changed is not drawn again.
+  void DrawOccluders(const RenderScene& scene,
+                     const SlotMap<GpuMesh>& meshes,
+                     const glm::mat4& sun_from_stage,
+                     const Box& covered);
+  bool KeepsOccluders(const RenderScene& scene,
+                      const glm::mat4& sun_from_stage,
+                      const Box& covered) const;
 
   Map people_;
   Map occluders_;
+  // What the map of occluders holds.
+  struct Kept {
+    std::vector<SceneOccluder> occluders;
+    glm::mat4 sun_from_stage = glm::mat4(0.0f);
+    Box covered;
+    size_t chosen = 0;
+  };
+  Kept kept_;
   GlSampler plain_depth_;  // without comparison
   ShaderProgram occluder_shaders_;
   bool shines_ = false;

@@ -115,6 +115,44 @@ TEST_F(SunTest, ShadowFallsWhereTheSunSaysAndLeavesTheSky) {
   EXPECT_EQ(Kept(picture, 0.9, 0.22), 1.0);
 }
 
+// Cheaper pictures show the same shadow, and nothing of one is left in the next.
+TEST_F(SunTest, TheShadowIsThereAtEveryQuality) {
+  scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)),
+                          glm::vec3(3.0f * std::sqrt(2.0f)), 0.0005f};
+  PlaceBall({-0.1f, 1.0f, 0.0f}, 0.2f);
+  const Quality best = {.samples = 1};
+  renderer_->SetQuality(best);
+  const cv::Mat first = Draw();
+  for (const Quality& quality : QualityLadder()) {
+    renderer_->SetQuality(quality);
+    const cv::Mat picture = Draw();
+    EXPECT_NEAR(Kept(picture, 0.9, 0.0), 0.25, 0.03) << quality.layer_scale;
+    EXPECT_NEAR(Kept(picture, 0.4, 0.0), 1.0, 0.01) << quality.layer_scale;
+    EXPECT_NEAR(Kept(picture, 1.4, 0.0), 1.0, 0.01) << quality.layer_scale;
+    EXPECT_NEAR(EdgeAt(picture, 0.9, 1.5, 0.6), 0.9 + 0.2 * std::sqrt(2.0), 0.04)
+        << quality.layer_scale;
+  }
+  renderer_->SetQuality(best);
+  EXPECT_EQ(cv::norm(Draw(), first, cv::NORM_INF), 0.0);
+}
+
+// The map of real things is kept from picture to picture as long as it holds what is asked for.
+TEST_F(SunTest, RealThingsShadeWhereverPeopleGoAndWhereverTheyAreMoved) {
+  scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)), glm::vec3(4.0f), 0.0005f};
+  occluders_.push_back({.mesh = renderer_->AddMesh(
+                            Quad({0.3f, 0.0f, -2.0f}, {0.0f, 1.5f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
+  scene_.occluders = occluders_;
+  for (const float x : {-1.2f, -1.19f, -1.18f}) {
+    PlaceBall({x, 0.3f, 0.0f}, 0.15f);
+    EXPECT_LT(Kept(Draw(), x + 0.3f, 0.0), 0.5) << x;
+  }
+  // Behind the wall it is dark already.
+  PlaceBall({0.8f, 0.3f, 0.0f}, 0.15f);
+  EXPECT_NEAR(Kept(Draw(), 1.1, 0.0), 1.0, 0.02);
+  occluders_[1].stage_from_mesh[3].z = 10.0f;
+  EXPECT_LT(Kept(Draw(), 1.1, 0.0), 0.5);
+}
+
 // A disc of angular radius a throws a penumbra 2 d tan(a) wide past an edge at distance d.
 TEST_F(SunTest, PenumbraGrowsWithDistanceByTheAngularRadius) {
   for (const double height : {0.5, 1.5}) {
