@@ -251,7 +251,7 @@ const Attack kAttacks[] = {
     {"LenOfUtf8Bomb", "local s = ('a'):rep(60000) while true do utf8.len(s) end", kTooLong},
     {"CodesOfGarbage", "for _ in utf8.codes('\\xff') do end", "invalid UTF-8 code"},
     {"TooManyCaptures", "string.find('a', ('('):rep(300) .. 'a' .. (')'):rep(300))",
-     "too many captures"},
+     "more than 32 captures"},
     {"MalformedPattern", "string.find('a', '[a')", "malformed pattern"},
     {"FormatGrows", "local s = ('x'):rep(60000) string.format('%s%s', s, s)", kText},
     {"FormatWithoutArguments", "string.format(('%s'):rep(30000), 1)", "no value"},

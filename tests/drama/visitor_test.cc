@@ -380,8 +380,9 @@ TEST_F(VisitorTest, WhatTheScriptDidIsToldAsBlocks) {
       keeper:walk_to{ x = 1 }
     end)");
   PlayTo(*drama, 10.0);
-  const auto tasks = drama->tasks();
-  ASSERT_EQ(tasks.size(), 3u);
+  ASSERT_EQ(drama->tasks().size(), 4u);
+  EXPECT_EQ(drama->tasks()[0].action, "place");
+  const auto tasks = drama->tasks().subspan(1);
   EXPECT_EQ(tasks[0].action, "say salvete");
   EXPECT_EQ(tasks[0].where, "drama.lua:6");
   EXPECT_NEAR(tasks[0].began, 0.5, 1e-9);

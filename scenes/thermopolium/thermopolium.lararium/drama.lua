@@ -27,7 +27,7 @@ track{
     -- Embers of the night before, fanned, then left alone.
     {id = "embers", at = 0, length = 30, light = "brazier", level = 0.4},
     {id = "fanned", at = 44, length = 8, light = "brazier", level = 1.6, seconds = 6, ease = "smooth"},
-    {id = "lamp burns up", at = 22, length = 6, light = "lamp", level = 1.4, seconds = 2, ease = "out"},
+    {id = "lamp burns up", at = 22.6, length = 6, light = "lamp", level = 1.4, seconds = 2, ease = "out"},
     {id = "lamp of the prayer", at = 198, length = 20, light = "lamp", level = 1.6, seconds = 3, ease = "smooth"},
   },
   sounds = {
@@ -73,7 +73,7 @@ track{actor = "server",
     {at = 2, object = "door", action = "open"},
     {at = 9, object = "lamp", action = "take"},
     {at = 19, object = "lamp", action = "light"},
-    {at = 21, object = "lamp", action = "put", on = "lamp_stand"},
+    {at = 22.6, object = "lamp", action = "put", on = "lamp_stand"},
   },
   gaze = {{at = 27, length = 6, target = "labourer"}},
   expressions = {{at = 28, length = 6, expression = "joy", intensity = 0.6, fade = 0.5}},
@@ -90,7 +90,7 @@ track{actor = "girl",
   uses = {
     {at = 1, object = "brazier", action = "warm_hands"},
     {at = 11, object = "loaf", action = "take"},
-    {at = 15.5, object = "loaf", action = "smell"},
+    {at = 16.5, object = "loaf", action = "smell"},
     {at = 23.5, object = "loaf", action = "put", on = "counter", surface = "leg"},
   },
   gaze = {
