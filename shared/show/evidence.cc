@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace lararium::show {
@@ -38,10 +39,12 @@ constexpr std::array<Words, 6> kWords = {{
 }};
 
 // Somebody is looked at who is within so many radians of the middle; somebody else once they
-// are nearer to it by so much.
+// are nearer to it by so much. What is nearer hides what is behind it: a metre counts as much
+// as so many radians.
 constexpr double kNearMiddle = 0.2;
 constexpr double kStays = 0.04;
-constexpr float kChest = 1.2f;  // metres
+constexpr double kRadiansPerMetre = 0.03;
+constexpr std::array<float, 4> kHeights = {0.4f, 0.8f, 1.2f, 1.6f};  // of a person, metres
 
 float LinearFromSrgb(float c) {
   return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
@@ -66,13 +69,12 @@ glm::vec3 TitleColour(Certainty certainty) {
   return glm::vec3(0.45f) + 0.55f * LookOf(certainty).colour;
 }
 
-// Radians between the view's middle and a point; none: it is behind the camera.
-std::optional<double> AngleTo(const geometry::Rigid3& camera_from_stage, const glm::vec3& point) {
+// How far a point is from being looked at, the least first; none: it is not.
+std::optional<double> AwayFromLook(const geometry::Rigid3& camera_from_stage,
+                                   const glm::vec3& point) {
   const Eigen::Vector3d at = camera_from_stage * Eigen::Vector3d(point.x, point.y, point.z);
-  if (at.z() <= 0.0) {
-    return std::nullopt;
-  }
-  return std::atan2(std::hypot(at.x(), at.y()), at.z());
+  const double angle = std::atan2(std::hypot(at.x(), at.y()), at.z());
+  return angle < kNearMiddle ? std::optional(angle + kRadiansPerMetre * at.norm()) : std::nullopt;
 }
 
 }  // namespace
@@ -117,12 +119,12 @@ render::SceneMark Evidence::MarkOfObject(uint32_t object, int height) const {
 
 std::optional<size_t> Evidence::LookedAt(const StagedFrame& staged) const {
   std::optional<size_t> best;
-  double best_angle = kNearMiddle;
+  double least = std::numeric_limits<double>::max();
   const auto consider = [&](size_t index, const glm::vec3& point) {
-    const std::optional<double> angle = AngleTo(*staged.camera_from_stage, point);
+    const std::optional<double> away = AwayFromLook(*staged.camera_from_stage, point);
     const double stays = index == looked_at_ ? kStays : 0.0;
-    if (angle && *angle - stays < best_angle) {
-      best_angle = *angle - stays;
+    if (away && *away - stays < least) {
+      least = *away - stays;
       best = index;
     }
   };
@@ -130,8 +132,10 @@ std::optional<size_t> Evidence::LookedAt(const StagedFrame& staged) const {
     return best;
   }
   for (const StagedActor& actor : staged.actors) {
-    const glm::vec4 chest = actor.stage_from_actor * glm::vec4(0.0f, kChest, 0.0f, 1.0f);
-    consider(actor.cast, glm::vec3(chest));
+    for (const float height : kHeights) {
+      const glm::vec4 point = actor.stage_from_actor * glm::vec4(0.0f, height, 0.0f, 1.0f);
+      consider(actor.cast, glm::vec3(point));
+    }
   }
   for (const StagedObject& object : staged.objects) {
     consider(cast_count_ + object.object, glm::vec3(staged.stage_from_part[object.part_begin][3]));

@@ -70,6 +70,15 @@ TEST(Evidence, SaysWhatIsKnownOfWhomTheVisitorLooksAt) {
   EXPECT_EQ(evidence.LegendOf(lost).title, "");
 }
 
+TEST(Evidence, WhoStandsInFrontHidesWhoIsBehind) {
+  Evidence evidence(TwoPeople());
+  EXPECT_EQ(evidence.LegendOf(Seeing({{0.05f, -1.2f, -2.0f}, {0.0f, -1.2f, -4.0f}})).title,
+            "Placidus: attestato");
+  Evidence other(TwoPeople());
+  EXPECT_EQ(other.LegendOf(Seeing({{0.0f, -1.2f, -4.0f}, {0.05f, -1.2f, -2.0f}})).title,
+            "non documentato");
+}
+
 TEST(Evidence, WhoIsLookedAtStaysUntilSomebodyElseIsClearlyNearer) {
   Evidence evidence(TwoPeople());
   const auto title = [&](float first, float second) {
