@@ -102,8 +102,9 @@ std::shared_ptr<const UnpackedLight> TakeLight(human::Human& human) {
   auto unpacked = std::make_shared<UnpackedLight>();
   for (LightTransfer::Mesh& mesh : human.light.meshes) {
     unpacked->push_back(Unpack(human.light, mesh));
-    mesh.coefficients = {};
-    mesh.scale = {};
+    // Not "= {}", which keeps the memory.
+    std::vector<int8_t>().swap(mesh.coefficients);
+    std::vector<float>().swap(mesh.scale);
   }
   return unpacked;
 }
