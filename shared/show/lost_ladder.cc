@@ -104,6 +104,7 @@ void LostLadder::Track(double step,
     leaving_ = false;
     shown_.reset();
   }
+  const bool was_leaving = leaving_;
   if (leaving_) {
     opacity_ = Towards(opacity_, 0.0f, step, kLeaveSeconds);
     leaving_ = opacity_ > 0.0f;
@@ -118,7 +119,8 @@ void LostLadder::Track(double step,
     const double share = (time - found_time_) / kCorrectionSeconds;
     shown_ = vision::Moved(pose, Remaining(share) * offset_);
     place_ = place;
-    opacity_ = Towards(opacity_, 1.0f, step, options_.appear);
+    // Who has just gone here is not there yet in the same picture.
+    opacity_ = was_leaving ? 0.0f : Towards(opacity_, 1.0f, step, options_.appear);
   }
   lost_since_.reset();
   seen_ = true;

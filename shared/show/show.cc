@@ -232,9 +232,11 @@ void Show::ChooseDetails(const StagedFrame& staged) {
     return;  // nothing is drawn: as it was
   }
   const geometry::CameraModel& camera = staged.tracked.camera;
-  const int width = picture_width_ > 0 ? picture_width_ : camera.width;
-  const int height = picture_height_ > 0 ? picture_height_ : width * camera.height / camera.width;
-  const geometry::CameraModel display = PictureCamera(camera, width, height).Resized(width, height);
+  geometry::CameraModel display = camera.DisplayPinhole();
+  if (picture_width_ > 0 && picture_height_ > 0) {
+    display = PictureCamera(camera, picture_width_, picture_height_)
+                  .Resized(picture_width_, picture_height_);
+  }
   for (size_t cast = 0; cast < requests_.size(); ++cast) {
     requests_[cast].levels = levels_[cast];
     requests_[cast].pixels_per_metre = 0.0f;

@@ -163,8 +163,7 @@ class Show {
   void SetLostLadder(const LostLadderOptions& options) { ladder_.emplace(options); }
 
   // How large pictures will be drawn, which decides on levels of detail; as large as the
-  // camera's images unless set. height: 0 keeps their proportions. Not while a frame is being
-  // staged.
+  // camera's images unless set. Not while a frame is being staged.
   void SetPictureSize(int width, int height) {
     picture_width_ = width;
     picture_height_ = height;
@@ -226,7 +225,7 @@ class Show {
   std::vector<render::DetailRequest> requests_;           // likewise
   render::DetailChooser detail_chooser_;
   int picture_width_ = 0;                    // 0: the camera's
-  int picture_height_ = 0;                   // 0: in proportion
+  int picture_height_ = 0;                   // likewise
   std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
