@@ -3,14 +3,18 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
+#include "editor/panels/checks_panel.h"
 #include "editor/panels/dialogs.h"
 #include "editor/panels/inspector.h"
 #include "editor/panels/messages.h"
 #include "editor/panels/outliner.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/toolbar.h"
+#include "editor/panels/widgets.h"
 
 namespace lararium::app {
 
@@ -20,6 +24,7 @@ using panels::Px;
 
 constexpr float kSplitter = 6.0f;  // logical pixels, the gap between panels
 constexpr float kMinPanel = 160.0f;
+constexpr float kMinBottom = 96.0f;
 constexpr float kMinViewport = 320.0f;
 
 // A bar between two panels; dragging changes size by the movement times sign.
@@ -64,6 +69,40 @@ void Layout::ShowViewport(Workspace& workspace) {
   }
 }
 
+void Layout::ShowBottom(Workspace& workspace) {
+  using panels::BottomTab;
+  const int problems = panels::CountProblems(workspace);
+  const std::string checks =
+      problems > 0 ? panels::Text(panels::Tr("Checks (%d)"), problems) : panels::Tr("Checks");
+  const char* const labels[] = {panels::Tr("Timeline"), panels::Tr("Script"), checks.c_str(),
+                                panels::Tr("Messages")};
+  int tab = static_cast<int>(state_.bottom);
+  if (panels::Segmented("tabs", labels, tab)) {
+    state_.bottom = static_cast<BottomTab>(tab);
+  }
+  ImGui::SameLine(0.0f, Px(20));
+  switch (state_.bottom) {
+    case BottomTab::kTimeline:
+      timeline_.ShowTools(workspace, state_);
+      timeline_.Show(workspace, state_);
+      break;
+    case BottomTab::kScript:
+      script_.ShowTools(workspace, state_);
+      script_.Show(workspace, state_);
+      break;
+    case BottomTab::kChecks:
+      panels::ShowChecksTools(workspace);
+      panels::ShowChecks(workspace, state_);
+      break;
+    case BottomTab::kMessages:
+      panels::ShowMessagesTools(workspace);
+      ImGui::BeginChild("messages");
+      panels::ShowMessages(workspace);
+      ImGui::EndChild();
+      break;
+  }
+}
+
 void Layout::ShowPanels(Workspace& workspace) {
   const float status = ImGui::GetFrameHeight() + Px(4);
   const ImVec2 available = ImGui::GetContentRegionAvail();
@@ -71,9 +110,10 @@ void Layout::ShowPanels(Workspace& workspace) {
   outliner_width_ = std::clamp(outliner_width_, kMinPanel, std::max(kMinPanel, widest));
   inspector_width_ = std::clamp(inspector_width_, kMinPanel, std::max(kMinPanel, widest));
   const float tallest = available.y / Px(1.0f) - kMinViewport;
-  messages_height_ = std::clamp(messages_height_, 48.0f, std::max(48.0f, tallest));
+  float& bottom = BottomHeight();
+  bottom = std::clamp(bottom, kMinBottom, std::max(kMinBottom, tallest));
 
-  const float upper = available.y - Px(messages_height_) - status - 2 * Px(kSplitter);
+  const float upper = available.y - Px(bottom) - status - 2 * Px(kSplitter);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
   const ImVec2 spacing(Px(8), Px(7));  // within the panels
   const auto panel = [&](const char* id, const ImVec2& size, auto&& show) {
@@ -91,20 +131,25 @@ void Layout::ShowPanels(Workspace& workspace) {
   const float viewport =
       available.x - Px(outliner_width_) - Px(inspector_width_) - 2 * Px(kSplitter);
   panel("viewport", ImVec2(viewport, upper), [&] { ShowViewport(workspace); });
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+      ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    state_.focus = panels::Focus::kViews;
+  }
   ImGui::SameLine();
   Splitter("split inspector", true, upper, -1.0f, inspector_width_);
   ImGui::SameLine();
   panel("inspector", ImVec2(Px(inspector_width_), upper),
         [&] { panels::ShowInspector(workspace, state_); });
-  Splitter("split messages", false, available.x, -1.0f, messages_height_);
-  panel("messages", ImVec2(available.x, Px(messages_height_)),
-        [&] { panels::ShowMessages(workspace); });
+  const float height = Px(bottom);  // the tab, and so its height, may be changed within
+  Splitter("split bottom", false, available.x, -1.0f, bottom);
+  panel("bottom", ImVec2(available.x, height), [&] { ShowBottom(workspace); });
   ImGui::Dummy(ImVec2(0, Px(kSplitter)));
   ImGui::PopStyleVar();
   panels::ShowStatusBar(workspace);
 }
 
 void Layout::Show(Workspace& workspace) {
+  timeline_.HandleKeys(workspace, state_);
   panels::HandleShortcuts(workspace, state_);
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->WorkPos);

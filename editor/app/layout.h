@@ -2,6 +2,7 @@
 
 // Where the panels are: a fixed arrangement with splitters between them.
 
+#include <array>
 #include <memory>
 
 #include "editor/app/workspace.h"
@@ -9,6 +10,8 @@
 #include "editor/panels/camera_view.h"
 #include "editor/panels/editor_state.h"
 #include "editor/panels/pick_view.h"
+#include "editor/panels/script_panel.h"
+#include "editor/panels/timeline_panel.h"
 
 namespace lararium::app {
 
@@ -28,15 +31,19 @@ class Layout {
 
   void ShowPanels(Workspace& workspace);
   void ShowViewport(Workspace& workspace);
+  void ShowBottom(Workspace& workspace);
+  float& BottomHeight() { return bottom_heights_[static_cast<size_t>(state_.bottom)]; }
 
   panels::EditorState state_;
   panels::CameraView camera_;
   panels::PickView picks_;
   std::unique_ptr<panels::AroundView> around_;
+  panels::TimelinePanel timeline_;
+  panels::ScriptPanel script_;
   // Logical pixels.
   float outliner_width_ = 224.0f;
   float inspector_width_ = 336.0f;
-  float messages_height_ = 104.0f;
+  std::array<float, 4> bottom_heights_ = {336.0f, 400.0f, 240.0f, 136.0f};  // of each tab
 };
 
 }  // namespace lararium::app

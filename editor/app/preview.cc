@@ -32,7 +32,8 @@ class Preview::Worker {
   // nullptr for a frame beyond the end.
   Result<std::shared_ptr<const PreviewPicture>> Draw(const PreviewRequest& request);
 
-  // What went wrong in the drama and was not told before: seeking plays it again.
+  // What went wrong in the drama and was not told before: seeking plays it again. A script
+  // that cannot be taken over is told each time.
   std::vector<Status> TakeScriptErrors();
 
  private:
@@ -42,6 +43,7 @@ class Preview::Worker {
   // it beyond the end.
   Status Track(int64_t frame);
   PreviewPicture Describe() const;
+  void TakeScript(std::shared_ptr<const std::string> script);
   // Adds what the picture that was just drawn is compared with.
   Status Compare(PreviewPicture& picture);
   // What the frame at hand sounds like, or silence.
@@ -57,7 +59,9 @@ class Preview::Worker {
   std::optional<int64_t> end_;  // number of frames, once known for certain
   std::optional<vision::TrackedFrame> tracked_;
   show::StagedFrame staged_;
-  std::set<std::string> told_;  // script errors
+  std::shared_ptr<const std::string> script_;  // as last asked for
+  Status script_problem_;                      // why the one before goes on
+  std::set<std::string> told_;                 // script errors
   Log* log_ = nullptr;
   bool sounds_ = false;                        // sound_ plays what is shown
   bool mute_ = false;                          // nothing can be mixed
@@ -157,6 +161,18 @@ void Preview::Worker::PlaySound(bool on) {
   sounds_ = on;
 }
 
+void Preview::Worker::TakeScript(std::shared_ptr<const std::string> script) {
+  if (script == nullptr || script == script_) {
+    return;
+  }
+  const bool is_running = *script == (script_ != nullptr ? *script_ : show_->content().drama);
+  script_ = std::move(script);
+  if (!is_running) {
+    told_.clear();
+    script_problem_ = show_->Reload(*script_);
+  }
+}
+
 Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const PreviewRequest& request) {
   if (request.place != nullptr && request.place != place_) {
     place_ = request.place;
@@ -164,16 +180,17 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
     renderer_->SetPlace(0, *place_);
     poses_->SetOccluders(0, show::OccludersInMap(*place_));
   }
+  TakeScript(request.script);
   LARARIUM_RETURN_IF_ERROR(Track(request.frame));
   if (!tracked_) {
     return std::shared_ptr<const PreviewPicture>();
   }
-  const double time = static_cast<double>(request.frame) / source_->frames_per_second();
-  show_->StageFrame(*tracked_, time, staged_);
+  show_->StageFrame(*tracked_, request.time, staged_);
   PlaySound(request.sound);
   renderer_->SetEvidence(request.evidence);
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   PreviewPicture picture = Describe();
+  picture.time = request.time;
   target_->ReadPixels(picture.bgr);
   if (request.compare) {
     LARARIUM_RETURN_IF_ERROR(Compare(picture));
@@ -183,6 +200,9 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
 
 std::vector<Status> Preview::Worker::TakeScriptErrors() {
   std::vector<Status> errors;
+  if (!script_problem_.ok()) {
+    errors.push_back(std::exchange(script_problem_, Status()));
+  }
   for (const drama::ScriptError& error : show_->drama().errors()) {
     if (told_.insert(error.message).second) {
       errors.push_back(Status::Error("drama", error.message));
@@ -208,6 +228,7 @@ void Preview::Run(std::stop_token stop) {
       Worker::Create(paths_, source_document_, std::move(content_), log_);
   if (!worker) {
     AddProblem(worker.status());
+    failed_ = true;
     return;
   }
   {

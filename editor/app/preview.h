@@ -4,11 +4,13 @@
 // its own with an OpenGL context of its own, so that the interface never waits.
 
 #include <array>
+#include <atomic>
 #include <glm/mat4x4.hpp>
 #include <memory>
 #include <mutex>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -25,6 +27,9 @@ namespace lararium::app {
 
 struct PreviewRequest {
   int64_t frame = 0;  // of the recording
+  double time = 0.0;  // of the drama, seconds
+  // The drama as it is written now; nullptr: as it was.
+  std::shared_ptr<const std::string> script;
   // Staged as it is now; nullptr: as it was.
   std::shared_ptr<const stage::Place> place;
   bool compare = false;   // the picture without people, and where they are, besides
@@ -40,7 +45,8 @@ struct PreviewActor {
 
 struct PreviewPicture {
   int64_t frame = -1;
-  cv::Mat bgr;  // the composite, or the plain image without a pose
+  double time = 0.0;  // of the drama, seconds
+  cv::Mat bgr;        // the composite, or the plain image without a pose
   // Where they were asked for, else empty: the camera's image alone (bgr), and how much of
   // each pixel people and props hide (CV_8UC1).
   cv::Mat plain;
@@ -79,6 +85,8 @@ class Preview {
   std::optional<std::shared_ptr<const PreviewPicture>> TakePicture() { return pictures_.TryTake(); }
 
   std::optional<PreviewSource> source() const;
+  // It could not be opened and will give no picture.
+  bool failed() const { return failed_; }
   // What went wrong since the last call, in the recording or in the drama.
   std::vector<Status> TakeProblems();
 
@@ -97,6 +105,7 @@ class Preview {
   mutable std::mutex mutex_;
   std::vector<Status> problems_;
   std::optional<PreviewSource> source_;
+  std::atomic<bool> failed_ = false;
   std::jthread thread_;
 };
 

@@ -119,8 +119,8 @@ struct ProjectPaths {
   std::filesystem::path folder;
 
   std::filesystem::path Project() const { return folder / "project.json"; }
-  // The document as last edited; exists only between an edit and its saving.
-  std::filesystem::path Autosave() const { return folder / "autosave.json"; }
+  // What was edited; exists only between an edit and its saving (journal.h).
+  std::filesystem::path Journal() const { return folder / "journal"; }
   std::filesystem::path Drama() const { return folder / "drama.lua"; }
   std::filesystem::path Cast() const { return folder / "cast"; }
   std::filesystem::path Human(const std::string& cast_name) const {

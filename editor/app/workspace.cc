@@ -9,7 +9,9 @@
 #include "editor/app/camera_measure.h"
 #include "editor/app/exporting.h"
 #include "editor/app/sounds.h"
+#include "editor/app/subcommands.h"
 #include "editor/app/training.h"
+#include "shared/core/file.h"
 
 namespace lararium::app {
 
@@ -43,16 +45,15 @@ std::string TagsKey(const PlaceDocument& place) {
 
 Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log) {
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  std::unique_ptr<Workspace> workspace(new Workspace(std::move(paths), std::move(document), log));
-  Result<std::optional<ProjectDocument>> left = LoadAutosave(workspace->paths_);
-  if (!left) {
-    workspace->Tell(Message::Level::kWarning,
-                    left.message() + "; it was left as it is, move it away to stop this message");
-  } else if (left->has_value()) {
-    workspace->Edit("recover", [&](ProjectDocument& current) { current = std::move(**left); });
-    workspace->Tell(Message::Level::kWarning,
-                    "Edits that were not saved have been recovered. Undo takes them back.");
+  // A project without its drama opens: the missing file is told, and saving makes it.
+  std::error_code ignored;
+  std::string script;
+  if (std::filesystem::exists(paths.Drama(), ignored)) {
+    LARARIUM_ASSIGN_OR_RETURN(script, ReadText(paths.Drama(), drama::TimelineText::kMaxBytes));
   }
+  std::unique_ptr<Workspace> workspace(
+      new Workspace(std::move(paths), std::move(document), std::move(script), log));
+  workspace->Recover();
   for (const Status& missing : FindMissingFiles(workspace->paths_, workspace->document())) {
     workspace->Tell(Message::Level::kWarning, missing.message());
   }
@@ -63,12 +64,49 @@ Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log)
   return workspace;
 }
 
-Workspace::Workspace(ProjectPaths paths, ProjectDocument document, Log& log)
+Workspace::Workspace(ProjectPaths paths, ProjectDocument document, std::string script, Log& log)
     : paths_(std::move(paths)),
       log_(log),
       commands_(std::move(document)),
-      autosave_(paths_),
+      script_(std::move(script), paths_.Drama().filename().string()),
+      saved_script_(script_.snapshot()),
+      saved_project_(commands_.snapshot()),
+      journal_(paths_.Journal(), commands_.document(), script_.snapshot()),
+      script_stamp_(FileStamp(paths_.Drama())),
+      project_stamp_(FileStamp(paths_.Project())),
       cast_pictures_(paths_, PresetFolder(), baking_) {}
+
+// Takes over what a crash left, as one edit of what is saved.
+void Workspace::Recover() {
+  Result<std::optional<JournalContent>> left = LoadJournal(paths_.Journal());
+  if (!left.ok()) {
+    const std::filesystem::path aside = paths_.folder / "journal.damaged";
+    std::error_code error;
+    std::filesystem::rename(paths_.Journal(), aside, error);
+    Tell(Message::Level::kWarning, left.message() + "; it was moved to " + aside.string() +
+                                       " and the project opened as saved");
+    return;
+  }
+  if (!left->has_value() || (*left)->edits == 0) {
+    journal_.Discard(document(), script_.snapshot());
+    return;
+  }
+  JournalContent& content = **left;
+  // In the journal first: it is never without what it held.
+  Note(journal_.Restart(content.project, std::make_shared<const std::string>(content.script)));
+  drama::TextEdit edit = script_.Replace(std::move(content.script));
+  const size_t bytes = edit.removed.size() + edit.inserted.size();
+  commands_.Edit(
+      "recover", [&](ProjectDocument& current) { current = std::move(content.project); },
+      "recover");
+  commands_.EditPatched("recover", std::move(edit), bytes, "recover");
+  commands_.EndGesture();
+  OnDocumentChanged();
+  OnScriptChanged();
+  Tell(Message::Level::kWarning, std::string("Edits that were not saved have been recovered") +
+                                     (content.torn ? ", without the last one. " : ". ") +
+                                     "Undo takes them back.");
+}
 
 void Workspace::Tell(Message::Level level, std::string text) {
   if (!messages_.empty() && messages_.back().text == text) {
@@ -95,7 +133,7 @@ void Workspace::ShowPlace(const std::string& name) {
   loaded_ = {};
   picture_ = nullptr;
   preview_ = nullptr;
-  position_ = 0.0;
+  time_ = 0.0;
   playing_ = false;
   map_stale_ = true;
 }
@@ -120,37 +158,112 @@ void Workspace::EditPlace(const std::string& name,
       gesture);
 }
 
+bool Workspace::EditTimeline(const std::string& name,
+                             const std::function<Status(drama::TimelineText&)>& change,
+                             std::string_view gesture) {
+  Result<drama::TextEdit> edit = script_.Change(change);
+  if (!edit.ok()) {
+    Tell(Message::Level::kError, edit.message());
+    return false;
+  }
+  NoteScriptEdit(name, *std::move(edit), gesture);
+  return true;
+}
+
+void Workspace::EditScript(const std::string& name, std::string text, std::string_view gesture) {
+  NoteScriptEdit(name, script_.Replace(std::move(text)), gesture);
+}
+
+void Workspace::NoteScriptEdit(const std::string& name,
+                               drama::TextEdit edit,
+                               std::string_view gesture) {
+  if (edit.removed.empty() && edit.inserted.empty()) {
+    return;
+  }
+  Note(journal_.NoteScript(edit));
+  const size_t bytes = edit.removed.size() + edit.inserted.size();
+  commands_.EditPatched(name, std::move(edit), bytes, gesture);
+  OnScriptChanged();
+}
+
+void Workspace::ApplyToScript(const drama::TextEdit& edit) {
+  if (const Status status = script_.Apply(edit); !status.ok()) {
+    Tell(Message::Level::kError, status.message());  // our own history: does not happen
+    return;
+  }
+  Note(journal_.NoteScript(edit));
+  OnScriptChanged();
+}
+
 void Workspace::Undo() {
   if (commands_.CanUndo()) {
-    commands_.Undo();
+    const std::span<const drama::TextEdit> patches = commands_.Undo();
+    for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch) {
+      ApplyToScript(patch->Reverse());
+    }
     OnDocumentChanged();
   }
 }
 
 void Workspace::Redo() {
   if (commands_.CanRedo()) {
-    commands_.Redo();
+    for (const drama::TextEdit& patch : commands_.Redo()) {
+      ApplyToScript(patch);
+    }
     OnDocumentChanged();
   }
 }
 
 void Workspace::Save() {
+  LookOutside();
+  if (changed_outside()) {
+    Tell(Message::Level::kWarning,
+         "Nothing was saved: the project was also changed outside of this window. Choose above "
+         "the messages which one to keep.");
+    return;
+  }
+  std::error_code ignored;
+  if (script_.text() != *saved_script_ || !std::filesystem::exists(paths_.Drama(), ignored)) {
+    if (const Status status = WriteFileAtomically(paths_.Drama(), script_.text()); !status.ok()) {
+      Tell(Message::Level::kError, status.message());
+      return;
+    }
+    saved_script_ = script_.snapshot();
+    script_stamp_ = FileStamp(paths_.Drama());
+  }
   if (const Status status = SaveProject(paths_, document()); !status.ok()) {
     Tell(Message::Level::kError, status.message());
     return;
   }
+  saved_project_ = commands_.snapshot();
+  project_stamp_ = FileStamp(paths_.Project());
   commands_.MarkSaved();
-  autosave_.Discard();
-  Tell(Message::Level::kInfo, "Saved " + paths_.Project().string());
+  journal_.Discard(document(), script_.snapshot());
+  Tell(Message::Level::kInfo, "Saved " + paths_.folder.string());
+  preview_stale_ = true;
 }
 
+void Workspace::Note(const Status& journal) {
+  if (!journal.ok()) {
+    Tell(Message::Level::kError, journal.message());
+  }
+  constexpr uint64_t kLong = 64 << 20;  // bytes
+  if (journal_.grown_bytes() > kLong) {
+    if (const Status status = journal_.Restart(document(), script_.snapshot()); !status.ok()) {
+      Tell(Message::Level::kError, status.message());
+    }
+  }
+}
+
+void Workspace::OnScriptChanged() { since_script_ = 0.0; }
+
 void Workspace::OnDocumentChanged() {
-  if (commands_.dirty()) {
-    autosave_.Write(commands_.snapshot());
-  } else {
-    autosave_.Discard();
+  Note(journal_.NoteProject(document()));
+  if (!commands_.dirty()) {
+    journal_.Discard(document(), script_.snapshot());
   }
   cast_pictures_.SetCast(document().cast);
+  stage_changed_ = true;
   if (place() == nullptr && !document().places.empty()) {
     ShowPlace(document().places.front().name);  // undo took the place away
     return;
@@ -158,6 +271,59 @@ void Workspace::OnDocumentChanged() {
   ResolvePicksAgain();
   place_changed_ = true;
   preview_stale_ = true;
+}
+
+void Workspace::LookOutside() {
+  if (std::string stamp = FileStamp(paths_.Drama()); stamp != script_stamp_) {
+    script_stamp_ = std::move(stamp);
+    const Result<std::string> text = ReadText(paths_.Drama(), drama::TimelineText::kMaxBytes);
+    if (!text.ok()) {
+      Tell(Message::Level::kWarning, text.message() + "; saving writes it anew");
+    } else if (*text != script_.text()) {
+      outside_script_ = *text;
+    } else {
+      saved_script_ = script_.snapshot();
+    }
+  }
+  if (std::string stamp = FileStamp(paths_.Project()); stamp != project_stamp_) {
+    project_stamp_ = std::move(stamp);
+    Result<ProjectDocument> project = LoadProject(paths_);
+    if (!project.ok()) {
+      Tell(Message::Level::kWarning, project.message() + "; saving writes it anew");
+    } else if (FormatProject(*project) != FormatProject(document())) {
+      outside_project_ = std::make_shared<const ProjectDocument>(*std::move(project));
+    }
+  }
+  if (changed_outside() && !commands_.dirty()) {
+    TakeOutside();
+  }
+}
+
+void Workspace::TakeOutside() {
+  if (outside_script_) {
+    EditScript("take over drama.lua", *std::exchange(outside_script_, std::nullopt));
+    saved_script_ = script_.snapshot();
+    Tell(Message::Level::kInfo, "drama.lua was changed outside of this window and is read again.");
+  }
+  if (outside_project_) {
+    Edit("take over project.json", [&](ProjectDocument& current) { current = *outside_project_; });
+    outside_project_ = nullptr;
+    saved_project_ = commands_.snapshot();
+    Tell(Message::Level::kInfo,
+         "project.json was changed outside of this window and is read again.");
+  }
+  const bool all_saved = script_.text() == *saved_script_ &&
+                         FormatProject(document()) == FormatProject(*saved_project_);
+  if (all_saved) {
+    commands_.MarkSaved();
+    journal_.Discard(document(), script_.snapshot());
+  }
+}
+
+void Workspace::KeepOwn() {
+  outside_script_.reset();
+  outside_project_ = nullptr;
+  saved_script_ = std::make_shared<const std::string>();  // whatever is there is not this
 }
 
 void Workspace::ResolvePicksAgain() {
@@ -258,7 +424,6 @@ void Workspace::ReloadMap() {
 std::string Workspace::PreviewKey() const {
   const PlaceDocument& at = *place();
   Json key = {{"place", at.name},
-              {"drama", FileStamp(paths_.Drama())},
               {"scene", FileStamp(paths_.Scene(at.name))},
               {"training", at.training.path},
               {"preview", at.preview.path}};
@@ -297,7 +462,8 @@ void Workspace::ReloadPreview() {
   const auto content = std::make_shared<show::ShowContent>();
   const auto report = std::make_shared<BakeReport>();
   const auto work = [content, report, paths = paths_, document = commands_.snapshot(),
-                     name = place_name_, database = loaded_.database, baking = baking_,
+                     script = script_.snapshot(), name = place_name_, database = loaded_.database,
+                     baking = baking_,
                      map_from_picked = loaded_.picks.map_from_picked](Progress& progress) {
     {
       const std::lock_guard turn(*baking);
@@ -305,10 +471,12 @@ void Workspace::ReloadPreview() {
     }
     LARARIUM_ASSIGN_OR_RETURN(*content, AssembleShow(paths, *document, *document->FindPlace(name),
                                                      database, map_from_picked));
+    content->drama = *script;  // as it is written now, saved or not
     return Status();
   };
-  const auto done = [this, content, report, document = commands_.snapshot(), name = place_name_](
-                        const Status& status, bool cancelled) {
+  const auto done = [this, content, report, revision = script_.revision(),
+                     document = commands_.snapshot(),
+                     name = place_name_](const Status& status, bool cancelled) {
     if (!status.ok()) {
       Report(status, cancelled, "");
       return;
@@ -325,8 +493,10 @@ void Workspace::ReloadPreview() {
     loaded_.baked_light = loaded_.staged->probes;
     const SourceDocument& source = place()->preview.empty() ? place()->training : place()->preview;
     preview_ = std::make_unique<Preview>(paths_, source, std::move(*content), log_);
+    previewed_script_ = revision;
     requested_frame_ = -1;
     place_changed_ = true;
+    stage_changed_ = true;
   };
   if (tasks_.Start(kOpening, work, done)) {
     preview_key_ = std::move(key);
@@ -335,21 +505,40 @@ void Workspace::ReloadPreview() {
   }
 }
 
-void Workspace::SetFrame(int64_t frame) {
+int64_t Workspace::frame() const {
   const std::optional<PreviewSource> source = recording();
-  const int64_t last = source ? std::max<int64_t>(source->frames - 1, 0) : 0;
-  if (frame != this->frame() || frame > last) {
-    position_ = static_cast<double>(std::clamp<int64_t>(frame, 0, last));
+  if (!source || source->frames <= 0) {
+    return 0;
+  }
+  const double frames = time_ * source->frames_per_second;
+  return static_cast<int64_t>(frames + 1e-6) % source->frames;
+}
+
+void Workspace::SetFrame(int64_t frame) {
+  if (const std::optional<PreviewSource> source = recording()) {
+    const int64_t last = std::max<int64_t>(source->frames - 1, 0);
+    SetTime(static_cast<double>(std::clamp<int64_t>(frame, 0, last)) / source->frames_per_second);
   }
 }
 
+void Workspace::SetTime(double seconds) {
+  time_ = std::isfinite(seconds) ? std::clamp(seconds, 0.0, drama::Drama::kMaxTime) : 0.0;
+}
+
+double Workspace::duration() const {
+  double duration = script_.duration();
+  if (const std::optional<PreviewSource> source = recording(); source && source->frames > 0) {
+    duration = std::max(duration, static_cast<double>(source->frames) / source->frames_per_second);
+  }
+  return std::max(duration, drama_run_ != nullptr ? drama_run_->last : 0.0);
+}
+
 void Workspace::AdvancePlayback(double seconds) {
-  const std::optional<PreviewSource> source = recording();
-  if (!playing_ || !source || source->frames <= 0) {
+  const double end = duration();
+  if (!playing_ || end <= 0.0) {
     return;
   }
-  position_ = std::fmod(position_ + seconds * source->frames_per_second,
-                        static_cast<double>(source->frames));
+  time_ = time_ + seconds < end ? time_ + seconds : 0.0;
 }
 
 void Workspace::RequestPicture() {
@@ -359,6 +548,8 @@ void Workspace::RequestPicture() {
   PreviewRequest request;
   request.frame = frame();
   request.sound = playing_ && sound_;
+  request.time = time_;
+  request.script = script_.snapshot();
   if (place_changed_) {
     auto staged = std::make_shared<stage::Place>(*loaded_.staged);
     const PlaceDocument& at = *place();
@@ -375,7 +566,8 @@ void Workspace::RequestPicture() {
       }
     }
     loaded_.staged = staged;
-  } else if (request.frame == requested_frame_ && request.sound == requested_sound_) {
+  } else if (request.frame == requested_frame_ && request.time == requested_time_ &&
+             script_.revision() == requested_script_ && request.sound == requested_sound_) {
     return;
   }
   request.place = loaded_.staged;
@@ -384,26 +576,32 @@ void Workspace::RequestPicture() {
   place_changed_ = false;
   requested_frame_ = request.frame;
   requested_sound_ = request.sound;
+  requested_time_ = request.time;
+  requested_script_ = script_.revision();
   awaiting_picture_ = true;
   preview_->Request(std::move(request));
 }
 
 void Workspace::Update(double seconds) {
   tasks_.Poll();
-  if (const Status status = autosave_.TakeStatus(); !status.ok()) {
-    Tell(Message::Level::kWarning, status.message());
-  }
   if (map_stale_) {
     ReloadMap();
   }
-  // The drama is edited outside of this window.
+  // Files are also edited outside of this window.
   constexpr double kFilesInterval = 1.0;
   since_files_checked_ += seconds;
   if (since_files_checked_ > kFilesInterval) {
     since_files_checked_ = 0.0;
     preview_stale_ = true;
     cast_pictures_.SetCast(document().cast);
+    LookOutside();
   }
+  since_script_ += seconds;
+  if (preview_ != nullptr && preview_->failed() && previewed_script_ != script_.revision()) {
+    preview_key_.clear();  // the script may be what it failed for
+    preview_stale_ = true;
+  }
+  RunDramaAgain();
   if (measures_stale_) {
     MeasureAgain();
   }
@@ -413,7 +611,6 @@ void Workspace::Update(double seconds) {
     ReloadPreview();
   }
   AdvancePlayback(seconds);
-  SetFrame(frame());  // the end may have turned out to be nearer
   RequestPicture();
   if (preview_ == nullptr) {
     awaiting_picture_ = false;
@@ -421,12 +618,82 @@ void Workspace::Update(double seconds) {
   }
   if (auto picture = preview_->TakePicture()) {
     picture_ = std::move(*picture);
-    awaiting_picture_ = picture_->frame != requested_frame_;
+    awaiting_picture_ = picture_->frame != requested_frame_ || picture_->time != requested_time_;
   }
   for (const Status& problem : preview_->TakeProblems()) {
     Tell(Message::Level::kError, problem.message());
     awaiting_picture_ = false;
   }
+}
+
+void Workspace::RunDramaAgain() {
+  constexpr double kPause = 1.0;       // seconds without edits
+  constexpr double kBehind = 30.0;     // seconds behind the last item
+  constexpr double kShortest = 240.0;  // seconds of a drama that only its script knows
+  const bool wanted = stage_changed_ || run_script_ != script_.revision();
+  if (!wanted || since_script_ < kPause || tasks_.Running(kOpening) || cast_pictures_.Working() ||
+      document().cast.empty()) {
+    return;
+  }
+  if (tasks_.Running(kDryRun)) {
+    tasks_.Cancel(kDryRun);  // what it would tell is not true any more
+    return;
+  }
+  const auto run = std::make_shared<DramaRun>();
+  const double seconds =
+      std::min(std::max(script_.duration() + kBehind, kShortest), drama::Drama::kMaxTime);
+  const auto work = [run, paths = paths_, document = commands_.snapshot(),
+                     script = script_.snapshot(), seconds](Progress& progress) {
+    LARARIUM_ASSIGN_OR_RETURN(*run, RunDrama(paths, *document, *script, seconds, progress));
+    return Status();
+  };
+  const auto done = [this, run](const Status& status, bool cancelled) {
+    if (cancelled) {
+      return;
+    }
+    if (!status.ok()) {
+      run->problems.push_back(status.message());
+      if (drama_run_ != nullptr) {  // as long as nothing newer is known
+        run->tasks = drama_run_->tasks;
+        run->words = drama_run_->words;
+        run->last = drama_run_->last;
+      }
+    }
+    drama_run_ = run;
+    ++drama_run_number_;
+  };
+  if (tasks_.Start(kDryRun, work, done)) {
+    run_script_ = script_.revision();
+    stage_changed_ = false;
+  }
+}
+
+void Workspace::Check() {
+  const auto result = std::make_shared<CommandResult>();
+  tasks_.Start(
+      kChecking,
+      [result, project = paths_.folder](Progress& progress) {
+        CheckOptions options;
+        options.project = project;
+        LARARIUM_ASSIGN_OR_RETURN(*result, RunCheck(options, progress));
+        return Status();
+      },
+      [this, result](const Status& status, bool cancelled) {
+        if (cancelled) {
+          return;
+        }
+        checked_ = true;
+        problems_.clear();
+        if (!status.ok()) {
+          problems_.push_back(status.message());
+          return;
+        }
+        for (const char* kind : {"problems", "warnings"}) {
+          for (const Json& problem : result->json.value(kind, Json::array())) {
+            problems_.push_back(problem.get<std::string>());
+          }
+        }
+      });
 }
 
 void Workspace::TellOfPictures() {

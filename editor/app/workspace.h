@@ -11,16 +11,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "editor/app/autosave.h"
 #include "editor/app/background_task.h"
 #include "editor/app/bone_review.h"
 #include "editor/app/cast_catalogue.h"
 #include "editor/app/cast_pictures.h"
 #include "editor/app/command_stack.h"
+#include "editor/app/drama_run.h"
+#include "editor/app/journal.h"
 #include "editor/app/preview.h"
 #include "editor/app/probe_picture.h"
 #include "editor/app/project.h"
+#include "editor/app/script_document.h"
 #include "editor/app/staging.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
@@ -60,13 +63,18 @@ class Workspace {
   static constexpr const char* kReview = "Reading the bones";
   static constexpr const char* kProbe = "Reading the light probe";
   static constexpr const char* kCamera = "Measuring the camera";
+  static constexpr const char* kDryRun = "Running the drama";
+  static constexpr const char* kChecking = "Checking";
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
 
   const ProjectPaths& paths() const { return paths_; }
   const ProjectDocument& document() const { return commands_.document(); }
-  const CommandStack<ProjectDocument>& commands() const { return commands_; }
+  using Commands = CommandStack<ProjectDocument, drama::TextEdit>;
+  const Commands& commands() const { return commands_; }
+  // The drama, which has its commands among those of the project.
+  const ScriptDocument& script() const { return script_; }
 
   // The place that the views show; nullptr where the project has none.
   const PlaceDocument* place() const { return document().FindPlace(place_name_); }
@@ -82,10 +90,23 @@ class Workspace {
                  std::string_view gesture = {});
   // The stage laid on the floor that was found in the map; nothing without one.
   void LayStageOnFloor();
+  // Edits of the drama. False, and a message, where the change fails.
+  bool EditTimeline(const std::string& name,
+                    const std::function<Status(drama::TimelineText&)>& change,
+                    std::string_view gesture = {});
+  void EditScript(const std::string& name, std::string text, std::string_view gesture = {});
   void EndGesture() { commands_.EndGesture(); }
   void Undo();
   void Redo();
   void Save();
+
+  // Files of the project that were changed by others while there are edits that were not
+  // saved. Until somebody has chosen, nothing is saved.
+  bool changed_outside() const { return outside_script_.has_value() || outside_project_; }
+  // What is in the files, as an edit.
+  void TakeOutside();
+  // What is here; saving will overwrite the files.
+  void KeepOwn();
 
   // Long work; progress in tasks(), outcome in messages().
   void Train();  // the place at hand, from its recordings
@@ -95,6 +116,10 @@ class Workspace {
   // Of the last training in this window; nullptr before one, or of another place.
   const train::TrainReport* last_training() const;
   void Bake();
+  // All that is wrong with the project as it is saved, as the subcommand check tells it.
+  void Check();
+  bool checked() const { return checked_; }
+  const std::vector<std::string>& problems() const { return problems_; }
   void Export(const std::filesystem::path& out);
   TaskList& tasks() { return tasks_; }
   bool tasks_empty() const { return tasks_.entries().empty(); }
@@ -132,10 +157,21 @@ class Workspace {
   bool sound() const { return sound_; }
   void SetSound(bool on) { sound_ = on; }
 
-  // The recording in the camera view.
+  // The moment of the drama that is seen. It plays in a loop of duration().
   bool playing() const { return playing_; }
   void SetPlaying(bool playing) { playing_ = playing; }
-  int64_t frame() const { return static_cast<int64_t>(position_); }
+  double time() const { return time_; }
+  void SetTime(double seconds);
+  // The longest of the recording, the timeline and what was played in the dry run.
+  double duration() const;
+  // What the drama's script does by itself; nullptr before the first run ended. It is run
+  // again a moment after each edit.
+  const DramaRun* drama_run() const { return drama_run_.get(); }
+  // Another number for each run.
+  int64_t drama_run_number() const { return drama_run_number_; }
+
+  // The recording in the camera view, which begins anew where it ends before the drama.
+  int64_t frame() const;
   void SetFrame(int64_t frame);
   std::optional<PreviewSource> recording() const {
     return preview_ ? preview_->source() : std::nullopt;
@@ -150,10 +186,20 @@ class Workspace {
   // since the last call.
   void Update(double seconds);
   // Something moves without input: redraw soon.
-  bool Busy() const { return playing_ || !tasks_.entries().empty() || awaiting_picture_; }
+  bool Busy() const { return playing_ || awaiting_picture_; }
 
  private:
-  Workspace(ProjectPaths paths, ProjectDocument document, Log& log);
+  Workspace(ProjectPaths paths, ProjectDocument document, std::string script, Log& log);
+
+  void Recover();
+  // Undo and redo of the drama's part of a command.
+  void ApplyToScript(const drama::TextEdit& edit);
+  void NoteScriptEdit(const std::string& name, drama::TextEdit edit, std::string_view gesture);
+  void Note(const Status& journal);
+  void OnScriptChanged();
+  // Looks whether others changed project.json or drama.lua.
+  void LookOutside();
+  void RunDramaAgain();
 
   void TellOfPictures();
   void OnDocumentChanged();
@@ -173,8 +219,15 @@ class Workspace {
 
   ProjectPaths paths_;
   Log& log_;
-  CommandStack<ProjectDocument> commands_;
-  Autosave autosave_;
+  Commands commands_;
+  ScriptDocument script_;
+  std::shared_ptr<const std::string> saved_script_;
+  Commands::Snapshot saved_project_;
+  Journal journal_;
+  std::string script_stamp_;  // of the files as they were read or written last
+  std::string project_stamp_;
+  std::optional<std::string> outside_script_;
+  std::shared_ptr<const ProjectDocument> outside_project_;
   std::string place_name_;
   LoadedPlace loaded_;
   std::string picks_key_;
@@ -189,6 +242,9 @@ class Workspace {
   std::shared_ptr<const PreviewPicture> picture_;
   int64_t requested_frame_ = -1;
   bool requested_sound_ = false;
+  double requested_time_ = -1.0;
+  int64_t requested_script_ = -1;  // revision
+  int64_t previewed_script_ = -1;  // revision that the preview was opened with
   bool place_changed_ = true;
   bool camera_look_ = true;
   bool compare_ = false;
@@ -196,10 +252,17 @@ class Workspace {
   bool sound_ = true;
   bool awaiting_picture_ = false;
   bool playing_ = false;
-  double position_ = 0.0;             // frames
+  double time_ = 0.0;                 // seconds
   double since_files_checked_ = 0.0;  // seconds
   std::deque<Message> messages_;
   std::shared_ptr<std::mutex> baking_ = std::make_shared<std::mutex>();  // one at a time
+  std::shared_ptr<const DramaRun> drama_run_;
+  int64_t drama_run_number_ = 0;
+  int64_t run_script_ = -1;    // revision that was run last
+  double since_script_ = 0.0;  // seconds since it changed
+  bool stage_changed_ = true;  // since the last run
+  bool checked_ = false;
+  std::vector<std::string> problems_;
   CastPictures cast_pictures_;
   std::shared_ptr<const CastCatalogue> catalogue_;
   std::string catalogue_problem_;

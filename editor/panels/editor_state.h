@@ -76,8 +76,17 @@ struct LightView {
   std::optional<glm::vec3> dragged_in_probe;  // what a drag holds on to
 };
 
+// What lies below the views.
+enum class BottomTab { kTimeline, kScript, kChecks, kMessages };
+
+// Where keys go that mean something else in each of them.
+enum class Focus { kViews, kTimeline, kScript };
+
 struct EditorState {
   std::vector<KeyPress> keys;  // since the last frame
+  BottomTab bottom = BottomTab::kTimeline;
+  Focus focus = Focus::kViews;
+  int script_line = 0;  // that the script is to show next, from 1; 0: none
   Selection selection;
   ViewKind view = ViewKind::kCamera;
   GizmoMode gizmo = GizmoMode::kMove;

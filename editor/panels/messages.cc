@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -21,6 +22,18 @@ ImVec4 ColourOf(app::Message::Level level) {
       break;
   }
   return colour::kDim;
+}
+
+// As much of a text as fits.
+std::string OneLine(const std::string& text, float width) {
+  std::string line = text.substr(0, text.find('\n'));
+  if (line.size() == text.size() && ImGui::CalcTextSize(line.c_str()).x <= width) {
+    return line;
+  }
+  const char* fits = nullptr;
+  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), width - Px(16), 0.0f, line.c_str(), nullptr,
+                                  &fits);
+  return line.substr(0, static_cast<size_t>(fits - line.c_str())) + "\xe2\x80\xa6";
 }
 
 void ShowTask(app::BackgroundTask& task) {
@@ -52,6 +65,30 @@ void ShowTask(app::BackgroundTask& task) {
 
 }  // namespace
 
+void ShowMessagesTools(app::Workspace& workspace) {
+  if (!workspace.changed_outside()) {
+    ImGui::NewLine();
+    return;
+  }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(colour::kWarning, "%s",
+                     Tr("The project was changed outside of this window as well."));
+  ImGui::SameLine();
+  if (ImGui::Button(Tr("Take what is in the files"))) {
+    workspace.TakeOutside();
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", Tr("An edit like any other: undo brings back what is here."));
+  }
+  ImGui::SameLine();
+  if (ImGui::Button(Tr("Keep what is here"))) {
+    workspace.KeepOwn();
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", Tr("Saving will then overwrite the files."));
+  }
+}
+
 void ShowMessages(const app::Workspace& workspace) {
   const bool at_end = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1.0f;
   if (workspace.messages().empty()) {
@@ -71,13 +108,25 @@ void ShowStatusBar(app::Workspace& workspace) {
   for (const app::TaskList::Entry& entry : workspace.tasks().entries()) {
     ShowTask(*entry.task);
   }
+  if (!workspace.messages().empty() && workspace.tasks_empty()) {
+    // The newest message, wherever the messages are.
+    const app::Message& newest = workspace.messages().back();
+    ImGui::AlignTextToFramePadding();
+    const float room = 0.62f * ImGui::GetContentRegionAvail().x;
+    const std::string shown = OneLine(newest.text, room);
+    ImGui::TextColored(ColourOf(newest.level), "%s", shown.c_str());
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s", newest.text.c_str());
+    }
+    ImGui::SameLine();
+  }
   std::string text = workspace.paths().folder.string();
   if (workspace.commands().dirty()) {
     text += "  \xe2\x80\xa2  not saved";
   }
   const float width = ImGui::CalcTextSize(text.c_str()).x;
   const float right = ImGui::GetContentRegionMax().x - width;
-  if (workspace.tasks_empty()) {
+  if (workspace.tasks_empty() && workspace.messages().empty()) {
     ImGui::AlignTextToFramePadding();
     DimText("Ready");
     ImGui::SameLine();

@@ -7,16 +7,19 @@ namespace lararium::panels {
 namespace {
 
 constexpr float kFontPx = 15.5f;
-constexpr const char* kFontFolders[] = {"/usr/share/fonts/opentype/inter",
-                                        "/usr/share/fonts/truetype/inter",
-                                        "/usr/local/share/fonts/inter"};
+constexpr float kCodePx = 15.0f;
+constexpr const char* kFontFolders[] = {
+    "/usr/share/fonts/opentype/inter", "/usr/share/fonts/truetype/inter",
+    "/usr/local/share/fonts/inter", "/usr/share/fonts/truetype/dejavu"};
 
 float g_scale = 1.0f;  // of the one interface; set with the theme
+Fonts g_fonts;
 
 ImFont* LoadFont(const char* name, float size) {
-  // Latin, and the few signs beyond it that labels use.
-  static const ImWchar kRanges[] = {0x0020, 0x00ff, 0x2013, 0x2014, 0x2018, 0x201d, 0x2022,
-                                    0x2022, 0x2026, 0x2026, 0x2190, 0x2193, 0};
+  // Latin with its accents, Greek with its own, and the few signs beyond that labels use.
+  static const ImWchar kRanges[] = {0x0020, 0x017f, 0x0370, 0x03ff, 0x1e00, 0x1fff,
+                                    0x2013, 0x2014, 0x2018, 0x201d, 0x2022, 0x2022,
+                                    0x2026, 0x2026, 0x2190, 0x2193, 0};
   for (const char* folder : kFontFolders) {
     const std::filesystem::path file = std::filesystem::path(folder) / name;
     std::error_code ignored;
@@ -30,14 +33,19 @@ ImFont* LoadFont(const char* name, float size) {
 Fonts LoadFonts(float scale) {
   Fonts fonts;
   fonts.regular = LoadFont("Inter-Regular.otf", kFontPx * scale);
-  fonts.strong = LoadFont("Inter-SemiBold.otf", kFontPx * scale);
   if (fonts.regular == nullptr) {
     ImFontConfig config;
     config.SizePixels = kFontPx * scale;
     fonts.regular = ImGui::GetIO().Fonts->AddFontDefault(&config);
   }
+  // Behind that of the interface, which ImGui takes to be the first.
+  fonts.strong = LoadFont("Inter-SemiBold.otf", kFontPx * scale);
+  fonts.code = LoadFont("DejaVuSansMono.ttf", kCodePx * scale);
   if (fonts.strong == nullptr) {
     fonts.strong = fonts.regular;
+  }
+  if (fonts.code == nullptr) {
+    fonts.code = ImGui::GetIO().Fonts->AddFontDefault();
   }
   return fonts;
 }
@@ -84,7 +92,7 @@ void SetColours(ImGuiStyle& style) {
 
 }  // namespace
 
-Fonts ApplyTheme(float scale) {
+void ApplyTheme(float scale) {
   g_scale = scale;
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
@@ -107,8 +115,10 @@ Fonts ApplyTheme(float scale) {
   style.PopupBorderSize = 1;
   style.ScaleAllSizes(scale);
   SetColours(style);
-  return LoadFonts(scale);
+  g_fonts = LoadFonts(scale);
 }
+
+const Fonts& ThemeFonts() { return g_fonts; }
 
 float Px(float logical) { return logical * g_scale; }
 

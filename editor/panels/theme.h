@@ -11,11 +11,13 @@ namespace lararium::panels {
 struct Fonts {
   ImFont* regular = nullptr;
   ImFont* strong = nullptr;  // headings
+  ImFont* code = nullptr;    // letters of one width
 };
 
 // Sets colours, spacing and fonts of the current ImGui context for a display of
-// that scale. Falls back to the built-in font where Inter is not installed.
-Fonts ApplyTheme(float scale);
+// that scale. Falls back to the built-in font where Inter or DejaVu is not installed.
+void ApplyTheme(float scale);
+const Fonts& ThemeFonts();
 
 // Logical pixels (at scale 1) in those of the screen.
 float Px(float logical);
@@ -32,6 +34,12 @@ inline const ImVec4 kPanel = {0.129f, 0.141f, 0.161f, 1.0f};
 inline const ImVec4 kFrame = {0.180f, 0.196f, 0.224f, 1.0f};
 inline const ImVec4 kHover = {0.231f, 0.251f, 0.286f, 1.0f};
 inline const ImVec4 kLine = {0.200f, 0.216f, 0.247f, 1.0f};
+
+// Words of scripts.
+inline const ImVec4 kKeyword = {0.780f, 0.573f, 0.918f, 1.0f};
+inline const ImVec4 kString = {0.647f, 0.816f, 0.529f, 1.0f};
+inline const ImVec4 kNumber = {0.961f, 0.706f, 0.463f, 1.0f};
+inline const ImVec4 kCall = {0.451f, 0.749f, 0.945f, 1.0f};
 
 // X, Y, Z.
 inline const ImVec4 kAxes[3] = {

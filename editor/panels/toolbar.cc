@@ -113,6 +113,17 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
     }
   }
   ImGui::Separator();
+  const std::pair<const char*, BottomTab> tabs[] = {{"Timeline", BottomTab::kTimeline},
+                                                    {"Script", BottomTab::kScript},
+                                                    {"Checks", BottomTab::kChecks},
+                                                    {"Messages", BottomTab::kMessages}};
+  const char* const tab_keys[] = {"F5", "F6", "F7", "F8"};
+  for (int i = 0; i < 4; ++i) {
+    if (ImGui::MenuItem(tabs[i].first, tab_keys[i], state.bottom == tabs[i].second)) {
+      state.bottom = tabs[i].second;
+    }
+  }
+  ImGui::Separator();
   ImGui::MenuItem("Stage over the picture", nullptr, &state.show_stage);
   ImGui::MenuItem("Points", nullptr, &state.show_points);
   ImGui::Separator();
@@ -130,7 +141,7 @@ void HandleControlKey(app::Workspace& workspace, EditorState& state, const KeyPr
       workspace.Save();
       break;
     case GLFW_KEY_Z:
-      if (ImGui::GetIO().WantTextInput) {
+      if (ImGui::GetIO().WantTextInput && state.focus != Focus::kScript) {
         break;  // the field that is being typed into has its own
       }
       (press.modifiers & GLFW_MOD_SHIFT) != 0 ? workspace.Redo() : workspace.Undo();
@@ -183,6 +194,13 @@ void HandlePlainKey(app::Workspace& workspace, EditorState& state, int key) {
       break;
     case GLFW_KEY_M:
       workspace.SetSound(!workspace.sound());
+      break;
+    case GLFW_KEY_F5:
+    case GLFW_KEY_F6:
+    case GLFW_KEY_F7:
+    case GLFW_KEY_F8:
+      state.bottom = static_cast<BottomTab>(key - GLFW_KEY_F5);
+      state.focus = state.bottom == BottomTab::kTimeline ? Focus::kTimeline : Focus::kViews;
       break;
     case GLFW_KEY_SPACE:
       workspace.SetPlaying(!workspace.playing());
@@ -274,6 +292,8 @@ void HandleShortcuts(app::Workspace& workspace, EditorState& state) {
   for (const KeyPress& press : state.keys) {
     if ((press.modifiers & GLFW_MOD_CONTROL) != 0) {
       HandleControlKey(workspace, state, press);
+    } else if (press.key >= GLFW_KEY_F1 && press.key <= GLFW_KEY_F25) {
+      HandlePlainKey(workspace, state, press.key);  // no letters: also while somebody types
     } else if (!ImGui::GetIO().WantTextInput && (press.modifiers & GLFW_MOD_ALT) == 0) {
       if (!HandleLightKey(workspace, state, press)) {
         HandlePlainKey(workspace, state, press.key);

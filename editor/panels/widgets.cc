@@ -82,7 +82,7 @@ bool FolderList(std::string& path,
 }  // namespace
 
 void Heading(const char* text) {
-  ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back());
+  ImGui::PushFont(ThemeFonts().strong);
   ImGui::TextUnformatted(text);
   ImGui::PopFont();
 }

@@ -571,6 +571,13 @@ Status TimelineText::CheckRoom(size_t bytes) const {
 
 namespace {
 
+// A part of a text that becomes another.
+struct Replacement {
+  size_t begin = 0;
+  size_t end = 0;
+  std::string with;
+};
+
 Status CheckField(const std::string& place, std::string_view key, const Json& value) {
   if (key.empty() || key.size() > 100) {
     return Status::Error(place, "a field needs a name of up to 100 characters");
@@ -591,23 +598,63 @@ Status CheckField(const std::string& place, std::string_view key, const Json& va
   return Status();
 }
 
+// What sets a field of the item whose braces open at an offset.
+Replacement SetField(std::string_view text,
+                     size_t offset,
+                     std::string_view key,
+                     const Json& value) {
+  const std::vector<Entry> entries = EntriesOf(text, offset, false);
+  // The last of several of one name is the one that counts.
+  const auto known = std::find_if(entries.rbegin(), entries.rend(),
+                                  [key](const Entry& entry) { return entry.key == key; });
+  if (known != entries.rend()) {
+    return {known->value_begin, known->value_end, LuaLiteral(value)};
+  }
+  const std::string name(key);
+  const size_t last = entries.back().value_end;
+  return {last, last,
+          ", " + (IsName(name) ? name : "[" + LuaLiteral(name) + "]") + " = " + LuaLiteral(value)};
+}
+
 }  // namespace
 
 Result<TextEdit> TimelineText::Set(TimelineItem item, std::string_view key, const Json& value) {
   LARARIUM_RETURN_IF_ERROR(Check(item));
   LARARIUM_RETURN_IF_ERROR(CheckField(place_, key, value));
-  const std::vector<Entry> entries = EntriesOf(text_, lanes_[item.lane].begin[item.item], false);
-  // The last of several of one name is the one that counts.
-  const auto known = std::find_if(entries.rbegin(), entries.rend(),
-                                  [key](const Entry& entry) { return entry.key == key; });
-  if (known != entries.rend()) {
-    return ReplaceWithin(item, known->value_begin, known->value_end, LuaLiteral(value));
+  const Replacement change = SetField(text_, lanes_[item.lane].begin[item.item], key, value);
+  return ReplaceWithin(item, change.begin, change.end, change.with);
+}
+
+Result<TextEdit> TimelineText::SetAll(std::span<const TimelineChange> changes) {
+  std::vector<Replacement> replacements;
+  replacements.reserve(changes.size());
+  size_t growth = 0;
+  for (const TimelineChange& change : changes) {
+    LARARIUM_RETURN_IF_ERROR(Check(change.item));
+    LARARIUM_RETURN_IF_ERROR(CheckField(place_, change.key, change.value));
+    replacements.push_back(SetField(text_, lanes_[change.item.lane].begin[change.item.item],
+                                    change.key, change.value));
+    growth += replacements.back().with.size();
   }
-  const std::string name(key);
-  const std::string field =
-      (IsName(name) ? name : "[" + LuaLiteral(name) + "]") + " = " + LuaLiteral(value);
-  const size_t last = entries.back().value_end;
-  return ReplaceWithin(item, last, last, ", " + field);
+  LARARIUM_RETURN_IF_ERROR(CheckRoom(growth));
+  // Two new fields of one item have one place, and stay in their order.
+  std::stable_sort(replacements.begin(), replacements.end(),
+                   [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; });
+  std::string text;
+  text.reserve(text_.size() + growth);
+  size_t copied = 0;
+  for (const Replacement& replacement : replacements) {
+    if (replacement.begin < copied) {
+      return Status::Error(place_, "a field is to be changed twice at once");
+    }
+    text.append(text_, copied, replacement.begin - copied);
+    text += replacement.with;
+    copied = replacement.end;
+  }
+  text.append(text_, copied);
+  TextEdit edit = Difference(text_, text);
+  LARARIUM_ASSIGN_OR_RETURN(*this, Read(std::move(text), place_));
+  return edit;
 }
 
 Result<TextEdit> TimelineText::Unset(TimelineItem item, std::string_view key) {
@@ -750,6 +797,19 @@ Status TimelineText::Apply(const TextEdit& edit) {
   changed.replace(edit.offset, edit.removed.size(), edit.inserted);
   LARARIUM_ASSIGN_OR_RETURN(*this, Read(std::move(changed), place_));
   return Status();
+}
+
+TextEdit Difference(std::string_view before, std::string_view after) {
+  const size_t shorter = std::min(before.size(), after.size());
+  const auto first = std::mismatch(before.begin(), before.begin() + shorter, after.begin());
+  const auto same = static_cast<size_t>(first.first - before.begin());
+  size_t tail = 0;
+  while (tail < shorter - same &&
+         before[before.size() - 1 - tail] == after[after.size() - 1 - tail]) {
+    ++tail;
+  }
+  return {same, std::string(before.substr(same, before.size() - same - tail)),
+          std::string(after.substr(same, after.size() - same - tail))};
 }
 
 std::string LuaLiteral(const Json& value) {

@@ -10,6 +10,7 @@
 //     },
 //   }
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -41,6 +42,7 @@ struct TimelineLane {
 struct TimelineItem {
   size_t lane = 0;
   size_t item = 0;
+  friend auto operator<=>(const TimelineItem&, const TimelineItem&) = default;
 };
 
 // One thing that an item says.
@@ -61,6 +63,16 @@ struct TextEdit {
   TextEdit Reverse() const { return {offset, inserted, removed}; }
 };
 
+// The shortest single edit that makes one text of another.
+TextEdit Difference(std::string_view before, std::string_view after);
+
+// What one field of an item is to say.
+struct TimelineChange {
+  TimelineItem item;
+  std::string key;
+  Json value;
+};
+
 class TimelineText {
  public:
   static constexpr size_t kMaxBytes = 64 << 20;
@@ -71,6 +83,7 @@ class TimelineText {
   static Result<TimelineText> Read(std::string text, std::string place);
 
   const std::string& text() const { return text_; }
+  const std::string& place() const { return place_; }
   std::span<const TimelineLane> lanes() const { return lanes_; }
   // "drama.lua:12:5: ...": what cannot be edited, or is wrong.
   std::span<const std::string> problems() const { return problems_; }
@@ -91,6 +104,8 @@ class TimelineText {
 
   // Each either does all of what it is asked, or fails and does nothing.
   Result<TextEdit> Set(TimelineItem item, std::string_view key, const Json& value);
+  // Many at once, in the time of reading the text. Items keep their numbers.
+  Result<TextEdit> SetAll(std::span<const TimelineChange> changes);
   Result<TextEdit> Unset(TimelineItem item, std::string_view key);
   // Behind the last item of the lane that does not begin later. fields: an object with
   // `at`.

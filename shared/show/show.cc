@@ -111,6 +111,14 @@ void Show::AdvanceTo(double time) {
   }
 }
 
+Status Show::Reload(std::string_view script) {
+  Status status = drama_->Reload(script);
+  tick_ = std::llround(drama_->time() * kTicksPerSecond);
+  stage_.Capture(current_);
+  previous_ = current_;
+  return status;
+}
+
 void Show::TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage) {
   drama::Visitor visitor;
   {

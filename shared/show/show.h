@@ -137,6 +137,9 @@ class Show {
   const std::shared_ptr<const audio::SoundLibrary>& sounds() const { return sound_->library(); }
   drama::Drama& drama() { return *drama_; }
 
+  // Another script, at the same time of the drama. On an error the old one goes on.
+  Status Reload(std::string_view script);
+
   // What the drama hears of its visitor besides where they are: a key that was pressed
   // ("space", "a", ...) or a message that came (drama::Message), the hour of the day there.
   // From any thread.

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "editor/app/autosave.h"
 #include "shared/core/file.h"
 #include "tests/support/test_files.h"
 
@@ -208,50 +207,6 @@ TEST(ProjectPaths, KeepRelativeWhatLiesInside) {
   EXPECT_EQ(paths.Shorten("/videos/a.mp4"), "/videos/a.mp4");
   EXPECT_EQ(paths.Resolve("cast/a.larhuman"), "/show.lararium/cast/a.larhuman");
   EXPECT_EQ(paths.Resolve("/videos/a.mp4"), "/videos/a.mp4");
-}
-
-TEST(Autosave, KeepsTheLastEditUntilItIsSaved) {
-  const test::TemporaryFolder folder;
-  const ProjectPaths paths{folder.path()};
-  {
-    Autosave autosave(paths);
-    ProjectDocument document = FullDocument();
-    for (const char* title : {"one", "two", "three"}) {
-      document.title = title;
-      autosave.Write(std::make_shared<const ProjectDocument>(document));
-    }
-  }
-  const auto recovered = LoadAutosave(paths);
-  ASSERT_TRUE(recovered.ok()) << recovered.message();
-  ASSERT_TRUE(recovered->has_value());
-  EXPECT_EQ((*recovered)->title, "three");
-  {
-    Autosave autosave(paths);
-    autosave.Discard();
-  }
-  const auto nothing = LoadAutosave(paths);
-  ASSERT_TRUE(nothing.ok());
-  EXPECT_FALSE(nothing->has_value());
-}
-
-TEST(Autosave, ADamagedOneIsAnErrorAndStays) {
-  const test::TemporaryFolder folder;
-  const ProjectPaths paths{folder.path()};
-  ASSERT_TRUE(WriteFileAtomically(paths.Autosave(), "{\"schema\": 1, \"tit").ok());
-  EXPECT_FALSE(LoadAutosave(paths).ok());
-  EXPECT_TRUE(std::filesystem::exists(paths.Autosave()));
-}
-
-TEST(Autosave, SaysWhereItCannotWrite) {
-  const test::TemporaryFolder folder;
-  Autosave autosave({folder / "gone"});
-  autosave.Write(std::make_shared<const ProjectDocument>());
-  Status status;
-  for (int i = 0; i < 1000 && status.ok(); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    status = autosave.TakeStatus();
-  }
-  EXPECT_THAT(status.message(), HasSubstr("autosave.json"));
 }
 
 }  // namespace

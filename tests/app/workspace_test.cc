@@ -53,33 +53,146 @@ TEST_F(WorkspaceTest, SavesWhatWasEditedAndUndone) {
 }
 
 TEST_F(WorkspaceTest, RecoversUnsavedEditsAndUndoTakesThemBack) {
-  ProjectDocument edited;
-  edited.title = "Unsaved";
-  ASSERT_TRUE(SaveJson(paths_.Autosave(), FormatProject(edited)).ok());
+  const std::string script = Open()->script().text();
+  {
+    const auto workspace = Open();
+    SetTitle(*workspace, "Unsaved");
+    workspace->EditScript("type", "-- unsaved\n");
+  }  // what is not saved stays in the journal
   const auto workspace = Open();
   EXPECT_EQ(workspace->document().title, "Unsaved");
+  EXPECT_EQ(workspace->script().text(), "-- unsaved\n");
   EXPECT_TRUE(workspace->commands().dirty());
   EXPECT_THAT(workspace->messages().back().text, HasSubstr("recovered"));
   workspace->Undo();
   EXPECT_EQ(workspace->document().title, "Before");
+  EXPECT_EQ(workspace->script().text(), script);
+  workspace->Redo();
+  EXPECT_EQ(workspace->document().title, "Unsaved");
+  EXPECT_EQ(workspace->script().text(), "-- unsaved\n");
 }
 
-TEST_F(WorkspaceTest, OpensBesideADamagedAutosaveAndSaysSo) {
-  ASSERT_TRUE(WriteFileAtomically(paths_.Autosave(), "{").ok());
-  const auto workspace = Open();
-  EXPECT_EQ(workspace->document().title, "Before");
-  EXPECT_THAT(workspace->messages().front().text, HasSubstr("autosave.json"));
-}
-
-TEST_F(WorkspaceTest, LeavesAnAutosaveOfEditsThatWereNotSaved) {
+TEST_F(WorkspaceTest, RecoversTwiceWithoutAnEditBetween) {
   {
     const auto workspace = Open();
-    SetTitle(*workspace, "Edited");
+    SetTitle(*workspace, "Unsaved");
   }
-  const auto left = LoadAutosave(paths_);
-  ASSERT_TRUE(left.ok());
-  ASSERT_TRUE(left->has_value());
-  EXPECT_EQ((*left)->title, "Edited");
+  Open();
+  EXPECT_EQ(Open()->document().title, "Unsaved");
+}
+
+TEST_F(WorkspaceTest, OpensBesideADamagedJournalKeepsItAndSaysSo) {
+  ASSERT_TRUE(WriteFileAtomically(paths_.Journal(), "{").ok());
+  const auto workspace = Open();
+  EXPECT_EQ(workspace->document().title, "Before");
+  EXPECT_THAT(workspace->messages().front().text, HasSubstr("journal.damaged"));
+  EXPECT_TRUE(std::filesystem::exists(paths_.folder / "journal.damaged"));
+  SetTitle(*workspace, "After");
+  EXPECT_TRUE(std::filesystem::exists(paths_.Journal()));
+}
+
+TEST_F(WorkspaceTest, TheDramaHasItsCommandsAmongThoseOfTheProject) {
+  const auto workspace = Open();
+  const std::string script = workspace->script().text();
+  SetTitle(*workspace, "One");
+  ASSERT_TRUE(workspace->EditTimeline("add", [](drama::TimelineText& text) {
+    LARARIUM_RETURN_IF_ERROR(text.AddLane(drama::LaneKind::kMarkers, "").status());
+    return text.Insert(0, {{"at", 1.0}, {"name", "noon"}}).status();
+  }));
+  SetTitle(*workspace, "Two");
+  const std::string edited = workspace->script().text();
+  EXPECT_NE(edited, script);
+  workspace->Undo();
+  EXPECT_EQ(workspace->document().title, "One");
+  EXPECT_EQ(workspace->script().text(), edited);
+  workspace->Undo();
+  EXPECT_EQ(workspace->script().text(), script);
+  EXPECT_EQ(workspace->document().title, "One");
+  workspace->Redo();
+  workspace->Redo();
+  EXPECT_EQ(workspace->script().text(), edited);
+  workspace->Save();
+  EXPECT_FALSE(workspace->commands().dirty());
+  EXPECT_FALSE(std::filesystem::exists(paths_.Journal()));
+  EXPECT_EQ(*ReadText(paths_.Drama()), edited);
+}
+
+TEST_F(WorkspaceTest, AGestureOfTheTimelineIsOneCommand) {
+  const auto workspace = Open();
+  const std::string script = workspace->script().text();
+  for (int i = 1; i <= 3; ++i) {
+    workspace->EditScript("type", script + std::string(static_cast<size_t>(i), '-'), "typing");
+  }
+  workspace->EndGesture();
+  workspace->EditScript("type", script + "-- more", "typing");
+  workspace->Undo();
+  EXPECT_EQ(workspace->script().text(), script + "---");
+  workspace->Undo();
+  EXPECT_EQ(workspace->script().text(), script);
+}
+
+TEST_F(WorkspaceTest, AnEditOfTheFileByHandIsTakenOver) {
+  const auto workspace = Open();
+  ASSERT_TRUE(WriteFileAtomically(paths_.Drama(), "-- by hand\n").ok());
+  workspace->Update(2.0);
+  EXPECT_EQ(workspace->script().text(), "-- by hand\n");
+  EXPECT_FALSE(workspace->commands().dirty());
+  workspace->Undo();
+  EXPECT_NE(workspace->script().text(), "-- by hand\n");
+  EXPECT_TRUE(workspace->commands().dirty());
+}
+
+TEST_F(WorkspaceTest, AnEditByHandBesideUnsavedOnesIsAskedAboutAndNothingIsLost) {
+  const auto workspace = Open();
+  workspace->EditScript("type", "-- mine\n");
+  ASSERT_TRUE(WriteFileAtomically(paths_.Drama(), "-- theirs\n").ok());
+  workspace->Save();
+  EXPECT_TRUE(workspace->changed_outside());
+  EXPECT_EQ(*ReadText(paths_.Drama()), "-- theirs\n");
+  EXPECT_EQ(workspace->script().text(), "-- mine\n");
+  workspace->TakeOutside();
+  EXPECT_EQ(workspace->script().text(), "-- theirs\n");
+  workspace->Undo();
+  EXPECT_EQ(workspace->script().text(), "-- mine\n");
+  workspace->Save();
+  EXPECT_EQ(*ReadText(paths_.Drama()), "-- mine\n");
+}
+
+TEST_F(WorkspaceTest, KeepingWhatIsHereOverwritesWhatOthersWrote) {
+  const auto workspace = Open();
+  workspace->EditScript("type", "-- mine\n");
+  ASSERT_TRUE(WriteFileAtomically(paths_.Drama(), "-- theirs\n").ok());
+  workspace->Save();
+  workspace->KeepOwn();
+  EXPECT_FALSE(workspace->changed_outside());
+  workspace->Save();
+  EXPECT_EQ(*ReadText(paths_.Drama()), "-- mine\n");
+}
+
+TEST_F(WorkspaceTest, AProjectThatOthersSavedIsTakenOver) {
+  const auto workspace = Open();
+  ProjectDocument other = workspace->document();
+  other.title = "Theirs";
+  ASSERT_TRUE(SaveProject(paths_, other).ok());
+  workspace->Update(2.0);
+  EXPECT_EQ(workspace->document().title, "Theirs");
+  EXPECT_FALSE(workspace->commands().dirty());
+}
+
+TEST_F(WorkspaceTest, PlaysTheDramaInALoopWithoutARecording) {
+  const auto workspace = Open();
+  ASSERT_TRUE(workspace->EditTimeline("add", [](drama::TimelineText& text) {
+    LARARIUM_RETURN_IF_ERROR(text.AddLane(drama::LaneKind::kMarkers, "").status());
+    return text.Insert(0, {{"at", 3.0}, {"name", "end"}}).status();
+  }));
+  EXPECT_EQ(workspace->duration(), 3.0);
+  workspace->SetPlaying(true);
+  workspace->Update(2.0);
+  EXPECT_NEAR(workspace->time(), 2.0, 1e-9);
+  workspace->Update(2.0);
+  EXPECT_EQ(workspace->time(), 0.0);
+  workspace->SetTime(-1.0);
+  EXPECT_EQ(workspace->time(), 0.0);
 }
 
 TEST_F(WorkspaceTest, AFailedExportIsAMessageAndWritesNothing) {

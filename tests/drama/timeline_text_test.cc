@@ -456,5 +456,63 @@ TEST(TimelineText, WindowsFindWhatALinearSearchFinds) {
   }
 }
 
+TEST(TimelineText, SetAllDoesWhatOneAfterTheOtherDoes) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const Model model = random.RandomModel();
+    const std::string written = random.Written(model);
+    TimelineText one = MustRead(written);
+    TimelineText all = MustRead(written);
+    std::vector<TimelineChange> changes;
+    for (size_t lane = 0; lane < one.lanes().size(); ++lane) {
+      for (size_t item = 0; item < one.lanes()[lane].size(); item += 2) {
+        changes.push_back({{lane, item}, "at", random.Time()});
+        changes.push_back({{lane, item}, "length", random.Time()});
+        changes.push_back({{lane, item}, "added", "new"});
+      }
+    }
+    for (const TimelineChange& change : changes) {
+      ASSERT_TRUE(one.Set(change.item, change.key, change.value).ok());
+    }
+    const Result<TextEdit> edit = all.SetAll(changes);
+    ASSERT_TRUE(edit.ok()) << edit.message();
+    EXPECT_EQ(all.text(), one.text());
+    EXPECT_EQ(ModelOf(all), ModelOf(one));
+    ASSERT_TRUE(all.Apply(edit->Reverse()).ok());
+    EXPECT_EQ(all.text(), written);
+  }
+}
+
+TEST(TimelineText, SetAllFailsAsAWhole) {
+  TimelineText timeline = MustRead("track{markers = {{at = 1, name = 'a'}, {at = 2, name = 'b'}}}");
+  const std::string before = timeline.text();
+  EXPECT_FALSE(
+      timeline.SetAll(std::vector<TimelineChange>{{{0, 0}, "at", 3.0}, {{0, 1}, "at", -1.0}}).ok());
+  EXPECT_FALSE(
+      timeline.SetAll(std::vector<TimelineChange>{{{0, 0}, "at", 3.0}, {{0, 2}, "at", 1.0}}).ok());
+  EXPECT_FALSE(
+      timeline.SetAll(std::vector<TimelineChange>{{{0, 0}, "at", 3.0}, {{0, 0}, "at", 1.0}}).ok());
+  EXPECT_EQ(timeline.text(), before);
+}
+
+TEST(Difference, IsTheShortestEditFromOneTextToAnother) {
+  const auto made = [](const std::string& before, const std::string& after) {
+    const TextEdit edit = Difference(before, after);
+    std::string text = before;
+    EXPECT_EQ(text.substr(edit.offset, edit.removed.size()), edit.removed);
+    text.replace(edit.offset, edit.removed.size(), edit.inserted);
+    EXPECT_EQ(text, after);
+    return edit.removed.size() + edit.inserted.size();
+  };
+  EXPECT_EQ(made("", ""), 0u);
+  EXPECT_EQ(made("abc", "abc"), 0u);
+  EXPECT_EQ(made("aaa", "aaaa"), 1u);
+  EXPECT_EQ(made("abab", "ab"), 2u);
+  EXPECT_EQ(made("at = 1, x", "at = 2, x"), 2u);
+  EXPECT_EQ(made("", "new"), 3u);
+  EXPECT_EQ(made("old", ""), 3u);
+}
+
 }  // namespace
 }  // namespace lararium::drama

@@ -1,7 +1,8 @@
-// make_room_map FILE: writes the map of a room with a floor, as training would,
+// make_room_map FILE [POINTS]: writes the map of a room with a floor, as training would,
 // for tests of the window.
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 #include "shared/core/random.h"
@@ -9,12 +10,12 @@
 
 int main(int argc, char** argv) {
   using namespace lararium;
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: make_room_map FILE\n");
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: make_room_map FILE [POINTS]\n");
     return 2;
   }
   test::SyntheticWorldOptions options;
-  options.points = 1500;
+  options.points = argc > 2 ? std::atoi(argv[2]) : 1500;
   test::SyntheticWorld world = test::MakeSyntheticWorld(options);
   Random random(9);
   for (size_t i = 0; i < world.points.size(); ++i) {

@@ -1,0 +1,72 @@
+#pragma once
+
+// A drama played through without being drawn: what its script makes people do, for the
+// timeline to show.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "editor/app/project.h"
+#include "shared/core/progress.h"
+#include "shared/core/status.h"
+#include "shared/drama/drama.h"
+#include "shared/human/face.h"
+
+namespace lararium::app {
+
+// What a drama can name, for whoever writes it.
+struct StageWords {
+  struct Timed {
+    std::string name;
+    double seconds = 0.0;
+  };
+  struct Person {
+    std::string name;
+    std::vector<Timed> clips;
+  };
+  struct Thing {
+    std::string name;
+    std::vector<std::string> actions;
+    std::vector<std::string> surfaces;
+    bool burns = false;  // it has a light
+  };
+  // A line as it is spoken in the first language.
+  struct Line {
+    static constexpr double kPeaksPerSecond = 100.0;
+
+    std::string name;
+    double seconds = 0.0;
+    std::vector<uint8_t> peaks;  // of the sound, 255 is full scale; empty: there is none
+    std::vector<human::VisemeTrack::Key> visemes;
+  };
+  std::vector<Person> people;
+  std::vector<Thing> things;
+  std::vector<Line> lines;
+  std::vector<std::string> sounds;
+
+  const Person* FindPerson(std::string_view name) const;
+  const Thing* FindThing(std::string_view name) const;
+  // 0: not known.
+  double ClipSeconds(std::string_view person, std::string_view clip) const;
+  const Line* FindLine(std::string_view name) const;
+};
+
+struct DramaRun {
+  std::vector<drama::TaskRecord> tasks;  // in the order of their beginnings
+  std::vector<std::string> problems;     // "drama.lua:12: ...": what failed, each once
+  double seconds = 0.0;                  // that were played
+  double last = 0.0;                     // when the last task ended
+  StageWords words;
+};
+
+// Plays a script on the stage of a project. Fails where the stage lacks something, or the
+// script does not compile, or it was cancelled.
+Result<DramaRun> RunDrama(const ProjectPaths& paths,
+                          const ProjectDocument& document,
+                          const std::string& script,
+                          double seconds,
+                          Progress& progress);
+
+}  // namespace lararium::app

@@ -1,0 +1,383 @@
+#include "editor/panels/timeline_inspector.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/timeline_draw.h"
+#include "editor/panels/timeline_maths.h"
+#include "editor/panels/timeline_rows.h"
+#include "editor/panels/widgets.h"
+#include "shared/human/face.h"
+
+namespace lararium::panels {
+
+using drama::LaneKind;
+using drama::TimelineItem;
+
+namespace {
+
+// One item while it is shown: its fields as they are now.
+struct Item {
+  app::Workspace& workspace;
+  TimelineItem at;
+  LaneKind kind = LaneKind::kMarkers;
+  std::string actor;
+  std::vector<drama::TimelineField> fields = {};
+
+  const Json* Find(const std::string& key) const {
+    const auto found = std::find_if(fields.rbegin(), fields.rend(),
+                                    [&](const auto& field) { return field.key == key; });
+    return found == fields.rend() ? nullptr : &found->value;
+  }
+  std::string TextOr(const std::string& key, const std::string& otherwise) const {
+    const Json* value = Find(key);
+    return value != nullptr && value->is_string() ? value->get<std::string>() : otherwise;
+  }
+  double NumberOr(const std::string& key, double otherwise) const {
+    const Json* value = Find(key);
+    return value != nullptr && value->is_number() ? value->get<double>() : otherwise;
+  }
+  void Set(const std::string& key, const Json& value) {
+    workspace.EditTimeline(
+        Text(Tr("set %s"), key.c_str()),
+        [&](drama::TimelineText& text) { return text.Set(at, key, value).status(); },
+        "timeline field " + key + std::to_string(at.lane) + "." + std::to_string(at.item));
+  }
+  void Unset(const std::string& key) {
+    workspace.EditTimeline(Text(Tr("clear %s"), key.c_str()),
+                           [&](drama::TimelineText& text) { return text.Unset(at, key).status(); });
+  }
+};
+
+void NumberField(Item& item,
+                 const char* label,
+                 const std::string& key,
+                 double otherwise,
+                 double speed,
+                 double min,
+                 double max,
+                 const char* format) {
+  double value = item.NumberOr(key, otherwise);
+  if (NumberProperty(item.workspace, label, value, speed, min, max, format)) {
+    item.Set(key, std::round(value * 1000.0) / 1000.0);
+  }
+}
+
+void TextField(Item& item, const char* label, const std::string& key) {
+  PropertyLabel(label);
+  std::string value = item.TextOr(key, "");
+  ImGui::PushID(key.c_str());
+  if (ImGui::InputText("##text", &value)) {
+    if (value.empty()) {
+      item.Unset(key);
+    } else {
+      item.Set(key, value);
+    }
+  }
+  EndGestureWithItem(item.workspace);
+  ImGui::PopID();
+}
+
+// One of some names, or any other text where none is known.
+void NameField(Item& item,
+               const char* label,
+               const std::string& key,
+               std::vector<std::string> names,
+               const char* none) {
+  const std::string value = item.TextOr(key, "");
+  if (names.empty()) {
+    TextField(item, label, key);
+    return;
+  }
+  PropertyLabel(label);
+  std::string chosen = value;
+  if (NameCombo(("##" + key).c_str(), chosen, names, none)) {
+    if (chosen.empty()) {
+      item.Unset(key);
+    } else {
+      item.Set(key, chosen);
+    }
+    item.workspace.EndGesture();
+  }
+}
+
+void BoolField(Item& item, const char* label, const std::string& key) {
+  const Json* value = item.Find(key);
+  bool on = value != nullptr && value->is_boolean() && value->get<bool>();
+  PropertyLabel(label);
+  ImGui::PushID(key.c_str());
+  if (ImGui::Checkbox("##on", &on)) {
+    if (on) {
+      item.Set(key, true);
+    } else {
+      item.Unset(key);
+    }
+    item.workspace.EndGesture();
+  }
+  ImGui::PopID();
+}
+
+// A point on the floor, {x =, z =, heading =}.
+void PointField(Item& item, const char* label, const std::string& key) {
+  const Json* value = item.Find(key);
+  Json point = value != nullptr && value->is_object() ? *value : Json::object();
+  PropertyLabel(label);
+  ImGui::PushID(key.c_str());
+  if (point.empty()) {
+    if (ImGui::Button(Tr("Set"))) {
+      item.Set(key, {{"x", 0.0}, {"z", 0.0}});
+      item.workspace.EndGesture();
+    }
+    ImGui::PopID();
+    return;
+  }
+  std::array<double, 2> place = {point.value("x", 0.0), point.value("z", 0.0)};
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - Px(8));
+  if (ImGui::DragScalarN("##place", ImGuiDataType_Double, place.data(), 2, 0.01f, nullptr, nullptr,
+                         "%.2f m")) {
+    point["x"] = std::round(place[0] * 1000.0) / 1000.0;
+    point["z"] = std::round(place[1] * 1000.0) / 1000.0;
+    item.Set(key, point);
+  }
+  EndGestureWithItem(item.workspace);
+  ImGui::SameLine();
+  if (ImGui::Button("\xc3\x97", ImVec2(ImGui::GetFrameHeight(), 0))) {
+    item.Unset(key);
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", Tr("Without it"));
+  }
+  double heading = point.value("heading", 0.0);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::DragScalar("##heading", ImGuiDataType_Double, &heading, 1.0f, nullptr, nullptr,
+                        "%.0f\xc2\xb0")) {
+    point["heading"] = std::round(heading * 10.0) / 10.0;
+    item.Set(key, point);
+  }
+  EndGestureWithItem(item.workspace);
+  ImGui::PopID();
+}
+
+const app::StageWords* WordsOf(const app::Workspace& workspace) {
+  return workspace.drama_run() != nullptr ? &workspace.drama_run()->words : nullptr;
+}
+
+template <typename List>
+std::vector<std::string> Names(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& entry : list) {
+    names.push_back(entry.name);
+  }
+  return names;
+}
+
+std::vector<std::string> ExpressionNames() {
+  std::vector<std::string> names;
+  for (int i = 0; i < human::kExpressionCount; ++i) {
+    names.emplace_back(human::NameOf(static_cast<human::Expression>(i)));
+  }
+  return names;
+}
+
+std::vector<std::string> ClipNames(const Item& item) {
+  const app::StageWords* words = WordsOf(item.workspace);
+  const app::StageWords::Person* person =
+      words != nullptr ? words->FindPerson(item.actor) : nullptr;
+  return person != nullptr ? Names(person->clips) : std::vector<std::string>();
+}
+
+std::vector<std::string> ThingNames(const app::Workspace& workspace, bool burning) {
+  std::vector<std::string> names;
+  if (const app::StageWords* words = WordsOf(workspace)) {
+    for (const app::StageWords::Thing& thing : words->things) {
+      if (!burning || thing.burns) {
+        names.push_back(thing.name);
+      }
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> PeopleNames(const app::Workspace& workspace) {
+  return Names(workspace.document().cast);
+}
+
+std::vector<std::string> TargetNames(const app::Workspace& workspace) {
+  std::vector<std::string> names = {"visitor"};
+  for (const std::string& name : PeopleNames(workspace)) {
+    names.push_back(name);
+  }
+  for (const std::string& name : ThingNames(workspace, false)) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+void UseFields(Item& item) {
+  const app::StageWords* words = WordsOf(item.workspace);
+  NameField(item, Tr("Object"), "object", ThingNames(item.workspace, false), nullptr);
+  std::vector<std::string> actions;
+  const app::StageWords::Thing* thing =
+      words != nullptr ? words->FindThing(item.TextOr("object", "")) : nullptr;
+  if (thing != nullptr) {
+    actions = thing->actions;
+    actions.insert(actions.end(), {"take", "put", "give", "stand"});
+  }
+  NameField(item, Tr("Action"), "action", actions, nullptr);
+  const std::string action = item.TextOr("action", "");
+  if (action == "put") {
+    NameField(item, Tr("On"), "on", ThingNames(item.workspace, false), Tr("The floor"));
+    const app::StageWords::Thing* on =
+        words != nullptr ? words->FindThing(item.TextOr("on", "")) : nullptr;
+    NameField(item, Tr("Surface"), "surface",
+              on != nullptr ? on->surfaces : std::vector<std::string>(), Tr("Any"));
+    if (on == nullptr) {
+      PointField(item, Tr("To"), "to");
+    }
+  } else if (action == "give") {
+    NameField(item, Tr("To whom"), "partner", PeopleNames(item.workspace), nullptr);
+  }
+}
+
+void FieldsOfKind(Item& item) {
+  const app::StageWords* words = WordsOf(item.workspace);
+  switch (item.kind) {
+    case LaneKind::kSpeech:
+      NameField(item, Tr("Line"), "line",
+                words != nullptr ? Names(words->lines) : std::vector<std::string>(), nullptr);
+      break;
+    case LaneKind::kGestures:
+      NameField(item, Tr("Clip"), "clip", ClipNames(item), nullptr);
+      NameField(item, Tr("Part"), "part", {"upper", "arms", "head", "whole"}, Tr("Upper body"));
+      break;
+    case LaneKind::kWalks:
+      PointField(item, Tr("To"), "to");
+      PointField(item, Tr("Appears at"), "from");
+      NumberField(item, Tr("Speed"), "speed", 1.2, 0.01, 0.1, 10.0, "%.2f m/s");
+      BoolField(item, Tr("Hides"), "hide");
+      break;
+    case LaneKind::kUses:
+      UseFields(item);
+      break;
+    case LaneKind::kGaze:
+      NameField(item, Tr("At"), "target", TargetNames(item.workspace), nullptr);
+      break;
+    case LaneKind::kExpressions:
+      NameField(item, Tr("Expression"), "expression", ExpressionNames(), nullptr);
+      NumberField(item, Tr("Intensity"), "intensity", 1.0, 0.01, 0.0, 1.0, "%.2f");
+      NumberField(item, Tr("Fade"), "fade", 0.4, 0.01, 0.0, 100.0, "%.2f s");
+      break;
+    case LaneKind::kClips:
+      NameField(item, Tr("Clip"), "clip", ClipNames(item), nullptr);
+      PointField(item, Tr("From"), "from");
+      PointField(item, Tr("To"), "to");
+      NumberField(item, Tr("Fade"), "fade", 0.3, 0.01, 0.0, 100.0, "%.2f s");
+      NameField(item, Tr("Easing"), "ease", {"linear", "in", "out", "smooth"}, Tr("Even"));
+      break;
+    case LaneKind::kLights:
+      NameField(item, Tr("Light"), "light", ThingNames(item.workspace, true), nullptr);
+      NumberField(item, Tr("Level"), "level", 1.0, 0.01, 0.0, 100.0, "%.2f");
+      NumberField(item, Tr("Fades in"), "seconds", 0.0, 0.01, 0.0, 3600.0, "%.2f s");
+      break;
+    case LaneKind::kSounds:
+      NameField(item, Tr("Sound"), "sound",
+                words != nullptr ? words->sounds : std::vector<std::string>(), nullptr);
+      NumberField(item, Tr("Gain"), "gain", 0.0, 0.1, -60.0, 20.0, "%.1f dB");
+      BoolField(item, Tr("Loops"), "loop");
+      NameField(item, Tr("With actor"), "actor", PeopleNames(item.workspace), Tr("Nobody"));
+      NameField(item, Tr("At object"), "object", ThingNames(item.workspace, false), Tr("Nothing"));
+      break;
+    case LaneKind::kCaptions:
+    case LaneKind::kMarkers:
+      TextField(item, Tr("Name"), "name");
+      break;
+  }
+}
+
+void ShowItem(app::Workspace& workspace, EditorState& state, const TimelineItem& at) {
+  const drama::TimelineText& text = *workspace.script().timeline();
+  const drama::TimelineLane& lane = text.lanes()[at.lane];
+  Item item{workspace, at, lane.kind, lane.actor, text.Fields(at)};
+  Heading(ItemTitle(lane.kind));
+  if (!lane.actor.empty()) {
+    ImGui::SameLine();
+    DimText(lane.actor);
+  }
+  if (BeginProperties("item", 84.0f)) {
+    NumberField(item, Tr("Begins"), "at", 0.0, 0.02, 0.0, 1e6, "%.3f s");
+    NumberField(item, Tr("Lasts"), "length", 0.0, 0.02, 0.0, 1e6,
+                item.Find("length") != nullptr ? "%.3f s" : Tr("as long as it takes"));
+    FieldsOfKind(item);
+    TextField(item, Tr("Id"), "id");
+    EndProperties();
+  }
+  const size_t line =
+      workspace.script().timeline() != nullptr ? workspace.script().timeline()->LineOf(at) : 0;
+  if (line > 0 && ImGui::Button(Text(Tr("Show line %zu of the script"), line).c_str())) {
+    state.script_line = static_cast<int>(line);
+    state.bottom = BottomTab::kScript;
+  }
+}
+
+void ShowBlock(app::Workspace& workspace, EditorState& state, const drama::TaskRecord& task) {
+  Heading(task.from_timeline ? Tr("As it was played") : Tr("Of the script"));
+  if (BeginProperties("block", 84.0f)) {
+    PropertyText(Tr("Who"), task.actor);
+    PropertyText(Tr("Does"), task.action + (task.object.empty() ? "" : " " + task.object));
+    PropertyText(Tr("Begins"), Text("%.2f s", task.began));
+    PropertyText(Tr("Ends"), Text("%.2f s", task.ended));
+    EndProperties();
+  }
+  if (!task.message.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, task.failed ? colour::kError : colour::kDim);
+    ImGui::TextWrapped("%s", task.message.c_str());
+    ImGui::PopStyleColor();
+  }
+  const int line = LineOfPlace(task.where, workspace.paths().Drama().filename().string());
+  if (line > 0 && ImGui::Button(Text(Tr("Show line %d of the script"), line).c_str())) {
+    state.script_line = line;
+    state.bottom = BottomTab::kScript;
+  }
+  Hint(
+      Tr("The script does this when it runs. Change it there; what is written in track{...} can "
+         "be changed here."));
+}
+
+}  // namespace
+
+void ShowTimelineInspector(app::Workspace& workspace,
+                           EditorState& state,
+                           const ItemSet& selection,
+                           std::optional<uint32_t> block) {
+  const drama::TimelineText* text = workspace.script().timeline();
+  const app::DramaRun* run = workspace.drama_run();
+  if (text == nullptr) {
+    Heading(Tr("The script cannot be read"));
+    ImGui::TextWrapped("%s", workspace.script().problem().message().c_str());
+    return;
+  }
+  if (selection.size() == 1) {
+    ShowItem(workspace, state, selection.front());
+  } else if (selection.size() > 1) {
+    const TimeSpan span = SpanOf(*text, selection);
+    Heading(TrCount("%d item", "%d items", static_cast<int>(selection.size())).c_str());
+    DimText(FormatTime(span.begin, 0.01) + " \xe2\x80\x93 " + FormatTime(span.end, 0.01));
+    Hint(
+        Tr("Drag to move them, drag an end to trim them, Delete to remove them, Ctrl+D to "
+           "duplicate them."));
+  } else if (block && run != nullptr && *block < run->tasks.size()) {
+    ShowBlock(workspace, state, run->tasks[*block]);
+  } else {
+    Hint(Tr("Choose an item to see what it says. Double-click a lane, or press A, to add one."));
+  }
+}
+
+}  // namespace lararium::panels

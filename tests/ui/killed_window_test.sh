@@ -1,0 +1,71 @@
+#!/bin/bash
+# Kills the editor's window while it is used, at random moments, and looks whether more than
+# the last edit was lost. Each round nudges the camera by keys, one edit for each press.
+#
+#   killed_window_test.sh EDITOR OUTPUT_FOLDER ROUNDS
+set -u
+editor=$1
+out=$2
+rounds=$3
+
+. "$(dirname "$0")/window.sh"
+need xvfb-run Xvfb xdotool
+on_a_display "$0" "$@"
+start_clean
+project=$out/ui.lararium
+json=$project/project.json
+
+"$editor" new "$project" > /dev/null || fail "cannot make a project"
+cat > "$json" << 'JSON'
+{"schema": 1, "title": "Test", "credits": "", "cast": [], "places": [{
+  "name": "site", "camera_nudge": [0, 0, 0], "occluders": [],
+  "adjust": {"translation": [0, 0, 0], "rotation": [1, 0, 0, 0], "scale": 1},
+  "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
+            "length_m": 1}}]}
+JSON
+
+# How many steps of 5 mm the camera was nudged in what is saved.
+steps() {
+  tr -d ' \n' < "$json" | sed -E 's/.*"camera_nudge":\[([-0-9.e]+),.*/\1/' |
+    awk '{printf "%d", $1 / 0.005 + 0.5}'
+}
+start_editor() {
+  "$editor" "$project" >> "$out/editor.log" 2>&1 &
+  pid=$!
+  wait_for 40 xdotool search --name Lararium || fail "no window"
+  xdotool mousemove 700 200
+  sleep 1
+}
+
+RANDOM=7
+known=0
+for ((round = 0; round < rounds; ++round)); do
+  start_editor
+  # The window may not have the keyboard yet: the first press is waited for.
+  pressed=0
+  presses=$((1 + RANDOM % 8))
+  for ((i = 0; i < presses; ++i)); do
+    xdotool key Right
+    pressed=$((pressed + 1))
+    sleep "0.$(printf '%02d' $((5 + RANDOM % 20)))"
+  done
+  sleep "0.$(printf '%02d' $((RANDOM % 30)))"
+  kill -KILL $pid
+  wait $pid 2> /dev/null
+  start_editor
+  xdotool key ctrl+s
+  sleep 1.5
+  kill -KILL $pid
+  wait $pid 2> /dev/null
+  now=$(steps)
+  # A press that X still held when the editor was killed was never an edit; keys that reached it
+  # and are gone would be a loss. The journal is the witness: nothing saved is ever undone.
+  [ "$now" -ge "$known" ] || fail "round $round: $known steps were safe, $now are left"
+  [ "$now" -le $((known + pressed)) ] || fail "round $round: more steps than presses"
+  [ $((known + pressed - now)) -le "${ALLOWED:-2}" ] ||
+    fail "round $round: $pressed presses after $known steps, $now are left"
+  known=$now
+done
+pid=0
+[ "$known" -gt "$rounds" ] || fail "the keys did not reach the window"
+echo "passed: $rounds kills, $known edits"
