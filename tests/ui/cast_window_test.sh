@@ -41,6 +41,7 @@ pid=$!
 wait_for 20 xdotool search --name Lararium || fail "no window"
 xdotool mousemove 700 780
 sleep 2
+xdotool key F8 sleep 1  # the messages leave the most room above
 
 # The second of the presets' pictures, which gives the name too.
 click 206 163

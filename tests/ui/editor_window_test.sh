@@ -28,6 +28,7 @@ start_editor() {
   wait_for 20 xdotool search --name Lararium || fail "no window"
   xdotool mousemove 700 780
   sleep 2
+  xdotool key F8 sleep 1  # the messages leave the most room above
 }
 
 press() { xdotool key --delay 60 "$1" && sleep 0.5; }
@@ -63,8 +64,8 @@ press ctrl+z
 press 2
 sleep 1
 import -window root "$out/around.png"
-xdotool mousemove 664 360 sleep 0.3 mousedown 1 sleep 0.3
-xdotool mousemove 664 340 sleep 0.2 mousemove 664 310 sleep 0.3 mouseup 1
+xdotool mousemove 664 344 sleep 0.3 mousedown 1 sleep 0.3
+xdotool mousemove 664 324 sleep 0.2 mousemove 664 294 sleep 0.3 mouseup 1
 sleep 0.5
 press ctrl+s
 raised() { translation "$json" | awk -F, '{exit !($1 == 0 && $2 > 0.2 && $2 < 2 && $3 == 0)}'; }
@@ -86,7 +87,7 @@ wait $pid || fail "exit code $?"
 # A crash loses nothing: the camera nudged by a key, killed, started again.
 start_editor
 press Right
-wait_for 10 test -e "$project/autosave.json" || fail "no autosave"
+wait_for 10 test -e "$project/journal" || fail "no journal"
 sleep 0.5
 kill -KILL $pid
 wait $pid 2> /dev/null
@@ -94,7 +95,7 @@ start_editor
 press ctrl+s
 nudged() { tr -d ' \n' < "$json" | grep -q '"camera_nudge":\[0.005,0.0,0.0\]'; }
 wait_for 10 nudged || fail "the edit was not recovered"
-wait_for 10 test ! -e "$project/autosave.json" || fail "the autosave stayed after saving"
+wait_for 10 test ! -e "$project/journal" || fail "the journal stayed after saving"
 press ctrl+q
 wait_for 10 bash -c "! kill -0 $pid" || fail "did not quit"
 wait $pid

@@ -35,6 +35,7 @@ start_editor() {
   wait_for 40 xdotool search --name Lararium || fail "no window"
   xdotool mousemove 700 780
   sleep 3
+  xdotool key F8 sleep 1  # the messages leave the most room above
   press l
   sleep 2
 }
