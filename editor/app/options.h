@@ -83,7 +83,7 @@ struct CheckOptions {
   std::filesystem::path project;
   double seconds = 300.0;  // of the drama that are run
   int seeks = 0;           // to random times of them afterwards, compared with what was there
-  std::vector<std::filesystem::path> visitors;  // recorded ones, besides those of the project
+  std::vector<std::filesystem::path> visitors = {};  // recorded ones, besides those of the project
 };
 
 struct LinesOptions {
@@ -203,8 +203,8 @@ struct CameraOptions {
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
-  std::optional<int> points;   // of each place at most
-  std::filesystem::path sign;  // a secret key; empty: the bundle is not signed
+  std::optional<int> points = {};   // of each place at most
+  std::filesystem::path sign = {};  // a secret key; empty: the bundle is not signed
 };
 
 struct KeyOptions {

@@ -248,7 +248,8 @@ TEST_F(MapSubcommands, ABundlesPlacesHaveNoMorePointsThanAskedFor) {
 
   const std::string before = *ReadText(out);
   CancelAtOnce cancelled;
-  EXPECT_THAT(RunExport({paths.folder, out, {}}, cancelled).message(), HasSubstr("cancelled"));
+  EXPECT_THAT(RunExport({.project = paths.folder, .out = out}, cancelled).message(),
+              HasSubstr("cancelled"));
   EXPECT_EQ(*ReadText(out), before);
 }
 
@@ -259,7 +260,9 @@ TEST_F(MapSubcommands, APlaceThatIsNotTrainedIsNamedWithItsRemedy) {
   const auto says = HasSubstr("scene.larscene: is not there; train the place \"wall\"");
   EXPECT_THAT(RunPrune({paths.folder, "", {}}, progress_).message(), says);
   EXPECT_THAT(RunExportColmap({paths.folder, folder_ / "m", ""}).message(), says);
-  EXPECT_THAT(RunExport({paths.folder, folder_ / "a.larshow", {}}, progress_).message(), says);
+  EXPECT_THAT(
+      RunExport({.project = paths.folder, .out = folder_ / "a.larshow"}, progress_).message(),
+      says);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "m"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.larshow"));
 

@@ -24,6 +24,7 @@
 #include "shared/capture/steady_camera.h"
 #include "shared/core/json.h"
 #include "shared/core/random.h"
+#include "shared/render/graphics_context.h"
 #include "shared/show/frame_pipeline.h"
 #include "shared/show/show_renderer.h"
 #include "shared/vision/pose_smoother.h"
