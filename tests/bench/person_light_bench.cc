@@ -78,14 +78,31 @@ human::Human LitHuman(int divisor) {
   return human;
 }
 
-// Argument: of how many vertices one is drawn.
+// A turn of everything about somewhere near by, as of a limb in so many frames.
+std::vector<glm::mat4> Moved(const std::vector<glm::mat4>& skin, float radians) {
+  std::vector<glm::mat4> moved;
+  for (size_t joint = 0; joint < skin.size(); ++joint) {
+    const glm::vec3 axis = glm::normalize(glm::vec3(1.0f, static_cast<float>(joint % 3), 0.5f));
+    moved.push_back(glm::rotate(skin[joint], radians, axis));
+  }
+  return moved;
+}
+
+// Arguments: of how many vertices one is drawn; milliradians by which limbs and body turn from
+// one frame to the next (20: walking, 1: somebody who stands).
 void BenchStageLight(benchmark::State& bench) {
   const auto human =
       std::make_shared<const human::Human>(LitHuman(static_cast<int>(bench.range(0))));
   const std::vector<std::shared_ptr<const human::Human>> cast(kPeople, human);
   StageLight stage_light(cast);
-  const std::vector<glm::mat4> skin =
+  const std::vector<glm::mat4> pose =
       human::SkinOfPose(human->skeleton, human->light.key_poses.back());
+  // To and fro over sixteen frames.
+  const float step = 0.001f * static_cast<float>(bench.range(1));
+  std::vector<std::vector<glm::mat4>> skins;
+  for (int i = 0; i < 16; ++i) {
+    skins.push_back(Moved(pose, step * static_cast<float>(i < 8 ? i : 16 - i)));
+  }
   std::vector<std::vector<glm::vec3>> irradiance(kPeople, std::vector<glm::vec3>(kVertices));
   light::ShRgb light;
   Random random(55);
@@ -95,17 +112,24 @@ void BenchStageLight(benchmark::State& bench) {
   std::vector<LitActor> actors;
   for (size_t i = 0; i < kPeople; ++i) {
     const glm::vec3 place(static_cast<float>(i % 3), 0.0f, static_cast<float>(i / 3));
-    actors.push_back({static_cast<uint32_t>(i), &light, skin,
+    actors.push_back({static_cast<uint32_t>(i), &light, skins[0],
                       glm::translate(glm::mat4(1.0f), place), irradiance[i], kCoarse});
   }
   const ThreadLimit one_core(1);
+  size_t frame = 0;
   for (auto _ : bench) {
+    ++frame;
+    for (LitActor& actor : actors) {
+      actor.skin = skins[frame % skins.size()];
+      const float turn = frame / 32 % 2 == 0 ? step : -step;
+      actor.stage_from_actor = glm::rotate(actor.stage_from_actor, turn, glm::vec3(0, 1, 0));
+    }
     stage_light.Pose(actors);
     stage_light.Light({}, actors);
     benchmark::DoNotOptimize(irradiance.data());
   }
 }
-BENCHMARK(BenchStageLight)->Arg(1)->Arg(4)->Arg(16)->Arg(400)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BenchStageLight)->ArgsProduct({{1, 2, 4, 400}, {20, 1}})->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace lararium::show
