@@ -1,12 +1,14 @@
 #include "editor/app/paradata.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "editor/app/lines.h"
 #include "editor/app/sounds.h"
+#include "editor/bake/caption_font.h"
 #include "shared/core/file.h"
 #include "shared/drama/timeline_text.h"
 
@@ -135,6 +137,30 @@ void CheckSources(const std::string& place,
   }
 }
 
+// Letters that captions are not drawn with.
+void CheckLetters(const std::string& place,
+                  const stage::Paradata& paradata,
+                  ParadataReport& report) {
+  std::set<uint32_t> characters;
+  for (const stage::Paradata::Claims& claims : paradata.claims) {
+    for (const auto& [name, claim] : claims) {
+      for (const auto& [language, text] : claim.text) {
+        bake::AddCharacters(text, characters);
+      }
+    }
+  }
+  const auto missing = bake::MissingCharacters(bake::CaptionFontFile(), characters);
+  if (!missing.ok()) {
+    report.problems.push_back(missing.message());
+    return;
+  }
+  for (const uint32_t character : *missing) {
+    char code[16];
+    std::snprintf(code, sizeof(code), "U+%04X", character);
+    report.problems.push_back(place + ": the captions' font has no character " + code);
+  }
+}
+
 // Languages of captions in which visitors cannot read what is known of people and things.
 void CheckTexts(const std::string& place,
                 const std::vector<std::string>& captions,
@@ -222,10 +248,7 @@ ParadataReport CheckParadata(const ProjectPaths& paths, const ProjectDocument& d
     CheckTexts(place, lines->captions, *paradata, report);
   }
   if (!paradata->empty()) {
-    const auto font = MakeCaptionFont({}, *paradata, report.problems);
-    if (!font.ok()) {
-      report.problems.push_back(font.message());
-    }
+    CheckLetters(place, *paradata, report);
   }
   return report;
 }

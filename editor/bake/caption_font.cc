@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -177,6 +178,15 @@ std::set<uint32_t> CommonCharacters() {
   }
   AddCharacters("←→–—‘’“”«»…¡¿", characters);
   return characters;
+}
+
+Result<std::vector<uint32_t>> MissingCharacters(const std::filesystem::path& file,
+                                                const std::set<uint32_t>& characters) {
+  LARARIUM_ASSIGN_OR_RETURN(const Face face, Face::Open(file));
+  std::vector<uint32_t> missing;
+  std::copy_if(characters.begin(), characters.end(), std::back_inserter(missing),
+               [&](uint32_t character) { return FT_Get_Char_Index(face.get(), character) == 0; });
+  return missing;
 }
 
 Result<CaptionFontBake> BakeCaptionFont(const std::filesystem::path& file,

@@ -30,6 +30,10 @@ Result<FontCredits> ReadFontCredits(const std::filesystem::path& file);
 void AddCharacters(std::string_view text, std::set<uint32_t>& characters);
 std::set<uint32_t> CommonCharacters();
 
+// Characters that a font has not; draws nothing.
+Result<std::vector<uint32_t>> MissingCharacters(const std::filesystem::path& file,
+                                                const std::set<uint32_t>& characters);
+
 struct CaptionFontBake {
   render::CaptionFont font;
   std::vector<uint32_t> missing;  // characters that the font has not
