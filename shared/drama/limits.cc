@@ -1,5 +1,6 @@
 #include "shared/drama/limits.h"
 
+#include <bit>
 #include <cstdlib>
 #include <lua.hpp>
 
@@ -8,8 +9,24 @@ namespace {
 
 constexpr char kTooLong[] = "ran too long without waiting (an endless loop?)";
 constexpr char kTooMuchMemory[] = "needs more memory than a script may have";
+constexpr char kTooDeep[] = "calls functions in functions too deeply (stack overflow)";
 constexpr char kTextTooLong[] = "made a text longer than 64 KiB";
 constexpr size_t kBytesPerInstruction = 64;
+
+// Lua's stacks: slots of 16 bytes, 40 at first and twice as many each time, five spare ones
+// (ldo.c). Nothing else that Lua keeps has such sizes: those are powers of two, or small.
+constexpr size_t kSlotBytes = 16;
+constexpr size_t kFirstSlots = 40;
+constexpr size_t kSpareSlots = 5;
+// Lua would go on to a million. A table that is its own __call shifts the whole stack for each
+// slot and runs no instruction meanwhile: minutes, at a million.
+constexpr size_t kMaxSlots = 12'000;
+
+bool IsTooLargeStack(size_t new_size) {
+  const size_t slots = new_size / kSlotBytes - kSpareSlots;
+  return new_size > (kMaxSlots + kSpareSlots) * kSlotBytes && new_size % kSlotBytes == 0 &&
+         slots % kFirstSlots == 0 && std::has_single_bit(slots / kFirstSlots);
+}
 
 }  // namespace
 
@@ -72,6 +89,10 @@ void* Limits::Allocate(void* self, void* block, size_t old_size, size_t new_size
     return nullptr;
   }
   if (new_size > held && !limits.MayGrow(held, new_size, is_text)) {
+    return nullptr;
+  }
+  if (!is_text && new_size > held && IsTooLargeStack(new_size)) {
+    limits.tripped_ = limits.tripped() ? limits.tripped_ : kTooDeep;
     return nullptr;
   }
   void* grown = std::realloc(block, new_size);

@@ -16,6 +16,38 @@ Status TooLittleMemory() {
   return Status::Error("drama", "the limits are too low to begin with", "raise them");
 }
 
+// A table with the same fields as the one on top, whose tables' fields are copied too.
+void PushCopy(lua_State* lua, int depth) {
+  luaL_checkstack(lua, 8, "too many tables in tables");
+  lua_newtable(lua);
+  lua_pushnil(lua);
+  while (lua_next(lua, -3) != 0) {
+    if (depth > 0 && lua_istable(lua, -1)) {
+      PushCopy(lua, depth - 1);
+      lua_remove(lua, -2);
+    }
+    lua_pushvalue(lua, -2);
+    lua_insert(lua, -2);
+    lua_rawset(lua, -4);
+  }
+}
+
+// Gives the script's globals what lua/std added to its own.
+void ShareNewGlobals(lua_State* lua, int std_globals) {
+  lua_pushglobaltable(lua);
+  lua_pushnil(lua);
+  while (lua_next(lua, std_globals) != 0) {
+    lua_pushvalue(lua, -2);
+    if (lua_rawget(lua, -4) == LUA_TNIL) {
+      lua_pushvalue(lua, -3);
+      lua_pushvalue(lua, -3);
+      lua_rawset(lua, -6);
+    }
+    lua_pop(lua, 2);
+  }
+  lua_pop(lua, 1);
+}
+
 }  // namespace
 
 Run::Run(std::unique_ptr<Sandbox> sandbox,
@@ -113,9 +145,15 @@ void Run::StartMain() {
 Status Run::LoadStd() {
   // One table for all of lua/std, whose files hand each other functions in it.
   constexpr const char* kHost = "lararium.host";
+  // What lua/std calls is not the script's to change: it has globals of its own.
+  constexpr const char* kGlobals = "lararium.std";
   const bool made = Protected(sandbox_->lua(), [&](lua_State* lua) {
     PushHost(lua);
     lua_setfield(lua, LUA_REGISTRYINDEX, kHost);
+    lua_pushglobaltable(lua);
+    PushCopy(lua, 1);
+    lua_setfield(lua, LUA_REGISTRYINDEX, kGlobals);
+    lua_pop(lua, 1);
   });
   if (!made) {
     return TooLittleMemory();
@@ -125,13 +163,20 @@ Status Run::LoadStd() {
     const bool done = Protected(sandbox_->lua(), [&](lua_State* lua) {
       status = sandbox_->Compile(script.text, "std/" + std::string(script.name));
       if (status.ok()) {
+        lua_getfield(lua, LUA_REGISTRYINDEX, kGlobals);
+        lua_setupvalue(lua, -2, 1);
         lua_getfield(lua, LUA_REGISTRYINDEX, kHost);
         lua_call(lua, 1, 0);
       }
     });
     LARARIUM_RETURN_IF_ERROR(done ? status : TooLittleMemory());
   }
-  return Status();
+  const bool shared = Protected(sandbox_->lua(), [&](lua_State* lua) {
+    lua_getfield(lua, LUA_REGISTRYINDEX, kGlobals);
+    ShareNewGlobals(lua, lua_gettop(lua));
+    lua_pop(lua, 1);
+  });
+  return shared ? Status() : TooLittleMemory();
 }
 
 void Run::ApplyTracks() {

@@ -143,9 +143,9 @@ class PersonLight {
   std::vector<float> pose_weights_;  // [slot][light::kMaxKeyPoses]
   light::ReceiverLight receiver_light_;
   std::shared_ptr<const UnpackedLight> transfers_;  // of each mesh
-  bool leapt_ = true;                   // since the last Update
-  int poses_ = 0;                       // likewise
-  bool second_half_ = false;            // of the receivers is next
+  bool leapt_ = true;                               // since the last Update
+  int poses_ = 0;                                   // likewise
+  bool second_half_ = false;                        // of the receivers is next
   std::array<float, 25> seen_light_{};  // of the last Update: its mean with each basis function
   // What vertices were lit by, and whether that is new.
   light::ReceiverLight used_light_;

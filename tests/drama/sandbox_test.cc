@@ -264,11 +264,13 @@ const Attack kAttacks[] = {
      "local m = {} m.__concat = function(a, b) return a .. b end\n"
      "local t = setmetatable({}, m) return t .. t",
      "stack overflow"},
-    {"CallOfItself", "local t = {} setmetatable(t, {__call = t}) t()", "call"},
+    {"CallOfItself", "local t = {} setmetatable(t, {__call = t}) t()", "stack overflow"},
+    {"CallOfItselfAgain",
+     "local t = {} setmetatable(t, {__call = t}) for i = 1, 1e9 do pcall(t) end", "stack overflow"},
     {"ErrorWhileClosing",
      "local x <close> = setmetatable({}, {__close = function() error('second') end})\n"
      "error('first')",
-     "second"},
+     "first"},
     {"ErrorWhoseTextFails", "error(setmetatable({}, {__tostring = function() error('again') end}))",
      "error object is a table"},
     {"ErrorOfNothing", "error()", "error object is a nil"},
@@ -314,7 +316,7 @@ const Attack kAttacks[] = {
     {"StolenMetatable",
      "local real, stolen = setmetatable, nil\n"
      "setmetatable = function(t, m) stolen = m or stolen return real(t, m) end\n"
-     "actor('keeper'):turn_to(90)\n"
+     "local keeper = actor('keeper') keeper:place{x = 0} keeper:turn_to(90)\n"
      "if stolen and stolen.__close then stolen.__close({task = 1 << 62}) end",
      ""},
     {"NoFieldsOfTexts", "local s = 'x' s.y = 1", "attempt to index"},
