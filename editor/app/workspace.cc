@@ -1,5 +1,7 @@
 #include "editor/app/workspace.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -19,11 +21,15 @@ namespace {
 
 constexpr size_t kMaxMessages = 200;
 
-// Modification time as text; changes when the file does.
+// Changes when the file does: its time alone stands still for a few milliseconds at a time, but
+// whoever writes a file anew gives it another number.
 std::string FileStamp(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file, error);
-  return error ? "none" : std::to_string(time.time_since_epoch().count());
+  struct ::stat found = {};
+  if (::stat(file.c_str(), &found) != 0) {
+    return "none";
+  }
+  return std::to_string(found.st_mtim.tv_sec) + '.' + std::to_string(found.st_mtim.tv_nsec) + ' ' +
+         std::to_string(found.st_size) + ' ' + std::to_string(found.st_ino);
 }
 
 // Where people made from the presets are kept (XDG base directories).

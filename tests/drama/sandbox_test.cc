@@ -64,7 +64,7 @@ const Attack kAttacks[] = {
     {"LoopInPcall", "pcall(function() while true do end end)", kTooLong},
     {"LoopAroundPcall", "while true do pcall(function() while true do end end) end", kTooLong},
     {"NestedPcalls", "local function f() while true do pcall(f) end end while true do pcall(f) end",
-     kTooLong},
+     "stack overflow"},
     {"PcallOfPcall", "while true do pcall(pcall, pcall, error) end", kTooLong},
     {"LoopInCoroutine",
      "while true do coroutine.resume(coroutine.create(function() while true do end end)) end",
