@@ -99,38 +99,56 @@ const StageWords::Line* StageWords::FindLine(std::string_view line) const {
   return FindNamed(lines, line);
 }
 
+Result<std::unique_ptr<StagedDrama>> StageDrama(const ProjectPaths& paths,
+                                                const ProjectDocument& document,
+                                                const std::string& spoken,
+                                                const std::string& script) {
+  auto staged = std::make_unique<StagedDrama>();
+  LARARIUM_RETURN_IF_ERROR(FillStage(paths, document, spoken, staged->stage, staged->content));
+  staged->log = MakeSilentLog();
+  LARARIUM_ASSIGN_OR_RETURN(staged->drama,
+                            drama::Drama::Create(script, paths.Drama().filename().string(),
+                                                 staged->stage, {}, *staged->log));
+  return staged;
+}
+
+Status PlayDry(drama::Drama& drama,
+               double seconds,
+               Progress& progress,
+               const std::function<void()>& after_tick) {
+  const auto ticks = static_cast<int64_t>(seconds * drama::Drama::kTicksPerSecond);
+  for (int64_t tick = 0; tick < ticks; ++tick) {
+    drama.Tick();
+    after_tick();
+    progress.Report("running the drama",
+                    static_cast<double>(tick + 1) / static_cast<double>(ticks));
+    if (progress.Cancelled()) {
+      return Status::Error("the dry run", "was cancelled");
+    }
+  }
+  return Status();
+}
+
 Result<DramaRun> RunDrama(const ProjectPaths& paths,
                           const ProjectDocument& document,
+                          const std::string& spoken,
                           const std::string& script,
                           double seconds,
                           Progress& progress) {
-  stage::Stage stage;
-  show::ShowContent content;
-  LARARIUM_RETURN_IF_ERROR(FillStage(paths, document, "", stage, content));
-  const std::shared_ptr<Log> silent = MakeSilentLog();
-  LARARIUM_ASSIGN_OR_RETURN(
-      const auto drama,
-      drama::Drama::Create(script, paths.Drama().filename().string(), stage, {}, *silent));
-  const auto ticks = static_cast<int64_t>(seconds * drama::Drama::kTicksPerSecond);
-  for (int64_t tick = 0; tick < ticks; ++tick) {
-    drama->Tick();
-    if (progress.Cancelled()) {
-      return Status::Error(paths.Drama().string(), "the dry run was cancelled");
-    }
-    progress.Report("running the drama",
-                    static_cast<double>(tick + 1) / static_cast<double>(ticks));
-  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto staged, StageDrama(paths, document, spoken, script));
+  const drama::Drama& drama = *staged->drama;
+  LARARIUM_RETURN_IF_ERROR(PlayDry(*staged->drama, seconds, progress));
   DramaRun run;
-  run.words = WordsOf(paths, stage, content);
-  run.seconds = drama->time();
-  run.tasks.assign(drama->tasks().begin(), drama->tasks().end());
+  run.words = WordsOf(paths, staged->stage, staged->content);
+  run.seconds = drama.time();
+  run.tasks.assign(drama.tasks().begin(), drama.tasks().end());
   std::stable_sort(run.tasks.begin(), run.tasks.end(),
                    [](const auto& a, const auto& b) { return a.began < b.began; });
   for (const drama::TaskRecord& task : run.tasks) {
     run.last = std::max(run.last, task.ended);
   }
   std::set<std::string> told;
-  for (const drama::ScriptError& error : drama->errors()) {
+  for (const drama::ScriptError& error : drama.errors()) {
     if (told.insert(error.message).second) {
       run.problems.push_back(error.message);
     }

@@ -4,15 +4,20 @@
 // timeline to show.
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "editor/app/project.h"
+#include "shared/core/log.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/drama/drama.h"
 #include "shared/human/face.h"
+#include "shared/show/show_content.h"
+#include "shared/stage/stage.h"
 
 namespace lararium::app {
 
@@ -61,10 +66,31 @@ struct DramaRun {
   StageWords words;
 };
 
-// Plays a script on the stage of a project. Fails where the stage lacks something, or the
-// script does not compile, or it was cancelled.
+// A script at its beginning on the stage of a project.
+struct StagedDrama {
+  stage::Stage stage;
+  show::ShowContent content;
+  std::shared_ptr<Log> log;
+  std::unique_ptr<drama::Drama> drama;
+};
+
+// spoken: the language, "" is the project's first. Fails where the stage lacks something, or the
+// script does not compile.
+Result<std::unique_ptr<StagedDrama>> StageDrama(const ProjectPaths& paths,
+                                                const ProjectDocument& document,
+                                                const std::string& spoken,
+                                                const std::string& script);
+
+// Ticks for so long. Fails only where it is cancelled.
+Status PlayDry(drama::Drama& drama,
+               double seconds,
+               Progress& progress,
+               const std::function<void()>& after_tick = [] {});
+
+// Stages a drama and plays it.
 Result<DramaRun> RunDrama(const ProjectPaths& paths,
                           const ProjectDocument& document,
+                          const std::string& spoken,
                           const std::string& script,
                           double seconds,
                           Progress& progress);

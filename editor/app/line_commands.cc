@@ -5,13 +5,13 @@
 #include <map>
 #include <utility>
 
+#include "editor/app/drama_run.h"
 #include "editor/app/line_checks.h"
 #include "editor/app/lines.h"
 #include "editor/app/project.h"
 #include "editor/bake/caption_file.h"
 #include "shared/core/file.h"
-#include "shared/drama/drama.h"
-#include "shared/stage/stage.h"
+#include "shared/stage/caption_file.h"
 
 namespace lararium::app {
 namespace {
@@ -77,25 +77,11 @@ Result<std::vector<SaidLine>> RunForLines(const ProjectPaths& paths,
                                           const std::string& spoken,
                                           double seconds,
                                           Progress& progress) {
-  stage::Stage stage;
-  show::ShowContent content;
-  LARARIUM_RETURN_IF_ERROR(FillStage(paths, document, spoken, stage, content));
   LARARIUM_ASSIGN_OR_RETURN(const std::string script, ReadText(paths.Drama()));
-  const std::shared_ptr<Log> silent = MakeSilentLog();
-  LARARIUM_ASSIGN_OR_RETURN(
-      const auto drama,
-      drama::Drama::Create(script, paths.Drama().filename().string(), stage, {}, *silent));
-  LineListener listener(stage, content);
-  const auto ticks = static_cast<int64_t>(seconds * drama::Drama::kTicksPerSecond);
-  for (int64_t tick = 0; tick < ticks; ++tick) {
-    drama->Tick();
-    listener.Listen(drama->time());
-    progress.Report("running the drama",
-                    static_cast<double>(tick + 1) / static_cast<double>(ticks));
-    if (progress.Cancelled()) {
-      return Status::Error("captions", "cancelled");
-    }
-  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto staged, StageDrama(paths, document, spoken, script));
+  LineListener listener(staged->stage, staged->content);
+  LARARIUM_RETURN_IF_ERROR(PlayDry(*staged->drama, seconds, progress,
+                                   [&] { listener.Listen(staged->drama->time()); }));
   return listener.said();
 }
 

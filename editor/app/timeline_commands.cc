@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "editor/app/baking.h"
+#include "editor/app/drama_run.h"
 #include "editor/app/lines.h"
 #include "editor/app/project.h"
 #include "editor/app/sounds.h"
+#include "editor/app/timeline_fields.h"
 #include "editor/export/otio.h"
 #include "editor/import/bml.h"
 #include "shared/core/file.h"
 #include "shared/drama/drama.h"
 #include "shared/drama/sync_points.h"
 #include "shared/drama/timeline_text.h"
-#include "shared/stage/stage.h"
 #include "shared/stage/viseme_file.h"
 
 namespace lararium::app {
@@ -26,83 +26,20 @@ namespace {
 using drama::LaneKind;
 using exporter::TimelineBlock;
 
-// ---- what a drama did ----
-
-struct DramaRun {
-  std::vector<drama::TaskRecord> tasks;
-  std::map<std::string, double, std::less<>> line_seconds;
-  std::map<std::string, double, std::less<>> clip_seconds;  // "actor/clip"
-};
-
-Result<DramaRun> RunDrama(const ProjectPaths& paths,
-                          const ProjectDocument& document,
-                          const std::string& spoken,
-                          const std::string& script,
-                          double seconds,
-                          Progress& progress) {
-  stage::Stage stage;
-  show::ShowContent content;
-  LARARIUM_RETURN_IF_ERROR(FillStage(paths, document, spoken, stage, content));
-  const std::shared_ptr<Log> silent = MakeSilentLog();
-  LARARIUM_ASSIGN_OR_RETURN(
-      const auto drama,
-      drama::Drama::Create(script, paths.Drama().filename().string(), stage, {}, *silent));
-  const auto ticks = static_cast<int64_t>(seconds * drama::Drama::kTicksPerSecond);
-  for (int64_t tick = 0; tick < ticks; ++tick) {
-    drama->Tick();
-    progress.Report("running the drama",
-                    static_cast<double>(tick + 1) / static_cast<double>(ticks));
-    if (progress.Cancelled()) {
-      return Status::Error("timeline", "cancelled");
-    }
-  }
-  DramaRun run;
-  run.tasks.assign(drama->tasks().begin(), drama->tasks().end());
-  for (const show::Speech& speech : content.speech) {
-    run.line_seconds[speech.name] = speech.visemes.duration;
-  }
-  for (const CastDocument& member : document.cast) {
-    if (const stage::Actor* actor = stage.Find(*stage.Find(member.name))) {
-      for (const human::Clip& clip : actor->human().clips) {
-        run.clip_seconds[member.name + "/" + clip.name] = clip.duration;
-      }
-    }
-  }
-  return run;
-}
-
 // ---- the timeline ----
 
-std::string TextOf(const Json& fields, const char* key) {
-  const auto found = fields.find(key);
-  return found != fields.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
+// What an item is called in another program.
 std::string NameOfItem(LaneKind kind, const Json& fields) {
   switch (kind) {
-    case LaneKind::kSpeech:
-      return TextOf(fields, "line");
-    case LaneKind::kClips:
-    case LaneKind::kGestures:
-      return TextOf(fields, "clip");
     case LaneKind::kWalks:
       return fields.contains("to") ? "walk" : fields.contains("hide") ? "hide" : "place";
     case LaneKind::kUses:
       return TextOf(fields, "action") + " " + TextOf(fields, "object");
     case LaneKind::kGaze:
       return "look at " + TextOf(fields, "target");
-    case LaneKind::kExpressions:
-      return TextOf(fields, "expression");
-    case LaneKind::kLights:
-      return TextOf(fields, "light");
-    case LaneKind::kSounds:
-      return TextOf(fields, "sound");
-    case LaneKind::kCaptions:
-      return TextOf(fields, "name");
-    case LaneKind::kMarkers:
-      return TextOf(fields, "name");
+    default:
+      return TextOf(fields, NamingField(kind));
   }
-  return "";
 }
 
 // What somebody did by the script belongs to the lane that could have told it.
@@ -194,10 +131,9 @@ class TimelineMaker {
   }
 
   void AddVoice(const std::string& line, TimelineBlock& block) const {
-    const auto seconds = run_.line_seconds.find(line);
-    if (seconds != run_.line_seconds.end()) {
+    if (const StageWords::Line* known = run_.words.FindLine(line)) {
       block.media = paths_.Shorten(paths_.Speech(spoken_, line + ".flac"));
-      block.media_seconds = seconds->second;
+      block.media_seconds = known->seconds;
     }
   }
 
@@ -212,11 +148,10 @@ class TimelineMaker {
     }
     double length = lane.length[item];
     if (length <= 0.0 && lane.kind == LaneKind::kSpeech) {
-      const auto found = run_.line_seconds.find(TextOf(fields, "line"));
-      length = found == run_.line_seconds.end() ? 0.0 : found->second;
+      const StageWords::Line* line = run_.words.FindLine(TextOf(fields, "line"));
+      length = line == nullptr ? 0.0 : line->seconds;
     } else if (length <= 0.0 && lane.kind == LaneKind::kGestures) {
-      const auto found = run_.clip_seconds.find(lane.actor + "/" + TextOf(fields, "clip"));
-      length = found == run_.clip_seconds.end() ? 0.0 : found->second;
+      length = run_.words.ClipSeconds(lane.actor, TextOf(fields, "clip"));
     }
     return at + length;
   }

@@ -650,7 +650,7 @@ void Workspace::RunDramaAgain() {
       std::min(std::max(script_.duration() + kBehind, kShortest), drama::Drama::kMaxTime);
   const auto work = [run, paths = paths_, document = commands_.snapshot(),
                      script = script_.snapshot(), seconds](Progress& progress) {
-    LARARIUM_ASSIGN_OR_RETURN(*run, RunDrama(paths, *document, *script, seconds, progress));
+    LARARIUM_ASSIGN_OR_RETURN(*run, RunDrama(paths, *document, "", *script, seconds, progress));
     return Status();
   };
   const auto done = [this, run](const Status& status, bool cancelled) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "editor/app/timeline_fields.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/timeline_draw.h"
@@ -17,6 +18,7 @@
 
 namespace lararium::panels {
 
+using app::TextOf;
 using drama::LaneKind;
 using drama::TaskRecord;
 using drama::TimelineItem;
@@ -52,11 +54,6 @@ std::string PointText(const Json& point) {
   return Shorten(point.value("x", 0.0)) + ", " + Shorten(point.value("z", 0.0));
 }
 
-std::string TextOf(const Json& fields, const char* key) {
-  const auto found = fields.find(key);
-  return found != fields.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 // What an item says in a few words.
 std::string LabelOf(LaneKind kind, const Json& fields) {
   const auto point = [&](const char* key) {
@@ -64,19 +61,6 @@ std::string LabelOf(LaneKind kind, const Json& fields) {
     return found != fields.end() && found->is_object() ? PointText(*found) : "";
   };
   switch (kind) {
-    case LaneKind::kSpeech:
-      return TextOf(fields, "line");
-    case LaneKind::kGestures:
-      return TextOf(fields, "clip");
-    case LaneKind::kExpressions:
-      return TextOf(fields, "expression");
-    case LaneKind::kLights:
-      return TextOf(fields, "light");
-    case LaneKind::kSounds:
-      return TextOf(fields, "sound");
-    case LaneKind::kMarkers:
-    case LaneKind::kCaptions:
-      return TextOf(fields, "name");
     case LaneKind::kGaze: {
       const std::string target = TextOf(fields, "target");
       return !target.empty() ? target : point("target");
@@ -97,8 +81,9 @@ std::string LabelOf(LaneKind kind, const Json& fields) {
                                                                 : "";
       return clip.empty() || where.empty() ? clip + where : clip + " " + where;
     }
+    default:
+      return TextOf(fields, app::NamingField(kind));
   }
-  return "";
 }
 
 std::string BlockLabel(const TaskRecord& task, bool of_object) {

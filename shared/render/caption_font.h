@@ -3,6 +3,7 @@
 // The letters that captions are drawn with: an atlas of signed distances, made by the editor
 // (editor/bake/caption_font.h), so that players need no font.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -49,5 +50,15 @@ uint32_t NextCharacter(std::string_view text, size_t& at);
 
 // How wide a text is, em.
 float TextWidth(const CaptionFont& font, std::string_view text);
+
+// Visits the rows of a text, which are apart by '\n'.
+template <typename Visit>
+void ForEachRow(std::string_view text, Visit visit) {
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    visit(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
 
 }  // namespace lararium::render

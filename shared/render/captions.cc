@@ -31,15 +31,6 @@ constexpr float kRadius = 0.014f;                         // of the height: of t
 constexpr std::string_view kArrowLeft = "\xE2\x86\x90 ";  // U+2190
 constexpr std::string_view kArrowRight = " \xE2\x86\x92";  // U+2192
 
-template <typename Visit>
-void ForEachRow(std::string_view text, Visit visit) {
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    visit(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-}
-
 float NameWidth(const CaptionFont& font, const Caption& caption) {
   const float arrow = caption.side == CaptionSide::kHere   ? 0.0f
                       : caption.side == CaptionSide::kLeft ? TextWidth(font, kArrowLeft)

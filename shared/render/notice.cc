@@ -20,15 +20,6 @@ constexpr float kRadius = 0.02f;        // of the height
 constexpr float kStatusShare = 0.026f;  // of the height
 constexpr float kSmallestStatusPx = 11.0f;
 
-template <typename Visit>
-void ForEachRow(std::string_view text, Visit visit) {
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    visit(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-}
-
 }  // namespace
 
 NoticeLayout LayOut(const CaptionFont& font, const Notice& notice, int width, int height) {

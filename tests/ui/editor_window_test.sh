@@ -23,26 +23,13 @@ translation() {
 translation_is() { [ "$(translation "$json")" = "$1" ]; }
 
 start_editor() {
-  "$editor" "$project" >> "$out/editor.log" 2>&1 &
-  pid=$!
-  wait_for 20 xdotool search --name Lararium || fail "no window"
-  xdotool mousemove 700 780
+  open_window 700 780
   sleep 2
   xdotool key F8 sleep 1  # the messages leave the most room above
 }
 
-press() { xdotool key --delay 60 "$1" && sleep 0.5; }
-# Enter is read from the state of the key once a frame: hold it for a while.
-hold() { xdotool keydown "$1" && sleep 0.4 && xdotool keyup "$1" && sleep 0.2; }
 
-"$editor" new "$project" > /dev/null || fail "cannot make a project"
-cat > "$json" << 'JSON'
-{"schema": 1, "title": "Test", "credits": "", "cast": [], "places": [{
-  "name": "site", "camera_nudge": [0, 0, 0], "occluders": [],
-  "adjust": {"translation": [0, 0, 0], "rotation": [1, 0, 0, 0], "scale": 1},
-  "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
-            "length_m": 1}}]}
-JSON
+new_project_with_place
 
 # A number typed into the inspector: the X of the stage's position.
 start_editor
@@ -80,9 +67,7 @@ colours=$(identify -format %k "$out/around.png")
 [ "$colours" -gt 100 ] || fail "the screenshot is blank: $colours colours"
 
 # Quitting ends the program well.
-press ctrl+q
-wait_for 10 bash -c "! kill -0 $pid" || fail "did not quit"
-wait $pid || fail "exit code $?"
+quit
 
 # A crash loses nothing: the camera nudged by a key, killed, started again.
 start_editor
@@ -96,9 +81,7 @@ press ctrl+s
 nudged() { tr -d ' \n' < "$json" | grep -q '"camera_nudge":\[0.005,0.0,0.0\]'; }
 wait_for 10 nudged || fail "the edit was not recovered"
 wait_for 10 test ! -e "$project/journal" || fail "the journal stayed after saving"
-press ctrl+q
-wait_for 10 bash -c "! kill -0 $pid" || fail "did not quit"
-wait $pid
+quit
 
 # A map with a floor: nothing is picked, so the stage stands on it but for what
 # was moved by hand. F lays it down; undo lifts it again.
@@ -120,6 +103,5 @@ import -window root "$out/floor.png"
 press ctrl+z
 press ctrl+s
 wait_for 10 translation_is "0.0,0.5,0.0" || fail "undo of laying: $(translation "$json")"
-press ctrl+q
-wait_for 10 bash -c "! kill -0 $pid" || fail "did not quit"
+quit
 echo "passed; screenshot: $out/around.png"

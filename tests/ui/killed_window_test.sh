@@ -15,14 +15,7 @@ start_clean
 project=$out/ui.lararium
 json=$project/project.json
 
-"$editor" new "$project" > /dev/null || fail "cannot make a project"
-cat > "$json" << 'JSON'
-{"schema": 1, "title": "Test", "credits": "", "cast": [], "places": [{
-  "name": "site", "camera_nudge": [0, 0, 0], "occluders": [],
-  "adjust": {"translation": [0, 0, 0], "rotation": [1, 0, 0, 0], "scale": 1},
-  "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
-            "length_m": 1}}]}
-JSON
+new_project_with_place
 
 # How many steps of 5 mm the camera was nudged in what is saved.
 steps() {
@@ -30,10 +23,7 @@ steps() {
     awk '{printf "%d", $1 / 0.005 + 0.5}'
 }
 start_editor() {
-  "$editor" "$project" >> "$out/editor.log" 2>&1 &
-  pid=$!
-  wait_for 40 xdotool search --name Lararium || fail "no window"
-  xdotool mousemove 700 200
+  open_window 700 200
   sleep 1
 }
 

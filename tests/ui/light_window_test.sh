@@ -15,7 +15,6 @@ start_clean
 project=$out/ui.lararium
 json=$project/project.json
 
-press() { xdotool key --delay 60 "$1" && sleep 0.5; }
 # A field of the first probe, on one line.
 probe_field() {
   tr -d ' \n' < "$json" | sed -E 's/.*"probes"://' |
@@ -30,32 +29,16 @@ heading_within() {
 }
 
 start_editor() {
-  "$editor" "$project" >> "$out/editor.log" 2>&1 &
-  pid=$!
-  wait_for 40 xdotool search --name Lararium || fail "no window"
-  xdotool mousemove 700 780
+  open_window 700 780
   sleep 3
   xdotool key F8 sleep 1  # the messages leave the most room above
   press l
   sleep 2
 }
-quit() {
-  press ctrl+q
-  wait_for 20 bash -c "! kill -0 $pid" || fail "did not quit"
-  wait $pid || fail "exit code $?"
-}
 
-"$editor" new "$project" > /dev/null || fail "cannot make a project"
+new_project_with_place '{"name": "noon", "file": "probe.exr", "position": [0, 1.2, 0],
+  "hour": 12, "rotation": [1, 0, 0, 0], "scale": 1}'
 "$make_probe" "$project/probe.exr" || fail "cannot make a probe"
-cat > "$json" << 'JSON'
-{"schema": 1, "title": "Test", "credits": "", "cast": [], "places": [{
-  "name": "site", "camera_nudge": [0, 0, 0], "occluders": [],
-  "adjust": {"translation": [0, 0, 0], "rotation": [1, 0, 0, 0], "scale": 1},
-  "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
-            "length_m": 1},
-  "probes": [{"name": "noon", "file": "probe.exr", "position": [0, 1.2, 0], "hour": 12,
-              "rotation": [1, 0, 0, 0], "scale": 1}]}]}
-JSON
 
 start_editor
 import -window root "$out/panel.png"

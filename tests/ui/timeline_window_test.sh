@@ -15,14 +15,6 @@ start_clean
 project=$out/ui.lararium
 script=$project/drama.lua
 
-press() { xdotool key --delay 60 "$1" && sleep 0.5; }
-click() { xdotool mousemove "$1" "$2" sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5; }
-# drag X Y TO_X TO_Y
-drag() {
-  xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.3
-  xdotool mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)) sleep 0.3
-  xdotool mousemove "$3" "$4" sleep 0.4 mouseup 1 sleep 0.5
-}
 # script_has REGEX WHAT: saves until the script holds it.
 script_has() {
   for ((n = 0; n < 6; ++n)); do
@@ -54,10 +46,7 @@ track{actor = "keeper",
 }
 track{markers = {{at = 12, name = "noon"}}}
 LUA
-"$editor" "$project" >> "$out/editor.log" 2>&1 &
-pid=$!
-wait_for 40 xdotool search --name Lararium || fail "no window"
-xdotool mousemove 700 300
+open_window 700 300
 sleep 3
 import -window root "$out/timeline.png"
 
@@ -125,7 +114,5 @@ import -window root "$out/script.png"
 press ctrl+z
 script_has_not '^-- typed' "undo of typing"
 
-press ctrl+q
-wait_for 20 bash -c "! kill -0 $pid" || fail "did not quit"
-wait $pid || fail "exit code $?"
+quit
 echo "passed; screenshots: $out/timeline.png $out/edited.png $out/script.png"

@@ -1,5 +1,5 @@
-# What tests of the editor's window share; sourced with `out` set, before anything else
-# is done.
+# What tests of the editor's window share; sourced with `editor` and `out` set, before anything
+# else is done.
 
 # need TOOL...: skips the test where one is missing.
 need() {
@@ -45,4 +45,42 @@ wait_for() {
     sleep 0.1
   done
   return 1
+}
+
+# new_project_with_place [PROBES]: makes $project, with one place that was not trained yet.
+new_project_with_place() {
+  "$editor" new "$project" > /dev/null || fail "cannot make a project"
+  cat > "$project/project.json" << JSON
+{"schema": 1, "title": "Test", "credits": "", "cast": [], "places": [{
+  "name": "site", "camera_nudge": [0, 0, 0], "occluders": [],
+  "adjust": {"translation": [0, 0, 0], "rotation": [1, 0, 0, 0], "scale": 1},
+  "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
+            "length_m": 1},
+  "probes": [${1:-}]}]}
+JSON
+}
+
+# open_window X Y: opens $project, and rests the mouse at a place that nothing minds.
+open_window() {
+  "$editor" "$project" >> "$out/editor.log" 2>&1 &
+  pid=$!
+  wait_for 40 xdotool search --name Lararium || fail "no window"
+  xdotool mousemove "$1" "$2"
+}
+
+press() { xdotool key --delay 60 "$1" && sleep 0.5; }
+# Enter is read from the state of the key once a frame: hold it for a while.
+hold() { xdotool keydown "$1" && sleep 0.4 && xdotool keyup "$1" && sleep 0.2; }
+click() { xdotool mousemove "$1" "$2" sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5; }
+# drag X Y TO_X TO_Y
+drag() {
+  xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.3
+  xdotool mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)) sleep 0.3
+  xdotool mousemove "$3" "$4" sleep 0.4 mouseup 1 sleep 0.5
+}
+
+quit() {
+  press ctrl+q
+  wait_for 60 bash -c "! kill -0 $pid" || fail "did not quit"
+  wait $pid || fail "exit code $?"
 }

@@ -1,0 +1,44 @@
+#pragma once
+
+// What an item of a timeline says in its fields.
+
+#include <string>
+
+#include "shared/core/json.h"
+#include "shared/drama/timeline_lanes.h"
+
+namespace lararium::app {
+
+// A field's text: "" where there is none, or it is no text.
+inline std::string TextOf(const Json& fields, const char* key) {
+  const auto found = fields.find(key);
+  return found != fields.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// The field that names what an item of a lane shows or plays.
+inline const char* NamingField(drama::LaneKind kind) {
+  switch (kind) {
+    case drama::LaneKind::kClips:
+    case drama::LaneKind::kGestures:
+    case drama::LaneKind::kWalks:
+      return "clip";
+    case drama::LaneKind::kSpeech:
+      return "line";
+    case drama::LaneKind::kUses:
+      return "object";
+    case drama::LaneKind::kGaze:
+      return "target";
+    case drama::LaneKind::kExpressions:
+      return "expression";
+    case drama::LaneKind::kLights:
+      return "light";
+    case drama::LaneKind::kSounds:
+      return "sound";
+    case drama::LaneKind::kCaptions:
+    case drama::LaneKind::kMarkers:
+      return "name";
+  }
+  return "";
+}
+
+}  // namespace lararium::app
