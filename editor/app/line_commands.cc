@@ -1,10 +1,9 @@
 #include "editor/app/line_commands.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <map>
 #include <utility>
 
+#include "editor/app/caption_cues.h"
 #include "editor/app/drama_run.h"
 #include "editor/app/line_checks.h"
 #include "editor/app/lines.h"
@@ -41,37 +40,6 @@ Result<bake::LineTable> ReadTable(const std::filesystem::path& file) {
                                      : bake::ParseLinesCsv(text, file.string());
 }
 
-// The captions of all that was said. One is gone when the next begins, as readers of these
-// files show one at a time.
-std::vector<bake::FileCue> CuesOf(const std::vector<SaidLine>& said,
-                                  const stage::CaptionBook& book,
-                                  const std::string& language) {
-  std::vector<bake::FileCue> cues;
-  for (const SaidLine& line : said) {
-    const auto languages = book.lines.find(line.line);
-    const auto found = languages == book.lines.end() ? decltype(languages->second.end())()
-                                                     : languages->second.find(language);
-    if (languages == book.lines.end() || found == languages->second.end()) {
-      continue;
-    }
-    int number = 0;
-    for (const stage::CaptionCue& cue : found->second) {
-      if (line.cut && cue.begin >= line.seconds) {
-        break;
-      }
-      const double end = line.cut ? std::min(cue.end, line.seconds) : cue.end;
-      cues.push_back({line.line + "/" + std::to_string(++number), line.begin + cue.begin,
-                      line.begin + end, cue.text});
-    }
-  }
-  std::stable_sort(cues.begin(), cues.end(),
-                   [](const auto& a, const auto& b) { return a.begin < b.begin; });
-  for (size_t i = 0; i + 1 < cues.size(); ++i) {
-    cues[i].end = std::max(std::min(cues[i].end, cues[i + 1].begin), cues[i].begin + 0.001);
-  }
-  return cues;
-}
-
 Result<std::vector<SaidLine>> RunForLines(const ProjectPaths& paths,
                                           const ProjectDocument& document,
                                           const std::string& spoken,
@@ -83,45 +51,6 @@ Result<std::vector<SaidLine>> RunForLines(const ProjectPaths& paths,
   LARARIUM_RETURN_IF_ERROR(PlayDry(*staged->drama, seconds, progress,
                                    [&] { listener.Listen(staged->drama->time()); }));
   return listener.said();
-}
-
-// Which line a cue of the whole drama belongs to: of those that are being said then, or can
-// still be read, the one that began last.
-const SaidLine* FindSaid(const std::vector<SaidLine>& said, double time) {
-  constexpr double kEarly = 0.1;  // seconds that a cue may come before its line
-  constexpr double kLate = 4.0;   // and after its end
-  const SaidLine* found = nullptr;
-  for (const SaidLine& line : said) {
-    if (time >= line.begin - kEarly && time < line.begin + line.seconds + kLate &&
-        (found == nullptr || line.begin >= found->begin)) {
-      found = &line;
-    }
-  }
-  return found;
-}
-
-// The cues of each line when it is said for the first time, by its own time.
-std::map<std::string, std::vector<bake::FileCue>> CuesByLine(const std::vector<bake::FileCue>& cues,
-                                                             const std::vector<SaidLine>& said,
-                                                             std::vector<std::string>& warnings) {
-  std::map<std::string, std::vector<bake::FileCue>> lines;
-  std::map<std::string, double> first;
-  for (const SaidLine& line : said) {
-    first.emplace(line.line, line.begin);
-  }
-  for (const bake::FileCue& cue : cues) {
-    const SaidLine* line = FindSaid(said, cue.begin);
-    if (line == nullptr) {
-      char text[64];
-      std::snprintf(text, sizeof(text), "nobody speaks at %.2f s: '", cue.begin);
-      warnings.push_back(text + cue.text + "'");
-    } else if (first[line->line] == line->begin) {
-      std::vector<bake::FileCue>& own = lines[line->line];
-      const double begin = std::max(cue.begin - line->begin, own.empty() ? 0.0 : own.back().end);
-      own.push_back({"", begin, std::max(cue.end - line->begin, begin + 0.001), cue.text});
-    }
-  }
-  return lines;
 }
 
 // As captions that were placed by hand: audio/SPOKEN/LINE.LANGUAGE.srt.

@@ -23,6 +23,7 @@ inline const char* NamingField(drama::LaneKind kind) {
     case drama::LaneKind::kWalks:
       return "clip";
     case drama::LaneKind::kSpeech:
+    case drama::LaneKind::kCaptions:
       return "line";
     case drama::LaneKind::kUses:
       return "object";
@@ -34,7 +35,6 @@ inline const char* NamingField(drama::LaneKind kind) {
       return "light";
     case drama::LaneKind::kSounds:
       return "sound";
-    case drama::LaneKind::kCaptions:
     case drama::LaneKind::kMarkers:
       return "name";
   }

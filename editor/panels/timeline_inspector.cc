@@ -251,6 +251,7 @@ void FieldsOfKind(Item& item) {
   const app::StageWords* words = WordsOf(item.workspace);
   switch (item.kind) {
     case LaneKind::kSpeech:
+    case LaneKind::kCaptions:
       NameField(item, Tr("Line"), "line",
                 words != nullptr ? Names(words->lines) : std::vector<std::string>(), nullptr);
       break;
@@ -295,7 +296,6 @@ void FieldsOfKind(Item& item) {
       NameField(item, Tr("With actor"), "actor", PeopleNames(item.workspace), Tr("Nobody"));
       NameField(item, Tr("At object"), "object", ThingNames(item.workspace, false), Tr("Nothing"));
       break;
-    case LaneKind::kCaptions:
     case LaneKind::kMarkers:
       TextField(item, Tr("Name"), "name");
       break;

@@ -113,6 +113,7 @@ Json NewFields(const app::Workspace& workspace,
   };
   switch (kind) {
     case LaneKind::kSpeech:
+    case LaneKind::kCaptions:
       fields["line"] = first(words.lines, "line");
       break;
     case LaneKind::kGestures:
@@ -154,15 +155,12 @@ Json NewFields(const app::Workspace& workspace,
     case LaneKind::kSounds:
       fields["sound"] = words.sounds.empty() ? "bell" : words.sounds.front();
       break;
-    case LaneKind::kCaptions:
     case LaneKind::kMarkers:
       fields["name"] = "marker";
       break;
   }
   return fields;
 }
-
-bool IsAddable(LaneKind kind) { return kind != LaneKind::kCaptions; }  // lines bring their own
 
 // How long something that an item told took when it was played; 0: it is not known.
 double PlayedSeconds(std::span<const TaskRecord> tasks, const TimelineLane& lane, double at) {
@@ -250,12 +248,12 @@ const TimelinePanel::Face& TimelinePanel::FaceOf(const app::Workspace& workspace
     fields[field.key] = std::move(field.value);
   }
   face.label = LabelOf(lane.kind, fields);
-  face.line = lane.kind == LaneKind::kSpeech ? TextOf(fields, "line") : "";
+  face.line = TextOf(fields, "line");
   const app::DramaRun* run = workspace.drama_run();
   if (run == nullptr || lane.length[item.item] > 0.0) {
     return face;
   }
-  if (lane.kind == LaneKind::kSpeech) {
+  if (!face.line.empty()) {
     const app::StageWords::Line* line = run->words.FindLine(face.line);
     face.natural = line != nullptr ? line->seconds : 0.0;
   } else if (lane.kind == LaneKind::kGestures) {
@@ -926,8 +924,7 @@ void TimelinePanel::ShowRows(app::Workspace& workspace, EditorState& state) {
 
 void TimelinePanel::ShowKindMenu(app::Workspace& workspace, const std::string& actor) {
   for (const drama::LaneName& lane : drama::kLaneNames) {
-    if (lane.of_actor == !actor.empty() && IsAddable(lane.kind) &&
-        ImGui::MenuItem(ItemTitle(lane.kind))) {
+    if (lane.of_actor == !actor.empty() && ImGui::MenuItem(ItemTitle(lane.kind))) {
       Add(workspace, lane.kind, actor);
     }
   }

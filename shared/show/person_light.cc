@@ -43,6 +43,8 @@ constexpr float kLeap = 0.2f;
 constexpr float kRelit = 0.02f;
 // Things have no more receivers; they are lit only when something has changed.
 constexpr size_t kFew = 64;
+// In so many frames all receivers have looked anew.
+constexpr size_t kParts = 3;
 
 // One part in so many of a receiver's light is a step of eight bits; key poses differ by a third
 // of that light at most.
@@ -388,9 +390,9 @@ light::ReceiverRange PersonLight::ChooseReceivers(const light::LightMatrix& ligh
   if (!gradual) {
     return {0, count};
   }
-  const size_t middle = light::PaddedToLanes(count / 2);
-  second_half_ = !second_half_;
-  return second_half_ ? light::ReceiverRange{middle, count} : light::ReceiverRange{0, middle};
+  part_ = (part_ + 1) % kParts;
+  return {light::PaddedToLanes(count * part_ / kParts),
+          std::min(count, light::PaddedToLanes(count * (part_ + 1) / kParts))};
 }
 
 void PersonLight::FindChanged() {

@@ -62,8 +62,8 @@ class PersonLight {
 
   // The light of the stage at the receivers of the last pose. others: blockers that are
   // not the person's own, stage axes. Lamps that give next to nothing are passed over.
-  // Where all moves and changes gradually, half of a person's receivers look anew for what hides
-  // their light in each frame, in turn; the others know it as it was one frame before.
+  // Where all moves and changes gradually, a third of a person's receivers look anew for what hides
+  // their light in each frame, in turn; the others know it as it was one or two frames before.
   void Update(const light::LightMatrix& light,
               const light::Spheres& others,
               std::span<const light::Lamp> lamps);
@@ -145,7 +145,7 @@ class PersonLight {
   std::shared_ptr<const UnpackedLight> transfers_;  // of each mesh
   bool leapt_ = true;                               // since the last Update
   int poses_ = 0;                                   // likewise
-  bool second_half_ = false;                        // of the receivers is next
+  size_t part_ = 0;                                 // of the receivers that looked anew last
   std::array<float, 25> seen_light_{};  // of the last Update: its mean with each basis function
   // What vertices were lit by, and whether that is new.
   light::ReceiverLight used_light_;
