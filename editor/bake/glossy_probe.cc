@@ -129,7 +129,7 @@ light::GlossyMap PrefilterProbe(const ProbeImage& sky, const ProbePlacement& pla
     const Lobe lobe(light::RoughnessOfLayer(layer), kPi / source.height);
     ParallelFor(GlossyMap::kSize, [&](size_t row) {
       for (int column = 0; column < GlossyMap::kSize; ++column) {
-        const glm::vec3 direction = light::OctahedralDirection(column, static_cast<int>(row));
+        const glm::vec3 direction = light::GlossyDirection(column, static_cast<int>(row));
         const size_t texel =
             (static_cast<size_t>(layer) * GlossyMap::kSize + row) * GlossyMap::kSize +
             static_cast<size_t>(column);

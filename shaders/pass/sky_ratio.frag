@@ -4,6 +4,7 @@
 // Sander, "Ambient Aperture Lighting", I3D 2007), in cosines instead of angles.
 
 #include "catcher.glsl"
+#include "lamp_walls.glsl"
 #include "lamps.glsl"
 #include "octahedral.glsl"
 
@@ -161,7 +162,8 @@ vec3 LampRatio(vec3 point, vec3 normal) {
     vec3 irradiance = lamp.irradiance * LampCosine(lamp, normal);
     int shows = max(irradiance.r, max(irradiance.g, irradiance.b)) > least_lamp ? 1 : 0;
     for (int k = 0; k < shows; ++k) {
-      sum += (irradiance - least_lamp) * LampSeen(lamp, lamp_places[i], point);
+      sum += (irradiance - least_lamp) * LampSeen(lamp, lamp_places[i], point) *
+             PastWalls(i, -lamp.direction, point);
     }
   }
   vec3 sky_here = textureLod(picture_irradiance, OctahedralPosition(normal), 0.0).rgb;

@@ -17,16 +17,9 @@ Eigen::Vector3f ToEigen(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
 SoundBlockers::SoundBlockers(std::span<const stage::Occluder> occluders) {
   for (const stage::Occluder& occluder : occluders) {
-    if (!occluder.blocks_sound) {
-      continue;
+    if (occluder.blocks_sound) {
+      trees_.emplace_back(vision::Placed(occluder.mesh, occluder.stage_from_mesh));
     }
-    vision::OccluderMesh mesh;
-    for (const glm::vec3& p : occluder.mesh.positions) {
-      mesh.positions.push_back(
-          (occluder.stage_from_mesh * Eigen::Vector3d(p.x, p.y, p.z)).cast<float>());
-    }
-    mesh.indices = occluder.mesh.indices;
-    trees_.emplace_back(mesh);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "shared/core/check.h"
+#include "shared/light/octahedral.h"
 
 namespace lararium::light {
 namespace {
@@ -25,8 +26,6 @@ bool IsFinite(uint32_t texel) {
   return (texel >> 6 & 31u) != 31u && (texel >> 17 & 31u) != 31u && (texel >> 27 & 31u) != 31u;
 }
 
-float SignOf(float a) { return a < 0.0f ? -1.0f : 1.0f; }
-
 }  // namespace
 
 float RoughnessOfLayer(int layer) {
@@ -34,25 +33,13 @@ float RoughnessOfLayer(int layer) {
                    static_cast<float>(layer) / static_cast<float>(GlossyMap::kLayers - 1));
 }
 
-glm::vec3 OctahedralDirection(int column, int row) {
-  const glm::vec2 at =
-      2.0f * glm::vec2(column, row) / static_cast<float>(GlossyMap::kSize - 1) - 1.0f;
-  glm::vec3 direction(at.x, 1.0f - std::abs(at.x) - std::abs(at.y), at.y);
-  if (direction.y < 0.0f) {
-    direction.x = (1.0f - std::abs(at.y)) * SignOf(at.x);
-    direction.z = (1.0f - std::abs(at.x)) * SignOf(at.y);
-  }
-  return glm::normalize(direction);
+glm::vec3 GlossyDirection(int column, int row) {
+  return OctahedralDirection(
+      2.0f * glm::vec2(column, row) / static_cast<float>(GlossyMap::kSize - 1) - 1.0f);
 }
 
-glm::vec2 OctahedralTexel(const glm::vec3& direction) {
-  const glm::vec3 d =
-      direction / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
-  glm::vec2 at(d.x, d.z);
-  if (d.y < 0.0f) {
-    at = {(1.0f - std::abs(d.z)) * SignOf(d.x), (1.0f - std::abs(d.x)) * SignOf(d.z)};
-  }
-  return (0.5f * at + 0.5f) * static_cast<float>(GlossyMap::kSize - 1);
+glm::vec2 GlossyTexel(const glm::vec3& direction) {
+  return (0.5f * OctahedralPosition(direction) + 0.5f) * static_cast<float>(GlossyMap::kSize - 1);
 }
 
 uint32_t PackRadiance(const glm::vec3& radiance) {

@@ -35,9 +35,9 @@ struct GlossyMap {
 // From kLeastRoughness evenly to 1.
 float RoughnessOfLayer(int layer);
 // The unit direction of a texel.
-glm::vec3 OctahedralDirection(int column, int row);
+glm::vec3 GlossyDirection(int column, int row);
 // The texel of a direction, not whole: its column and row.
-glm::vec2 OctahedralTexel(const glm::vec3& direction);
+glm::vec2 GlossyTexel(const glm::vec3& direction);
 
 uint32_t PackRadiance(const glm::vec3& radiance);
 glm::vec3 UnpackRadiance(uint32_t texel);

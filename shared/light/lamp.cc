@@ -61,6 +61,13 @@ void Hide(const Lamp& lamp, const Point8& at, const glm::vec4& ball, Seen& seen)
   seen.share = between ? seen.share * (1.0f - covered) : seen.share;
 }
 
+// What the walls about a lamp leave of it.
+void HideByWalls(const Lamp& lamp, const Point8& at, size_t valid, Seen& seen) {
+  for (size_t i = 0; i < valid; ++i) {
+    seen.share[i] *= PastWalls(*lamp.walls, lamp.position, {at.x[i], at.y[i], at.z[i]});
+  }
+}
+
 struct Bounds {
   glm::vec3 centre = glm::vec3(0.0f);
   float radius = 0.0f;
@@ -127,6 +134,9 @@ void AddLamp(const Lamp& lamp,
     Seen seen = LookAt(lamp, at);
     for (size_t ball = 0; ball < hiding.count; ++ball) {
       Hide(lamp, at, hiding.balls[ball], seen);
+    }
+    if (lamp.walls != nullptr) {
+      HideByWalls(lamp, at, valid, seen);
     }
     Lanes basis[Count];
     EvaluateShBasis<Count>(seen.direction.x, seen.direction.y, seen.direction.z,

@@ -7,8 +7,10 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 
+#include "shared/light/lamp_walls.h"
 #include "shared/light/receivers.h"
 #include "shared/light/sh_rows.h"
 #include "shared/light/sun.h"
@@ -21,6 +23,8 @@ struct Lamp {
   // times its radius squared.
   glm::vec3 intensity = glm::vec3(0.0f);
   float radius = 0.05f;
+  // What of the place stands in its light; nullptr: nothing does.
+  std::shared_ptr<const LampWalls> walls = nullptr;
 };
 
 // The most that a picture has; the brightest are taken.
@@ -37,7 +41,8 @@ float ReachOf(const Lamp& lamp, float irradiance);
 // Adds the lamps' radiance to the receivers of range: rows of the count of own_log, 9, 16 or
 // 25. own_log: log visibility past what the lamps do not know of (the receivers' own body);
 // its value towards a lamp dims it. blockers: hide parts of the lamp's ball, softly, where
-// they stand between; those that touch the lamp hold it and hide nothing.
+// they stand between; those that touch the lamp hold it and hide nothing. A lamp's walls hide it
+// too.
 void AddLamps(std::span<const Lamp> lamps,
               const Points& receivers,
               const ShRows& own_log,

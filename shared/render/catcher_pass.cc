@@ -107,6 +107,7 @@ Result<CatcherPass> CatcherPass::Create() {
   AllocateSky(pass.sky_);
   AllocateSky(pass.sky_irradiance_);
   AllocateSky(pass.picture_irradiance_);
+  pass.lamp_walls_.Create();
   pass.UploadSky({}, {});
   return pass;
 }
@@ -158,6 +159,7 @@ void CatcherPass::ChooseLamps(const RenderScene& scene) {
   least_lamp_ = std::max(kLeastLampShare * std::max({sky.r, sky.g, sky.b}), 1e-4f);
   const glm::vec3 eye = geometry::ToGlm(scene.camera_from_stage->Center());
   lamps_.Choose(scene.lamps, eye, scene.far, least_lamp_);
+  lamp_walls_.Upload(lamps_.walls());
 }
 
 Box CatcherPass::ReachOfLamps(const RenderScene& scene) const {
@@ -241,6 +243,7 @@ void CatcherPass::DrawRatio(const PictureView& view) const {
   glBindTexture(GL_TEXTURE_2D, picture_irradiance_.id());
   ratio_shaders_.Set("picture_irradiance", 3);
   lamps_.Set(ratio_shaders_);
+  lamp_walls_.Bind(ratio_shaders_, 4);
   ratio_shaders_.Set("least_lamp", least_lamp_);
   ratio_shaders_.Set("cluster_count", clusters_.cluster_count());
   glBindBufferBase(GL_UNIFORM_BUFFER, kBlockerBinding, blockers_.id());

@@ -18,6 +18,7 @@
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_mesh.h"
 #include "shared/render/lamp_uniforms.h"
+#include "shared/render/lamp_wall_texture.h"
 #include "shared/render/picture_view.h"
 #include "shared/render/quality.h"
 #include "shared/render/render_scene.h"
@@ -97,6 +98,7 @@ class CatcherPass {
   GlFramebuffer caught_framebuffer_;
   PixelBounds bounds_;
   LampUniforms lamps_;
+  LampWallTexture lamp_walls_;
   float least_lamp_ = 0.0f;  // irradiance that would not be seen
   BlockerClusters clusters_;
   light::ShRgb uploaded_light_ = {};

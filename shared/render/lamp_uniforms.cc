@@ -10,11 +10,13 @@ void LampUniforms::Choose(std::span<const light::Lamp> lamps,
                           float least_irradiance) {
   places_.clear();
   intensities_.clear();
+  walls_.clear();
   for (const light::Lamp& lamp : lamps) {
     if (places_.size() < light::kMaxLamps &&
         glm::distance(lamp.position, middle) < radius + light::ReachOf(lamp, least_irradiance)) {
       places_.emplace_back(lamp.position, lamp.radius);
       intensities_.push_back(lamp.intensity);
+      walls_.push_back(lamp.walls);
     }
   }
 }

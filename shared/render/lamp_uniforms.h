@@ -4,6 +4,7 @@
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,10 +23,13 @@ class LampUniforms {
               float least_irradiance);
   // Of the program in use.
   void Set(const ShaderProgram& shaders) const;
+  // Of those that were chosen.
+  std::span<const std::shared_ptr<const light::LampWalls>> walls() const { return walls_; }
 
  private:
   std::vector<glm::vec4> places_;
   std::vector<glm::vec3> intensities_;
+  std::vector<std::shared_ptr<const light::LampWalls>> walls_;
 };
 
 }  // namespace lararium::render

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "shared/light/octahedral.h"
+
 namespace lararium::render {
 namespace {
 
@@ -25,17 +27,6 @@ float CapFactor(int degree, double cosine) {
   return static_cast<float>((before - next) / ((2 * degree + 1) * (1.0 - cosine)));
 }
 
-// Of the square's point, -1..1.
-glm::vec3 OctahedralDirection(float x, float y) {
-  const float height = 1.0f - std::abs(x) - std::abs(y);
-  if (height < 0.0f) {
-    const float folded = (1.0f - std::abs(y)) * std::copysign(1.0f, x);
-    y = (1.0f - std::abs(x)) * std::copysign(1.0f, y);
-    x = folded;
-  }
-  return glm::normalize(glm::vec3(x, height, y));
-}
-
 template <typename ValueAt>
 void FillMap(std::vector<glm::vec4>& map, const ValueAt& value) {
   map.resize(size_t{kSkyMapSize} * kSkyMapSize);
@@ -45,7 +36,7 @@ void FillMap(std::vector<glm::vec4>& map, const ValueAt& value) {
         return (2.0f * static_cast<float>(i) + 1.0f) / kSkyMapSize - 1.0f;
       };
       map[static_cast<size_t>(row * kSkyMapSize + column)] =
-          glm::vec4(value(OctahedralDirection(at(column), at(row))), 1.0f);
+          glm::vec4(value(light::OctahedralDirection({at(column), at(row)})), 1.0f);
     }
   }
 }

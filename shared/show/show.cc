@@ -69,6 +69,9 @@ Status Show::FillStage() {
                        ThingMemory(RadiusOf(object.model->prop()))});
   }
   light_.emplace(cast, light);
+  for (const ShowPlace& place : content_.places) {
+    lamp_shades_.emplace_back(place.stage.occluders);
+  }
   for (Speech& speech : content_.speech) {
     LARARIUM_RETURN_IF_ERROR(stage_.AddSpeech(speech.name, speech.visemes));
   }
@@ -468,6 +471,7 @@ void Show::StageObjects(StagedFrame& staged) {
               [](const auto& a, const auto& b) { return a.intensity.g > b.intensity.g; });
     staged.lamps.resize(light::kMaxLamps);
   }
+  lamp_shades_[staged.place].SetWalls(staged.lamps);
 }
 
 void Show::StageLines(double behind, StagedFrame& staged) const {

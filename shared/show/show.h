@@ -25,6 +25,7 @@
 #include "shared/show/body.h"
 #include "shared/show/camera_motion.h"
 #include "shared/show/gain_filter.h"
+#include "shared/show/lamp_shade.h"
 #include "shared/show/lost_guide.h"
 #include "shared/show/lost_ladder.h"
 #include "shared/show/show_content.h"
@@ -157,6 +158,7 @@ class Show {
   // places[index].
   void SetPlace(size_t index, stage::Place place) {
     sound_->SetPlace(index, place);
+    lamp_shades_[index] = LampShade(place.occluders);
     content_.places[index].stage = std::move(place);
     camera_motion_.Reset();  // poses of before mean another stage
   }
@@ -257,6 +259,7 @@ class Show {
   };
   std::vector<Visible> visible_;
   std::optional<StageLight> light_;
+  std::vector<LampShade> lamp_shades_;  // of each place
   // Of each object: its figure, as a member of light_'s cast after the people.
   struct Thing {
     std::vector<glm::mat4> skin;        // of the frame

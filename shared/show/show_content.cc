@@ -78,12 +78,7 @@ std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(std::span<const S
 std::vector<vision::OccluderMesh> OccludersInMap(const stage::Place& place) {
   std::vector<vision::OccluderMesh> meshes;
   for (const stage::Occluder& occluder : place.occluders) {
-    const geometry::Similarity3 map_from_mesh = place.map_from_stage * occluder.stage_from_mesh;
-    vision::OccluderMesh& mesh = meshes.emplace_back();
-    for (const glm::vec3& p : occluder.mesh.positions) {
-      mesh.positions.push_back((map_from_mesh * Eigen::Vector3d(p.x, p.y, p.z)).cast<float>());
-    }
-    mesh.indices = occluder.mesh.indices;
+    meshes.push_back(vision::Placed(occluder.mesh, place.map_from_stage * occluder.stage_from_mesh));
   }
   return meshes;
 }

@@ -41,7 +41,7 @@ bool SameMatrix(const glm::mat4& a, const glm::mat4& b) {
 }
 
 bool SameLamp(const light::Lamp& a, const light::Lamp& b) {
-  return glm::distance(a.position, b.position) <= kMovedNear &&
+  return glm::distance(a.position, b.position) <= kMovedNear && a.walls == b.walls &&
          glm::distance(a.intensity, b.intensity) <= kFlickered * glm::length(a.intensity);
 }
 

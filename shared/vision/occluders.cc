@@ -30,6 +30,17 @@ float EntryOf(const Vector3f& eye,
 
 }  // namespace
 
+OccluderMesh Placed(const geometry::TriangleMesh& mesh,
+                    const geometry::Similarity3& target_from_mesh) {
+  OccluderMesh placed;
+  placed.positions.reserve(mesh.positions.size());
+  for (const glm::vec3& p : mesh.positions) {
+    placed.positions.push_back((target_from_mesh * Vector3d(p.x, p.y, p.z)).cast<float>());
+  }
+  placed.indices = mesh.indices;
+  return placed;
+}
+
 OccluderTree::OccluderTree(const OccluderMesh& mesh) {
   std::vector<Triangle> triangles;
   std::vector<Vector3f> middles;
@@ -87,12 +98,13 @@ void OccluderTree::Build(std::span<uint32_t> order,
   Build(order.subspan(half), triangles, middles);
 }
 
-bool OccluderTree::Hides(const Vector3f& eye, const Vector3f& point, float bias) const {
-  const Vector3f way = point - eye;
-  const float length = way.norm();
-  const float last = 1.0f - bias / length;  // nearer to the point no plane is that far before it
-  if (nodes_.empty() || !(last > 0.0f)) {
-    return false;
+template <typename Visit>
+void OccluderTree::ForEachHit(const Vector3f& eye,
+                              const Vector3f& way,
+                              const float& last,
+                              const Visit& visit) const {
+  if (nodes_.empty()) {
+    return;
   }
   // No division by zero, hence no NaN where a box's side lies in the eye.
   constexpr float kTiny = 1e-20f;
@@ -122,13 +134,41 @@ bool OccluderTree::Hides(const Vector3f& eye, const Vector3f& point, float bias)
       const float v = way.dot(q) / determinant;
       const float where = t.edge2.dot(q) / determinant;
       // Comparisons with the NaN of a parallel triangle are false.
-      if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f && where > 0.0f &&
-          (1.0f - where) * std::abs(t.normal.dot(way)) > bias) {
-        return true;
+      if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f && where > 0.0f && visit(t, where)) {
+        return;
       }
     }
   }
-  return false;
+}
+
+bool OccluderTree::Hides(const Vector3f& eye, const Vector3f& point, float bias) const {
+  const Vector3f way = point - eye;
+  const float length = way.norm();
+  const float last = 1.0f - bias / length;  // nearer to the point no plane is that far before it
+  bool hides = false;
+  if (last > 0.0f) {
+    ForEachHit(eye, way, last, [&](const Triangle& triangle, float where) {
+      hides = (1.0f - where) * std::abs(triangle.normal.dot(way)) > bias;
+      return hides;
+    });
+  }
+  return hides;
+}
+
+std::optional<OccluderTree::Hit> OccluderTree::FirstHit(const Vector3f& eye,
+                                                        const Vector3f& direction,
+                                                        float nearest,
+                                                        float farthest) const {
+  std::optional<Hit> first;
+  float last = farthest;
+  ForEachHit(eye, direction, last, [&](const Triangle& triangle, float where) {
+    if (where >= nearest && where < last) {
+      first = {where, triangle.normal};
+      last = where;
+    }
+    return false;
+  });
+  return first;
 }
 
 void OccluderSet::Set(std::span<const OccluderMesh> meshes) {

@@ -6,8 +6,12 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "shared/geometry/transform.h"
+#include "shared/geometry/triangle_mesh.h"
 
 namespace lararium::vision {
 
@@ -16,11 +20,25 @@ struct OccluderMesh {
   std::vector<uint32_t> indices;           // three for each triangle, any winding
 };
 
+// Elsewhere than it was modelled.
+OccluderMesh Placed(const geometry::TriangleMesh& mesh,
+                    const geometry::Similarity3& target_from_mesh);
+
 // Triangles in a tree of boxes.
 class OccluderTree {
  public:
   // CHECKs the indices.
   explicit OccluderTree(const OccluderMesh& mesh);
+
+  struct Hit {
+    float distance = 0.0f;
+    Eigen::Vector3f normal;  // unit, of either side
+  };
+  // The first triangle in a unit direction between two distances.
+  std::optional<Hit> FirstHit(const Eigen::Vector3f& eye,
+                              const Eigen::Vector3f& direction,
+                              float nearest,
+                              float farthest) const;
 
   // Whether a triangle lies between, and the point farther than bias behind the
   // triangle's plane: what lies on a surface, or nearly, is not hidden by it.
@@ -41,6 +59,14 @@ class OccluderTree {
   };
   static constexpr uint32_t kLeaf = 4;    // triangles at most
   static constexpr size_t kDeepest = 48;  // halving 2^32 triangles
+
+  // Visits the triangles that a ray meets, as (triangle, where), where > 0 in the lengths of way;
+  // `last` is where it ends and may be brought nearer. A visit that returns true is the last.
+  template <typename Visit>
+  void ForEachHit(const Eigen::Vector3f& eye,
+                  const Eigen::Vector3f& way,
+                  const float& last,
+                  const Visit& visit) const;
 
   void Build(std::span<uint32_t> order,
              std::span<const Triangle> triangles,

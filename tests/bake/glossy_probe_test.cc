@@ -53,7 +53,7 @@ TEST(GlossyProbe, APointOfLightBecomesTheLobe) {
     const double top = power / whole;
     for (int row = 0; row < GlossyMap::kSize; row += 3) {
       for (int column = 0; column < GlossyMap::kSize; column += 3) {
-        const double cosine = glm::dot(light::OctahedralDirection(column, row), light);
+        const double cosine = glm::dot(light::GlossyDirection(column, row), light);
         const double expected = top * light::GlossyWeight(cosine, roughness);
         EXPECT_NEAR(TexelOf(map, layer, column, row).g, expected, 0.05 * top)
             << "layer " << layer << ", texel " << column << " " << row;
@@ -73,7 +73,7 @@ TEST(GlossyProbe, TurnsAndBrightensWithThePlacement) {
   const GlossyMap plain = PrefilterProbe(image, {});
   const GlossyMap turned = PrefilterProbe(image, {turn, 2.0f});
   const auto at = [](const GlossyMap& map, const glm::vec3& direction) {
-    const glm::vec2 texel = light::OctahedralTexel(direction);
+    const glm::vec2 texel = light::GlossyTexel(direction);
     return TexelOf(map, 3, static_cast<int>(std::lround(texel.x)),
                    static_cast<int>(std::lround(texel.y)))
         .r;

@@ -17,9 +17,9 @@ using ::testing::HasSubstr;
 TEST(GlossyMap, TexelsAndDirectionsAreInverse) {
   for (int row = 0; row < GlossyMap::kSize; ++row) {
     for (int column = 0; column < GlossyMap::kSize; ++column) {
-      const glm::vec3 direction = OctahedralDirection(column, row);
-      const glm::vec2 texel = OctahedralTexel(direction);
-      EXPECT_LT(glm::distance(OctahedralDirection(static_cast<int>(std::lround(texel.x)),
+      const glm::vec3 direction = GlossyDirection(column, row);
+      const glm::vec2 texel = GlossyTexel(direction);
+      EXPECT_LT(glm::distance(GlossyDirection(static_cast<int>(std::lround(texel.x)),
                                                   static_cast<int>(std::lround(texel.y))),
                               direction),
                 1e-5f)
@@ -31,8 +31,8 @@ TEST(GlossyMap, TexelsAndDirectionsAreInverse) {
 TEST(GlossyMap, TheBorderFoldsOntoItself) {
   const int last = GlossyMap::kSize - 1;
   for (int i = 0; i <= last; ++i) {
-    EXPECT_LT(glm::distance(OctahedralDirection(i, 0), OctahedralDirection(last - i, 0)), 1e-5f);
-    EXPECT_LT(glm::distance(OctahedralDirection(last, i), OctahedralDirection(last, last - i)),
+    EXPECT_LT(glm::distance(GlossyDirection(i, 0), GlossyDirection(last - i, 0)), 1e-5f);
+    EXPECT_LT(glm::distance(GlossyDirection(last, i), GlossyDirection(last, last - i)),
               1e-5f);
   }
 }

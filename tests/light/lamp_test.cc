@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
 
 #include "shared/light/probe_light.h"
@@ -138,6 +139,48 @@ TEST(Lamp, HalfOfItIsHiddenByABallWhoseRimIsAtItsMiddle) {
   lit.Light(kLamp);
   shaded.Light(kLamp, {{kLamp.position + glm::vec3(0.6f, 0.0f, 1.0f), 0.6f}});
   EXPECT_NEAR(shaded.At(0)[0].r / lit.At(0)[0].r, 0.5f, 0.02f);
+}
+
+// A wall half a metre beyond the lamp, as it sees it: x = 1.5.
+std::shared_ptr<const LampWalls> WallBeside(const Lamp& lamp) {
+  auto walls = std::make_shared<LampWalls>();
+  for (int row = 0; row < LampWalls::kSize; ++row) {
+    for (int column = 0; column < LampWalls::kSize; ++column) {
+      if (LampWalls::Direction(column, row).x > 1e-4f) {
+        walls->planes[static_cast<size_t>(row * LampWalls::kSize + column)] =
+            glm::vec4(1.0f, 0.0f, 0.0f, lamp.position.x + 0.5f);
+      }
+    }
+  }
+  return walls;
+}
+
+TEST(LampWalls, KeepLightFromWhatIsBehindThemAndFromNothingElse) {
+  Lamp walled = kLamp;
+  walled.walls = WallBeside(kLamp);
+  Random random(5);
+  const std::vector<glm::vec3> points = Around(kLamp, random, 400);
+  Receivers open(points, 16), beside(points, 16);
+  open.Light(kLamp);
+  beside.Light(walled);
+  int behind = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const bool hidden = points[i].x > kLamp.position.x + 0.5f + LampWalls::kOnWall;
+    behind += hidden ? 1 : 0;
+    EXPECT_EQ(beside.At(i)[0].r, hidden ? 0.0f : open.At(i)[0].r) << "seed 5, point " << i;
+  }
+  EXPECT_GT(behind, 50);
+}
+
+// However flat the light falls on it.
+TEST(LampWalls, DoNotShadeThemselves) {
+  const auto walls = WallBeside(kLamp);
+  for (float away = 0.0f; away < 20.0f; away += 0.37f) {
+    const glm::vec3 on = kLamp.position + glm::vec3(0.5f, 0.3f * away, away);
+    EXPECT_EQ(PastWalls(*walls, kLamp.position, on), 1.0f) << away;
+    EXPECT_EQ(PastWalls(*walls, kLamp.position, on + glm::vec3(0.1f, 0.0f, 0.0f)), 0.0f) << away;
+  }
+  EXPECT_EQ(PastWalls(*walls, kLamp.position, kLamp.position), 1.0f);
 }
 
 TEST(Lamp, OwnVisibilityDimsIt) {

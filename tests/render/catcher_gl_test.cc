@@ -188,6 +188,30 @@ TEST_F(CatcherTest, ABallHidesALampFromTheFloorBehindIt) {
   EXPECT_GT(Kept(Draw(), beside), 1.08);
 }
 
+// A wall at x = 0.3: what is farther lies in its shadow, the wall's own foot does not.
+TEST_F(CatcherTest, AWallHidesALampFromTheFloorBehindIt) {
+  light::Lamp lamp = {{0.0f, 0.7f, 0.0f}, glm::vec3(0.6f), 0.05f};
+  const cv::Point behind = PixelOf({0.6, 0.0, 0.0});
+  const cv::Point before = PixelOf({0.2, 0.0, 0.1});
+  const cv::Point beside = PixelOf({-0.6, 0.0, 0.0});
+  scene_.lamps = {&lamp, 1};
+  const cv::Mat open = Draw();
+  auto walls = std::make_shared<light::LampWalls>();
+  for (int row = 0; row < light::LampWalls::kSize; ++row) {
+    for (int column = 0; column < light::LampWalls::kSize; ++column) {
+      if (light::LampWalls::Direction(column, row).x > 1e-4f) {
+        walls->planes[static_cast<size_t>(row * light::LampWalls::kSize + column)] = {1, 0, 0, 0.3};
+      }
+    }
+  }
+  lamp.walls = walls;
+  const cv::Mat walled = Draw();
+  EXPECT_GT(Kept(open, behind), 1.1);
+  EXPECT_NEAR(Kept(walled, behind), 1.0, 0.01);
+  EXPECT_NEAR(Kept(walled, before), Kept(open, before), 0.01);
+  EXPECT_NEAR(Kept(walled, beside), Kept(open, beside), 0.01);
+}
+
 // Many balls under light that has colours and directions, against sums over directions.
 TEST_F(CatcherTest, OfManyBallsInColouredLightTheFloorKeepsWhatQuadratureSays) {
   Random random(31);

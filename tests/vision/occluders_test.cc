@@ -90,6 +90,46 @@ TEST(OccluderTree, DoesNotHideItsOwnSurfaceNorWhatLiesBeforeIt) {
   EXPECT_FALSE(OccluderTree(OccluderMesh()).Hides({0, 0, 1}, {0, 0, -1}, 0.01f));
 }
 
+TEST(OccluderTree, TheFirstHitIsTheNearestOfAllTriangles) {
+  const OccluderMesh mesh = RandomTriangles(5, 300);
+  const OccluderTree tree(mesh);
+  std::vector<OccluderTree> alone;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    alone.emplace_back(OccluderMesh{
+        mesh.positions, {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}});
+  }
+  Random random(6);
+  int hits = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3f eye = RandomPoint(random, 2.0);
+    const Vector3f direction = (RandomPoint(random, 0.5) - eye).normalized();
+    const float nearest = i % 2 == 0 ? 0.0f : 1.0f;
+    std::optional<OccluderTree::Hit> expected;
+    for (const OccluderTree& triangle : alone) {
+      const auto hit = triangle.FirstHit(eye, direction, nearest, 3.0f);
+      if (hit && (!expected || hit->distance < expected->distance)) {
+        expected = hit;
+      }
+    }
+    const auto hit = tree.FirstHit(eye, direction, nearest, 3.0f);
+    ASSERT_EQ(hit.has_value(), expected.has_value()) << "seed 6, ray " << i;
+    if (hit) {
+      ++hits;
+      EXPECT_EQ(hit->distance, expected->distance);
+      EXPECT_EQ(hit->normal, expected->normal);
+      EXPECT_GE(hit->distance, nearest);
+    }
+  }
+  EXPECT_GT(hits, 50);
+}
+
+TEST(OccluderTree, AHitLiesOnTheTriangleAndIsAsFarAsItSays) {
+  const auto hit = OccluderTree(Square(0.5f)).FirstHit({0.2f, 0.1f, 2.0f}, {0, 0, -1}, 0.1f, 10.0f);
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_FLOAT_EQ(hit->distance, 1.5f);
+  EXPECT_FLOAT_EQ(std::abs(hit->normal.z()), 1.0f);
+}
+
 TEST(OccluderTree, LeavesOutTrianglesWithoutArea) {
   OccluderMesh mesh = Square(0.0f);
   mesh.indices = {0, 1, 1, 2, 2, 2};
