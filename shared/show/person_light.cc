@@ -45,6 +45,11 @@ constexpr float kRelit = 0.02f;
 constexpr size_t kFew = 64;
 // In so many frames all receivers have looked anew.
 constexpr size_t kParts = 3;
+// Every other block of so many vertices takes up their light in a frame.
+constexpr size_t kBlock = 64;
+// Of a receiver's light: in this frame, and in the one before, when half of the vertices waited.
+constexpr uint8_t kChangedNow = 1;
+constexpr uint8_t kChangedBefore = 2;
 
 // One part in so many of a receiver's light is a step of eight bits; key poses differ by a third
 // of that light at most.
@@ -384,10 +389,10 @@ light::ReceiverRange PersonLight::ChooseReceivers(const light::LightMatrix& ligh
     relit = relit || !(moved <= kRelit * std::abs(seen_light_[0]));
   }
   std::copy_n(light.channel(1), light.count(), seen_light_.begin());
-  const bool gradual = poses_ == 1 && !leapt_ && !relit && count > kFew;
+  gradual_ = poses_ == 1 && !leapt_ && !relit && count > kFew;
   poses_ = 0;
   leapt_ = false;
-  if (!gradual) {
+  if (!gradual_) {
     return {0, count};
   }
   part_ = (part_ + 1) % kParts;
@@ -415,16 +420,29 @@ void PersonLight::FindChanged() {
     for (size_t k = 0; k < light::kMaxKeyPoses; ++k) {
       weighed = std::max(weighed, std::abs(weights[k] - used_weights[k]));
     }
-    changed_[i] = rescaled || moved * kSeenParts > brightest || weighed > kSeenWeight ? 1 : 0;
-    if (changed_[i] != 0) {
+    const bool changed = rescaled || moved * kSeenParts > brightest || weighed > kSeenWeight;
+    changed_[i] = static_cast<uint8_t>((changed_[i] << 1 & kChangedBefore) |
+                                       (changed ? kChangedNow : 0));
+    if (changed) {
       std::copy_n(light, stride, used);
       std::copy_n(weights, light::kMaxKeyPoses, used_weights);
     }
   }
 }
 
+void PersonLight::LightBlocks(const light::LightVerticesJob& job, size_t count) const {
+  if (!gradual_) {
+    job.Run(0, count);
+    return;
+  }
+  for (size_t begin = odd_blocks_ ? kBlock : 0; begin < count; begin += 2 * kBlock) {
+    job.Run(begin, std::min(begin + kBlock, count));
+  }
+}
+
 void PersonLight::LightVertices(float detail, std::span<glm::vec3> irradiance) {
   auto to = irradiance.begin();
+  odd_blocks_ = !odd_blocks_;
   for (size_t i = 0; i < meshes_.size(); ++i) {
     MeshLight& mesh = meshes_[i];
     const size_t wanted = render::LevelAllowed(mesh.levels, detail).vertices;
@@ -433,7 +451,7 @@ void PersonLight::LightVertices(float detail, std::span<glm::vec3> irradiance) {
     // What a coarser level left out is lit by what is used now.
     job.Run(std::min(mesh.lit, wanted), wanted);
     job.changed = changed_;
-    job.Run(0, std::min(mesh.lit, wanted));
+    LightBlocks(job, std::min(mesh.lit, wanted));
     mesh.lit = wanted;
     std::copy_n(mesh.irradiance.begin(), wanted, to);
     to += static_cast<ptrdiff_t>(mesh.irradiance.size());

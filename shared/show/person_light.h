@@ -71,7 +71,8 @@ class PersonLight {
   // Irradiance, without albedo, of the vertices that each mesh's level of detail takes where
   // `detail` metres may be off (render/detail.h). irradiance: of all vertices of all meshes in
   // a row; the others stay as they are.
-  // Vertices whose light has changed by less than can be seen keep it.
+  // Vertices whose light has changed by less than can be seen keep it; where all changes
+  // gradually, half of the others follow in each frame, in turn.
   void LightVertices(float detail, std::span<glm::vec3> irradiance);
 
  private:
@@ -115,6 +116,8 @@ class PersonLight {
   void FindChanged();
   // Lamps as seen from the receivers of the last pose, past their own body and others.
   void AddLamps(const light::Spheres& others, std::span<const light::Lamp> lamps);
+  // The first `count` vertices of a mesh, or those of them whose turn it is.
+  void LightBlocks(const light::LightVerticesJob& job, size_t count) const;
   void MakeMeshes();
   void FindKeyLogs();
   // The log visibility past own blockers, as posed, in the bind pose's axes.
@@ -150,7 +153,9 @@ class PersonLight {
   // What vertices were lit by, and whether that is new.
   light::ReceiverLight used_light_;
   std::vector<float> used_weights_;
-  std::vector<uint8_t> changed_;
+  std::vector<uint8_t> changed_;  // bits
+  bool gradual_ = false;          // in the last Update
+  bool odd_blocks_ = false;       // of vertices were the last to follow
   std::vector<MeshLight> meshes_;
 };
 
