@@ -1,35 +1,21 @@
 // Surfaces of people and props. COVERED: partly covered ones, in two passes, the dense
-// core and the fringe around it.
-
-in vec3 position_in_stage;
+// core and the fringe around it. LIT_AT_VERTICES: what they reflect was worked out there.
 
 #include "stripes.glsl"
-#include "surface.glsl"
 
 uniform vec3 gain;   // exposure and the camera's gain
 uniform float knee;  // of the camera's response
-uniform vec3 eye_in_stage;
+uniform sampler2D sun_seen;  // shaders/pass/sun_seen.frag
 
 uniform sampler2D colour_texture;  // times coverage, coverage
-uniform sampler2D normal_texture;  // tangent space, green up
-uniform int has_normal_texture;
-uniform vec3 colour_factor;
 uniform vec3 emission;
-uniform float roughness;
 uniform float alpha_cutoff;
 uniform int fringe;
 uniform vec4 mark;  // what is drawn over what is seen: linear colour, share
 uniform int mark_stripes;
 uniform float mark_stripe_px;
 
-in vec3 normal_in_stage;
-in vec3 surface_albedo;
 in vec2 surface_uv;
-// Within the triangle where only its rim is in the pixel: beyond, a share may be anything.
-centroid in vec3 transferred;
-centroid in vec3 transfer_share;
-centroid in float transfer_open;
-centroid in vec3 back_share;
 
 layout(location = 0) out vec4 colour;
 
@@ -42,6 +28,44 @@ vec3 CameraResponse(vec3 x) {
   float range = max(1.0 - knee, 1e-4);
   return min(x, knee) + range * (1.0 - exp(-max(x - knee, 0.0) / range));
 }
+
+float SunSeen() { return texelFetch(sun_seen, ivec2(gl_FragCoord.xy), 0).r; }
+
+#ifdef LIT_AT_VERTICES
+uniform int has_sun;
+in vec3 matte_front;
+in vec3 matte_back;
+in vec3 matte_of_sun;  // negative: on the back
+in vec3 highlight_front;
+in vec3 highlight_of_sun;
+
+void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
+  float seen = has_sun == 1 ? SunSeen() : 0.0;
+  float side = gl_FrontFacing ? 1.0 : -1.0;
+  matte = (gl_FrontFacing ? matte_front : matte_back) + seen * max(side * matte_of_sun, 0.0);
+  matte *= texel.rgb / max(texel.a, 1.0 / 255.0);
+  highlight = highlight_front + seen * highlight_of_sun;
+#ifdef SURFACE_HAIR
+  highlight *= sqrt(texel.rgb);  // most of it comes from within the strands
+#endif
+}
+#else
+in vec3 position_in_stage;
+in vec3 normal_in_stage;
+in vec3 surface_albedo;
+// Within the triangle where only its rim is in the pixel: beyond, a share may be anything.
+centroid in vec3 transferred;
+centroid in vec3 transfer_share;
+centroid in float transfer_open;
+centroid in vec3 back_share;
+
+#include "arriving.glsl"
+
+uniform vec3 eye_in_stage;
+uniform sampler2D normal_texture;  // tangent space, green up
+uniform int has_normal_texture;
+uniform vec3 colour_factor;
+uniform float roughness;
 
 // Where the texture's u and v grow on the surface, from how both change on the screen
 // (Schueler, "Normal Mapping without Precomputed Tangents", ShaderX5, 2006). Not unit;
@@ -62,31 +86,28 @@ vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
   return normalize(scale * (bump.x * tangents[0] - bump.y * tangents[1]) + bump.z * normal);
 }
 
-uniform int has_transfer;
-uniform sampler2D sun_seen;  // shaders/pass/sun_seen.frag
-
-Arriving LightOn(vec3 normal) {
-  Arriving arriving = Unshadowed(normal);
-  if (has_transfer == 1) {
-    if (gl_FrontFacing) {
-      arriving = Transferred(transferred, transfer_share, transfer_open, normal);
-    } else {
-      arriving.irradiance *= back_share;
-      arriving.open = dot(back_share, vec3(0.2126, 0.7152, 0.0722));
-    }
-  }
-  // Transfer has the lamps' light, with its shadows.
-  int unlit = has_transfer == 1 ? 0 : lamp_count;
-  for (int i = 0; i < unlit; ++i) {
-    SeenLamp lamp = SeeLamp(i, position_in_stage);
-    arriving.irradiance += lamp.irradiance * LampCosine(lamp, normal);
-  }
+Arriving SunnyLightOn(vec3 normal) {
+  Arriving arriving = LightOn(normal, gl_FrontFacing);
   vec3 outward = gl_FrontFacing ? normal_in_stage : -normal_in_stage;
   if (has_sun == 1 && dot(outward, sun_direction) > 0.0) {
-    arriving.sun_seen = texelFetch(sun_seen, ivec2(gl_FragCoord.xy), 0).r;
+    arriving.sun_seen = SunSeen();
   }
   return arriving;
 }
+
+void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
+  vec3 albedo = surface_albedo * colour_factor * texel.rgb / max(texel.a, 1.0 / 255.0);
+  vec3 normal = normalize(gl_FrontFacing ? normal_in_stage : -normal_in_stage);
+  mat2x3 tangents = TangentsAlong(normal);
+  if (has_normal_texture == 1) {
+    normal = MappedNormal(normal, tangents);
+  }
+  vec3 strand = tangents[1] - dot(tangents[1], normal) * normal;
+  strand *= inversesqrt(max(dot(strand, strand), 1e-20));
+  vec3 to_eye = normalize(eye_in_stage - position_in_stage);
+  Reflect(albedo, normal, strand, to_eye, roughness, SunnyLightOn(normal), matte, highlight);
+}
+#endif
 
 // Light and shade stay, so that shapes are seen.
 vec3 Marked(vec3 seen, float coverage) {
@@ -117,18 +138,9 @@ void main() {
   }
   coverage = core ? 1.0 : coverage;
 #endif
-  vec3 albedo = surface_albedo * colour_factor * texel.rgb / max(texel.a, 1.0 / 255.0);
-  vec3 normal = normalize(gl_FrontFacing ? normal_in_stage : -normal_in_stage);
-  mat2x3 tangents = TangentsAlong(normal);
-  if (has_normal_texture == 1) {
-    normal = MappedNormal(normal, tangents);
-  }
-  vec3 strand = tangents[1] - dot(tangents[1], normal) * normal;
-  strand *= inversesqrt(max(dot(strand, strand), 1e-20));
   vec3 matte;
   vec3 highlight;
-  vec3 to_eye = normalize(eye_in_stage - position_in_stage);
-  Reflect(albedo, normal, strand, to_eye, roughness, LightOn(normal), matte, highlight);
+  Reflected(texel, matte, highlight);
 #ifndef SURFACE_EYE
   highlight *= coverage;
 #endif

@@ -1,5 +1,6 @@
 // Skinning, four influences: what human::SkinningJob does on the CPU. By matrices,
 // or as SKIN_DUAL_QUATERNION says, or SKIN_RIGID, where there is one influence.
+// LIT_AT_VERTICES: surfaces reflect here, not in each pixel.
 
 #include "spherical_harmonics.glsl"
 
@@ -21,14 +22,36 @@ layout(location = 6) in vec3 irradiance_at_vertex;
 layout(location = 7) in vec3 bind_normal;
 layout(location = 8) in vec3 back_at_vertex;
 
+#ifdef LIT_AT_VERTICES
+vec3 position_in_stage;
+vec3 normal_in_stage;
+vec3 transferred;
+vec3 transfer_share;
+float transfer_open;
+vec3 back_share;
+
+#include "arriving.glsl"
+
+uniform vec3 eye_in_stage;
+uniform vec3 colour_factor;
+uniform float roughness;
+
+// To be multiplied by the texture.
+out vec3 matte_front;
+out vec3 matte_back;
+out vec3 matte_of_sun;  // negative: on the back
+out vec3 highlight_front;
+out vec3 highlight_of_sun;
+#else
 out vec3 position_in_stage;
 out vec3 normal_in_stage;
 out vec3 surface_albedo;
-out vec2 surface_uv;
 centroid out vec3 transferred;     // irradiance by light transfer
 centroid out vec3 transfer_share;  // the same over what would come without shadows
 centroid out float transfer_open;  // of all channels: at most 1
 centroid out vec3 back_share;      // of unshadowed light, on the back
+#endif
+out vec2 surface_uv;
 
 #ifdef SKIN_RIGID
 mat4 Skinned() { return skin[joints.x]; }
@@ -73,6 +96,44 @@ mat4 Skinned() {
 }
 #endif
 
+#ifdef LIT_AT_VERTICES
+struct Reflected {
+  vec3 matte;
+  vec3 highlight;
+};
+
+Reflected ReflectedBy(vec3 normal, bool front, float sun_seen) {
+  Arriving arriving = LightOn(normal, front);
+  arriving.sun_seen = sun_seen;
+  vec3 down = vec3(0.0, -1.0, 0.0);
+  vec3 strand = down - dot(down, normal) * normal;  // hair hangs
+  strand *= inversesqrt(max(dot(strand, strand), 1e-20));
+  vec3 to_eye = normalize(eye_in_stage - position_in_stage);
+  Reflected reflected;
+  Reflect(albedo * colour_factor, normal, strand, to_eye, roughness, arriving, reflected.matte,
+          reflected.highlight);
+  return reflected;
+}
+
+uniform int two_sided;
+
+void Light() {
+  vec3 normal = normalize(normal_in_stage);
+  Reflected front = ReflectedBy(normal, true, 0.0);
+  Reflected front_in_sun = ReflectedBy(normal, true, 1.0);
+  matte_front = front.matte;
+  matte_of_sun = front_in_sun.matte - front.matte;
+  highlight_front = front.highlight;
+  highlight_of_sun = front_in_sun.highlight - front.highlight;
+  matte_back = vec3(0.0);
+  for (int i = 0; i < two_sided; ++i) {
+    Reflected back = ReflectedBy(-normal, false, 0.0);
+    matte_back = back.matte;
+    matte_of_sun -= ReflectedBy(-normal, false, 1.0).matte - back.matte;
+  }
+}
+#endif
+
 void main() {
   mat4 skinned = Skinned();
   mat4 model_from_bind = posed == 1 ? mat4(1.0) : skinned;
@@ -80,7 +141,6 @@ void main() {
   gl_Position = clip_from_model * in_model;
   position_in_stage = (stage_from_model * in_model).xyz;
   normal_in_stage = mat3(stage_from_model) * (mat3(model_from_bind) * normal);
-  surface_albedo = albedo;
   surface_uv = uv;
   transferred = irradiance_at_vertex;
   back_share = back_at_vertex;
@@ -89,4 +149,9 @@ void main() {
   transfer_share = transferred / there;
   vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
   transfer_open = clamp(dot(transferred, luminance) / dot(there, luminance), 0.0, 1.0);
+#ifdef LIT_AT_VERTICES
+  Light();
+#else
+  surface_albedo = albedo;
+#endif
 }

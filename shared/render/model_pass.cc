@@ -131,8 +131,9 @@ Result<ModelPass> ModelPass::Create() {
 }
 
 size_t ModelPass::Variant::index() const {
-  return 4 * (GpuModel::kSkins * static_cast<size_t>(surface) + static_cast<size_t>(skin)) +
-         (covered ? 2 : 0) + (reflects ? 1 : 0);
+  const size_t of_surface =
+      GpuModel::kSkins * static_cast<size_t>(surface) + static_cast<size_t>(skin);
+  return kShadings * (2 * of_surface + (covered ? 1 : 0)) + static_cast<size_t>(shading);
 }
 
 Result<ShaderProgram> ModelPass::Variant::Compile() const {
@@ -141,8 +142,11 @@ Result<ShaderProgram> ModelPass::Variant::Compile() const {
   if (covered) {
     defines += "#define COVERED\n";
   }
-  if (reflects) {
+  if (shading == Shading::kReflections) {
     defines += "#define REFLECTIONS\n";
+  }
+  if (shading == Shading::kVertices) {
+    defines += "#define LIT_AT_VERTICES\n";
   }
   LARARIUM_ASSIGN_OR_RETURN(ShaderProgram shaders,
                             ShaderProgram::Create("model.vert", "model.frag", defines));
@@ -152,8 +156,8 @@ Result<ShaderProgram> ModelPass::Variant::Compile() const {
 
 Status ModelPass::Prepare(const GpuModel& model) {
   for (const GpuModel::Part& part : model.parts) {
-    for (const bool reflects : {false, true}) {
-      const Variant variant = {part.surface, model.skin, part.covered(), reflects};
+    for (const Shading shading : {Shading::kVertices, Shading::kPixels, Shading::kReflections}) {
+      const Variant variant = {part.surface, model.skin, part.covered(), shading};
       Program& program = programs_[variant.index()];
       if (!program.ready) {
         LARARIUM_ASSIGN_OR_RETURN(program.shaders, variant.Compile());
@@ -186,7 +190,7 @@ void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const S
   UploadGlossy(scene);
   for (size_t i = 0; i < programs_.size(); ++i) {
     Program& program = programs_[i];
-    if (!program.ready || (i % 2 == 1) != reflects_) {
+    if (!program.ready || i % kShadings != static_cast<size_t>(shading_)) {
       continue;
     }
     const ShaderProgram& shaders = program.shaders;
@@ -272,7 +276,7 @@ void ModelPass::DrawPart(const ModelDraw& draw,
     draw.model->StreamIrradiance(index, draw.irradiance.subspan(part.first_vertex, used));
   }
   const GpuModel::Skin skin = draw.model->skin;
-  Program& program = programs_[Variant{part.surface, skin, part.covered(), reflects_}.index()];
+  Program& program = programs_[Variant{part.surface, skin, part.covered(), shading_}.index()];
   const ShaderProgram& shaders =
       only_depth ? casters_[CasterIndex(skin, part.covered())] : program.shaders;
   shaders.Use();
@@ -289,6 +293,7 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   shaders.Set("mark_stripes", draw.mark.stripes);
   shaders.Set("mark_stripe_px", draw.mark.stripe_px);
   shaders.Set("roughness", part.roughness);
+  shaders.Set("two_sided", part.culls_back_faces ? 0 : 1);
   shaders.Set("alpha_cutoff", part.alpha_cutoff);
   shaders.Set("has_normal_texture", part.normal_texture == GpuModel::kNoTexture ? 0 : 1);
   shaders.Set("fringe", phase == Phase::kFringe ? 1 : 0);
@@ -326,7 +331,10 @@ void ModelPass::Draw(const RenderScene& scene,
                      const SunPass& sun,
                      const SunMask& sun_mask) {
   glEnable(GL_DEPTH_TEST);
-  reflects_ = quality.reflections && !scene.glossy.empty();
+  const bool reflects = quality.reflections && !scene.glossy.empty();
+  shading_ = !quality.pixel_light ? Shading::kVertices
+             : reflects           ? Shading::kReflections
+                                  : Shading::kPixels;
   UploadSkins(draws);
   BeginFrame(scene, sun, sun_mask);
   DrawPhase(Phase::kOpaque, clip_from_stage, draws);

@@ -71,17 +71,20 @@ class ModelPass {
     // Whose light and lamps its uniforms hold in this picture.
     const ModelDraw* lit_for = nullptr;
   };
+  // At each vertex, at each pixel, or there with reflections (RenderScene::glossy).
+  enum class Shading { kVertices, kPixels, kReflections };
+  static constexpr size_t kShadings = 3;
   // Of what software should not decide for each vertex or pixel there are programs.
   struct Variant {
     human::Surface surface = human::Surface::kPlain;
     GpuModel::Skin skin = GpuModel::Skin::kLinear;
     bool covered = false;
-    bool reflects = false;  // RenderScene::glossy
+    Shading shading = Shading::kPixels;
 
     size_t index() const;
     Result<ShaderProgram> Compile() const;
   };
-  static constexpr size_t kVariants = human::kSurfaceCount * GpuModel::kSkins * 4;
+  static constexpr size_t kVariants = human::kSurfaceCount * GpuModel::kSkins * 2 * kShadings;
   static constexpr size_t kCasters = GpuModel::kSkins * 2;
   static size_t CasterIndex(GpuModel::Skin skin, bool covered) {
     return 2 * static_cast<size_t>(skin) + (covered ? 1 : 0);
@@ -97,7 +100,7 @@ class ModelPass {
   void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;
 
   std::array<Program, kVariants> programs_;
-  bool reflects_ = false;  // in this picture
+  Shading shading_ = Shading::kPixels;  // of this picture
   std::array<ShaderProgram, kCasters> casters_;
   GlBuffer skin_;  // matrices or dual quaternions of all models in the picture
   GlTexture white_;

@@ -44,6 +44,7 @@ std::vector<Setting> Settings() {
       {"shadow_cell 8", {.shadow_cell = 8}},
       {"sun_map 512", {.sun_map = 512}},
       {"sun_taps 4", {.sun_taps = 4}},
+      {"pixel_light off", {.pixel_light = false}},
       {"reflections off", {.reflections = false}},
       {"camera_look off", {.camera_look = false}},
       {"detail_px 1", {.detail_px = 1.0f}},

@@ -273,6 +273,42 @@ TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
   }
 }
 
+// Glints of eyes are sharper than the vertices are close. Of hair the strands hang down.
+TEST_F(ModelTest, LightAtVerticesIsThatAtPixelsWhereVerticesAreClose) {
+  for (const human::Surface surface : {human::Surface::kPlain, human::Surface::kSkin,
+                                       human::Surface::kCloth, human::Surface::kEye}) {
+    human::Human human = MakeHuman(Sphere(glm::vec3(0.5f)), 1);
+    human.materials = {{.name = "", .surface = surface, .colour = glm::vec3(0.9f, 0.7f, 0.5f)}};
+    human.meshes[0].material = 0;
+    RenderScene scene = Scene();
+    scene.light[3] = glm::vec3(0.8f);
+    scene.sun = light::Sun{glm::normalize(glm::vec3(1.0f, 1.0f, 0.5f)), glm::vec3(2.0f), 0.005f};
+    const light::Lamp lamp = {.position = {-2.0f, 0.5f, 2.0f}, .intensity = glm::vec3(1.5f)};
+    scene.lamps = {&lamp, 1};
+    renderer_->SetQuality({.reflections = false});
+    const cv::Mat at_pixels = DrawHuman(human, scene);
+    renderer_->SetQuality({.pixel_light = false});
+    EXPECT_TRUE(test::ImagesAgree(DrawHuman(human, scene), at_pixels, {.max = 60.0, .mean = 0.6}))
+        << static_cast<int>(surface);
+  }
+}
+
+TEST_F(ModelTest, BothSidesOfASheetAreLitAtVerticesToo) {
+  for (const float side : {1.0f, -1.0f}) {
+    RenderScene scene = Scene();
+    scene.camera_from_stage = LookAt(Eigen::Vector3d(0, 0, 3.0 * side), Eigen::Vector3d::Zero(),
+                                     Eigen::Vector3d::UnitY());
+    scene.sun = light::Sun{glm::vec3(0.0f, 0.0f, 1.0f), glm::vec3(1.0f), 0.005f};
+    const human::Human sheet = Textured(cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(90)),
+                                        {.name = "", .colour_texture = 0, .two_sided = true});
+    const cv::Mat at_pixels = DrawHuman(sheet, scene);
+    renderer_->SetQuality({.pixel_light = false});
+    EXPECT_TRUE(test::ImagesAgree(DrawHuman(sheet, scene), at_pixels, {.max = 2.0, .mean = 0.5}))
+        << side;
+    renderer_->SetQuality({});
+  }
+}
+
 TEST_F(ModelTest, EyesGlintTowardsTheLampAndMatteThingsDoNot) {
   const auto brightest = [&](human::Surface surface) {
     human::Human human = MakeHuman(Sphere(glm::vec3(0.2f)), 1);

@@ -48,8 +48,10 @@ TEST_P(EveryShader, OfModelsCompilesForEverySurface) {
   ASSERT_TRUE(context.ok()) << context.message();
   for (const char* surface : {"PLAIN", "SKIN", "HAIR", "CLOTH", "EYE"}) {
     for (const char* skin : {"LINEAR", "DUAL_QUATERNION", "RIGID"}) {
-      for (const char* more : {"", "#define COVERED\n", "#define REFLECTIONS\n",
-                               "#define COVERED\n#define REFLECTIONS\n"}) {
+      for (const char* more :
+           {"", "#define COVERED\n", "#define REFLECTIONS\n",
+            "#define COVERED\n#define REFLECTIONS\n", "#define LIT_AT_VERTICES\n",
+            "#define COVERED\n#define LIT_AT_VERTICES\n"}) {
         const std::string defines =
             std::string("#define SURFACE_") + surface + "\n#define SKIN_" + skin + "\n" + more;
         const auto program = ShaderProgram::Create("model.vert", "model.frag", defines);
