@@ -24,24 +24,22 @@ void main() {
   vec2 raw = RawPixel();
   vec2 cell = layer_scale * vec2(gl_FragCoord.x, picture_height - gl_FragCoord.y);
   vec3 encoded = Background(raw);
-  vec4 person = vec4(0.0);
-  // Loops instead of ifs: shaders/include/sun.glsl.
-  int may_show = Within(cell, smeared_bounds) ? 1 : 0;
-  for (int i = 0; i < may_show; ++i) {
+  bool may_show = Within(cell, smeared_bounds);
+  // Loops instead of ifs where they leave out much: shaders/include/sun.glsl.
 #ifdef LOOK
+  vec4 person = vec4(0.0);
+  int shows = may_show ? 1 : 0;
+  for (int i = 0; i < shows; ++i) {
     person = SmearedPeople(cell);
+  }
 #else
-    person = PeopleAt(cell);
+  vec4 person = may_show ? PeopleAt(cell) : vec4(0.0);
 #endif
-  }
-  vec3 kept = vec3(1.0);
-  int may_catch = Within(cell, catcher_bounds) && person.a < 0.999 ? 1 : 0;
-  for (int i = 0; i < may_catch; ++i) {
-    vec2 at = (cell - 0.5 * (caught_step - 1.0)) / caught_step;
-    at = clamp(at, floor(catcher_bounds.xy / caught_step) + 0.5,
-               ceil(catcher_bounds.zw / caught_step) - 0.5);
-    kept = textureLod(caught, at / vec2(textureSize(caught, 0)), 0.0).rgb;
-  }
+  vec2 at = (cell - 0.5 * (caught_step - 1.0)) / caught_step;
+  at = clamp(at, floor(catcher_bounds.xy / caught_step) + 0.5,
+             ceil(catcher_bounds.zw / caught_step) - 0.5);
+  vec3 kept = textureLod(caught, at / vec2(textureSize(caught, 0)), 0.0).rgb;
+  kept = Within(cell, catcher_bounds) ? kept : vec3(1.0);
   person *= people_opacity;
   kept = mix(vec3(1.0), kept, people_opacity);
   int changes = person.a > 0.0 || any(greaterThan(abs(kept - 1.0), vec3(0.0))) ? 1 : 0;

@@ -11,8 +11,11 @@ namespace lararium::render {
 struct Quality {
   // Of each pixel of people and props, for smooth edges: 1, none, up to what the driver offers.
   int samples = 4;
-  // Pixels of the layer with people, props and caught shadows for one of the picture along each
-  // side, 0.25 to 1. The camera's image is always as fine as the picture.
+  // The picture is put together at its own size; otherwise no finer than the camera's image is,
+  // and made larger then, people and all.
+  bool full_size = true;
+  // Pixels of the layer with people, props and caught shadows for one of the picture, as it is put
+  // together, along each side: 0.25 to 1.
   float layer_scale = 1.0f;
   // Pixels of the layer, along each side, for one value of the sky's light that real surfaces
   // keep: 4 to 16.

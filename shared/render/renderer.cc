@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -17,6 +18,9 @@
 
 namespace lararium::render {
 namespace {
+
+// Nearly as fine is as fine: it would cost as much.
+constexpr double kLeastEnlarged = 0.9;
 
 glm::vec4 Intrinsics(const geometry::CameraModel& camera) {
   return {static_cast<float>(camera.fx), static_cast<float>(camera.fy),
@@ -33,11 +37,35 @@ bool IsOn(const CameraLook& look) {
          (look.previous_camera_from_stage && look.shutter > 0.0f);
 }
 
-ImageSize LayerSize(const ImageSize& picture, float scale) {
+ImageSize Scaled(const ImageSize& size, float scale) {
   const auto scaled = [scale](int side) {
     return std::max(static_cast<int>(std::lround(scale * static_cast<float>(side))), 1);
   };
-  return {scaled(picture.width), scaled(picture.height)};
+  return {scaled(size.width), scaled(size.height)};
+}
+
+// Pixels of the camera's image for one of a picture, along each side.
+double ImageScale(const RenderScene& scene, const ImageSize& picture) {
+  const geometry::CameraModel camera =
+      scene.camera.Resized(scene.background.cols, scene.background.rows);
+  return camera.Focal() / scene.display.Resized(picture.width, picture.height).Focal();
+}
+
+// Of a picture what is beside and above bounds; all of it where they are empty.
+std::array<PixelBounds, 4> Around(const PixelBounds& b, const ImageSize& size) {
+  if (b.empty()) {
+    return {PixelBounds{0, 0, size.width, size.height}};
+  }
+  return {PixelBounds{0, 0, size.width, b.bottom}, PixelBounds{0, b.top, size.width, size.height},
+          PixelBounds{0, b.bottom, b.left, b.top},
+          PixelBounds{b.right, b.bottom, size.width, b.top}};
+}
+
+void FillBounds(const PixelBounds& bounds) {
+  if (!bounds.empty()) {
+    glScissor(bounds.left, bounds.bottom, bounds.width(), bounds.height());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
 }
 
 // Of the layer's pixels those of the target, whose rows count from the top.
@@ -311,6 +339,24 @@ void Renderer::State::SetBackground(const ShaderProgram& shaders,
   shaders.Set("image", 0);
 }
 
+Result<const RenderTarget*> Renderer::State::ChoosePicture(const RenderScene& scene,
+                                                           const RenderTarget& target) {
+  if (quality.full_size || scene.background.empty()) {
+    return &target;
+  }
+  const ImageSize size = {target.width(), target.height()};
+  const double scale = ImageScale(scene, size);
+  if (scale > kLeastEnlarged) {
+    return &target;
+  }
+  const ImageSize smaller = Scaled(size, static_cast<float>(scale));
+  if (!small_picture || small_picture->width() != smaller.width ||
+      small_picture->height() != smaller.height) {
+    LARARIUM_ASSIGN_OR_RETURN(small_picture, RenderTarget::Create(smaller.width, smaller.height));
+  }
+  return &*small_picture;
+}
+
 void Renderer::State::Composite(const RenderScene& scene,
                                 const PictureView& layer,
                                 const Smear& smear,
@@ -318,23 +364,27 @@ void Renderer::State::Composite(const RenderScene& scene,
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   glDisable(GL_DEPTH_TEST);
-  const geometry::CameraModel display = scene.display.Resized(target.width(), target.height());
+  glEnable(GL_SCISSOR_TEST);
+  const ImageSize size = {target.width(), target.height()};
+  const geometry::CameraModel display = scene.display.Resized(size.width, size.height);
   if (!scene.background.empty()) {
     background_image.Upload(scene.background);
   }
+  const PixelBounds seen = Widened(people_bounds, smear.reach, layer.size);
+  const float scale = static_cast<float>(layer.size.width) / static_cast<float>(size.width);
+  const PixelBounds changed = InPicture(Union(seen, catcher_pass.bounds()), scale, target);
   glBindVertexArray(no_vertices.id());
   background_pass.Use();
   SetBackground(background_pass, scene, display);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  const PixelBounds seen = Widened(people_bounds, smear.reach, layer.size);
-  const float scale = static_cast<float>(layer.size.width) / static_cast<float>(target.width());
-  const PixelBounds changed = InPicture(Union(seen, catcher_pass.bounds()), scale, target);
+  for (const PixelBounds& unchanged : Around(changed, size)) {
+    FillBounds(unchanged);
+  }
   if (!changed.empty()) {
     const bool look = quality.camera_look && IsOn(scene.look);
     const ShaderProgram& composite = look ? look_composite_pass : composite_pass;
     composite.Use();
     SetBackground(composite, scene, display);
-    composite.Set("picture_height", static_cast<float>(target.height()));
+    composite.Set("picture_height", static_cast<float>(size.height));
     composite.Set("layer_scale", scale);
     composite.Set("people_opacity", std::min(scene.people_opacity, 1.0f));
     glActiveTexture(GL_TEXTURE1);
@@ -342,11 +392,9 @@ void Renderer::State::Composite(const RenderScene& scene,
     composite.Set("people", 1);
     look_pass.BindFor(composite, scene.look, smear, seen);
     catcher_pass.BindFor(composite, 2);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(changed.left, changed.bottom, changed.width(), changed.height());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDisable(GL_SCISSOR_TEST);
+    FillBounds(changed);
   }
+  glDisable(GL_SCISSOR_TEST);
   glBindVertexArray(0);
   glActiveTexture(GL_TEXTURE0);
 }
@@ -367,13 +415,18 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   state.people_bounds = {};
   state.catcher_pass.Skip();
   state.sun_pass.Skip();
+  LARARIUM_ASSIGN_OR_RETURN(const RenderTarget* picture, state.ChoosePicture(scene, target));
   const PictureView layer =
-      ViewOf(scene, LayerSize(state.picture_size, state.quality.layer_scale), state.picture_size);
+      ViewOf(scene, Scaled({picture->width(), picture->height()}, state.quality.layer_scale),
+             state.picture_size);
   Smear smear;
   if (scene.camera_from_stage && scene.people_opacity > 0.0f) {
     LARARIUM_RETURN_IF_ERROR(state.DrawLayer(scene, layer, smear));
   }
-  state.Composite(scene, layer, smear, target);
+  state.Composite(scene, layer, smear, *picture);
+  if (picture != &target) {
+    picture->DrawInto(target);
+  }
   return State::CheckDriver();
 }
 

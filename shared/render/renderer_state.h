@@ -2,6 +2,7 @@
 
 // The renderer's passes and what they draw. Private to render.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct Renderer::State {
   ShaderProgram look_composite_pass;  // with RenderScene::look
   GlVertexArray no_vertices;          // of the full-screen pass
   Texture background_image;
+  std::optional<RenderTarget> small_picture;  // that is made larger
   LinearTarget people;
   PixelBounds people_bounds;  // of the layer drawn last: what of people is valid
   ImageSize picture_size;     // likewise
@@ -65,6 +67,8 @@ struct Renderer::State {
   void SetBackground(const ShaderProgram& shaders,
                      const RenderScene& scene,
                      const geometry::CameraModel& display) const;
+  // Where the picture is put together: the target, or a smaller one (Quality::full_size).
+  Result<const RenderTarget*> ChoosePicture(const RenderScene& scene, const RenderTarget& target);
   // The camera's image, and over it what is in the layer.
   void Composite(const RenderScene& scene,
                  const PictureView& layer,

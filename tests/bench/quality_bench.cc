@@ -39,6 +39,7 @@ std::vector<Setting> Settings() {
   std::vector<Setting> settings = {
       {"full", {}},
       {"samples 1", {.samples = 1}},
+      {"full_size off", {.full_size = false}},
       {"layer_scale 0.7", {.layer_scale = 0.7f}},
       {"layer_scale 0.5", {.layer_scale = 0.5f}},
       {"shadow_cell 8", {.shadow_cell = 8}},

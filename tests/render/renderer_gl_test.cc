@@ -393,6 +393,30 @@ TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
   EXPECT_GT(count_between(4), 100);
 }
 
+TEST_F(RendererTest, APictureThatIsMadeLargerShowsTheSame) {
+  const glm::mat4 skin(1.0f);
+  SceneHuman human = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value(),
+                      .skin = {&skin, 1}};
+  human.stage_from_actor[3] = glm::vec4(0.3f, 0.2f, -4.0f, 1.0f);
+  RenderScene scene;
+  scene.background = SmoothImage(320, 240, 5);
+  scene.camera = scene.display = Pinhole(320, 240, 300.0);
+  scene.camera.k1 = -0.1;
+  scene.camera_from_stage = LookAlongMinusZ();
+  scene.light = UniformLight(kPi);
+  scene.humans = {&human, 1};
+  const cv::Mat large = Draw(scene, 960, 720);
+  const cv::Mat small = Draw(scene, 320, 240);
+  renderer_->SetQuality({.full_size = false});
+  // But for edges, which are as soft as the camera's image.
+  EXPECT_TRUE(test::ImagesAgree(Draw(scene, 960, 720), large, {.max = 160.0, .mean = 1.0}));
+  cv::Mat enlarged;
+  cv::resize(small, enlarged, cv::Size(960, 720), 0, 0, cv::INTER_LINEAR);
+  EXPECT_TRUE(test::ImagesAgree(Draw(scene, 960, 720), enlarged, {.max = 2.0, .mean = 0.5}));
+  EXPECT_TRUE(test::ImagesAgree(Draw(scene, 320, 240), small, {.max = 0.0, .mean = 0.0}))
+      << "as fine as the image already";
+}
+
 TEST_F(RendererTest, DrawsSeveralPeopleWithTheirOwnPoses) {
   const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
   std::array<glm::mat4, 2> skins = {glm::mat4(1.0f), glm::mat4(1.0f)};
