@@ -135,7 +135,10 @@ Result<ModelHandle> Renderer::AddProp(const stage::Prop& prop) {
   return state_->AddModel(GpuModel::Create(prop, state_->textures));
 }
 void Renderer::RemoveMesh(MeshHandle mesh) { state_->meshes.Remove(mesh); }
-void Renderer::RemoveModel(ModelHandle model) { state_->models.Remove(model); }
+void Renderer::RemoveModel(ModelHandle model) {
+  state_->models.Remove(model);
+  state_->sun_pass.ForgetModels();
+}
 void Renderer::SetQuality(const Quality& quality) { state_->quality = Clamped(quality); }
 
 Status Renderer::State::Validate(const RenderScene& scene) const {

@@ -15,6 +15,9 @@ constexpr std::array<int, 2> kMapSizes = {1024, 512};
 // The map of occluders stays while it holds what is asked for and is not so much larger.
 constexpr float kRoom = 0.3f;  // metres
 constexpr float kMostKept = 2.0f;
+// The map of people ends at whole steps, of its size this share or less, so that it stays for a
+// while what it covers.
+constexpr float kStepShare = 1.0f / 32.0f;
 // Shadows of a low sun end somewhere.
 constexpr float kLongestShadow = 15.0f;  // metres
 
@@ -72,6 +75,21 @@ Box Swept(const Box& box, const glm::vec3& towards_sun, float lowest) {
   return Union(box, {box.low - length * towards_sun, box.high - length * towards_sun});
 }
 
+// Grown to whole steps, which are powers of two metres.
+Box Snapped(const Box& box) {
+  const glm::vec3 size = box.high - box.low;
+  const float share = kStepShare * std::max({size.x, size.y, size.z});
+  const float step = std::exp2(std::floor(std::log2(share)));
+  return {step * glm::floor(box.low / step), step * glm::ceil(box.high / step)};
+}
+
+void CopyDepth(GLuint from, GLuint to, int size) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+  glBlitFramebuffer(0, 0, size, size, 0, 0, size, size, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, to);
+}
+
 Box Widened(const Box& box, float metres) { return {box.low - metres, box.high + metres}; }
 
 }  // namespace
@@ -82,6 +100,7 @@ Result<SunPass> SunPass::Create() {
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
   for (size_t i = 0; i < kMapSizes.size(); ++i) {
     LARARIUM_RETURN_IF_ERROR(Allocate(kMapSizes[i], pass.people_.images[i]));
+    LARARIUM_RETURN_IF_ERROR(Allocate(kMapSizes[i], pass.still_images_[i]));
     LARARIUM_RETURN_IF_ERROR(Allocate(kMapSizes[i], pass.occluders_.images[i]));
   }
   pass.plain_depth_ = GlSampler::Generate();
@@ -127,9 +146,9 @@ void SunPass::Fit(const Box& box, const glm::mat4& sun_from_stage, Map& map) {
   map.map_from_stage = map_from_sun * sun_from_stage;
 }
 
-glm::mat4 SunPass::Begin(const Map& map) {
-  glBindFramebuffer(GL_FRAMEBUFFER, map.image().framebuffer.id());
-  glViewport(0, 0, map.image().size, map.image().size);
+glm::mat4 SunPass::Begin(const Map& map, const Image& image) {
+  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer.id());
+  glViewport(0, 0, image.size, image.size);
   glDisable(GL_SCISSOR_TEST);
   glEnable(GL_DEPTH_TEST);
   glClearDepthf(1.0f);
@@ -140,6 +159,24 @@ glm::mat4 SunPass::Begin(const Map& map) {
   glm::mat4 clip_from_map(2.0f);
   clip_from_map[3] = glm::vec4(-1.0f, -1.0f, -1.0f, 1.0f);
   return clip_from_map * map.map_from_stage;
+}
+
+void SunPass::DrawCasters(ModelPass& models, std::span<const ModelDraw> casters) {
+  casters_.Sort(casters);
+  if (casters_.still().empty()) {
+    models.DrawCasters(Begin(people_, people_.image()), casters);
+    return;
+  }
+  const Image& still = still_images_[people_.chosen];
+  if (!casters_.same() || still_chosen_ != people_.chosen ||
+      still_map_from_stage_ != people_.map_from_stage) {
+    models.DrawCasters(Begin(people_, still), casters_.still());
+    still_chosen_ = people_.chosen;
+    still_map_from_stage_ = people_.map_from_stage;
+  }
+  const glm::mat4 clip_from_stage = Begin(people_, people_.image());
+  CopyDepth(still.framebuffer.id(), people_.image().framebuffer.id(), still.size);
+  models.DrawCasters(clip_from_stage, casters_.moving());
 }
 
 bool SunPass::KeepsOccluders(const RenderScene& scene,
@@ -176,7 +213,7 @@ void SunPass::DrawOccluders(const RenderScene& scene,
   kept_.covered.high += glm::vec3(kRoom, kRoom, 0.0f);
   kept_.chosen = occluders_.chosen;
   Fit(kept_.covered, sun_from_stage, occluders_);
-  const glm::mat4 clip_from_stage = Begin(occluders_);
+  const glm::mat4 clip_from_stage = Begin(occluders_, occluders_.image());
   occluder_shaders_.Use();
   for (const SceneOccluder& occluder : scene.occluders) {
     occluder_shaders_.Set("clip_from_mesh", clip_from_stage * occluder.stage_from_mesh);
@@ -209,9 +246,9 @@ void SunPass::Draw(const RenderScene& scene,
   // Penumbras and filters reach a little beyond.
   Box fitted = people.empty() ? Widened({glm::vec3(0.0f), glm::vec3(0.0f)}, 1.0f)
                               : BoxOf(casters, sun_from_stage);
-  fitted = Widened(fitted, 0.05f);
+  fitted = Snapped(Widened(fitted, 0.05f));
   Fit(fitted, sun_from_stage, people_);
-  models.DrawCasters(Begin(people_), casters);
+  DrawCasters(models, casters);
 
   Box asked = Union(Union(people, shadows_), around);
   Box covered = asked.empty() ? fitted : Transformed(asked, sun_from_stage);

@@ -23,6 +23,7 @@
 #include "shared/render/render_scene.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
+#include "shared/render/still_draws.h"
 
 namespace lararium::render {
 
@@ -40,6 +41,8 @@ class SunPass {
             const Box& around);
   // There is no sun.
   void Skip();
+  // Models were removed.
+  void ForgetModels() { casters_.Forget(); }
 
   bool shines() const { return shines_; }
   // A box of the stage that holds all shadows of people as far as they matter; empty
@@ -67,8 +70,10 @@ class SunPass {
   };
 
   static Status Allocate(int size, Image& image);
-  // Draws into a map go there from now on. Says clip_from_stage.
-  static glm::mat4 Begin(const Map& map);
+  // Draws go into an image of a map from now on, which is empty at first. Says clip_from_stage.
+  static glm::mat4 Begin(const Map& map, const Image& image);
+  // What stands still is drawn once, and copied from then on.
+  void DrawCasters(ModelPass& models, std::span<const ModelDraw> casters);
   // box: in the axes of sun_from_stage.
   static void Fit(const Box& box, const glm::mat4& sun_from_stage, Map& map);
   // covered: in the axes of sun_from_stage. What has not changed is not drawn again.
@@ -81,6 +86,10 @@ class SunPass {
                       const Box& covered) const;
 
   Map people_;
+  StillDraws casters_;
+  std::array<Image, 2> still_images_;  // as those of people_: what stands still of them
+  size_t still_chosen_ = 0;            // of these: the one that holds something
+  glm::mat4 still_map_from_stage_ = glm::mat4(0.0f);
   Map occluders_;
   // What the map of occluders holds.
   struct Kept {

@@ -154,6 +154,50 @@ TEST_F(SunTest, RealThingsShadeWhereverPeopleGoAndWhereverTheyAreMoved) {
 }
 
 // A disc of angular radius a throws a penumbra 2 d tan(a) wide past an edge at distance d.
+// What stands still is kept from picture to picture: each must be what it would be by itself.
+TEST_F(SunTest, ThingsCastTheSameShadowsWhetherTheyStandOrMove) {
+  scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)), glm::vec3(3.0f), 0.003f};
+  PlaceBall({-0.8f, 1.0f, 0.4f}, 0.2f);
+  human::SkinnedMesh ball = Sphere(glm::vec3(0.5f));
+  stage::Prop prop;
+  prop.name = "ball";
+  prop.parts.emplace_back().name = "ball";
+  stage::PropMesh& mesh = prop.parts[0].meshes.emplace_back();
+  mesh.positions = ball.positions;
+  mesh.normals = ball.normals;
+  mesh.albedo = ball.albedo;
+  mesh.indices = ball.indices;
+  const ModelHandle model = renderer_->AddProp(prop).value();
+  std::array<glm::mat4, 2> stage_from_prop;
+  const std::array<SceneProp, 2> props = {
+      SceneProp{.prop = model, .stage_from_part = {&stage_from_prop[0], 1}},
+      SceneProp{.prop = model, .stage_from_part = {&stage_from_prop[1], 1}}};
+  const auto place = [&](size_t index, const glm::vec3& at) {
+    stage_from_prop[index] = glm::mat4(glm::mat3(0.15f));
+    stage_from_prop[index][3] = glm::vec4(at, 1.0f);
+  };
+  scene_.props = props;
+  place(0, {0.0f, 0.8f, -0.4f});
+  place(1, {0.3f, 0.6f, 0.5f});
+  const auto expect_as_alone = [&](const std::string& when) {
+    const cv::Mat picture = Draw();
+    renderer_->RemoveModel(renderer_->AddProp(prop).value());  // so that nothing is kept
+    EXPECT_EQ(cv::norm(Draw(), picture, cv::NORM_INF), 0.0) << when;
+  };
+  const cv::Mat first = Draw();
+  EXPECT_EQ(cv::norm(Draw(), first, cv::NORM_INF), 0.0) << "all stand";
+  EXPECT_EQ(cv::norm(Draw(), first, cv::NORM_INF), 0.0) << "as kept";
+  PlaceBall({-0.7f, 1.0f, 0.3f}, 0.2f);
+  expect_as_alone("the person has moved");
+  Draw();
+  place(0, {0.1f, 0.8f, -0.3f});
+  expect_as_alone("one thing has moved");
+  Draw();
+  Draw();
+  scene_.props = std::span(props).first(1);
+  expect_as_alone("the other is gone");
+}
+
 TEST_F(SunTest, PenumbraGrowsWithDistanceByTheAngularRadius) {
   for (const double height : {0.5, 1.5}) {
     const float angular_radius = 0.03f;
