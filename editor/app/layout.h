@@ -25,6 +25,7 @@ class Layout {
 
   void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
   bool quit_requested() const { return state_.quit; }
+  bool leave_requested() const { return state_.leave; }
 
  private:
   explicit Layout(std::unique_ptr<panels::AroundView> around) : around_(std::move(around)) {}

@@ -499,7 +499,7 @@ std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* arg
   app.set_version_flag("--version", LARARIUM_VERSION);
   app.require_subcommand(0, 1);
   app.add_flag("--json", line.json, "Print the result as one JSON object");
-  app.add_option("PROJECT", options.window.project, "Project to open; the last one otherwise");
+  app.add_option("PROJECT", options.window.project, "Project to open; the start page otherwise");
   AddOthers(app, options);
   try {
     app.parse(argc, argv);

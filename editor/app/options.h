@@ -12,7 +12,7 @@
 namespace lararium::app {
 
 struct WindowOptions {
-  std::filesystem::path project;  // empty: the last one, or the sample
+  std::filesystem::path project;  // empty: the start page
 };
 
 struct NewOptions {

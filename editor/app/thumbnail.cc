@@ -1,9 +1,8 @@
 #include "editor/app/thumbnail.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <string>
-#include <vector>
 
+#include "editor/app/png_file.h"
 #include "shared/core/file.h"
 
 namespace lararium::app {
@@ -14,7 +13,6 @@ namespace fs = std::filesystem;
 // Part of every key: raise it when the same person gives another picture.
 constexpr std::string_view kVersion = "thumbnail 2 ";
 constexpr size_t kMaxKeyBytes = 1024;
-constexpr size_t kMaxPictureBytes = size_t{1} << 20;
 
 fs::path KeyFile(fs::path file) { return file += ".from"; }
 
@@ -22,26 +20,6 @@ fs::path KeyFile(fs::path file) { return file += ".from"; }
 std::optional<std::string> Key(const fs::path& human) {
   const Result<std::string> baked_from = ReadText(KeyFile(human), kMaxKeyBytes);
   return baked_from.ok() ? std::optional(std::string(kVersion) + *baked_from) : std::nullopt;
-}
-
-cv::Mat Decode(const std::string& bytes) {
-  try {
-    return cv::imdecode(std::vector<uint8_t>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
-  } catch (const cv::Exception&) {
-    return {};
-  }
-}
-
-Result<std::vector<uint8_t>> Encode(const cv::Mat& picture, const fs::path& file) {
-  std::vector<uint8_t> bytes;
-  try {
-    if (cv::imencode(".png", picture, bytes)) {
-      return bytes;
-    }
-  } catch (const cv::Exception&) {
-    // answered below
-  }
-  return Status::Error(file.string(), "the picture cannot be encoded");
 }
 
 }  // namespace
@@ -57,10 +35,9 @@ std::optional<cv::Mat> LoadThumbnail(const fs::path& human) {
   if (!wanted || !known.ok() || *known != *wanted) {
     return std::nullopt;
   }
-  const Result<std::string> bytes = ReadText(file, kMaxPictureBytes);
-  cv::Mat picture = bytes.ok() ? Decode(*bytes) : cv::Mat();
-  const bool whole = picture.cols == kThumbnailSide && picture.rows == kThumbnailSide;
-  return whole ? std::optional(std::move(picture)) : std::nullopt;
+  std::optional<cv::Mat> picture = LoadPng(file);
+  const bool whole = picture && picture->cols == kThumbnailSide && picture->rows == kThumbnailSide;
+  return whole ? std::move(picture) : std::nullopt;
 }
 
 Result<cv::Mat> MakeThumbnail(const fs::path& human, Studio& studio) {
@@ -68,8 +45,7 @@ Result<cv::Mat> MakeThumbnail(const fs::path& human, Studio& studio) {
                             studio.Shoot({.azimuth = 0.3f, .frame = StudioFrame::kBust},
                                          cv::Size(kThumbnailSide, kThumbnailSide)));
   const fs::path file = ThumbnailFile(human);
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<uint8_t> bytes, Encode(shot.picture, file));
-  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file, std::as_bytes(std::span(bytes))));
+  LARARIUM_RETURN_IF_ERROR(SavePng(file, shot.picture));
   if (const std::optional<std::string> key = Key(human)) {
     LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(KeyFile(file), std::string_view(*key)));
   }

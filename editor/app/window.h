@@ -9,7 +9,7 @@
 namespace lararium::app {
 
 // Opens the project in a window and returns when it is closed. Without a project
-// the last one is opened, or the sample.
+// the start page is shown.
 Status RunWindow(const WindowOptions& options, Log& log);
 
 }  // namespace lararium::app

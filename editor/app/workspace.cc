@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include "editor/app/baking.h"
@@ -13,6 +12,7 @@
 #include "editor/app/sounds.h"
 #include "editor/app/subcommands.h"
 #include "editor/app/training.h"
+#include "editor/app/user_folders.h"
 #include "shared/core/file.h"
 
 namespace lararium::app {
@@ -30,17 +30,6 @@ std::string FileStamp(const std::filesystem::path& file) {
   }
   return std::to_string(found.st_mtim.tv_sec) + '.' + std::to_string(found.st_mtim.tv_nsec) + ' ' +
          std::to_string(found.st_size) + ' ' + std::to_string(found.st_ino);
-}
-
-// Where people made from the presets are kept (XDG base directories).
-std::filesystem::path PresetFolder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  const std::filesystem::path base =
-      cache != nullptr && *cache != '\0'
-          ? std::filesystem::path(cache)
-          : std::filesystem::path(home != nullptr ? home : ".") / ".cache";
-  return base / "lararium" / "presets";
 }
 
 std::string TagsKey(const PlaceDocument& place) {
@@ -80,7 +69,7 @@ Workspace::Workspace(ProjectPaths paths, ProjectDocument document, std::string s
       journal_(paths_.Journal(), commands_.document(), script_.snapshot()),
       script_stamp_(FileStamp(paths_.Drama())),
       project_stamp_(FileStamp(paths_.Project())),
-      cast_pictures_(paths_, PresetFolder(), baking_) {}
+      cast_pictures_(paths_, CacheFolder() / "presets", baking_) {}
 
 // Takes over what a crash left, as one edit of what is saved.
 void Workspace::Recover() {

@@ -27,39 +27,18 @@ constexpr std::array<const char*, 7> kFigures = {".json", ".glb", ".gltf", ".vrm
                                                  ".fbx",  ".dae", ".x"};
 constexpr std::array<const char*, 2> kProbes = {".exr", ".hdr"};
 
-// Ends the dialog with a row of Cancel and the action. problem: why the action
-// is not possible yet; empty when it is. True when the action was chosen.
-bool DialogButtons(EditorState& state, const char* action, const std::string& problem) {
-  ImGui::Dummy(ImVec2(0, Px(2)));
-  ImGui::PushStyleColor(ImGuiCol_Text, colour::kWarning);
-  ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
-  ImGui::PopStyleColor();
-  const float width = Px(110);
-  const float spacing = ImGui::GetStyle().ItemSpacing.x;
-  ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
-  bool chosen = false;
-  if (ImGui::Button("Cancel", ImVec2(width, 0))) {
+// The end of the open dialog, which both buttons close. True when the action was chosen.
+bool DialogDone(EditorState& state, const char* action, const std::string& problem) {
+  const DialogAnswer answer = DialogButtons(action, problem);
+  if (answer != DialogAnswer::kNone) {
     state.dialog = Dialog::kNone;
   }
-  ImGui::SameLine();
-  ImGui::BeginDisabled(!problem.empty());
-  ImGui::PushStyleColor(ImGuiCol_Button, colour::kAccent);
-  if (ImGui::Button(action, ImVec2(width, 0))) {
-    state.dialog = Dialog::kNone;
-    chosen = true;
-  }
-  ImGui::PopStyleColor();
-  ImGui::EndDisabled();
-  return chosen;
+  return answer == DialogAnswer::kAct;
 }
 
-bool Exists(const app::Workspace& workspace, const std::string& file) {
+bool Exists(const app::ProjectPaths& paths, const std::string& file) {
   std::error_code ignored;
-  return !file.empty() && std::filesystem::exists(workspace.paths().Resolve(file), ignored);
-}
-
-std::string NameProblem(const std::string& name) {
-  return app::IsPlainName(name) ? "" : "The name takes letters, digits, _ and -.";
+  return !file.empty() && std::filesystem::exists(paths.Resolve(file), ignored);
 }
 
 // "600, 600, 320, 240" as numbers; empty where it is not 4 or 8 of them.
@@ -80,19 +59,9 @@ std::vector<double> ParseNumbers(const std::string& text) {
   return numbers.size() == 4 || numbers.size() == 8 ? numbers : std::vector<double>();
 }
 
-std::string RecordingProblem(const app::Workspace& workspace, const DialogFields& fields) {
-  if (!Exists(workspace, fields.file)) {
-    return "Choose a recording that exists.";
-  }
-  if (!fields.intrinsics.empty() && ParseNumbers(fields.intrinsics).empty()) {
-    return "Intrinsics are 4 or 8 numbers.";
-  }
-  return "";
-}
-
 std::string TrainProblem(const app::Workspace& workspace, const DialogFields& fields) {
   const std::string problem = NameProblem(fields.place);
-  return problem.empty() ? RecordingProblem(workspace, fields) : problem;
+  return problem.empty() ? RecordingProblem(workspace.paths(), fields) : problem;
 }
 
 // The recording that was typed, with its intrinsics. Their image size is the
@@ -113,50 +82,6 @@ Result<app::SessionDocument> ChosenRecording(const app::Workspace& workspace,
   return recording;
 }
 
-// Sets the place up and trains it.
-void StartTraining(app::Workspace& workspace, const DialogFields& fields) {
-  const Result<app::SessionDocument> recording = ChosenRecording(workspace, fields);
-  if (!recording.ok()) {
-    workspace.Tell(app::Message::Level::kError, recording.message());
-    return;
-  }
-  app::PlaceDocument trained;
-  trained.name = fields.place;
-  if (const app::PlaceDocument* known = workspace.document().FindPlace(fields.place)) {
-    trained = *known;
-  }
-  trained.training = recording->source;
-  trained.intrinsics = recording->intrinsics;
-  workspace.Edit("train " + fields.place, [&](app::ProjectDocument& document) {
-    if (app::PlaceDocument* known = document.FindPlace(trained.name)) {
-      *known = trained;
-    } else {
-      document.places.push_back(trained);
-    }
-  });
-  if (workspace.place() == nullptr || workspace.place()->name != fields.place) {
-    workspace.ShowPlace(fields.place);
-  }
-  workspace.Train();
-}
-
-// Rows for the recording: what kind, which file, its intrinsics.
-void RecordingFields(const app::Workspace& workspace,
-                     DialogFields& fields,
-                     const char* no_intrinsics) {
-  PropertyLabel("Recording");
-  static constexpr const char* kKinds[] = {"Video", "Folder of images"};
-  int kind = fields.images ? 1 : 0;
-  if (Segmented("kind", kKinds, kind)) {
-    fields.images = kind == 1;
-  }
-  PropertyLabel(fields.images ? "Folder" : "File");
-  PathField("file", fields.file, workspace.paths().folder,
-            fields.images ? std::span<const char* const>() : kVideos);
-  PropertyLabel("Intrinsics");
-  ImGui::InputTextWithHint("##intrinsics", no_intrinsics, &fields.intrinsics);
-}
-
 void TrainDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
@@ -165,11 +90,12 @@ void TrainDialog(app::Workspace& workspace, EditorState& state) {
   if (BeginProperties("train")) {
     PropertyLabel("Place");
     ImGui::InputText("##place", &fields.place);
-    RecordingFields(workspace, fields, "estimated; or fx, fy, cx, cy, k1, k2, p1, p2");
+    RecordingFields(workspace.paths().folder, fields,
+                    "estimated; or fx, fy, cx, cy, k1, k2, p1, p2");
     EndProperties();
   }
-  if (DialogButtons(state, "Train", TrainProblem(workspace, fields))) {
-    StartTraining(workspace, fields);
+  if (DialogDone(state, "Train", TrainProblem(workspace, fields))) {
+    TrainRecording(workspace, fields);
   }
 }
 
@@ -179,10 +105,11 @@ void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
       "Merges a recording of the place in other light into the map, so that "
       "visitors are located in both. The stage stays where it is.");
   if (BeginProperties("add session")) {
-    RecordingFields(workspace, fields, "as the map's camera; or fx, fy, cx, cy, k1, k2, p1, p2");
+    RecordingFields(workspace.paths().folder, fields,
+                    "as the map's camera; or fx, fy, cx, cy, k1, k2, p1, p2");
     EndProperties();
   }
-  if (DialogButtons(state, "Add", RecordingProblem(workspace, fields))) {
+  if (DialogDone(state, "Add", RecordingProblem(workspace.paths(), fields))) {
     const Result<app::SessionDocument> recording = ChosenRecording(workspace, fields);
     if (recording.ok()) {
       workspace.AddSession(*recording);
@@ -206,7 +133,7 @@ void ExportDialog(app::Workspace& workspace, EditorState& state) {
     EndProperties();
   }
   const bool named = fields.file.ends_with(".larshow");
-  if (DialogButtons(state, "Export", named ? "" : "The name ends in .larshow.")) {
+  if (DialogDone(state, "Export", named ? "" : "The name ends in .larshow.")) {
     workspace.Export(workspace.paths().Resolve(fields.file));
   }
 }
@@ -235,10 +162,11 @@ bool NameAndFile(app::Workspace& workspace,
   if (problem.empty() && taken(fields.name)) {
     problem = "That name is taken.";
   }
-  if (problem.empty() && (file_needed || !fields.file.empty()) && !Exists(workspace, fields.file)) {
+  if (problem.empty() && (file_needed || !fields.file.empty()) &&
+      !Exists(workspace.paths(), fields.file)) {
     problem = "Choose a file that exists.";
   }
-  return DialogButtons(state, "Add", problem);
+  return DialogDone(state, "Add", problem);
 }
 
 std::string DocumentPath(const app::Workspace& workspace, const std::string& typed) {
@@ -326,7 +254,9 @@ std::string CastProblem(const app::Workspace& workspace, const DialogFields& fie
   if (!fields.preset.empty() && !fields.file.empty()) {
     return "Choose a preset or a file.";
   }
-  return fields.file.empty() || Exists(workspace, fields.file) ? "" : "Choose a file that exists.";
+  return fields.file.empty() || Exists(workspace.paths(), fields.file)
+             ? ""
+             : "Choose a file that exists.";
 }
 
 void CastDialog(app::Workspace& workspace, EditorState& state) {
@@ -345,7 +275,7 @@ void CastDialog(app::Workspace& workspace, EditorState& state) {
     PathField("file", fields.file, workspace.paths().folder, kFigures);
     EndProperties();
   }
-  if (DialogButtons(state, "Add", CastProblem(workspace, fields))) {
+  if (DialogDone(state, "Add", CastProblem(workspace, fields))) {
     app::CastDocument member;
     member.name = fields.name;
     member.preset = fields.preset;
@@ -375,7 +305,7 @@ void ObjectDialog(app::Workspace& workspace, EditorState& state) {
   if (problem.empty() && Taken(workspace.document().objects, fields.name)) {
     problem = "That name is taken.";
   }
-  if (DialogButtons(state, "Add", problem)) {
+  if (DialogDone(state, "Add", problem)) {
     app::ObjectDocument object;
     object.name = fields.name;
     object.model = models[static_cast<size_t>(fields.model)];
@@ -401,10 +331,10 @@ void ProbeDialog(app::Workspace& workspace, EditorState& state) {
   if (problem.empty() && Taken(workspace.place()->probes, fields.name)) {
     problem = "That name is taken.";
   }
-  if (problem.empty() && !Exists(workspace, fields.file)) {
+  if (problem.empty() && !Exists(workspace.paths(), fields.file)) {
     problem = "Choose a file that exists.";
   }
-  if (DialogButtons(state, "Add", problem)) {
+  if (DialogDone(state, "Add", problem)) {
     app::ProbeDocument probe;
     probe.name = fields.name;
     probe.file = DocumentPath(workspace, fields.file);
@@ -430,27 +360,73 @@ constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, "Train a place", TrainDialo
 
 }  // namespace
 
+std::string NameProblem(const std::string& name) {
+  return app::IsPlainName(name) ? "" : "The name takes letters, digits, _ and -.";
+}
+
+std::string RecordingProblem(const app::ProjectPaths& paths, const DialogFields& fields) {
+  if (!Exists(paths, fields.file)) {
+    return "Choose a recording that exists.";
+  }
+  if (!fields.intrinsics.empty() && ParseNumbers(fields.intrinsics).empty()) {
+    return "Intrinsics are 4 or 8 numbers.";
+  }
+  return "";
+}
+
+void RecordingFields(const std::filesystem::path& folder,
+                     DialogFields& fields,
+                     const char* no_intrinsics) {
+  PropertyLabel("Recording");
+  static constexpr const char* kKinds[] = {"Video", "Folder of images"};
+  int kind = fields.images ? 1 : 0;
+  if (Segmented("kind", kKinds, kind)) {
+    fields.images = kind == 1;
+  }
+  PropertyLabel(fields.images ? "Folder" : "File");
+  PathField("file", fields.file, folder, fields.images ? std::span<const char* const>() : kVideos);
+  PropertyLabel("Intrinsics");
+  ImGui::InputTextWithHint("##intrinsics", no_intrinsics, &fields.intrinsics);
+}
+
+void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
+  const Result<app::SessionDocument> recording = ChosenRecording(workspace, fields);
+  if (!recording.ok()) {
+    workspace.Tell(app::Message::Level::kError, recording.message());
+    return;
+  }
+  app::PlaceDocument trained;
+  trained.name = fields.place;
+  if (const app::PlaceDocument* known = workspace.document().FindPlace(fields.place)) {
+    trained = *known;
+  }
+  trained.training = recording->source;
+  trained.intrinsics = recording->intrinsics;
+  workspace.Edit("train " + fields.place, [&](app::ProjectDocument& document) {
+    if (app::PlaceDocument* known = document.FindPlace(trained.name)) {
+      *known = trained;
+    } else {
+      document.places.push_back(trained);
+    }
+  });
+  if (workspace.place() == nullptr || workspace.place()->name != fields.place) {
+    workspace.ShowPlace(fields.place);
+  }
+  workspace.Train();
+}
+
 void ShowDialogs(app::Workspace& workspace, EditorState& state) {
   for (const DialogEntry& entry : kDialogs) {
     if (state.dialog != entry.dialog) {
       continue;
     }
-    const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
-    ImGui::OpenPopup(entry.title);
-    ImGui::SetNextWindowPos(center, ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
-    ImGui::SetNextWindowSize(ImVec2(Px(520), 0));
     bool open = true;
-    if (ImGui::BeginPopupModal(entry.title, &open,
-                               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    ShowModal(entry.title, 520, open, [&] {
       entry.show(workspace, state);
-      const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
-      if (!open || escape) {
-        state.dialog = Dialog::kNone;
-      }
-      if (state.dialog != entry.dialog) {
-        ImGui::CloseCurrentPopup();
-      }
-      ImGui::EndPopup();
+      open = state.dialog == entry.dialog;
+    });
+    if (!open) {
+      state.dialog = Dialog::kNone;
     }
     return;
   }

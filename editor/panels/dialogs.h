@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
 
@@ -8,5 +11,18 @@ namespace lararium::panels {
 // The dialog that is open, if one is. What is wrong with what was typed is said
 // in the dialog; Cancel always leads out.
 void ShowDialogs(app::Workspace& workspace, EditorState& state);
+
+// What is wrong with the name of a project, place, person or thing; empty when nothing is.
+std::string NameProblem(const std::string& name);
+
+// What dialogs about recordings share: rows for what kind, which file and its intrinsics,
+// within BeginProperties(); what is wrong with what was typed, empty when nothing is; and
+// setting up the place that was typed and training it. folder: what relative paths start
+// from. no_intrinsics: what an empty field stands for.
+void RecordingFields(const std::filesystem::path& folder,
+                     DialogFields& fields,
+                     const char* no_intrinsics);
+std::string RecordingProblem(const app::ProjectPaths& paths, const DialogFields& fields);
+void TrainRecording(app::Workspace& workspace, const DialogFields& fields);
 
 }  // namespace lararium::panels

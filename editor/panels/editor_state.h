@@ -106,7 +106,8 @@ struct EditorState {
 
   Dialog dialog = Dialog::kNone;
   DialogFields fields;
-  bool quit = false;  // asked for; the window decides
+  bool quit = false;   // asked for; the window decides
+  bool leave = false;  // the project, for the start page; likewise
 };
 
 }  // namespace lararium::panels

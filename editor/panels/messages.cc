@@ -24,18 +24,6 @@ ImVec4 ColourOf(app::Message::Level level) {
   return colour::kDim;
 }
 
-// As much of a text as fits.
-std::string OneLine(const std::string& text, float width) {
-  std::string line = text.substr(0, text.find('\n'));
-  if (line.size() == text.size() && ImGui::CalcTextSize(line.c_str()).x <= width) {
-    return line;
-  }
-  const char* fits = nullptr;
-  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), width - Px(16), 0.0f, line.c_str(), nullptr,
-                                  &fits);
-  return line.substr(0, static_cast<size_t>(fits - line.c_str())) + "\xe2\x80\xa6";
-}
-
 void ShowTask(app::BackgroundTask& task) {
   const app::BackgroundTask::State state = task.state();
   std::string text = task.name();
@@ -113,7 +101,7 @@ void ShowStatusBar(app::Workspace& workspace) {
     const app::Message& newest = workspace.messages().back();
     ImGui::AlignTextToFramePadding();
     const float room = 0.62f * ImGui::GetContentRegionAvail().x;
-    const std::string shown = OneLine(newest.text, room);
+    const std::string shown = Elided(newest.text, room);
     ImGui::TextColored(ColourOf(newest.level), "%s", shown.c_str());
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s", newest.text.c_str());

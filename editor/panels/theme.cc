@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kFontPx = 15.5f;
 constexpr float kCodePx = 15.0f;
+constexpr float kTitlePx = 30.0f;
 constexpr const char* kFontFolders[] = {
     "/usr/share/fonts/opentype/inter", "/usr/share/fonts/truetype/inter",
     "/usr/local/share/fonts/inter", "/usr/share/fonts/truetype/dejavu"};
@@ -41,8 +42,10 @@ Fonts LoadFonts(float scale) {
   // Behind that of the interface, which ImGui takes to be the first.
   fonts.strong = LoadFont("Inter-SemiBold.otf", kFontPx * scale);
   fonts.code = LoadFont("DejaVuSansMono.ttf", kCodePx * scale);
+  fonts.title = LoadFont("Inter-SemiBold.otf", kTitlePx * scale);
   if (fonts.strong == nullptr) {
     fonts.strong = fonts.regular;
+    fonts.title = fonts.regular;
   }
   if (fonts.code == nullptr) {
     fonts.code = ImGui::GetIO().Fonts->AddFontDefault();

@@ -11,6 +11,7 @@ namespace lararium::panels {
 struct Fonts {
   ImFont* regular = nullptr;
   ImFont* strong = nullptr;  // headings
+  ImFont* title = nullptr;   // of a page
   ImFont* code = nullptr;    // letters of one width
 };
 

@@ -51,6 +51,9 @@ std::string RedoLabel(const app::Workspace& workspace) {
 }
 
 void FileMenu(app::Workspace& workspace, EditorState& state) {
+  if (ImGui::MenuItem("New or open\xe2\x80\xa6", "Ctrl+O")) {
+    state.leave = true;
+  }
   if (ImGui::MenuItem("Save", "Ctrl+S")) {
     workspace.Save();
   }
@@ -148,6 +151,9 @@ void HandleControlKey(app::Workspace& workspace, EditorState& state, const KeyPr
       break;
     case GLFW_KEY_Y:
       workspace.Redo();
+      break;
+    case GLFW_KEY_O:
+      state.leave = true;
       break;
     case GLFW_KEY_Q:
       state.quit = true;

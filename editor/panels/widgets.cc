@@ -99,6 +99,74 @@ void Hint(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void ShowModal(const char* title, float width, bool& open, const std::function<void()>& content) {
+  const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
+  ImGui::OpenPopup(title);
+  ImGui::SetNextWindowPos(center, ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowSize(ImVec2(Px(width), 0));
+  bool kept = true;
+  if (!ImGui::BeginPopupModal(title, &kept,
+                              ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    return;
+  }
+  content();
+  if (!kept || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
+    open = false;
+  }
+  if (!open) {
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+DialogAnswer DialogButtons(const char* action, const std::string& problem) {
+  ImGui::Dummy(ImVec2(0, Px(2)));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour::kWarning);
+  ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
+  ImGui::PopStyleColor();
+  const float width = Px(110);
+  const float spacing = ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
+  DialogAnswer answer = DialogAnswer::kNone;
+  if (ImGui::Button("Cancel", ImVec2(width, 0))) {
+    answer = DialogAnswer::kCancel;
+  }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!problem.empty());
+  ImGui::PushStyleColor(ImGuiCol_Button, colour::kAccent);
+  if (ImGui::Button(action, ImVec2(width, 0))) {
+    answer = DialogAnswer::kAct;
+  }
+  ImGui::PopStyleColor();
+  ImGui::EndDisabled();
+  return answer;
+}
+
+std::string Elided(const std::string& text, float width) {
+  std::string line = text.substr(0, text.find('\n'));
+  if (line.size() == text.size() && ImGui::CalcTextSize(line.c_str()).x <= width) {
+    return line;
+  }
+  const char* fits = nullptr;
+  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), width - Px(16), 0.0f, line.c_str(), nullptr,
+                                  &fits);
+  return line.substr(0, static_cast<size_t>(fits - line.c_str())) + "\xe2\x80\xa6";
+}
+
+std::string ElidedFront(const std::string& text, float width) {
+  const auto is_continuation = [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+  };
+  std::string shown = text;
+  for (size_t from = 1; ImGui::CalcTextSize(shown.c_str()).x > width && from < text.size();
+       ++from) {
+    if (!is_continuation(text[from])) {
+      shown = "\xe2\x80\xa6" + text.substr(from);
+    }
+  }
+  return shown;
+}
+
 bool Segmented(const char* id, std::span<const char* const> labels, int& chosen) {
   ImGui::PushID(id);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(1), 0));

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -18,6 +19,19 @@ void Heading(const char* text);
 void DimText(const std::string& text);
 // Wrapped, dim.
 void Hint(const std::string& text);
+
+// A dialog in the middle of the window, until open is false: Escape and its cross close it.
+// width: logical pixels.
+void ShowModal(const char* title, float width, bool& open, const std::function<void()>& content);
+
+enum class DialogAnswer { kNone, kCancel, kAct };
+// Ends a dialog with a row of Cancel and the action. problem: why the action is not possible
+// yet; empty when it is.
+DialogAnswer DialogButtons(const char* action, const std::string& problem);
+
+// As much of a text as fits in pixels, with an ellipsis for the rest: its end, or its front.
+std::string Elided(const std::string& text, float width);
+std::string ElidedFront(const std::string& text, float width);
 
 // A row of buttons of which one is chosen; true when the choice changed.
 bool Segmented(const char* id, std::span<const char* const> labels, int& chosen);

@@ -1,0 +1,42 @@
+#include "editor/app/sample.h"
+
+#include <string>
+
+namespace lararium::app {
+
+namespace fs = std::filesystem;
+
+fs::path ShippedSample() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path root = program.parent_path() / ".." / ".." / "..";
+  const fs::path sample = (root / "scenes" / "maquette" / "maquette.lararium").lexically_normal();
+  return !error && fs::exists(sample, error) ? sample : fs::path();
+}
+
+Result<fs::path> OwnSample(const fs::path& shipped, const fs::path& folder) {
+  const fs::path own = folder / shipped.filename();
+  std::error_code error;
+  if (fs::exists(own, error)) {
+    return own;
+  }
+  // Renamed when it is whole: a copy that was broken off is none.
+  const fs::path part = folder / (shipped.filename().string() + ".part");
+  const auto failed = [&](const char* what) {
+    return Status::Error(own.string(), std::string(what) + ": " + error.message(),
+                         "make room, or open " + shipped.string() + " itself");
+  };
+  fs::create_directories(folder, error);
+  fs::remove_all(part, error);
+  fs::copy(shipped, part, fs::copy_options::recursive, error);
+  if (error) {
+    return failed("the sample cannot be copied");
+  }
+  fs::rename(part, own, error);
+  if (error) {
+    return failed("the copy of the sample cannot be named");
+  }
+  return own;
+}
+
+}  // namespace lararium::app

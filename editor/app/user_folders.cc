@@ -1,0 +1,30 @@
+#include "editor/app/user_folders.h"
+
+#include <cstdlib>
+
+namespace lararium::app {
+
+namespace {
+
+// The specification has relative paths ignored.
+std::filesystem::path UserFolder(const char* variable, const char* below_home) {
+  const char* folder = std::getenv(variable);
+  const std::filesystem::path base = folder != nullptr && folder[0] == '/'
+                                         ? std::filesystem::path(folder)
+                                         : HomeFolder() / below_home;
+  return base / "lararium";
+}
+
+}  // namespace
+
+std::filesystem::path HomeFolder() {
+  const char* home = std::getenv("HOME");
+  return home != nullptr && home[0] == '/' ? home : "/";
+}
+
+std::filesystem::path StateFolder() { return UserFolder("XDG_STATE_HOME", ".local/state"); }
+std::filesystem::path ConfigFolder() { return UserFolder("XDG_CONFIG_HOME", ".config"); }
+std::filesystem::path CacheFolder() { return UserFolder("XDG_CACHE_HOME", ".cache"); }
+std::filesystem::path DataFolder() { return UserFolder("XDG_DATA_HOME", ".local/share"); }
+
+}  // namespace lararium::app

@@ -1,0 +1,144 @@
+#include "editor/app/window_content.h"
+
+#include <chrono>
+#include <utility>
+
+#include "editor/app/sample.h"
+#include "editor/app/user_folders.h"
+#include "editor/panels/dialogs.h"
+
+namespace lararium::app {
+
+using panels::StartChoice;
+
+WindowContent::WindowContent(std::unique_ptr<Workspace> workspace, Log& log)
+    : log_(log), recent_(StateFolder() / "recent.json"), sample_(ShippedSample()) {
+  if (const Status status = recent_.Reload(); !status.ok()) {
+    start_.SetProblem(status.message());
+  }
+  if (workspace != nullptr) {
+    Enter(std::move(workspace));
+  }
+}
+
+WindowContent::~WindowContent() { KeepPicture(); }
+
+std::string WindowContent::Title() const {
+  if (workspace_ == nullptr) {
+    return "Lararium";
+  }
+  return workspace_->document().title + (workspace_->commands().dirty() ? " \xe2\x80\xa2" : "") +
+         " \xe2\x80\x93 Lararium";
+}
+
+void WindowContent::Enter(std::unique_ptr<Workspace> workspace) {
+  workspace_ = std::move(workspace);
+  pictured_ = false;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const RecentProject project{workspace_->paths().folder, workspace_->document().title,
+                              std::chrono::duration_cast<std::chrono::seconds>(now).count()};
+  if (const Status status = recent_.NoteOpened(project); !status.ok()) {
+    log_.warn("{}", status.message());  // no reason to stop
+  }
+}
+
+void WindowContent::Leave() {
+  KeepPicture();
+  layout_.reset();
+  workspace_.reset();
+  start_ = {};
+  if (const Status status = recent_.Reload(); !status.ok()) {
+    start_.SetProblem(status.message());
+  }
+}
+
+void WindowContent::KeepPicture() {
+  if (workspace_ != nullptr && workspace_->picture() != nullptr) {
+    pictured_ = true;
+    const PreviewPicture& picture = *workspace_->picture();
+    const Status status = SaveProjectPicture(workspace_->paths().folder, picture.bgr);
+    if (!status.ok()) {
+      log_.warn("{}", status.message());
+    }
+  }
+}
+
+void WindowContent::Open(const std::filesystem::path& project) {
+  Result<std::unique_ptr<Workspace>> workspace = Workspace::Open({project}, log_);
+  if (workspace.ok()) {
+    Enter(std::move(*workspace));
+  } else {
+    start_.SetProblem(workspace.message());
+  }
+}
+
+Status WindowContent::MakeNew(const StartChoice& choice) {
+  const ProjectPaths paths{choice.project};
+  LARARIUM_RETURN_IF_ERROR(CreateProject(paths, choice.fields.name));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Workspace> workspace, Workspace::Open(paths, log_));
+  Enter(std::move(workspace));
+  panels::TrainRecording(*workspace_, choice.fields);
+  workspace_->Save();
+  return Status();
+}
+
+void WindowContent::Follow(const StartChoice& choice) {
+  Status problem;
+  switch (choice.kind) {
+    case StartChoice::Kind::kNothing:
+      return;
+    case StartChoice::Kind::kQuit:
+      quit_ = true;
+      return;
+    case StartChoice::Kind::kOpen:
+      Open(choice.project);
+      return;
+    case StartChoice::Kind::kNew:
+      problem = MakeNew(choice);
+      break;
+    case StartChoice::Kind::kSample: {
+      const Result<std::filesystem::path> own = OwnSample(sample_, DataFolder());
+      problem = own.status();
+      if (own.ok()) {
+        Open(*own);
+      }
+      break;
+    }
+  }
+  if (!problem.ok()) {
+    start_.SetProblem(problem.message());
+  }
+}
+
+void WindowContent::Update(double seconds) {
+  if (workspace_ == nullptr) {
+    return;
+  }
+  workspace_->Update(seconds);
+  if (!pictured_) {
+    KeepPicture();  // also for one that is never left in good order
+  }
+}
+
+Status WindowContent::Show() {
+  if (workspace_ == nullptr) {
+    const StartChoice choice = start_.Show(recent_, keys_, !sample_.empty());
+    keys_.clear();
+    Follow(choice);
+    return Status();
+  }
+  if (layout_ == nullptr) {
+    LARARIUM_ASSIGN_OR_RETURN(layout_, Layout::Create());
+  }
+  for (const panels::KeyPress& press : std::exchange(keys_, {})) {
+    layout_->AddKey(press);
+  }
+  layout_->Show(*workspace_);
+  quit_ |= layout_->quit_requested();
+  if (layout_->leave_requested()) {
+    Leave();
+  }
+  return Status();
+}
+
+}  // namespace lararium::app

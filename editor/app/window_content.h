@@ -1,0 +1,57 @@
+#pragma once
+
+// What the editor's window shows: the start page, or one project.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "editor/app/layout.h"
+#include "editor/app/recent_projects.h"
+#include "editor/app/workspace.h"
+#include "editor/panels/start_page.h"
+
+namespace lararium::app {
+
+class WindowContent {
+ public:
+  // workspace: what is open at first; nullptr: the start page. Borrows log.
+  WindowContent(std::unique_ptr<Workspace> workspace, Log& log);
+  ~WindowContent();
+  WindowContent(const WindowContent&) = delete;
+  WindowContent& operator=(const WindowContent&) = delete;
+
+  std::string Title() const;
+  // Something moves without input: redraw soon.
+  bool Busy() const { return workspace_ != nullptr && workspace_->Busy(); }
+  void AddKey(const panels::KeyPress& press) { keys_.push_back(press); }
+  // Somebody asked for the end.
+  bool quit_requested() const { return quit_; }
+
+  // seconds: since the last call.
+  void Update(double seconds);
+  // The whole interface, for one frame. Needs the window's OpenGL context.
+  Status Show();
+
+ private:
+  void Enter(std::unique_ptr<Workspace> workspace);
+  // Back to the start page. Edits that were not saved stay in the project's journal, as they do
+  // when the program ends, and are there when it is opened again.
+  void Leave();
+  void Open(const std::filesystem::path& project);
+  Status MakeNew(const panels::StartChoice& choice);
+  void Follow(const panels::StartChoice& choice);
+  void KeepPicture();
+
+  Log& log_;
+  RecentProjects recent_;
+  std::filesystem::path sample_;  // as it was shipped; empty: not there
+  panels::StartPage start_;
+  std::vector<panels::KeyPress> keys_;
+  std::unique_ptr<Workspace> workspace_;  // nullptr: the start page is shown
+  std::unique_ptr<Layout> layout_;        // of workspace_
+  bool pictured_ = false;                 // its picture was kept once
+  bool quit_ = false;
+};
+
+}  // namespace lararium::app

@@ -1,0 +1,129 @@
+#pragma once
+
+// The keys of the editor: one table, by which panels know what a key means and which the list
+// of keys (F1) shows.
+
+#include <span>
+#include <string>
+
+namespace lararium::panels {
+
+// A key that went down or repeats; GLFW's codes, letters by what is printed on the key. ImGui
+// 1.86 looks at the state of keys once a frame and misses what is pressed and released in
+// between.
+struct KeyPress {
+  int key = 0;
+  int modifiers = 0;
+  bool repeats = false;    // it was held down
+  char32_t character = 0;  // that it types; 0: none
+};
+
+// Where a key means something. A press is offered to the timeline while that was clicked last,
+// then to the light while a probe is selected, then to the camera view and to the rest.
+enum class KeyScope { kStart, kAlways, kViews, kCamera, kLight, kTimeline };
+inline constexpr int kKeyScopes = 6;
+
+enum class KeyAction {
+  kNone,
+  // the start page
+  kNewProject,
+  kOpenProject,
+  // always
+  kSave,
+  kUndo,
+  kRedo,
+  kLeave,
+  kQuit,
+  kKeyList,
+  kTimelineTab,
+  kScriptTab,
+  kChecksTab,
+  kMessagesTab,
+  kEvidence,
+  kPlay,
+  // the views
+  kCameraView,
+  kAroundView,
+  kPickView,
+  kMove,
+  kTurn,
+  kScale,
+  kLayOnFloor,
+  kLight,
+  kSound,
+  // the camera view
+  kNudgeLeft,
+  kNudgeRight,
+  kNudgeUp,
+  kNudgeDown,
+  kNudgeForward,
+  kNudgeBack,
+  // a light probe
+  kLightLeft,
+  kLightRight,
+  kLightFarLeft,
+  kLightFarRight,
+  kDarker,
+  kBrighter,
+  kPickGrey,
+  kPickDirection,
+  kWipe,
+  kStopPicking,
+  // the timeline
+  kBack,
+  kOn,
+  kBegin,
+  kEnd,
+  kEdgeBack,
+  kEdgeOn,
+  kNearer,
+  kFurther,
+  kFit,
+  kAdd,
+  kMarker,
+  kSnap,
+  kRipple,
+  kTrimBegin,
+  kTrimEnd,
+  kItemBack,
+  kItemOn,
+  kSelectBefore,
+  kSelectAfter,
+  kSelectAbove,
+  kSelectBelow,
+  kSelectAll,
+  kSelectNone,
+  kCut,
+  kCopy,
+  kPaste,
+  kDuplicate,
+  kDelete,
+  kGoToScript,
+};
+
+struct KeyBinding {
+  KeyScope scope;
+  KeyAction action;
+  int key;             // GLFW's; 0: the character counts, wherever the keyboard has it
+  int modifiers;       // GLFW's, of Control, Shift and Alt; with a character only Control counts
+  char32_t character;  // 0: the key counts
+  const char* does;    // English, see Tr(); nullptr: as the binding of the same action before it
+  const char* with_shift = nullptr;  // Shift may be held as well, and does this more; English
+};
+
+// Bindings of one scope and of one action follow one another.
+std::span<const KeyBinding> KeyBindings();
+
+// What a press means in a scope; kNone: nothing.
+KeyAction ActionOf(KeyScope scope, const KeyPress& press);
+
+// "Ctrl+Shift+Z", in the language of the interface.
+std::string KeyText(const KeyBinding& binding);
+// The first binding of an action, for menus and tooltips.
+std::string KeyText(KeyAction action);
+// "Plays (Space)".
+std::string WithKey(const char* text, KeyAction action);
+
+const char* ScopeTitle(KeyScope scope);
+
+}  // namespace lararium::panels

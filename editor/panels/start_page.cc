@@ -1,0 +1,382 @@
+#include "editor/panels/start_page.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+
+#include "editor/app/project.h"
+#include "editor/app/user_folders.h"
+#include "editor/panels/dialogs.h"
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLookAgain = 2.0;  // seconds
+constexpr float kWidest = 1180.0f;  // logical pixels, all of the page
+constexpr float kActions = 240.0f;
+constexpr float kCard = 264.0f;
+constexpr float kPad = 10.0f;  // within a card
+constexpr float kGap = 18.0f;  // between cards
+constexpr const char* kSuffix = ".lararium";
+
+// "22 Nov 2026, 14:05", local.
+std::string DateText(int64_t seconds) {
+  const std::time_t time = static_cast<std::time_t>(seconds);
+  std::tm parts = {};
+  char text[64] = "";
+  if (localtime_r(&time, &parts) != nullptr) {
+    std::strftime(text, sizeof(text), "%e %b %Y, %H:%M", &parts);
+  }
+  return text[0] == ' ' ? text + 1 : text;
+}
+
+// As people write it: "~" for their own folder.
+std::string FolderText(const fs::path& folder) {
+  const std::string text = folder.string();
+  const std::string home = app::HomeFolder().string() + "/";
+  return home.size() > 2 && text.starts_with(home) ? "~/" + text.substr(home.size()) : text;
+}
+
+// Where people keep their projects: beside the one that was opened last.
+fs::path UsualFolder(const app::RecentProjects& recent) {
+  for (const app::RecentProject& project : recent.entries()) {
+    if (project.Exists()) {
+      return project.folder.parent_path();
+    }
+  }
+  return app::HomeFolder();
+}
+
+std::string FolderProblem(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    return Tr("Choose a folder that exists.");
+  }
+  return app::RecentProject{folder, "", 0}.Exists()
+             ? ""
+             : Tr("There is no project.json in this folder: choose one called NAME.lararium.");
+}
+
+bool WideButton(const char* label, bool important) {
+  if (important) {
+    ImGui::PushStyleColor(ImGuiCol_Button, colour::kAccent);
+  }
+  const bool chosen = ImGui::Button(label, ImVec2(-FLT_MIN, Px(38)));
+  if (important) {
+    ImGui::PopStyleColor();
+  }
+  return chosen;
+}
+
+// The part of a picture that fills a rectangle of other proportions.
+std::pair<ImVec2, ImVec2> Cover(const cv::Mat& picture, const ImVec2& size) {
+  const float picture_ratio = static_cast<float>(picture.cols) / static_cast<float>(picture.rows);
+  const float ratio = size.x / size.y;
+  const float u = std::min(1.0f, ratio / picture_ratio);
+  const float v = std::min(1.0f, picture_ratio / ratio);
+  return {ImVec2(0.5f - 0.5f * u, 0.5f - 0.5f * v), ImVec2(0.5f + 0.5f * u, 0.5f + 0.5f * v)};
+}
+
+}  // namespace
+
+void StartPage::Look(const app::RecentProjects& recent) {
+  if (looked_ >= 0.0 && ImGui::GetTime() < looked_ + kLookAgain) {
+    return;
+  }
+  looked_ = ImGui::GetTime();
+  for (const app::RecentProject& project : recent.entries()) {
+    Face& face = faces_[project.folder];
+    face.exists = project.Exists();
+    if (face.picture == nullptr) {
+      if (std::optional<cv::Mat> picture = app::LoadProjectPicture(project.folder)) {
+        face.picture = std::make_shared<const cv::Mat>(std::move(*picture));
+      }
+    }
+  }
+}
+
+void StartPage::HandleKeys(std::span<const KeyPress> keys, StartChoice& choice) {
+  for (const KeyPress& press : keys) {
+    if ((press.modifiers & GLFW_MOD_CONTROL) != 0 && press.key == GLFW_KEY_Q) {
+      choice.kind = StartChoice::Kind::kQuit;
+    }
+  }
+}
+
+void StartPage::OpenDialog(Open dialog, const app::RecentProjects& recent) {
+  dialog_ = dialog;
+  fields_ = {};
+  problem_.clear();
+  folder_ = UsualFolder(recent).string();
+}
+
+void StartPage::ShowActions(const app::RecentProjects& recent,
+                            bool has_sample,
+                            StartChoice& choice) {
+  ImGui::PushFont(ThemeFonts().title);
+  ImGui::TextUnformatted("Lararium");
+  ImGui::PopFont();
+  Hint(Tr("People of the past, where they lived."));
+  ImGui::Dummy(ImVec2(0, Px(12)));
+  if (WideButton(Tr("New from video\xe2\x80\xa6"), true)) {
+    OpenDialog(Open::kNew, recent);
+  }
+  if (WideButton(Tr("Open\xe2\x80\xa6"), false)) {
+    OpenDialog(Open::kProject, recent);
+  }
+  ImGui::BeginDisabled(!has_sample);
+  if (WideButton(Tr("Open the sample"), false)) {
+    choice.kind = StartChoice::Kind::kSample;
+  }
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::SetTooltip("%s", has_sample
+                                ? Tr("Your own copy of a small place with two people: change "
+                                     "whatever you like.")
+                                : Tr("The sample was not installed with this program."));
+  }
+}
+
+void StartPage::ShowPicture(const app::RecentProject& project,
+                            const Face& face,
+                            const ImVec2& size) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const ImVec2 to(from.x + size.x, from.y + size.y);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (face.picture != nullptr) {
+    const auto [first, last] = Cover(*face.picture, size);
+    draw.AddImageRounded(pictures_.Show(project.folder.string(), face.picture), from, to, first,
+                         last, IM_COL32(255, 255, 255, face.exists ? 255 : 90),
+                         ImGui::GetStyle().FrameRounding);
+  } else {
+    draw.AddRectFilled(from, to, Packed(colour::kFrame), ImGui::GetStyle().FrameRounding);
+    const char* text = Tr("No picture yet");
+    const ImVec2 extent = ImGui::CalcTextSize(text);
+    draw.AddText(ImVec2(from.x + 0.5f * (size.x - extent.x), from.y + 0.5f * (size.y - extent.y)),
+                 Packed(colour::kDim), text);
+  }
+  ImGui::Dummy(size);
+}
+
+void StartPage::ShowCard(app::RecentProjects& recent,
+                         const app::RecentProject& project,
+                         float width,
+                         StartChoice& choice) {
+  const Face& face = faces_[project.folder];
+  const float inner = width - 2 * Px(kPad);
+  const float picture = inner * 9.0f / 16.0f;
+  const float height = 2 * Px(kPad) + picture + 2 * ImGui::GetTextLineHeightWithSpacing() +
+                       ImGui::GetFrameHeightWithSpacing() + Px(2);
+  ImGui::PushID(project.folder.c_str());
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const ImVec2 to(from.x + width, from.y + height);
+  ImGui::BeginDisabled(!face.exists);
+  const bool clicked = ImGui::InvisibleButton("open", ImVec2(width, height));
+  ImGui::EndDisabled();
+  ImGui::SetItemAllowOverlap();  // its buttons lie over it
+  const bool hovered = face.exists && ImGui::IsItemHovered();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::SetTooltip("%s", project.folder.c_str());
+  }
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      from, to, Packed(hovered ? colour::kHover : colour::kPanel), Px(6));
+  ImGui::SetCursorScreenPos(ImVec2(from.x + Px(kPad), from.y + Px(kPad)));
+  ImGui::BeginGroup();
+  ShowPicture(project, face, ImVec2(inner, picture));
+  if (face.exists) {
+    Heading(Elided(project.title, inner).c_str());
+  } else {
+    DimText(Elided(project.title, inner));
+  }
+  DimText(ElidedFront(FolderText(project.folder), inner));
+  if (face.exists) {
+    DimText(DateText(project.opened));
+    ImGui::SameLine(inner - ImGui::CalcTextSize(Tr("Forget")).x - Px(8));
+  } else if (ImGui::SmallButton(Tr("Locate\xe2\x80\xa6"))) {
+    OpenDialog(Open::kLocate, recent);
+    missing_ = project.folder;
+  }
+  bool forget = false;
+  if (!face.exists) {
+    ImGui::SameLine();
+    forget = ImGui::SmallButton(Tr("Forget"));
+    ImGui::SameLine();
+    ImGui::TextColored(colour::kWarning, "%s", Tr("not there"));
+  } else if (hovered) {
+    forget = ImGui::SmallButton(Tr("Forget"));
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s", Tr("Takes it off this list. The project itself stays."));
+    }
+  } else {
+    ImGui::NewLine();
+  }
+  ImGui::EndGroup();
+  ImGui::SetCursorScreenPos(from);
+  ImGui::Dummy(ImVec2(width, height));
+  ImGui::PopID();
+  if (forget) {
+    const fs::path folder = project.folder;  // the list changes
+    problem_ = recent.Forget(folder).message();
+  } else if (clicked) {
+    choice.kind = StartChoice::Kind::kOpen;
+    choice.project = project.folder;
+  }
+}
+
+void StartPage::ShowRecent(app::RecentProjects& recent, StartChoice& choice) {
+  Heading(Tr("Recent projects"));
+  ImGui::Dummy(ImVec2(0, Px(2)));
+  if (recent.entries().empty()) {
+    Hint(
+        Tr("None yet. Film a place for half a minute and begin with New from video, or look "
+           "around in the sample first."));
+    return;
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(8), Px(4)));
+  const float room = ImGui::GetContentRegionAvail().x;
+  const int columns = std::max(1, static_cast<int>((room + Px(kGap)) / Px(kCard + kGap)));
+  const float width = std::min(
+      room, (room - static_cast<float>(columns - 1) * Px(kGap)) / static_cast<float>(columns));
+  const std::vector<app::RecentProject> entries = recent.entries();  // cards change the list
+  for (size_t i = 0; i < entries.size(); ++i) {
+    if (i % static_cast<size_t>(columns) != 0) {
+      ImGui::SameLine(0.0f, Px(kGap));
+    } else if (i > 0) {
+      ImGui::Dummy(ImVec2(0, Px(kGap) - 2 * ImGui::GetStyle().ItemSpacing.y));
+    }
+    ShowCard(recent, entries[i], width, choice);
+  }
+  ImGui::PopStyleVar();
+}
+
+void StartPage::NewDialog(StartChoice& choice) {
+  Hint(
+      Tr("Learns a place from a recording: walk sideways around it, slowly, with everything in "
+         "view that visitors will see."));
+  if (BeginProperties("new")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputText("##name", &fields_.name);
+    PropertyLabel(Tr("In the folder"));
+    PathField("folder", folder_, app::HomeFolder(), {});
+    RecordingFields(folder_, fields_, Tr("estimated; or fx, fy, cx, cy, k1, k2, p1, p2"));
+    EndProperties();
+  }
+  const fs::path parent = app::HomeFolder() / folder_;
+  const fs::path project = parent / (fields_.name + kSuffix);
+  std::error_code ignored;
+  std::string problem = NameProblem(fields_.name);
+  if (problem.empty() && !fs::is_directory(parent, ignored)) {
+    problem = Tr("Choose a folder that exists.");
+  }
+  if (problem.empty() && fs::exists(project, ignored)) {
+    problem = Tr("A project of that name is there already.");
+  }
+  if (problem.empty()) {
+    problem = RecordingProblem({parent}, fields_);
+  }
+  const DialogAnswer answer = DialogButtons(Tr("Train"), problem);
+  if (answer != DialogAnswer::kNone) {
+    dialog_ = Open::kNothing;
+  }
+  if (answer == DialogAnswer::kAct) {
+    choice.kind = StartChoice::Kind::kNew;
+    choice.project = project;
+    choice.fields = fields_;
+    choice.fields.place = fields_.name;
+    choice.fields.file = (parent / fields_.file).string();
+  }
+}
+
+void StartPage::ProjectDialog(app::RecentProjects& recent, StartChoice& choice) {
+  const bool locate = dialog_ == Open::kLocate;
+  Hint(locate ? Text(Tr("Where is the project now that was in %s?"), missing_.c_str())
+              : Tr("A project is a folder with project.json in it, called NAME.lararium."));
+  if (BeginProperties("project")) {
+    PropertyLabel(Tr("Folder"));
+    PathField("folder", folder_, app::HomeFolder(), {});
+    EndProperties();
+  }
+  const fs::path project = app::HomeFolder() / folder_;
+  const DialogAnswer answer =
+      DialogButtons(locate ? Tr("Locate") : Tr("Open"), FolderProblem(project));
+  if (answer != DialogAnswer::kNone) {
+    dialog_ = Open::kNothing;
+  }
+  if (answer == DialogAnswer::kAct && locate) {
+    problem_ = recent.Move(missing_, project).message();
+    looked_ = -1.0;
+  } else if (answer == DialogAnswer::kAct) {
+    choice.kind = StartChoice::Kind::kOpen;
+    choice.project = project;
+  }
+}
+
+void StartPage::ShowDialog(app::RecentProjects& recent, StartChoice& choice) {
+  if (dialog_ == Open::kNothing) {
+    return;
+  }
+  const char* title = dialog_ == Open::kNew       ? Tr("New from video")
+                      : dialog_ == Open::kProject ? Tr("Open a project")
+                                                  : Tr("Locate the project");
+  bool open = true;
+  ShowModal(title, 560, open, [&] {
+    if (dialog_ == Open::kNew) {
+      NewDialog(choice);
+    } else {
+      ProjectDialog(recent, choice);
+    }
+    open = dialog_ != Open::kNothing;
+  });
+  if (!open) {
+    dialog_ = Open::kNothing;
+  }
+}
+
+StartChoice StartPage::Show(app::RecentProjects& recent,
+                            std::span<const KeyPress> keys,
+                            bool has_sample) {
+  StartChoice choice;
+  HandleKeys(keys, choice);
+  Look(recent);
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->WorkPos);
+  ImGui::SetNextWindowSize(viewport->WorkSize);
+  const float width = std::min(viewport->WorkSize.x - 2 * Px(24), Px(kWidest));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                      ImVec2(0.5f * (viewport->WorkSize.x - width), Px(40)));
+  ImGui::Begin("Start", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::PopStyleVar();
+  ImGui::BeginChild("actions", ImVec2(Px(kActions), 0));
+  ShowActions(recent, has_sample, choice);
+  ImGui::EndChild();
+  ImGui::SameLine(0.0f, Px(48));
+  ImGui::BeginChild("recent");
+  if (!problem_.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour::kError);
+    ImGui::TextWrapped("%s", problem_.c_str());
+    ImGui::PopStyleColor();
+    ImGui::Dummy(ImVec2(0, Px(8)));
+  }
+  ShowRecent(recent, choice);
+  ImGui::EndChild();
+  ShowDialog(recent, choice);
+  ImGui::End();
+  if (choice.kind != StartChoice::Kind::kNothing) {
+    problem_.clear();
+  }
+  return choice;
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,113 @@
+#!/bin/bash
+# Drives the start page with real input events: opens a recent project, goes back, locates one
+# that was moved, forgets one, makes one from a video, opens the sample. Looks at the window's
+# title, at the list on the disk and at screenshots.
+#
+#   start_window_test.sh EDITOR OUTPUT_FOLDER VIDEO
+set -u
+editor=$1
+out=$2
+video=$3
+
+. "$(dirname "$0")/window.sh"
+need xvfb-run Xvfb xdotool import identify
+on_a_display "$0" "$@"
+start_clean
+export HOME=$out/home XDG_CACHE_HOME=$out/cache XDG_DATA_HOME=$out/data XDG_CONFIG_HOME=$out/config
+mkdir -p "$HOME"
+recent=$XDG_STATE_HOME/lararium/recent.json
+
+press() { xdotool key --delay 60 "$1" && sleep 0.5; }
+click() { xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.6; }
+start_editor() {
+  "$editor" "$@" >> "$out/editor.log" 2>&1 &
+  pid=$!
+  wait_for 40 xdotool search --name Lararium || fail "no window"
+  xdotool mousemove 1300 860
+  sleep 2
+}
+quit() {
+  press ctrl+q
+  wait_for 20 bash -c "! kill -0 $pid" || fail "did not quit"
+  wait $pid || fail "exit code $?"
+}
+titled() { xdotool search --name "^$1" > /dev/null; }
+# The folders of the list, newest first.
+listed() { tr -d ' \n' < "$recent" | grep -oE '"folder":"[^"]*"' | sed 's/.*\///; s/"//' | xargs; }
+lists() { [ "$(listed)" = "$1" ]; }
+# Types into the field of a dialog instead of what is there.
+fill() {
+  click "$1" "$2"
+  press ctrl+a
+  xdotool type --delay 40 "$3"
+  sleep 0.5
+}
+
+for name in first second third; do
+  "$editor" new "$out/$name.lararium" --title "The $name" > /dev/null || fail "no project"
+  start_editor "$out/$name.lararium"
+  quit
+done
+lists "third.lararium second.lararium first.lararium" || fail "the list: $(listed)"
+mv "$out/second.lararium" "$out/moved.lararium"
+rm -r "$out/first.lararium"
+
+# Opened by a click, left by a key.
+start_editor
+titled "Lararium$" || fail "this is not the start page"
+import -window root "$out/start.png"
+colours=$(identify -format %k "$out/start.png")
+[ "$colours" -gt 50 ] || fail "the screenshot is blank: $colours colours"
+click 560 150
+wait_for 20 titled "The third" || fail "the card did not open its project"
+press ctrl+o
+wait_for 20 titled "Lararium$" || fail "not back on the start page"
+sleep 1
+
+# One that is not there cannot be opened; it is located.
+click 860 150
+sleep 1
+titled "Lararium$" || fail "a project that is not there was opened"
+click 766 306
+import -window root "$out/locate.png"
+fill 760 448 "$out/moved.lararium"
+import -window root "$out/located.png"
+click 941 508
+wait_for 5 lists "third.lararium moved.lararium first.lararium" || fail "not located: $(listed)"
+
+# One that is gone is forgotten.
+click 1154 306
+wait_for 5 lists "third.lararium moved.lararium" || fail "not forgotten: $(listed)"
+sleep 2.5
+import -window root "$out/forgotten.png"
+
+# New from a video: the training begins.
+click 250 124
+import -window root "$out/new.png"
+fill 760 392 "tavern"
+fill 760 424 "$out"
+fill 760 488 "$video"
+import -window root "$out/filled.png"
+click 941 577
+wait_for 20 titled "tavern" || fail "no project was made"
+grep -q training "$out/tavern.lararium/project.json" || fail "the project was not saved"
+lists "tavern.lararium third.lararium moved.lararium" || fail "not in the list: $(listed)"
+sleep 1
+import -window root "$out/training.png"
+press ctrl+o
+wait_for 60 titled "Lararium$" || fail "not back on the start page"
+
+# The sample: a copy of one's own.
+sleep 1
+click 250 210
+wait_for 20 titled "maquette\|The maquette\|Maquette" || fail "the sample did not open"
+[ -e "$XDG_DATA_HOME/lararium/maquette.lararium/project.json" ] || fail "the sample was not copied"
+quit
+
+# A damaged list is told of, and does no harm.
+echo '{"schema": 1, "recent": [' > "$recent"
+start_editor
+import -window root "$out/damaged.png"
+[ -e "$recent.damaged" ] || fail "the damaged list was not moved aside"
+quit
+echo "passed; screenshots: $out/start.png $out/new.png"
