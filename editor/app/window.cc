@@ -65,15 +65,23 @@ void WaitForInput(render::Window& window, const WindowContent& content) {
   window.WaitEvents(content.Busy() ? kBusyWait : kIdleWait);
 }
 
+// Letters by what is printed on the key; everything else by its place.
+int KeyOfLayout(int key) {
+  const char* name = glfwGetKeyName(key, 0);
+  const bool letter = name != nullptr && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0';
+  return letter ? name[0] - 'a' + GLFW_KEY_A : key;
+}
+
 Status MainLoop(render::Window& window, std::unique_ptr<Workspace> workspace, Log& log) {
   Interface interface(window);
   WindowContent content(std::move(workspace), log);
   render::WindowCallbacks callbacks;
   callbacks.key = [&content](int key, int action, int modifiers) {
     if (action != GLFW_RELEASE) {
-      content.AddKey({key, modifiers, action == GLFW_REPEAT});
+      content.AddKey({KeyOfLayout(key), modifiers, action == GLFW_REPEAT});
     }
   };
+  callbacks.character = [&content](char32_t character) { content.AddCharacter(character); };
   window.SetCallbacks(std::move(callbacks));
   auto last = std::chrono::steady_clock::now();
   std::string title;

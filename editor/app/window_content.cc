@@ -31,6 +31,13 @@ std::string WindowContent::Title() const {
          " \xe2\x80\x93 Lararium";
 }
 
+void WindowContent::AddCharacter(char32_t character) {
+  if (keys_.empty() || keys_.back().character != 0) {
+    keys_.push_back({});  // an input method typed it, no key
+  }
+  keys_.back().character = character;
+}
+
 void WindowContent::Enter(std::unique_ptr<Workspace> workspace) {
   workspace_ = std::move(workspace);
   pictured_ = false;

@@ -25,6 +25,8 @@ class WindowContent {
   // Something moves without input: redraw soon.
   bool Busy() const { return workspace_ != nullptr && workspace_->Busy(); }
   void AddKey(const panels::KeyPress& press) { keys_.push_back(press); }
+  // That the key which was added last types.
+  void AddCharacter(char32_t character);
   // Somebody asked for the end.
   bool quit_requested() const { return quit_; }
 

@@ -83,34 +83,34 @@ void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList&
 }
 
 // Along the camera's axes: x right, y down, z forward.
-Eigen::Vector3d NudgeDirection(int key) {
-  switch (key) {
-    case GLFW_KEY_LEFT:
+Eigen::Vector3d NudgeDirection(KeyAction action) {
+  switch (action) {
+    case KeyAction::kNudgeLeft:
       return {-1, 0, 0};
-    case GLFW_KEY_RIGHT:
+    case KeyAction::kNudgeRight:
       return {1, 0, 0};
-    case GLFW_KEY_UP:
+    case KeyAction::kNudgeUp:
       return {0, -1, 0};
-    case GLFW_KEY_DOWN:
+    case KeyAction::kNudgeDown:
       return {0, 1, 0};
-    case GLFW_KEY_PAGE_UP:
+    case KeyAction::kNudgeForward:
       return {0, 0, 1};
-    case GLFW_KEY_PAGE_DOWN:
+    case KeyAction::kNudgeBack:
       return {0, 0, -1};
     default:
       return Eigen::Vector3d::Zero();
   }
 }
 
-// Arrow keys and PageUp/PageDown move the camera in its image plane and depth.
+// Keys move the camera in its image plane and depth.
 void NudgeWithKeys(app::Workspace& workspace, const EditorState& state) {
   constexpr double kStep = 0.005;  // metres; 10 times that with Shift
   if (ImGui::GetIO().WantTextInput || state.dialog != Dialog::kNone) {
     return;
   }
   for (const KeyPress& press : state.keys) {
-    const Eigen::Vector3d direction = NudgeDirection(press.key);
-    if (direction.isZero() || (press.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) != 0) {
+    const Eigen::Vector3d direction = NudgeDirection(ActionOf(KeyScope::kCamera, press));
+    if (direction.isZero()) {
       continue;
     }
     if (!press.repeats) {

@@ -14,6 +14,7 @@
 #include "editor/app/training.h"
 #include "editor/import/cast_presets.h"
 #include "editor/import/objects/object_models.h"
+#include "editor/panels/key_list.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -416,6 +417,9 @@ void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
 }
 
 void ShowDialogs(app::Workspace& workspace, EditorState& state) {
+  if (state.dialog == Dialog::kKeys && !ShowKeyList(state.keys)) {
+    state.dialog = Dialog::kNone;
+  }
   for (const DialogEntry& entry : kDialogs) {
     if (state.dialog != entry.dialog) {
       continue;

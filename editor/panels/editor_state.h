@@ -11,6 +11,7 @@
 #include "editor/app/cast_pictures.h"
 #include "editor/bake/probe_match.h"
 #include "editor/panels/gizmo.h"
+#include "editor/panels/keys.h"
 #include "editor/panels/picture_textures.h"
 #include "editor/panels/view_camera.h"
 
@@ -26,7 +27,7 @@ struct Selection {
   friend bool operator==(const Selection&, const Selection&) = default;
 };
 
-enum class Dialog { kNone, kTrain, kAddSession, kExport, kOccluder, kProbe, kCast, kObject };
+enum class Dialog { kNone, kTrain, kAddSession, kExport, kOccluder, kProbe, kCast, kObject, kKeys };
 
 // What has been typed into the open dialog.
 struct DialogFields {
@@ -37,14 +38,6 @@ struct DialogFields {
   std::string preset;   // of a person; empty: none
   int model = 0;        // of the built-in objects
   bool images = false;  // the recording is a folder of images
-};
-
-// A key that went down or repeats; GLFW's codes. ImGui 1.86 looks at the state
-// of keys once a frame and misses what is pressed and released in between.
-struct KeyPress {
-  int key = 0;
-  int modifiers = 0;
-  bool repeats = false;  // it was held down
 };
 
 // How the person who is selected is looked at.

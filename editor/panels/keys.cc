@@ -60,7 +60,8 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kCamera, Action::kNudgeBack, GLFW_KEY_PAGE_DOWN, 0, 0, TrLater("Back"),
      TrLater("by 5 cm")},
 
-    {Scope::kLight, Action::kLightLeft, 0, 0, U'[', TrLater("Turns the light to the left by 1\xc2\xb0")},
+    {Scope::kLight, Action::kLightLeft, 0, 0, U'[',
+     TrLater("Turns the light to the left by 1\xc2\xb0")},
     {Scope::kLight, Action::kLightRight, 0, 0, U']', TrLater("To the right")},
     {Scope::kLight, Action::kLightFarLeft, 0, 0, U'{', TrLater("To the left by 10\xc2\xb0")},
     {Scope::kLight, Action::kLightFarRight, 0, 0, U'}', TrLater("To the right by 10\xc2\xb0")},
@@ -92,7 +93,8 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kTimeline, Action::kRipple, GLFW_KEY_R, 0, 0, TrLater("Switches ripple on and off")},
     {Scope::kTimeline, Action::kTrimBegin, 0, 0, U'[',
      TrLater("What is chosen begins at the playhead")},
-    {Scope::kTimeline, Action::kTrimEnd, 0, 0, U']', TrLater("What is chosen ends at the playhead")},
+    {Scope::kTimeline, Action::kTrimEnd, 0, 0, U']',
+     TrLater("What is chosen ends at the playhead")},
     {Scope::kTimeline, Action::kItemBack, GLFW_KEY_LEFT, kAlt, 0,
      TrLater("Moves what is chosen back by 0.1 s"), TrLater("by a second")},
     {Scope::kTimeline, Action::kItemOn, GLFW_KEY_RIGHT, kAlt, 0,
@@ -205,7 +207,7 @@ const char* ScopeTitle(KeyScope scope) {
     case Scope::kStart:
       return Tr("On the start page");
     case Scope::kAlways:
-      return Tr("Always");
+      return Tr("Everywhere");
     case Scope::kViews:
       return Tr("In the views");
     case Scope::kCamera:

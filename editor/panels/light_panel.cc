@@ -1,6 +1,5 @@
 #include "editor/panels/light_panel.h"
 
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -434,10 +433,10 @@ bool HandleLightKey(app::Workspace& workspace, EditorState& state, const KeyPres
   if (probe == nullptr) {
     return false;
   }
-  const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
+  const KeyAction action = ActionOf(KeyScope::kLight, press);
   const auto turn = [&](double degrees) {
-    const glm::quat by = glm::angleAxis(
-        static_cast<float>((shift ? 10.0 : 1.0) * degrees / kDegrees), glm::vec3(0.0f, 1.0f, 0.0f));
+    const glm::quat by =
+        glm::angleAxis(static_cast<float>(degrees / kDegrees), glm::vec3(0.0f, 1.0f, 0.0f));
     TurnProbe(workspace, *probe, by * Rotation(*probe), "turn the light", "probe keys");
   };
   const auto brighten = [&](double stops) {
@@ -448,29 +447,35 @@ bool HandleLightKey(app::Workspace& workspace, EditorState& state, const KeyPres
   if (!press.repeats) {
     workspace.EndGesture();  // each press is a command of its own
   }
-  switch (press.key) {
-    case GLFW_KEY_LEFT_BRACKET:
+  switch (action) {
+    case KeyAction::kLightLeft:
       turn(1.0);
       return true;
-    case GLFW_KEY_RIGHT_BRACKET:
+    case KeyAction::kLightRight:
       turn(-1.0);
       return true;
-    case GLFW_KEY_MINUS:
+    case KeyAction::kLightFarLeft:
+      turn(10.0);
+      return true;
+    case KeyAction::kLightFarRight:
+      turn(-10.0);
+      return true;
+    case KeyAction::kDarker:
       brighten(-1.0);
       return true;
-    case GLFW_KEY_EQUAL:
+    case KeyAction::kBrighter:
       brighten(1.0);
       return true;
-    case GLFW_KEY_G:
+    case KeyAction::kPickGrey:
       BeginPicking(state, Picking::kGrey);
       return true;
-    case GLFW_KEY_M:
+    case KeyAction::kPickDirection:
       BeginPicking(state, Picking::kOnProbe);
       return true;
-    case GLFW_KEY_B:
+    case KeyAction::kWipe:
       state.light.wipe = !state.light.wipe;
       return true;
-    case GLFW_KEY_ESCAPE:
+    case KeyAction::kStopPicking:
       state.light.picking = Picking::kNothing;
       state.light.in_probe.reset();
       return true;

@@ -12,8 +12,7 @@ namespace lararium::panels {
 
 void ShowLightPanel(app::Workspace& workspace, EditorState& state, const app::ProbeDocument& probe);
 
-// [ ] turn the selected probe, - = brighten it, G and M begin to pick, B compares, Escape ends.
-// True where the key was one of them.
+// Of KeyScope::kLight. True where the key was one of them and a probe is selected.
 bool HandleLightKey(app::Workspace& workspace, EditorState& state, const KeyPress& press);
 
 // The probe that is selected; nullptr where none is.

@@ -1,6 +1,5 @@
 #include "editor/panels/start_page.h"
 
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -11,6 +10,7 @@
 #include "editor/app/project.h"
 #include "editor/app/user_folders.h"
 #include "editor/panels/dialogs.h"
+#include "editor/panels/key_list.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -105,10 +105,23 @@ void StartPage::Look(const app::RecentProjects& recent) {
   }
 }
 
-void StartPage::HandleKeys(std::span<const KeyPress> keys, StartChoice& choice) {
+void StartPage::HandleKeys(const app::RecentProjects& recent,
+                           std::span<const KeyPress> keys,
+                           StartChoice& choice) {
   for (const KeyPress& press : keys) {
-    if ((press.modifiers & GLFW_MOD_CONTROL) != 0 && press.key == GLFW_KEY_Q) {
+    const KeyAction action = ActionOf(KeyScope::kAlways, press);
+    if (action == KeyAction::kQuit) {
       choice.kind = StartChoice::Kind::kQuit;
+    }
+    if (dialog_ != Open::kNothing) {
+      continue;
+    }
+    if (action == KeyAction::kKeyList) {
+      OpenDialog(Open::kKeys, recent);
+    } else if (ActionOf(KeyScope::kStart, press) == KeyAction::kNewProject) {
+      OpenDialog(Open::kNew, recent);
+    } else if (ActionOf(KeyScope::kStart, press) == KeyAction::kOpenProject) {
+      OpenDialog(Open::kProject, recent);
     }
   }
 }
@@ -321,8 +334,13 @@ void StartPage::ProjectDialog(app::RecentProjects& recent, StartChoice& choice) 
   }
 }
 
-void StartPage::ShowDialog(app::RecentProjects& recent, StartChoice& choice) {
-  if (dialog_ == Open::kNothing) {
+void StartPage::ShowDialog(app::RecentProjects& recent,
+                           std::span<const KeyPress> keys,
+                           StartChoice& choice) {
+  if (dialog_ == Open::kKeys && !ShowKeyList(keys)) {
+    dialog_ = Open::kNothing;
+  }
+  if (dialog_ == Open::kNothing || dialog_ == Open::kKeys) {
     return;
   }
   const char* title = dialog_ == Open::kNew       ? Tr("New from video")
@@ -346,7 +364,7 @@ StartChoice StartPage::Show(app::RecentProjects& recent,
                             std::span<const KeyPress> keys,
                             bool has_sample) {
   StartChoice choice;
-  HandleKeys(keys, choice);
+  HandleKeys(recent, keys, choice);
   Look(recent);
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->WorkPos);
@@ -371,7 +389,7 @@ StartChoice StartPage::Show(app::RecentProjects& recent,
   }
   ShowRecent(recent, choice);
   ImGui::EndChild();
-  ShowDialog(recent, choice);
+  ShowDialog(recent, keys, choice);
   ImGui::End();
   if (choice.kind != StartChoice::Kind::kNothing) {
     problem_.clear();

@@ -34,7 +34,7 @@ class StartPage {
   void SetProblem(std::string problem) { problem_ = std::move(problem); }
 
  private:
-  enum class Open { kNothing, kNew, kProject, kLocate };
+  enum class Open { kNothing, kNew, kProject, kLocate, kKeys };
   // What is known of an entry's folder; looked at now and then, as folders come and go.
   struct Face {
     bool exists = false;
@@ -42,7 +42,9 @@ class StartPage {
   };
 
   void Look(const app::RecentProjects& recent);
-  void HandleKeys(std::span<const KeyPress> keys, StartChoice& choice);
+  void HandleKeys(const app::RecentProjects& recent,
+                  std::span<const KeyPress> keys,
+                  StartChoice& choice);
   void OpenDialog(Open dialog, const app::RecentProjects& recent);
   void ShowActions(const app::RecentProjects& recent, bool has_sample, StartChoice& choice);
   void ShowRecent(app::RecentProjects& recent, StartChoice& choice);
@@ -51,7 +53,7 @@ class StartPage {
                 float width,
                 StartChoice& choice);
   void ShowPicture(const app::RecentProject& project, const Face& face, const ImVec2& size);
-  void ShowDialog(app::RecentProjects& recent, StartChoice& choice);
+  void ShowDialog(app::RecentProjects& recent, std::span<const KeyPress> keys, StartChoice& choice);
   void NewDialog(StartChoice& choice);
   void ProjectDialog(app::RecentProjects& recent, StartChoice& choice);
 

@@ -14,6 +14,9 @@ void LoadTexts(const std::string& folder);
 // The text, translated. Literals only: they are gathered from the sources.
 const char* Tr(const char* text) __attribute__((format_arg(1)));
 
+// Marks a literal that is translated where it is shown.
+constexpr const char* TrLater(const char* text) { return text; }
+
 // The same of a text with a number in it: one for 1, many otherwise, both with %d.
 std::string TrCount(const char* one, const char* many, int count);
 

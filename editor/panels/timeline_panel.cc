@@ -175,7 +175,7 @@ double PlayedSeconds(std::span<const TaskRecord> tasks, const TimelineLane& lane
   return 0.0;
 }
 
-bool ToggleButton(const char* label, bool& on, const char* tip) {
+bool ToggleButton(const char* label, bool& on, const std::string& tip) {
   ImGui::PushStyleColor(
       ImGuiCol_Button,
       on ? ImVec4(colour::kAccent.x, colour::kAccent.y, colour::kAccent.z, 0.45f) : colour::kFrame);
@@ -185,7 +185,7 @@ bool ToggleButton(const char* label, bool& on, const char* tip) {
     on = !on;
   }
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", tip);
+    ImGui::SetTooltip("%s", tip.c_str());
   }
   return pressed;
 }
@@ -1199,118 +1199,123 @@ void TimelinePanel::GoToScript(const app::Workspace& workspace, EditorState& sta
   }
 }
 
-bool TimelinePanel::HandleControlKey(app::Workspace& workspace, const KeyPress& press) {
-  switch (press.key) {
-    case GLFW_KEY_A:
+bool TimelinePanel::HandleSelectionKey(app::Workspace& workspace, KeyAction action) {
+  switch (action) {
+    case KeyAction::kSelectAll:
       SelectAll(workspace);
       return true;
-    case GLFW_KEY_C:
-      Copy(workspace);
+    case KeyAction::kSelectNone:
+      drag_ = {};
+      selection_.clear();
+      block_.reset();
       return true;
-    case GLFW_KEY_X:
-      Copy(workspace);
-      Delete(workspace);
-      return true;
-    case GLFW_KEY_V:
-      Paste(workspace);
-      return true;
-    case GLFW_KEY_D:
-      Duplicate(workspace);
-      return true;
-    case GLFW_KEY_LEFT:
+    case KeyAction::kSelectBefore:
       StepSelection(workspace, -1, 0);
       return true;
-    case GLFW_KEY_RIGHT:
+    case KeyAction::kSelectAfter:
       StepSelection(workspace, 1, 0);
       return true;
-    case GLFW_KEY_UP:
+    case KeyAction::kSelectAbove:
       StepSelection(workspace, 0, -1);
       return true;
-    case GLFW_KEY_DOWN:
+    case KeyAction::kSelectBelow:
       StepSelection(workspace, 0, 1);
       return true;
+    default:
+      return false;
   }
-  return false;
 }
 
-bool TimelinePanel::HandleKey(app::Workspace& workspace,
-                              EditorState& state,
-                              const KeyPress& press) {
-  const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
-  const bool alt = (press.modifiers & GLFW_MOD_ALT) != 0;
+bool TimelinePanel::HandleTimeKey(app::Workspace& workspace, KeyAction action, bool shift) {
   const auto go = [&](double time) {
     workspace.SetPlaying(false);
     workspace.SetTime(std::clamp(time, 0.0, std::max(workspace.duration(), workspace.time())));
     ScrollTo(scale_, workspace.time());
   };
-  if (press.key == GLFW_KEY_LEFT || press.key == GLFW_KEY_RIGHT) {
-    const double sign = press.key == GLFW_KEY_LEFT ? -1.0 : 1.0;
-    if (alt) {
-      Nudge(workspace, sign * (shift ? 1.0 : kNudge));
-    } else {
-      go(workspace.time() + sign * (shift ? 1.0 : kFrame));
-    }
-    return true;
-  }
-  if (alt) {
-    return false;
-  }
-  switch (press.key) {
-    case GLFW_KEY_HOME:
+  switch (action) {
+    case KeyAction::kBack:
+      go(workspace.time() - (shift ? 1.0 : kFrame));
+      return true;
+    case KeyAction::kOn:
+      go(workspace.time() + (shift ? 1.0 : kFrame));
+      return true;
+    case KeyAction::kBegin:
       go(0.0);
       return true;
-    case GLFW_KEY_END:
+    case KeyAction::kEnd:
       go(workspace.duration());
       return true;
-    case GLFW_KEY_PAGE_UP:
+    case KeyAction::kEdgeBack:
       JumpToEdge(workspace, -1);
       return true;
-    case GLFW_KEY_PAGE_DOWN:
+    case KeyAction::kEdgeOn:
       JumpToEdge(workspace, 1);
       return true;
-    case GLFW_KEY_DELETE:
-    case GLFW_KEY_BACKSPACE:
-      Delete(workspace);
-      return true;
-    case GLFW_KEY_ESCAPE:
-      drag_ = {};
-      selection_.clear();
-      block_.reset();
-      return true;
-    case GLFW_KEY_LEFT_BRACKET:
-      TrimToPlayhead(workspace, true);
-      return true;
-    case GLFW_KEY_RIGHT_BRACKET:
-      TrimToPlayhead(workspace, false);
-      return true;
-    case GLFW_KEY_EQUAL:
-    case GLFW_KEY_KP_ADD:
+    case KeyAction::kNearer:
       Zoom(scale_, 0.8, scale_.XOf(workspace.time()));
       return true;
-    case GLFW_KEY_MINUS:
-    case GLFW_KEY_KP_SUBTRACT:
+    case KeyAction::kFurther:
       Zoom(scale_, 1.25, scale_.XOf(workspace.time()));
       return true;
-    case GLFW_KEY_0:
+    case KeyAction::kFit:
       ZoomToFit(scale_, workspace.duration());
       return true;
-    case GLFW_KEY_N:
-      snap_ = !snap_;
-      return true;
-    case GLFW_KEY_R:
-      ripple_ = !ripple_;
-      return true;
-    case GLFW_KEY_A:
+    default:
+      return false;
+  }
+}
+
+bool TimelinePanel::HandleEditKey(app::Workspace& workspace,
+                                  EditorState& state,
+                                  KeyAction action,
+                                  bool shift) {
+  switch (action) {
+    case KeyAction::kAdd:
       open_add_ = true;
       return true;
-    case GLFW_KEY_M:
+    case KeyAction::kMarker:
       Add(workspace, LaneKind::kMarkers, "");
       return true;
-    case GLFW_KEY_ENTER:
+    case KeyAction::kSnap:
+      snap_ = !snap_;
+      return true;
+    case KeyAction::kRipple:
+      ripple_ = !ripple_;
+      return true;
+    case KeyAction::kTrimBegin:
+      TrimToPlayhead(workspace, true);
+      return true;
+    case KeyAction::kTrimEnd:
+      TrimToPlayhead(workspace, false);
+      return true;
+    case KeyAction::kItemBack:
+      Nudge(workspace, shift ? -1.0 : -kNudge);
+      return true;
+    case KeyAction::kItemOn:
+      Nudge(workspace, shift ? 1.0 : kNudge);
+      return true;
+    case KeyAction::kCut:
+      Copy(workspace);
+      Delete(workspace);
+      return true;
+    case KeyAction::kCopy:
+      Copy(workspace);
+      return true;
+    case KeyAction::kPaste:
+      Paste(workspace);
+      return true;
+    case KeyAction::kDuplicate:
+      Duplicate(workspace);
+      return true;
+    case KeyAction::kDelete:
+      Delete(workspace);
+      return true;
+    case KeyAction::kGoToScript:
       GoToScript(workspace, state);
       return true;
+    default:
+      return false;
   }
-  return false;
 }
 
 void TimelinePanel::HandleKeys(app::Workspace& workspace, EditorState& state) {
@@ -1321,23 +1326,25 @@ void TimelinePanel::HandleKeys(app::Workspace& workspace, EditorState& state) {
   }
   Refresh(workspace);
   std::erase_if(state.keys, [&](const KeyPress& press) {
-    return (press.modifiers & GLFW_MOD_CONTROL) != 0 ? HandleControlKey(workspace, press)
-                                                     : HandleKey(workspace, state, press);
+    const KeyAction action = ActionOf(KeyScope::kTimeline, press);
+    const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
+    return HandleTimeKey(workspace, action, shift) || HandleSelectionKey(workspace, action) ||
+           HandleEditKey(workspace, state, action, shift);
   });
 }
 
 // ---- the panel ----
 
 void TimelinePanel::ShowTools(app::Workspace& workspace, EditorState& state) {
-  const auto tip = [](const char* text) {
+  const auto tip = [](const std::string& text) {
     if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s", text);
+      ImGui::SetTooltip("%s", text.c_str());
     }
   };
   if (ImGui::Button(workspace.playing() ? Tr("Pause") : Tr("Play"), ImVec2(Px(70), 0))) {
     workspace.SetPlaying(!workspace.playing());
   }
-  tip(Tr("Plays the drama (Space)"));
+  tip(WithKey(Tr("Plays the drama"), KeyAction::kPlay));
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(FormatTime(workspace.time(), 0.01).c_str());
@@ -1349,19 +1356,21 @@ void TimelinePanel::ShowTools(app::Workspace& workspace, EditorState& state) {
     open_add_ = true;
     state.focus = Focus::kTimeline;
   }
-  tip(Tr("Adds an item at the playhead (A)"));
+  tip(WithKey(Tr("Adds an item at the playhead"), KeyAction::kAdd));
   ImGui::EndDisabled();
   ImGui::SameLine();
   ToggleButton(Tr("Snap"), snap_,
-               Tr("Items are drawn to others, to the playhead and to the grid (N). Alt: not while "
-                  "it is held."));
+               WithKey(Tr("Items are drawn to others, to the playhead and to the grid; not while "
+                          "Alt is held"),
+                       KeyAction::kSnap));
   ImGui::SameLine();
-  ToggleButton(Tr("Ripple"), ripple_, Tr("What comes later moves along (R)"));
+  ToggleButton(Tr("Ripple"), ripple_,
+               WithKey(Tr("What comes later moves along"), KeyAction::kRipple));
   ImGui::SameLine();
   if (ImGui::Button(Tr("Fit"))) {
     ZoomToFit(scale_, workspace.duration());
   }
-  tip(Tr("Shows all of the drama (0). Ctrl and wheel zoom, + and - too."));
+  tip(WithKey(Tr("Shows all of the drama; Ctrl and the wheel zoom"), KeyAction::kFit));
 }
 
 void TimelinePanel::Show(app::Workspace& workspace, EditorState& state) {

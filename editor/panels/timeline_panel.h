@@ -121,8 +121,10 @@ class TimelinePanel {
   void StepSelection(const app::Workspace& workspace, int items, int rows);
   void JumpToEdge(app::Workspace& workspace, int direction);
   void GoToScript(const app::Workspace& workspace, EditorState& state);
-  bool HandleKey(app::Workspace& workspace, EditorState& state, const KeyPress& press);
-  bool HandleControlKey(app::Workspace& workspace, const KeyPress& press);
+  // Each true where the key was one of its kind. shift: it is held.
+  bool HandleTimeKey(app::Workspace& workspace, KeyAction action, bool shift);
+  bool HandleSelectionKey(app::Workspace& workspace, KeyAction action);
+  bool HandleEditKey(app::Workspace& workspace, EditorState& state, KeyAction action, bool shift);
   std::vector<double> Naturals(const app::Workspace& workspace);
   std::string NameOfSelection(const app::Workspace& workspace);
 

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <string>
+#include <tuple>
 
 #include "editor/panels/light_panel.h"
 #include "editor/panels/theme.h"
@@ -17,6 +18,10 @@ namespace {
 void OpenDialog(EditorState& state, Dialog dialog) {
   state.dialog = dialog;
   state.fields = {};
+}
+
+bool MenuItem(const char* label, KeyAction key, bool chosen = false, bool possible = true) {
+  return ImGui::MenuItem(label, KeyText(key).c_str(), chosen, possible);
 }
 
 std::string IntrinsicsText(const geometry::CameraModel& camera) {
@@ -51,28 +56,28 @@ std::string RedoLabel(const app::Workspace& workspace) {
 }
 
 void FileMenu(app::Workspace& workspace, EditorState& state) {
-  if (ImGui::MenuItem("New or open\xe2\x80\xa6", "Ctrl+O")) {
+  if (MenuItem("New or open\xe2\x80\xa6", KeyAction::kLeave)) {
     state.leave = true;
   }
-  if (ImGui::MenuItem("Save", "Ctrl+S")) {
+  if (MenuItem("Save", KeyAction::kSave)) {
     workspace.Save();
   }
   if (ImGui::MenuItem("Export\xe2\x80\xa6")) {
     OpenDialog(state, Dialog::kExport);
   }
   ImGui::Separator();
-  if (ImGui::MenuItem("Quit", "Ctrl+Q")) {
+  if (MenuItem("Quit", KeyAction::kQuit)) {
     state.quit = true;
   }
 }
 
 void EditMenu(app::Workspace& workspace) {
-  if (ImGui::MenuItem(UndoLabel(workspace).c_str(), "Ctrl+Z", false,
-                      workspace.commands().CanUndo())) {
+  if (MenuItem(UndoLabel(workspace).c_str(), KeyAction::kUndo, false,
+               workspace.commands().CanUndo())) {
     workspace.Undo();
   }
-  if (ImGui::MenuItem(RedoLabel(workspace).c_str(), "Ctrl+Shift+Z", false,
-                      workspace.commands().CanRedo())) {
+  if (MenuItem(RedoLabel(workspace).c_str(), KeyAction::kRedo, false,
+               workspace.commands().CanRedo())) {
     workspace.Redo();
   }
 }
@@ -88,8 +93,8 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   if (ImGui::MenuItem("Bake")) {
     workspace.Bake();
   }
-  if (ImGui::MenuItem("Lay the stage on the floor", "F", false,
-                      workspace.loaded().measures.floor.has_value())) {
+  if (MenuItem("Lay the stage on the floor", KeyAction::kLayOnFloor, false,
+               workspace.loaded().measures.floor.has_value())) {
     workspace.LayStageOnFloor();
   }
   ImGui::Separator();
@@ -105,59 +110,41 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   }
 }
 
+void ShowTab(EditorState& state, BottomTab tab) {
+  state.bottom = tab;
+  state.focus = tab == BottomTab::kTimeline ? Focus::kTimeline : Focus::kViews;
+}
+
 void ViewMenu(app::Workspace& workspace, EditorState& state) {
-  const std::pair<const char*, ViewKind> views[] = {{"Through the camera", ViewKind::kCamera},
-                                                    {"Around the place", ViewKind::kAround},
-                                                    {"Picks", ViewKind::kPicks}};
-  const char* const keys[] = {"1", "2", "3"};
-  for (int i = 0; i < 3; ++i) {
-    if (ImGui::MenuItem(views[i].first, keys[i], state.view == views[i].second)) {
-      state.view = views[i].second;
+  const std::tuple<const char*, KeyAction, ViewKind> views[] = {
+      {"Through the camera", KeyAction::kCameraView, ViewKind::kCamera},
+      {"Around the place", KeyAction::kAroundView, ViewKind::kAround},
+      {"Picks", KeyAction::kPickView, ViewKind::kPicks}};
+  for (const auto& [label, key, view] : views) {
+    if (MenuItem(label, key, state.view == view)) {
+      state.view = view;
     }
   }
   ImGui::Separator();
-  const std::pair<const char*, BottomTab> tabs[] = {{"Timeline", BottomTab::kTimeline},
-                                                    {"Script", BottomTab::kScript},
-                                                    {"Checks", BottomTab::kChecks},
-                                                    {"Messages", BottomTab::kMessages}};
-  const char* const tab_keys[] = {"F5", "F6", "F7", "F8"};
-  for (int i = 0; i < 4; ++i) {
-    if (ImGui::MenuItem(tabs[i].first, tab_keys[i], state.bottom == tabs[i].second)) {
-      state.bottom = tabs[i].second;
+  const std::tuple<const char*, KeyAction, BottomTab> tabs[] = {
+      {"Timeline", KeyAction::kTimelineTab, BottomTab::kTimeline},
+      {"Script", KeyAction::kScriptTab, BottomTab::kScript},
+      {"Checks", KeyAction::kChecksTab, BottomTab::kChecks},
+      {"Messages", KeyAction::kMessagesTab, BottomTab::kMessages}};
+  for (const auto& [label, key, tab] : tabs) {
+    if (MenuItem(label, key, state.bottom == tab)) {
+      ShowTab(state, tab);
     }
   }
   ImGui::Separator();
   ImGui::MenuItem("Stage over the picture", nullptr, &state.show_stage);
   ImGui::MenuItem("Points", nullptr, &state.show_points);
   ImGui::Separator();
-  if (ImGui::MenuItem("Evidence", "F2", workspace.shows_evidence())) {
+  if (MenuItem("Evidence", KeyAction::kEvidence, workspace.shows_evidence())) {
     workspace.SetEvidence(!workspace.shows_evidence());
   }
-  if (ImGui::MenuItem("Sound", "M", workspace.sound())) {
+  if (MenuItem("Sound", KeyAction::kSound, workspace.sound())) {
     workspace.SetSound(!workspace.sound());
-  }
-}
-
-void HandleControlKey(app::Workspace& workspace, EditorState& state, const KeyPress& press) {
-  switch (press.key) {
-    case GLFW_KEY_S:
-      workspace.Save();
-      break;
-    case GLFW_KEY_Z:
-      if (ImGui::GetIO().WantTextInput && state.focus != Focus::kScript) {
-        break;  // the field that is being typed into has its own
-      }
-      (press.modifiers & GLFW_MOD_SHIFT) != 0 ? workspace.Redo() : workspace.Undo();
-      break;
-    case GLFW_KEY_Y:
-      workspace.Redo();
-      break;
-    case GLFW_KEY_O:
-      state.leave = true;
-      break;
-    case GLFW_KEY_Q:
-      state.quit = true;
-      break;
   }
 }
 
@@ -166,52 +153,96 @@ void SetGizmo(EditorState& state, GizmoMode mode) {
   state.drag.reset();
 }
 
-void HandlePlainKey(app::Workspace& workspace, EditorState& state, int key) {
-  switch (key) {
-    case GLFW_KEY_1:
-      state.view = ViewKind::kCamera;
+void SelectLight(const app::Workspace& workspace, EditorState& state) {
+  if (workspace.place() != nullptr && !workspace.place()->probes.empty()) {
+    state.selection = {Selection::Kind::kProbe, workspace.place()->probes.front().name};
+    state.view = ViewKind::kCamera;
+  }
+}
+
+// Of those everywhere.
+void Do(app::Workspace& workspace, EditorState& state, KeyAction action) {
+  const bool own_undo = ImGui::GetIO().WantTextInput && state.focus != Focus::kScript;
+  switch (action) {
+    case KeyAction::kSave:
+      workspace.Save();
       break;
-    case GLFW_KEY_2:
-      state.view = ViewKind::kAround;
-      break;
-    case GLFW_KEY_3:
-      state.view = ViewKind::kPicks;
-      break;
-    case GLFW_KEY_L:
-      if (workspace.place() != nullptr && !workspace.place()->probes.empty()) {
-        state.selection = {Selection::Kind::kProbe, workspace.place()->probes.front().name};
-        state.view = ViewKind::kCamera;
+    case KeyAction::kUndo:
+    case KeyAction::kRedo:
+      if (!own_undo) {  // else the field that is being typed into has its own
+        action == KeyAction::kUndo ? workspace.Undo() : workspace.Redo();
       }
       break;
-    case GLFW_KEY_F:
-      workspace.LayStageOnFloor();
+    case KeyAction::kLeave:
+      state.leave = true;
       break;
-    case GLFW_KEY_W:
-      SetGizmo(state, GizmoMode::kMove);
+    case KeyAction::kQuit:
+      state.quit = true;
       break;
-    case GLFW_KEY_E:
-      SetGizmo(state, GizmoMode::kTurn);
+    case KeyAction::kKeyList:
+      OpenDialog(state, Dialog::kKeys);
       break;
-    case GLFW_KEY_R:
-      SetGizmo(state, GizmoMode::kScale);
-      break;
-    case GLFW_KEY_F2:
+    case KeyAction::kEvidence:
       workspace.SetEvidence(!workspace.shows_evidence());
       break;
-    case GLFW_KEY_M:
-      workspace.SetSound(!workspace.sound());
+    case KeyAction::kTimelineTab:
+      ShowTab(state, BottomTab::kTimeline);
       break;
-    case GLFW_KEY_F5:
-    case GLFW_KEY_F6:
-    case GLFW_KEY_F7:
-    case GLFW_KEY_F8:
-      state.bottom = static_cast<BottomTab>(key - GLFW_KEY_F5);
-      state.focus = state.bottom == BottomTab::kTimeline ? Focus::kTimeline : Focus::kViews;
+    case KeyAction::kScriptTab:
+      ShowTab(state, BottomTab::kScript);
       break;
-    case GLFW_KEY_SPACE:
+    case KeyAction::kChecksTab:
+      ShowTab(state, BottomTab::kChecks);
+      break;
+    case KeyAction::kMessagesTab:
+      ShowTab(state, BottomTab::kMessages);
+      break;
+    case KeyAction::kPlay:
       workspace.SetPlaying(!workspace.playing());
       break;
+    default:
+      break;
   }
+}
+
+void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) {
+  switch (action) {
+    case KeyAction::kCameraView:
+      state.view = ViewKind::kCamera;
+      break;
+    case KeyAction::kAroundView:
+      state.view = ViewKind::kAround;
+      break;
+    case KeyAction::kPickView:
+      state.view = ViewKind::kPicks;
+      break;
+    case KeyAction::kMove:
+      SetGizmo(state, GizmoMode::kMove);
+      break;
+    case KeyAction::kTurn:
+      SetGizmo(state, GizmoMode::kTurn);
+      break;
+    case KeyAction::kScale:
+      SetGizmo(state, GizmoMode::kScale);
+      break;
+    case KeyAction::kLayOnFloor:
+      workspace.LayStageOnFloor();
+      break;
+    case KeyAction::kLight:
+      SelectLight(workspace, state);
+      break;
+    case KeyAction::kSound:
+      workspace.SetSound(!workspace.sound());
+      break;
+    default:
+      break;
+  }
+}
+
+// Whether whoever types into a field would not type this.
+bool IsNoTyping(const KeyPress& press) {
+  return (press.modifiers & GLFW_MOD_CONTROL) != 0 ||
+         (press.key >= GLFW_KEY_F1 && press.key <= GLFW_KEY_F25);
 }
 
 }  // namespace
@@ -234,6 +265,12 @@ void ShowMenuBar(app::Workspace& workspace, EditorState& state) {
   }
   if (ImGui::BeginMenu("View")) {
     ViewMenu(workspace, state);
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Help")) {
+    if (MenuItem("Keys", KeyAction::kKeyList)) {
+      OpenDialog(state, Dialog::kKeys);
+    }
     ImGui::EndMenu();
   }
   ImGui::EndMenuBar();
@@ -296,14 +333,13 @@ void HandleShortcuts(app::Workspace& workspace, EditorState& state) {
     return;
   }
   for (const KeyPress& press : state.keys) {
-    if ((press.modifiers & GLFW_MOD_CONTROL) != 0) {
-      HandleControlKey(workspace, state, press);
-    } else if (press.key >= GLFW_KEY_F1 && press.key <= GLFW_KEY_F25) {
-      HandlePlainKey(workspace, state, press.key);  // no letters: also while somebody types
-    } else if (!ImGui::GetIO().WantTextInput && (press.modifiers & GLFW_MOD_ALT) == 0) {
-      if (!HandleLightKey(workspace, state, press)) {
-        HandlePlainKey(workspace, state, press.key);
-      }
+    if (ImGui::GetIO().WantTextInput && !IsNoTyping(press)) {
+      continue;
+    }
+    if (const KeyAction action = ActionOf(KeyScope::kAlways, press); action != KeyAction::kNone) {
+      Do(workspace, state, action);
+    } else if (!HandleLightKey(workspace, state, press)) {
+      DoInViews(workspace, state, ActionOf(KeyScope::kViews, press));
     }
   }
 }

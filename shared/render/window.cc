@@ -119,6 +119,11 @@ struct Window::State {
         Of(self).key(key, action, modifiers);
       }
     });
+    glfwSetCharCallback(w, [](GLFWwindow* self, unsigned int character) {
+      if (Of(self).character) {
+        Of(self).character(character);
+      }
+    });
     glfwSetMouseButtonCallback(w, [](GLFWwindow* self, int button, int action, int modifiers) {
       if (Of(self).mouse_button) {
         Of(self).mouse_button(button, action, modifiers);

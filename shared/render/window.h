@@ -26,6 +26,8 @@ struct WindowOptions {
 // Codes are GLFW's. Positions are in screen coordinates from the top-left corner.
 struct WindowCallbacks {
   std::function<void(int key, int action, int modifiers)> key;
+  // What a key types, after it was pressed; Unicode.
+  std::function<void(char32_t character)> character = {};
   std::function<void(int button, int action, int modifiers)> mouse_button;
   std::function<void(double x, double y)> cursor;
   std::function<void(double x, double y)> scroll;

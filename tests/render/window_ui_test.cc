@@ -56,7 +56,8 @@ TEST(WindowUi, ClosesOnRequestAndKeepsItsCallbacksWhenMoved) {
   auto opened = Window::Create({.width = 320, .height = 240, .visible = false});
   ASSERT_TRUE(opened.ok()) << opened.message();
   Window window = std::move(opened).value();
-  window.SetCallbacks({.key = {}, .mouse_button = {}, .cursor = {}, .scroll = {}, .resize = {}});
+  window.SetCallbacks(
+      {.key = {}, .character = {}, .mouse_button = {}, .cursor = {}, .scroll = {}, .resize = {}});
   window.SetTitle("another title");
   EXPECT_FALSE(window.ShouldClose());
   window.RequestClose();

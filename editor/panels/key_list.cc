@@ -1,0 +1,93 @@
+#include "editor/panels/key_list.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+constexpr float kWidth = 980.0f;  // logical pixels
+constexpr float kKeyWidth = 150.0f;
+
+void ShowRow(const KeyBinding& binding, const std::string& keys) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(keys.c_str());
+  ImGui::TableNextColumn();
+  std::string does = Tr(binding.does);
+  if (binding.with_shift != nullptr) {
+    does += Text(Tr("; with Shift %s"), Tr(binding.with_shift));
+  }
+  ImGui::PushStyleColor(ImGuiCol_Text, colour::kDim);
+  ImGui::TextWrapped("%s", does.c_str());
+  ImGui::PopStyleColor();
+}
+
+void ShowScope(KeyScope scope) {
+  Heading(ScopeTitle(scope));
+  if (!ImGui::BeginTable(ScopeTitle(scope), 2)) {
+    return;
+  }
+  ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, Px(kKeyWidth));
+  ImGui::TableSetupColumn("does", ImGuiTableColumnFlags_WidthStretch);
+  const std::span<const KeyBinding> bindings = KeyBindings();
+  for (size_t i = 0; i < bindings.size(); ++i) {
+    if (bindings[i].scope != scope || bindings[i].does == nullptr) {
+      continue;
+    }
+    std::string keys = KeyText(bindings[i]);
+    for (size_t other = i + 1; other < bindings.size() && bindings[other].does == nullptr;
+         ++other) {
+      keys += Text(Tr(" or %s"), KeyText(bindings[other]).c_str());
+    }
+    ShowRow(bindings[i], keys);
+  }
+  ImGui::EndTable();
+  ImGui::Dummy(ImVec2(0, Px(6)));
+}
+
+void ShowColumns() {
+  if (!ImGui::BeginTable("columns", 2)) {
+    return;
+  }
+  ImGui::TableNextColumn();
+  for (const KeyScope scope :
+       {KeyScope::kAlways, KeyScope::kStart, KeyScope::kViews, KeyScope::kCamera}) {
+    ShowScope(scope);
+  }
+  ImGui::TableNextColumn();
+  for (const KeyScope scope : {KeyScope::kTimeline, KeyScope::kLight}) {
+    ShowScope(scope);
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+bool ShowKeyList(std::span<const KeyPress> keys) {
+  const ImVec2 window = ImGui::GetMainViewport()->WorkSize;
+  bool open = true;
+  const std::string title = std::string(Tr("Keys")) + "##list";
+  const bool was_open = ImGui::IsPopupOpen(title.c_str());
+  ShowModal(title.c_str(), std::min(kWidth, window.x / Px(1.0f) - 32.0f), open, [&] {
+    ImGui::BeginChild("keys", ImVec2(0, std::min(Px(720), 0.8f * window.y)));
+    ShowColumns();
+    ImGui::EndChild();
+    Hint(
+        Tr("While you type into a field, only keys with Ctrl and F1 to F8 mean this. In the "
+           "script and in fields, Ctrl+A, C, X and V choose, copy, cut and paste text."));
+  });
+  const bool again = std::any_of(keys.begin(), keys.end(), [](const KeyPress& press) {
+    return ActionOf(KeyScope::kAlways, press) == KeyAction::kKeyList;
+  });
+  return open && !(was_open && again);
+}
+
+}  // namespace lararium::panels
