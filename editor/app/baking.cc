@@ -221,6 +221,10 @@ human::Human MakePlainFigure(const CastDocument& member) {
   options.tunic = geometry::ToGlm(member.tunic);
   human::Human human = import::BuildPlainFigure(options);
   human.name = member.name;
+  for (human::SkinnedMesh& mesh : human.meshes) {
+    import::AddLevelsOfDetail(mesh);
+  }
+  import::OrderVertices(human);
   return human;
 }
 
@@ -233,7 +237,8 @@ struct FigureSource {
 
 FigureSource PlainFigure(const CastDocument& member) {
   std::ostringstream settings;
-  settings << "plain figure " << member.height << " " << member.tunic.transpose();
+  settings << "plain figure " << member.height << " " << member.tunic.transpose() << " "
+           << import::kLevelsOfDetail;
   return {settings.str(), {}, [member](std::vector<std::string>&) -> Result<human::Human> {
             return MakePlainFigure(member);
           }};
@@ -241,7 +246,7 @@ FigureSource PlainFigure(const CastDocument& member) {
 
 FigureSource FigureOfRecipe(const import::CastRecipe& recipe,
                             const std::filesystem::path& library) {
-  return {"recipe " + import::ToJson(recipe).dump(),
+  return {"recipe " + import::ToJson(recipe).dump() + " " + std::to_string(import::kLevelsOfDetail),
           {},
           [=](std::vector<std::string>&) -> Result<human::Human> {
             LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary opened,
@@ -263,7 +268,8 @@ FigureSource StandIn(const CastDocument& member) {
 }
 
 FigureSource ImportedFigure(const ProjectPaths& paths, const CastDocument& member) {
-  FigureSource figure{"model", {paths.Resolve(member.model)}, {}};
+  FigureSource figure{
+      "model " + std::to_string(import::kLevelsOfDetail), {paths.Resolve(member.model)}, {}};
   std::filesystem::path bone_map;
   if (!member.bone_map.empty()) {
     bone_map = paths.Resolve(member.bone_map);

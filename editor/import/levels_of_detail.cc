@@ -9,7 +9,7 @@
 namespace lararium::import {
 namespace {
 
-constexpr float kShares[] = {0.5f, 0.25f, 0.125f};
+constexpr float kShares[kLevelsOfDetail] = {0.5f, 0.25f, 0.125f, 0.0625f};
 constexpr float kMostOfThePrevious = 0.85f;  // a level must be smaller than this of it
 constexpr float kMostError = 0.15f;          // of the mesh's extent
 constexpr size_t kLeastTriangles = 32;

@@ -10,8 +10,10 @@ namespace lararium::import {
 // Puts triangles into an order that finds its vertices in the cache. Vertices stay.
 void OrderTriangles(human::SkinnedMesh& mesh);
 
-// Fills mesh.coarser with up to three levels of about a half, a quarter and an eighth of
-// the triangles, by edge collapses that keep texture seams and open borders together
+// Coarser than the mesh itself; files that were made with another number are made anew.
+inline constexpr int kLevelsOfDetail = 4;
+
+// Fills mesh.coarser with up to four levels of about a half to a sixteenth of the triangles, by edge collapses that keep texture seams and open borders together
 // (quadric error; Garland & Heckbert, SIGGRAPH 1997). A level that saves little over the
 // one before is left out.
 void AddLevelsOfDetail(human::SkinnedMesh& mesh);

@@ -84,7 +84,7 @@ TEST(LevelsOfDetail, AreCoarserOneAfterTheOtherAndTheirErrorIsTrue) {
   human::SkinnedMesh mesh = Sphere(48, 96).mesh;
   OrderTriangles(mesh);
   AddLevelsOfDetail(mesh);
-  ASSERT_EQ(mesh.coarser.size(), 3u);
+  ASSERT_EQ(mesh.coarser.size(), static_cast<size_t>(kLevelsOfDetail));
   EXPECT_TRUE(mesh.Validate(1, 0, "sphere").ok());
   size_t triangles = mesh.indices.size();
   float error = 0.0f;
@@ -134,7 +134,7 @@ TEST(OrderVertices, ChangesNothingButTheNumbersAndPutsCoarseLevelsFirst) {
   human::SkinnedMesh& mesh = human.meshes[0];
   OrderTriangles(mesh);
   AddLevelsOfDetail(mesh);
-  ASSERT_EQ(mesh.coarser.size(), 3u);
+  ASSERT_EQ(mesh.coarser.size(), static_cast<size_t>(kLevelsOfDetail));
   const auto count = static_cast<uint32_t>(mesh.positions.size());
   human.morphs = {{"up", {{0, {1, count / 2, count - 1}, {}, {}}}}};
   human::MorphTarget::Part& part = human.morphs[0].parts[0];
