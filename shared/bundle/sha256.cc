@@ -1,15 +1,15 @@
 #include "shared/bundle/sha256.h"
 
-#include <sodium/crypto_hash_sha256.h>
+#include <openssl/sha.h>
 
 namespace lararium::bundle {
 
-static_assert(crypto_hash_sha256_BYTES == 32);
+static_assert(SHA256_DIGEST_LENGTH == std::tuple_size_v<Sha256>);
 
+// By OpenSSL, which knows the processor's instructions for it: libsodium does not.
 Sha256 ComputeSha256(std::span<const std::byte> bytes) {
   Sha256 hash;
-  crypto_hash_sha256(hash.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
-                     bytes.size());
+  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), hash.data());
   return hash;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// SHA-256 (FIPS 180-4), by libsodium.
+// SHA-256 (FIPS 180-4).
 
 #include <array>
 #include <cstddef>
