@@ -75,6 +75,13 @@ Box Swept(const Box& box, const glm::vec3& towards_sun, float lowest) {
   return Union(box, {box.low - length * towards_sun, box.high - length * towards_sun});
 }
 
+Box Widened(const Box& box, float metres) { return {box.low - metres, box.high + metres}; }
+
+// As far as penumbras reach.
+Box ShadowOf(const Box& box, const light::Sun& sun, float lowest) {
+  return Widened(Swept(box, sun.direction, lowest), kLongestShadow * std::tan(sun.angular_radius));
+}
+
 // Grown to whole steps, which are powers of two metres.
 Box Snapped(const Box& box) {
   const glm::vec3 size = box.high - box.low;
@@ -89,8 +96,6 @@ void CopyDepth(GLuint from, GLuint to, int size) {
   glBlitFramebuffer(0, 0, size, size, 0, 0, size, size, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, to);
 }
-
-Box Widened(const Box& box, float metres) { return {box.low - metres, box.high + metres}; }
 
 }  // namespace
 
@@ -221,8 +226,25 @@ void SunPass::DrawOccluders(const RenderScene& scene,
   }
 }
 
+// Things stay, so that what is kept of them serves while the camera turns.
+void SunPass::ChooseCasters(std::span<const ModelDraw> all, const PictureView& view, float lowest) {
+  chosen_.clear();
+  for (const ModelDraw& draw : all) {
+    const Box box = BoxOf({&draw, 1}, glm::mat4(1.0f));
+    ScreenBounds bounds;
+    if (!box.empty()) {
+      bounds.Extend(ShadowOf(box, sun_, lowest), view.clip_from_stage);
+    }
+    if (draw.model->skin == GpuModel::Skin::kRigid ||
+        !bounds.Pixels(view.size.width, view.size.height).empty()) {
+      chosen_.push_back(draw);
+    }
+  }
+}
+
 void SunPass::Draw(const RenderScene& scene,
                    const Quality& quality,
+                   const PictureView& view,
                    const SlotMap<GpuMesh>& meshes,
                    ModelPass& models,
                    std::span<const ModelDraw> casters,
@@ -237,18 +259,19 @@ void SunPass::Draw(const RenderScene& scene,
   taps_ = quality.sun_taps;
   people_.chosen = occluders_.chosen = quality.sun_map < kMapSizes[0] ? 1 : 0;
   const glm::mat4 sun_from_stage = SunFromStage(sun_.direction);
-  const Box people = BoxOf(casters, glm::mat4(1.0f));
   const Box things = BoxOf(scene, meshes, glm::mat4(1.0f));
+  const Box all = BoxOf(casters, glm::mat4(1.0f));
+  ChooseCasters(casters, view, std::min(things.empty() ? all.low.y : things.low.y, all.low.y));
+  const Box people = BoxOf(chosen_, glm::mat4(1.0f));
   if (!people.empty() && !things.empty()) {
-    shadows_ = Widened(Swept(people, sun_.direction, things.low.y),
-                       kLongestShadow * std::tan(sun_.angular_radius));
+    shadows_ = ShadowOf(people, sun_, things.low.y);
   }
   // Penumbras and filters reach a little beyond.
   Box fitted = people.empty() ? Widened({glm::vec3(0.0f), glm::vec3(0.0f)}, 1.0f)
-                              : BoxOf(casters, sun_from_stage);
+                              : BoxOf(chosen_, sun_from_stage);
   fitted = Snapped(Widened(fitted, 0.05f));
   Fit(fitted, sun_from_stage, people_);
-  DrawCasters(models, casters);
+  DrawCasters(models, chosen_);
 
   Box asked = Union(Union(people, shadows_), around);
   Box covered = asked.empty() ? fitted : Transformed(asked, sun_from_stage);

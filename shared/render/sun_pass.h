@@ -19,6 +19,7 @@
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_mesh.h"
 #include "shared/render/model_pass.h"
+#include "shared/render/picture_view.h"
 #include "shared/render/quality.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/screen_bounds.h"
@@ -35,6 +36,7 @@ class SunPass {
   // which the sun past occluders will be asked for as well.
   void Draw(const RenderScene& scene,
             const Quality& quality,
+            const PictureView& view,
             const SlotMap<GpuMesh>& meshes,
             ModelPass& models,
             std::span<const ModelDraw> casters,
@@ -72,6 +74,8 @@ class SunPass {
   static Status Allocate(int size, Image& image);
   // Draws go into an image of a map from now on, which is empty at first. Says clip_from_stage.
   static glm::mat4 Begin(const Map& map, const Image& image);
+  // Leaves people out who cannot be seen in the picture, and whose shadows cannot.
+  void ChooseCasters(std::span<const ModelDraw> all, const PictureView& view, float lowest);
   // What stands still is drawn once, and copied from then on.
   void DrawCasters(ModelPass& models, std::span<const ModelDraw> casters);
   // box: in the axes of sun_from_stage.
@@ -86,6 +90,7 @@ class SunPass {
                       const Box& covered) const;
 
   Map people_;
+  std::vector<ModelDraw> chosen_;
   StillDraws casters_;
   std::array<Image, 2> still_images_;  // as those of people_: what stands still of them
   size_t still_chosen_ = 0;            // of these: the one that holds something

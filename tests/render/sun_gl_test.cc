@@ -115,6 +115,15 @@ TEST_F(SunTest, ShadowFallsWhereTheSunSaysAndLeavesTheSky) {
   EXPECT_EQ(Kept(picture, 0.9, 0.22), 1.0);
 }
 
+TEST_F(SunTest, WhoIsOutsideOfThePictureThrowsShadowsIntoIt) {
+  scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)),
+                          glm::vec3(3.0f * std::sqrt(2.0f)), 0.0005f};
+  PlaceBall({-2.6f, 3.0f, 0.0f}, 0.2f);
+  EXPECT_NEAR(Kept(Draw(), 0.4, 0.0), 0.25, 0.02);
+  PlaceBall({-5.0f, 3.0f, 0.0f}, 0.2f);
+  EXPECT_EQ(Kept(Draw(), 0.4, 0.0), 1.0) << "the shadow is outside, too";
+}
+
 // Cheaper pictures show the same shadow, and nothing of one is left in the next.
 TEST_F(SunTest, TheShadowIsThereAtEveryQuality) {
   scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)),
