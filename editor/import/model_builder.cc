@@ -702,12 +702,22 @@ class ModelBuilder {
     if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == AI_SUCCESS && roughness >= 0.0f) {
       material.roughness = std::min(roughness, 1.0f);
     }
+    if (IsMetal(source) && material.surface == human::Surface::kPlain) {
+      material.surface = human::Surface::kMetal;
+    }
     BuiltModel::Use use;
     use.colour = FindImage(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
     use.normal = FindImage(source, {aiTextureType_NORMALS});
     SetAlpha(source, use.colour >= 0, material);
     human().materials.push_back(material);
     built_.uses.push_back(use);
+  }
+
+  // As glTF says it. Which texels of a texture are metal is not asked.
+  static bool IsMetal(const aiMaterial& material) {
+    float metallic = 0.0f;
+    return material.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS && metallic >= 0.5f &&
+           material.GetTextureCount(aiTextureType_METALNESS) == 0;
   }
 
   glm::vec3 ColourOf(const aiMaterial& material) const {

@@ -1,8 +1,8 @@
 // The radiance of surfaces under distant light: spherical harmonics for all of it, and for
 // highlights a prefiltered map and the sun; without a map, the one direction that most of
 // the light comes from. SURFACE_PLAIN,
-// SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH or SURFACE_EYE chooses the model, REFLECTIONS
-// whether there is a map.
+// SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH, SURFACE_EYE or SURFACE_METAL chooses the model,
+// REFLECTIONS whether there is a map.
 
 #ifdef REFLECTIONS
 #include "glossy.glsl"
@@ -165,6 +165,11 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
     highlight = Highlight(normal, to_eye, 0.04, roughness);
   }
 #endif
+#endif
+#ifdef SURFACE_METAL
+  // As what reflects all light, dyed: that metals turn white at grazing sight is left out.
+  matte = vec3(0.0);
+  highlight = albedo * Highlight(normal, to_eye, 1.0, roughness);
 #endif
 #ifdef SURFACE_SKIN
   highlight = Highlight(normal, to_eye, 0.028, roughness);

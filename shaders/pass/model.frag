@@ -48,6 +48,9 @@ void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
 #ifdef SURFACE_HAIR
   highlight *= sqrt(texel.rgb);  // most of it comes from within the strands
 #endif
+#ifdef SURFACE_METAL
+  highlight *= texel.rgb / max(texel.a, 1.0 / 255.0);
+#endif
 }
 #else
 in vec3 position_in_stage;

@@ -24,8 +24,9 @@ struct Texture {
 };
 
 // Which model of reflection fits.
-enum class Surface : uint8_t { kPlain, kSkin, kHair, kCloth, kEye };
-inline constexpr uint8_t kSurfaceCount = 5;
+// Metals reflect in their own colour and nothing else.
+enum class Surface : uint8_t { kPlain, kSkin, kHair, kCloth, kEye, kMetal };
+inline constexpr uint8_t kSurfaceCount = 6;
 
 struct Material {
   static constexpr int16_t kNone = -1;

@@ -264,7 +264,7 @@ TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
   const cv::Mat grey(8, 8, CV_8UC3, cv::Scalar::all(120));
   for (const human::Surface surface :
        {human::Surface::kPlain, human::Surface::kSkin, human::Surface::kHair,
-        human::Surface::kCloth, human::Surface::kEye}) {
+        human::Surface::kCloth, human::Surface::kEye, human::Surface::kMetal}) {
     RenderScene scene = Scene();
     const cv::Mat picture =
         DrawHuman(Textured(grey, {.name = "", .surface = surface, .colour_texture = 0}), scene);
@@ -276,7 +276,8 @@ TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
 // Glints of eyes are sharper than the vertices are close. Of hair the strands hang down.
 TEST_F(ModelTest, LightAtVerticesIsThatAtPixelsWhereVerticesAreClose) {
   for (const human::Surface surface : {human::Surface::kPlain, human::Surface::kSkin,
-                                       human::Surface::kCloth, human::Surface::kEye}) {
+                                       human::Surface::kCloth, human::Surface::kEye,
+                                       human::Surface::kMetal}) {
     human::Human human = MakeHuman(Sphere(glm::vec3(0.5f)), 1);
     human.materials = {{.name = "", .surface = surface, .colour = glm::vec3(0.9f, 0.7f, 0.5f)}};
     human.meshes[0].material = 0;
@@ -554,6 +555,32 @@ TEST_F(ModelTest, EvenReflectionsAreTheShareOfEvenLight) {
     c *= 0.5f;
   }
   EXPECT_NEAR(LinearAt(Draw(scene), 40, 40).r, 0.5 * mirrored, 0.005);
+}
+
+// Of roughness 0.4, seen along the normal, what reflects everything returns 0.78 of even light
+// (what bounces within the roughness is left out).
+TEST_F(ModelTest, MetalsMirrorInTheirOwnColourAndAreNotMatte) {
+  const glm::vec3 bronze(0.8f, 0.5f, 0.2f);
+  human::SkinnedMesh square = Square();
+  square.albedo.assign(4, bronze);
+  human::Human human = MakeHuman(square, 1);
+  human.materials = {{.name = "", .surface = human::Surface::kMetal, .roughness = 0.4f}};
+  human.meshes[0].material = 0;
+  SceneHuman shown;
+  shown.human = renderer_->AddHuman(human).value();
+  shown.skin = {&kNoMotion, 1};
+  light::ProbeLight light;
+  shown.light = &light;
+  RenderScene scene = Scene();
+  scene.light = light.sky = EvenLight();
+  scene.humans = {&shown, 1};
+  const std::vector<uint32_t> reflections = EvenReflections(glm::vec3(0.8f));
+  scene.glossy = reflections;
+  scene.glossy_number = 1;
+  const glm::vec3 seen = LinearAt(Draw(scene), 40, 40);
+  for (int channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(seen[channel], 0.8f * 0.78f * bronze[channel], 0.02f) << channel;
+  }
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_P(EveryShader, CompilesAndLinks) {
 TEST_P(EveryShader, OfModelsCompilesForEverySurface) {
   const auto context = CreateOffscreenContext(GetParam());
   ASSERT_TRUE(context.ok()) << context.message();
-  for (const char* surface : {"PLAIN", "SKIN", "HAIR", "CLOTH", "EYE"}) {
+  for (const char* surface : {"PLAIN", "SKIN", "HAIR", "CLOTH", "EYE", "METAL"}) {
     for (const char* skin : {"LINEAR", "DUAL_QUATERNION", "RIGID"}) {
       for (const char* more :
            {"", "#define COVERED\n", "#define REFLECTIONS\n",

@@ -18,15 +18,17 @@ struct ObjectModelEntry {
 struct Polish {
   std::string_view name;
   float roughness;
+  human::Surface surface = human::Surface::kPlain;
 };
+// The brazier's iron is rust.
 constexpr std::array<Polish, 9> kPolished = {{{"beaker", 0.5f},
                                               {"brazier", 0.55f},
-                                              {"bucket", 0.35f},
-                                              {"coins", 0.4f},
+                                              {"bucket", 0.35f, human::Surface::kMetal},
+                                              {"coins", 0.4f, human::Surface::kMetal},
                                               {"cup", 0.3f},
                                               {"jug", 0.55f},
-                                              {"ladle", 0.35f},
-                                              {"lamp_stand", 0.4f},
+                                              {"ladle", 0.35f, human::Surface::kMetal},
+                                              {"lamp_stand", 0.4f, human::Surface::kMetal},
                                               {"plate", 0.3f}}};
 
 constexpr std::array<ObjectModelEntry, 22> kModels = {{
@@ -75,7 +77,8 @@ void PolishModel(std::string_view name, stage::Prop& prop) {
       }
     }
   }
-  prop.materials.push_back({.name = "polished", .roughness = polish->roughness});
+  prop.materials.push_back(
+      {.name = "polished", .surface = polish->surface, .roughness = polish->roughness});
 }
 
 }  // namespace
