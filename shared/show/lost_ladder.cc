@@ -126,7 +126,7 @@ void LostLadder::Track(double step,
   seen_ = true;
 }
 
-void LostLadder::Lose(double step, double time) {
+void LostLadder::Lose(double step, double time, bool dark) {
   lost_since_ = lost_since_.value_or(time);
   if (!shown_) {
     return;
@@ -134,7 +134,9 @@ void LostLadder::Lose(double step, double time) {
   if (!leaving_) {
     shown_ = Continued(time);
   }
-  if (leaving_ || time - *lost_since_ >= options_.hold) {
+  if (dark) {
+    opacity_ = 0.0f;
+  } else if (leaving_ || time - *lost_since_ >= options_.hold) {
     opacity_ = Towards(opacity_, 0.0f, step, leaving_ ? kLeaveSeconds : options_.fade);
   }
   if (opacity_ <= 0.0f) {
@@ -172,7 +174,8 @@ LostLadder::View LostLadder::MakeView(double time) const {
 LostLadder::View LostLadder::Update(double time,
                                     const std::optional<Rigid3>& camera_from_stage,
                                     uint32_t place,
-                                    const geometry::CameraModel& display) {
+                                    const geometry::CameraModel& display,
+                                    bool dark) {
   const double step = time_ ? time - *time_ : 0.0;
   if (!time_ || step < 0.0 || step > kLongestStep) {
     Begin(time, camera_from_stage, place);
@@ -182,7 +185,7 @@ LostLadder::View LostLadder::Update(double time,
   if (camera_from_stage) {
     Track(step, time, *camera_from_stage, place, display);
   } else {
-    Lose(step, time);
+    Lose(step, time, dark);
   }
   const bool guides = lost_since_ && time - *lost_since_ >= options_.guide_after;
   guide_ = Towards(guide_, guides ? 1.0f : 0.0f, step, options_.guide_fade * (guides ? 1.0 : 0.5));

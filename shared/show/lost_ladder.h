@@ -52,10 +52,13 @@ class LostLadder {
 
   // The next frame: its capture time in seconds, its pose, and the camera that it is drawn with.
   // Time that goes back, or leaps by more than a second, begins anew with the frame as it is.
+  // dark: nothing is seen in its image. Where it has no pose either, people go at once, as all
+  // that they stood among did.
   View Update(double time,
               const std::optional<geometry::Rigid3>& camera_from_stage,
               uint32_t place,
-              const geometry::CameraModel& display);
+              const geometry::CameraModel& display,
+              bool dark = false);
 
   // The pose of the last frame that had one; where it was before anybody was lost.
   const std::optional<geometry::Rigid3>& last_pose() const { return last_pose_; }
@@ -72,7 +75,7 @@ class LostLadder {
              const geometry::Rigid3& pose,
              uint32_t place,
              const geometry::CameraModel& display);
-  void Lose(double step, double time);
+  void Lose(double step, double time, bool dark);
   geometry::Rigid3 Continued(double time) const;
   double MostShift(double moved_px) const;
   View MakeView(double time) const;

@@ -195,7 +195,8 @@ LostLadder::View Show::Climb(const vision::TrackedFrame& tracked,
                              const std::optional<geometry::Rigid3>& camera_from_stage,
                              uint32_t place) {
   if (ladder_) {
-    return ladder_->Update(tracked.frame.capture_time, camera_from_stage, place, tracked.camera);
+    return ladder_->Update(tracked.frame.capture_time, camera_from_stage, place, tracked.camera,
+                           tracked.reason == vision::TrackReason::kTooDark);
   }
   LostLadder::View view;
   view.rung = camera_from_stage ? LostLadder::Rung::kShown : LostLadder::Rung::kGone;

@@ -78,6 +78,19 @@ TEST(LostLadder, ClimbsDownInItsOrder) {
   EXPECT_EQ(rungs, (std::vector<Rung>{Rung::kHeld, Rung::kFading, Rung::kGone}));
 }
 
+TEST(LostLadder, NobodyStandsInABlackPicture) {
+  LostLadder ladder;
+  const double time = Settle(ladder);
+  const LostLadder::View covered = ladder.Update(time, std::nullopt, 0, Display(), true);
+  EXPECT_EQ(covered.rung, Rung::kGone);
+  EXPECT_EQ(covered.opacity, 0.0f);
+  EXPECT_FALSE(covered.camera_from_stage);
+  // They come back as after any loss.
+  const LostLadder::View back = At(ladder, time + kFrame, true);
+  EXPECT_EQ(back.rung, Rung::kShown);
+  EXPECT_LT(back.opacity, 0.2f);
+}
+
 TEST(LostLadder, WhoNeverFoundThePlaceIsGuidedToo) {
   LostLadder ladder;
   for (double time = 0.0; time < 2.5; time += kFrame) {
