@@ -19,8 +19,7 @@ in vec2 surface_uv;
 
 layout(location = 0) out vec4 colour;
 
-// What is covered at least so much hides what is behind it.
-const float kCore = 0.85;
+uniform float core_coverage;  // what is covered at least so much hides what is behind it
 
 // Linear up to the knee, then an exponential shoulder of equal slope that reaches
 // 1 at infinity.
@@ -135,7 +134,7 @@ void main() {
     discard;
   }
 #endif
-  bool core = coverage >= kCore;
+  bool core = coverage >= core_coverage;
   if (core == (fringe == 1)) {
     discard;
   }

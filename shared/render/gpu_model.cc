@@ -7,6 +7,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtx/component_wise.hpp>
 #include <optional>
 
 #include "shared/core/check.h"
@@ -112,8 +113,17 @@ void ApplyMaterial(const human::Material& material, GpuModel::Part& part) {
   part.alpha_cutoff = material.alpha_cutoff;
 }
 
+float LongestSide(std::span<const glm::vec3> positions) {
+  Box box;
+  for (const glm::vec3& position : positions) {
+    box.Extend(position);
+  }
+  return box.empty() ? 0.0f : glm::compMax(box.high - box.low);
+}
+
 GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Material> materials) {
   GpuModel::Part part;
+  part.length = LongestSide(source.positions);
   part.vertex_count = source.positions.size();
   part.attributes = GlBuffer::Generate();
   part.bind_vertices = GlBuffer::Generate();

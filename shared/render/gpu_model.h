@@ -52,6 +52,7 @@ struct GpuModel {
     float roughness = 0.8f;
     float alpha_cutoff = 0.0f;  // 0: opaque
     bool culls_back_faces = false;
+    float length = 0.0f;  // metres: longest side of its box in the bind pose
 
     struct Level {
       size_t first = 0;  // index

@@ -27,6 +27,12 @@ constexpr size_t kSkinStride = human::Skeleton::kMaxJoints * sizeof(glm::mat4);
 // Metres by which what casts shadows may differ from the finest level of detail: less
 // than a texel of the sun's map.
 constexpr float kCasterDetail = 0.005f;
+// Of people no longer parts than these cast shadows: eyes, teeth, brows and lashes do not.
+constexpr float kLeastCaster = 0.15f;  // metres
+
+// What is covered at least so much hides what is behind it; without a fringe, what is there at all.
+constexpr float kCore = 0.85f;
+constexpr float kCoreAlone = 0.5f;
 
 // Lamps are passed over that give next to nothing within so many metres of a model's root.
 constexpr float kLeastLampIrradiance = 0.01f;
@@ -154,10 +160,11 @@ Result<ShaderProgram> ModelPass::Variant::Compile() const {
   return shaders;
 }
 
-Status ModelPass::Prepare(const GpuModel& model) {
-  for (const GpuModel::Part& part : model.parts) {
-    for (const Shading shading : {Shading::kVertices, Shading::kPixels, Shading::kReflections}) {
-      const Variant variant = {part.surface, model.skin, part.covered(), shading};
+// For the shading of this picture.
+Status ModelPass::Prepare(std::span<const ModelDraw> draws) {
+  for (const ModelDraw& draw : draws) {
+    for (const GpuModel::Part& part : draw.model->parts) {
+      const Variant variant = {part.surface, draw.model->skin, part.covered(), shading_};
       Program& program = programs_[variant.index()];
       if (!program.ready) {
         LARARIUM_ASSIGN_OR_RETURN(program.shaders, variant.Compile());
@@ -200,6 +207,7 @@ void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const S
     shaders.Set("eye_in_stage", glm::vec3(eye.x(), eye.y(), eye.z()));
     shaders.Set("gain", scene.exposure * scene.gain);
     shaders.Set("knee", std::max(scene.knee, 0.0f));
+    shaders.Set("core_coverage", shading_ == Shading::kVertices ? kCoreAlone : kCore);
     shaders.Set("colour_texture", 0);
     shaders.Set("normal_texture", 1);
     shaders.Set("glossy", static_cast<int>(kGlossyUnit));
@@ -307,45 +315,65 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   draw.model->Draw(index, std::max(draw.detail, coarsest), vertices != nullptr);
 }
 
+bool ModelPass::IsOf(Phase phase, const GpuModel& model, const GpuModel::Part& part) {
+  switch (phase) {
+    case Phase::kOpaque:
+      return !part.covered();
+    case Phase::kCore:
+    case Phase::kFringe:
+      return part.covered();
+    case Phase::kDepth:
+      return true;
+    case Phase::kCaster:
+      return model.skin == GpuModel::Skin::kRigid || part.length >= kLeastCaster;
+  }
+  return false;
+}
+
+// What comes first hides what need not be shaded then: the nearest of a picture, and of people
+// what they wear, which comes last in their files. Fringes are blended, the furthest first.
 void ModelPass::DrawPhase(Phase phase,
                           const glm::mat4& clip_from_stage,
                           std::span<const ModelDraw> draws) {
-  for (size_t i = 0; i < draws.size(); ++i) {
+  for (size_t turn = 0; turn < draws.size(); ++turn) {
+    const size_t i = phase == Phase::kFringe ? draws.size() - 1 - turn : turn;
     glBindBufferRange(GL_UNIFORM_BUFFER, kSkinBinding, skin_.id(),
                       static_cast<GLintptr>(i * kSkinStride), kSkinStride);
-    for (size_t part = 0; part < draws[i].model->parts.size(); ++part) {
+    for (size_t part = draws[i].model->parts.size(); part-- > 0;) {
       const GpuModel::Part& drawn = draws[i].model->parts[part];
-      const bool of_phase = phase == Phase::kDepth || phase == Phase::kCaster ||
-                            drawn.covered() == (phase != Phase::kOpaque);
-      if (of_phase && draws[i].Shows(drawn.prop_part)) {
+      if (IsOf(phase, *draws[i].model, drawn) && draws[i].Shows(drawn.prop_part)) {
         DrawPart(draws[i], part, phase, clip_from_stage);
       }
     }
   }
 }
 
-void ModelPass::Draw(const RenderScene& scene,
-                     const Quality& quality,
-                     const glm::mat4& clip_from_stage,
-                     std::span<const ModelDraw> draws,
-                     const SunPass& sun,
-                     const SunMask& sun_mask) {
+Status ModelPass::Draw(const RenderScene& scene,
+                       const Quality& quality,
+                       const glm::mat4& clip_from_stage,
+                       std::span<const ModelDraw> draws,
+                       const SunPass& sun,
+                       const SunMask& sun_mask) {
   glEnable(GL_DEPTH_TEST);
   const bool reflects = quality.reflections && !scene.glossy.empty();
   shading_ = !quality.pixel_light ? Shading::kVertices
              : reflects           ? Shading::kReflections
                                   : Shading::kPixels;
+  LARARIUM_RETURN_IF_ERROR(Prepare(draws));
   UploadSkins(draws);
   BeginFrame(scene, sun, sun_mask);
   DrawPhase(Phase::kOpaque, clip_from_stage, draws);
   DrawPhase(Phase::kCore, clip_from_stage, draws);
-  glDepthMask(GL_FALSE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  DrawPhase(Phase::kFringe, clip_from_stage, draws);
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
+  if (shading_ != Shading::kVertices) {
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    DrawPhase(Phase::kFringe, clip_from_stage, draws);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+  }
   glDisable(GL_CULL_FACE);
+  return Status();
 }
 
 void ModelPass::DrawDepth(const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws) {

@@ -3,9 +3,9 @@
 // Draws people and props. Private to render.
 //
 // First what is opaque; then of what is partly covered (hair, lashes) the dense core,
-// which hides what is behind it; then its thin fringe, blended over all that and
-// hiding nothing (after Scheuermann, "Practical Real-Time Hair Rendering and
-// Shading", SIGGRAPH 2004 sketches). Colour is stored times coverage.
+// which hides what is behind it; then, where surfaces are lit at pixels, its thin fringe,
+// blended over all that and hiding nothing (after Scheuermann, "Practical Real-Time Hair Rendering
+// and Shading", SIGGRAPH 2004 sketches). Colour is stored times coverage.
 
 #include <array>
 #include <cstdint>
@@ -48,16 +48,15 @@ class ModelPass {
  public:
   static Result<ModelPass> Create();
 
-  // Compiles what the model's surfaces need at any quality, unless it is there.
-  Status Prepare(const GpuModel& model);
   // Into the bound target, whose depth it tests and writes. Light and camera are the
-  // scene's.
-  void Draw(const RenderScene& scene,
-            const Quality& quality,
-            const glm::mat4& clip_from_stage,
-            std::span<const ModelDraw> draws,
-            const SunPass& sun,
-            const SunMask& sun_mask);
+  // scene's. Programs are compiled when they are wanted first: each takes memory, and few
+  // qualities are drawn at.
+  Status Draw(const RenderScene& scene,
+              const Quality& quality,
+              const glm::mat4& clip_from_stage,
+              std::span<const ModelDraw> draws,
+              const SunPass& sun,
+              const SunMask& sun_mask);
   // Depth alone, of what is at least half there, as Draw would have it.
   void DrawDepth(const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
   // The same, only as fine as maps of the sun are, and both sides of all.
@@ -90,11 +89,13 @@ class ModelPass {
     return 2 * static_cast<size_t>(skin) + (covered ? 1 : 0);
   }
 
+  Status Prepare(std::span<const ModelDraw> draws);
   void UploadSkins(std::span<const ModelDraw> draws);
   void BeginFrame(const RenderScene& scene, const SunPass& sun, const SunMask& sun_mask);
   KeyLight KeyLightOf(const light::ProbeLight& light) const;
   void SetLight(const ModelDraw& draw, Program& program, bool skin);
   void UploadGlossy(const RenderScene& scene);
+  static bool IsOf(Phase phase, const GpuModel& model, const GpuModel::Part& part);
   void DrawPhase(Phase phase, const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
   void DrawPart(const ModelDraw& draw, size_t part, Phase phase, const glm::mat4& clip_from_stage);
   void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;

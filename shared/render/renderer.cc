@@ -84,6 +84,11 @@ PixelBounds InPicture(const PixelBounds& b, float scale, const RenderTarget& tar
           std::min(target.height() - first(b.bottom), target.height())};
 }
 
+// How far away a model's root is, along the view.
+float RootDepth(const ModelDraw& draw, const PictureView& view) {
+  return (view.clip_from_stage * draw.stage_from_model * draw.skin[0][3]).w;
+}
+
 void ResetState() {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -207,7 +212,6 @@ Status Renderer::State::ValidateModels(const RenderScene& scene) const {
 
 Result<ModelHandle> Renderer::State::AddModel(Result<GpuModel> model) {
   LARARIUM_RETURN_IF_ERROR(model.status());
-  LARARIUM_RETURN_IF_ERROR(model_pass.Prepare(*model));
   return models.Add(std::move(*model));
 }
 
@@ -279,6 +283,7 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
                  human.mark},
                 view, bounds);
   }
+  std::ranges::stable_sort(draws, {}, [&](const ModelDraw& draw) { return RootDepth(draw, view); });
   return bounds.Pixels(view.size.width, view.size.height);
 }
 
@@ -294,7 +299,8 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
   const PixelBounds cleared = Widened(bounds, clear, view.size);
   people.BindAndClear(cleared);
   DrawOccluders(scene.occluders, view.clip_from_stage);
-  model_pass.Draw(scene, quality, view.clip_from_stage, draws, sun_pass, sun_mask);
+  LARARIUM_RETURN_IF_ERROR(
+      model_pass.Draw(scene, quality, view.clip_from_stage, draws, sun_pass, sun_mask));
   people.Resolve(cleared);
   return Status();
 }
@@ -302,8 +308,7 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
 float Renderer::State::PeopleDepth(const PictureView& view) const {
   float sum = 0.0f;
   for (const ModelDraw& draw : draws) {
-    const glm::mat4 stage_from_joint = draw.stage_from_model * draw.skin[0];
-    sum += (view.clip_from_stage * stage_from_joint * glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)).w;
+    sum += RootDepth(draw, view);
   }
   return draws.empty() ? view.far : std::max(sum / static_cast<float>(draws.size()), view.near);
 }

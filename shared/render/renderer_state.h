@@ -51,7 +51,7 @@ struct Renderer::State {
   Status Validate(const RenderScene& scene) const;
   Status ValidateModels(const RenderScene& scene) const;
   Result<ModelHandle> AddModel(Result<GpuModel> model);
-  // Fills draws and all_draws. Says where they may be seen.
+  // Fills draws, the nearest first, and all_draws. Says where they may be seen.
   PixelBounds CollectDraws(const RenderScene& scene, const PictureView& view);
   // Unless it lies outside the picture.
   void CollectDraw(const ModelDraw& draw, const PictureView& view, ScreenBounds& bounds);

@@ -64,6 +64,9 @@ Result<ShaderProgram> ShaderProgram::Create(std::string_view vertex,
   glAttachShader(program.id(), vertex_shader.id());
   glAttachShader(program.id(), fragment_shader.id());
   glLinkProgram(program.id());
+  // Mesa keeps what it compiled them to as long as they are attached.
+  glDetachShader(program.id(), vertex_shader.id());
+  glDetachShader(program.id(), fragment_shader.id());
   GLint linked = GL_FALSE;
   glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
   if (linked != GL_TRUE) {
