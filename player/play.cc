@@ -48,7 +48,7 @@ constexpr std::chrono::seconds kLongestSilence(8);
 // Of the time between two images of the camera: what the slowest stage may take.
 constexpr double kBudgetShare = 0.95;
 // Share of what the finer one costs, until it has been measured.
-constexpr double kCostOfLevel = 0.7;
+constexpr double kCostOfLevel = 0.6;
 
 // Not the drama's: switches the evidence view.
 constexpr std::string_view kEvidenceKey = "f2";
