@@ -41,7 +41,7 @@ void Splitter(const char* id, bool vertical, float length, float sign, float& si
 }
 
 bool BeginPanel(const char* id, const ImVec2& size) {
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, panels::colour::kPanel);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, panels::Colours().panel);
   const bool open = ImGui::BeginChild(id, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   ImGui::PopStyleColor();
   return open;
@@ -148,7 +148,8 @@ void Layout::ShowPanels(Workspace& workspace) {
   panels::ShowStatusBar(workspace);
 }
 
-void Layout::Show(Workspace& workspace) {
+void Layout::Show(Workspace& workspace, Settings& settings) {
+  state_.settings = settings;
   timeline_.HandleKeys(workspace, state_);
   panels::HandleShortcuts(workspace, state_);
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
@@ -166,6 +167,7 @@ void Layout::Show(Workspace& workspace) {
   panels::ShowDialogs(workspace, state_);
   ImGui::End();
   state_.keys.clear();
+  settings = state_.settings;
 }
 
 }  // namespace lararium::app

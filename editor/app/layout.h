@@ -20,8 +20,8 @@ class Layout {
   // Needs the window's OpenGL context.
   static Result<std::unique_ptr<Layout>> Create();
 
-  // The whole interface, for one frame.
-  void Show(Workspace& workspace);
+  // The whole interface, for one frame. settings: may be changed in it.
+  void Show(Workspace& workspace, Settings& settings);
 
   void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
   bool quit_requested() const { return state_.quit; }

@@ -87,11 +87,7 @@ Status RecentProjects::Reload() {
     entries_ = *std::move(loaded);
     return Status();
   }
-  fs::path aside = file_;
-  aside += ".damaged";
-  fs::rename(file_, aside, error);
-  return Status::Error("the list of recent projects", loaded.message(),
-                       "it was moved to " + aside.string() + "; open projects by their folder");
+  return SetAside(file_, loaded.status(), "open projects by their folder");
 }
 
 Status RecentProjects::Save() const {

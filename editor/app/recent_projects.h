@@ -32,8 +32,8 @@ class RecentProjects {
 
   const std::vector<RecentProject>& entries() const { return entries_; }
 
-  // Reads the file, if it is there. One that cannot be read is told of and moved aside
-  // (FILE.damaged), so that the next change writes a good one; entries() is then empty.
+  // Reads the file, if it is there. One that cannot be read is told of and moved aside, as
+  // SetAside() does; entries() is then empty.
   Status Reload();
 
   // Each reads anew what other windows wrote, changes one entry and writes. On an error

@@ -1,6 +1,7 @@
 #include "editor/app/user_folders.h"
 
 #include <cstdlib>
+#include <string>
 
 namespace lararium::app {
 
@@ -20,6 +21,15 @@ std::filesystem::path UserFolder(const char* variable, const char* below_home) {
 std::filesystem::path HomeFolder() {
   const char* home = std::getenv("HOME");
   return home != nullptr && home[0] == '/' ? home : "/";
+}
+
+Status SetAside(const std::filesystem::path& file, const Status& why, std::string_view remedy) {
+  std::filesystem::path aside = file;
+  aside += ".damaged";
+  std::error_code error;
+  std::filesystem::rename(file, aside, error);
+  const std::string moved = error ? "" : "it was moved to " + aside.string() + "; ";
+  return Status::Error("lararium-editor", why.message(), moved + std::string(remedy));
 }
 
 std::filesystem::path StateFolder() { return UserFolder("XDG_STATE_HOME", ".local/state"); }

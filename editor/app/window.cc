@@ -29,10 +29,24 @@ class Interface {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
-    panels::ApplyTheme(window.content_scale());
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 330 core");
   }
+
+  // Between frames. Does nothing where it looks so already.
+  void SetLook(const Settings& look, float display_scale) {
+    if (has_look_ && look_ == look) {
+      return;
+    }
+    panels::ApplyTheme(look.theme, display_scale * static_cast<float>(look.scale));
+    if (has_look_) {  // the first time the back end makes it by itself
+      ImGui_ImplOpenGL3_DestroyFontsTexture();
+      ImGui_ImplOpenGL3_CreateFontsTexture();
+    }
+    look_ = look;
+    has_look_ = true;
+  }
+
   ~Interface() {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
@@ -50,11 +64,15 @@ class Interface {
     ImGui::Render();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, size.width, size.height);
-    glClearColor(panels::colour::kWindow.x, panels::colour::kWindow.y, panels::colour::kWindow.z,
+    glClearColor(panels::Colours().window.x, panels::Colours().window.y, panels::Colours().window.z,
                  1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   }
+
+ private:
+  Settings look_;
+  bool has_look_ = false;
 };
 
 // Sleeps while nothing moves, but long enough awake for what ImGui settles over
@@ -99,6 +117,7 @@ Status MainLoop(render::Window& window, std::unique_ptr<Workspace> workspace, Lo
     if (size.width == 0 || size.height == 0) {
       continue;
     }
+    interface.SetLook(content.settings(), window.content_scale());
     interface.Begin();
     status = content.Show();
     interface.End(size);

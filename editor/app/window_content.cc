@@ -11,10 +11,22 @@ namespace lararium::app {
 
 using panels::StartChoice;
 
+namespace {
+
+std::filesystem::path SettingsFile() { return ConfigFolder() / "editor.json"; }
+
+}  // namespace
+
 WindowContent::WindowContent(std::unique_ptr<Workspace> workspace, Log& log)
     : log_(log), recent_(StateFolder() / "recent.json"), sample_(ShippedSample()) {
   if (const Status status = recent_.Reload(); !status.ok()) {
     start_.SetProblem(status.message());
+  }
+  const Result<Settings> settings = LoadSettings(SettingsFile());
+  if (settings.ok()) {
+    settings_ = *settings;
+  } else {
+    log_.warn("{}", settings.message());
   }
   if (workspace != nullptr) {
     Enter(std::move(workspace));
@@ -128,19 +140,30 @@ void WindowContent::Update(double seconds) {
 }
 
 Status WindowContent::Show() {
+  const Settings before = settings_;
   if (workspace_ == nullptr) {
-    const StartChoice choice = start_.Show(recent_, keys_, !sample_.empty());
+    const StartChoice choice = start_.Show(recent_, keys_, !sample_.empty(), settings_);
     keys_.clear();
     Follow(choice);
-    return Status();
+  } else {
+    LARARIUM_RETURN_IF_ERROR(ShowProject());
   }
+  if (settings_ != before) {
+    if (const Status status = SaveSettings(SettingsFile(), settings_); !status.ok()) {
+      log_.warn("{}", status.message());
+    }
+  }
+  return Status();
+}
+
+Status WindowContent::ShowProject() {
   if (layout_ == nullptr) {
     LARARIUM_ASSIGN_OR_RETURN(layout_, Layout::Create());
   }
   for (const panels::KeyPress& press : std::exchange(keys_, {})) {
     layout_->AddKey(press);
   }
-  layout_->Show(*workspace_);
+  layout_->Show(*workspace_, settings_);
   quit_ |= layout_->quit_requested();
   if (layout_->leave_requested()) {
     Leave();

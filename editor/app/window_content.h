@@ -8,6 +8,7 @@
 
 #include "editor/app/layout.h"
 #include "editor/app/recent_projects.h"
+#include "editor/app/settings.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/start_page.h"
 
@@ -27,6 +28,8 @@ class WindowContent {
   void AddKey(const panels::KeyPress& press) { keys_.push_back(press); }
   // That the key which was added last types.
   void AddCharacter(char32_t character);
+  // What was chosen in the interface; kept at once.
+  const Settings& settings() const { return settings_; }
   // Somebody asked for the end.
   bool quit_requested() const { return quit_; }
 
@@ -36,6 +39,7 @@ class WindowContent {
   Status Show();
 
  private:
+  Status ShowProject();
   void Enter(std::unique_ptr<Workspace> workspace);
   // Back to the start page. Edits that were not saved stay in the project's journal, as they do
   // when the program ends, and are there when it is opened again.
@@ -46,6 +50,7 @@ class WindowContent {
   void KeepPicture();
 
   Log& log_;
+  Settings settings_;
   RecentProjects recent_;
   std::filesystem::path sample_;  // as it was shipped; empty: not there
   panels::StartPage start_;

@@ -90,7 +90,7 @@ void AddStage(std::vector<render::OverlayLine>& lines, const Similarity3& world_
   }
   for (int axis = 0; axis < 3; ++axis) {
     AddLine(lines, world_from_stage.translation, world_from_stage * Vector3d::Unit(axis),
-            Bytes(colour::kAxes[axis]));
+            Bytes(kAxisColours[axis]));
   }
 }
 
@@ -319,7 +319,7 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   const bool active = ImGui::IsItemActive();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (const Status status = Draw(workspace, state, view, width, height); !status.ok()) {
-    draw.AddText(origin, Packed(colour::kError), status.message().c_str());
+    draw.AddText(origin, Packed(OverPicture().error), status.message().c_str());
     return;
   }
   const ImVec2 corner(origin.x + static_cast<float>(width), origin.y + static_cast<float>(height));
@@ -329,7 +329,7 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   const bool was_dragging = state.drag.has_value();
   const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
                     (state.drag.has_value() || was_dragging || !active);
-  draw.AddText(ImVec2(origin.x + Px(12), corner.y - Px(28)), Packed(colour::kDim),
+  draw.AddText(ImVec2(origin.x + Px(12), corner.y - Px(28)), Packed(OverPicture().dim),
                "Drag to orbit, Shift or right drag to pan, wheel to zoom");
   draw.PopClipRect();
   Interact(state, hovered, busy, ToEigen(size));

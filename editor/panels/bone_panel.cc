@@ -18,9 +18,9 @@ constexpr const char* kAsFound = "as it is found";
 
 ImVec4 ColourOf(const app::BoneRow& row) {
   if (row.problem.empty()) {
-    return row.bone.empty() ? colour::kDim : colour::kText;
+    return row.bone.empty() ? Colours().dim : Colours().text;
   }
-  return row.bone.empty() ? colour::kError : colour::kWarning;
+  return row.bone.empty() ? Colours().error : Colours().warning;
 }
 
 void Choose(app::Workspace& workspace,
@@ -85,7 +85,7 @@ std::string HowFound(const app::CastDocument& member, const app::BoneRow& row) {
 
 void FoundCell(const app::CastDocument& member, const app::BoneRow& row) {
   ImGui::AlignTextToFramePadding();
-  ImGui::PushStyleColor(ImGuiCol_Text, row.problem.empty() ? colour::kDim : ColourOf(row));
+  ImGui::PushStyleColor(ImGuiCol_Text, row.problem.empty() ? Colours().dim : ColourOf(row));
   ImGui::TextUnformatted(HowFound(member, row).c_str());
   ImGui::PopStyleColor();
   if (row.found_by && ImGui::IsItemHovered()) {
@@ -136,7 +136,7 @@ void ShowVerdict(const app::BoneReview& review) {
     Hint("Every joint that a person needs was found.");
     return;
   }
-  ImGui::PushStyleColor(ImGuiCol_Text, review.is_human ? colour::kWarning : colour::kError);
+  ImGui::PushStyleColor(ImGuiCol_Text, review.is_human ? Colours().warning : Colours().error);
   ImGui::TextWrapped(
       review.is_human
           ? "A person; look over the rows in yellow."

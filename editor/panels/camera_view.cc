@@ -76,10 +76,10 @@ void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList&
   const ImVec2 size = ImGui::CalcTextSize(text);
   const ImVec2 at(rect.origin.x + Px(12), rect.origin.y + Px(12));
   draw.AddRectFilled(at, ImVec2(at.x + size.x + Px(34), at.y + size.y + Px(10)),
-                     Packed(colour::kWindow, 0.8f), Px(4));
+                     Packed(OverPicture().window, 0.8f), Px(4));
   draw.AddCircleFilled(ImVec2(at.x + Px(13), at.y + Px(5) + 0.5f * size.y), Px(4),
-                       tracked ? Packed(colour::kAxes[1]) : Packed(colour::kWarning));
-  draw.AddText(ImVec2(at.x + Px(24), at.y + Px(5)), Packed(colour::kText), text);
+                       tracked ? Packed(kAxisColours[1]) : Packed(OverPicture().warning));
+  draw.AddText(ImVec2(at.x + Px(24), at.y + Px(5)), Packed(OverPicture().text), text);
 }
 
 // Along the camera's axes: x right, y down, z forward.
@@ -161,7 +161,7 @@ void ShowEmpty(const app::Workspace& workspace, const ImVec2& origin, const ImVe
   const ImVec2 extent = ImGui::CalcTextSize(text);
   ImGui::GetWindowDrawList()->AddText(
       ImVec2(origin.x + 0.5f * (size.x - extent.x), origin.y + 0.5f * (size.y - extent.y)),
-      Packed(colour::kDim), text);
+      Packed(Colours().dim), text);
 }
 
 }  // namespace

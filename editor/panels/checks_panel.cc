@@ -118,9 +118,9 @@ void ShowChecks(app::Workspace& workspace, EditorState& state) {
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddCircleFilled(ImVec2(at.x + Px(8), at.y + 0.5f * ImGui::GetTextLineHeight() + Px(2)),
-                         Px(4), Packed(colour::kWarning));
+                         Px(4), Packed(Colours().warning));
     draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), ImVec2(at.x + Px(20), at.y + Px(2)),
-                 Packed(colour::kText), problems[i].c_str(), nullptr, width - Px(24));
+                 Packed(Colours().text), problems[i].c_str(), nullptr, width - Px(24));
     ImGui::PopID();
   }
   ImGui::EndChild();

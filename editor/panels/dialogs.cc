@@ -233,7 +233,7 @@ bool PresetGrid(app::Workspace& workspace, EditorState& state) {
     const bool chosen = fields.preset == name;
     if (chosen || ImGui::IsItemHovered()) {
       ImGui::GetWindowDrawList()->AddRect(from, ImVec2(from.x + side, from.y + side),
-                                          Packed(chosen ? colour::kAccent : colour::kDim),
+                                          Packed(chosen ? Colours().accent : Colours().dim),
                                           ImGui::GetStyle().FrameRounding, 0,
                                           Px(chosen ? 3.0f : 1.0f));
     }

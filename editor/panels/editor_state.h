@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "editor/app/cast_pictures.h"
+#include "editor/app/settings.h"
 #include "editor/bake/probe_match.h"
 #include "editor/panels/gizmo.h"
 #include "editor/panels/keys.h"
@@ -99,8 +100,9 @@ struct EditorState {
 
   Dialog dialog = Dialog::kNone;
   DialogFields fields;
-  bool quit = false;   // asked for; the window decides
-  bool leave = false;  // the project, for the start page; likewise
+  app::Settings settings;  // of the window, which follows and keeps them
+  bool quit = false;       // asked for; the window decides
+  bool leave = false;      // the project, for the start page; likewise
 };
 
 }  // namespace lararium::panels

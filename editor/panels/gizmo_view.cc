@@ -24,8 +24,8 @@ ImU32 HandleColour(GizmoHandle handle, bool hot) {
   if (hot) {
     return Packed({1.0f, 0.86f, 0.35f, 1.0f});
   }
-  return handle == GizmoHandle::kScale ? Packed(colour::kText)
-                                       : Packed(colour::kAxes[AxisOf(handle)]);
+  return handle == GizmoHandle::kScale ? Packed(OverPicture().text)
+                                       : Packed(kAxisColours[AxisOf(handle)]);
 }
 
 void DrawArrow(const std::vector<Vector2d>& outline, ImU32 packed, bool hot, ImDrawList& draw) {
@@ -59,7 +59,7 @@ void DrawHandle(GizmoHandle handle,
   if (count == 2) {
     DrawArrow(outline, packed, hot, draw);
   } else if (handle == GizmoHandle::kScale) {
-    draw.AddRectFilled(points[0], points[2], Packed(colour::kPanel), Px(3));
+    draw.AddRectFilled(points[0], points[2], Packed(OverPicture().panel), Px(3));
     draw.AddRect(points[0], points[2], packed, Px(3), 0, Px(2));
   } else if (count == 4) {
     draw.AddConvexPolyFilled(points.data(), count,
@@ -143,7 +143,7 @@ bool ShowGizmo(app::Workspace& workspace,
   for (const GizmoHandle handle : HandlesOf(state.gizmo)) {
     DrawHandle(handle, layout.Outline(handle, view), hot == handle, draw);
   }
-  draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(colour::kText));
+  draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(OverPicture().text));
   return hot.has_value();
 }
 
@@ -178,7 +178,7 @@ void DrawStage(const app::Workspace& workspace, const ViewCamera& view, ImDrawLi
   }
   constexpr int kHalf = 3;  // metres
   const Similarity3& world_from_stage = place->picked_from_stage;
-  const ImU32 grid = Packed(colour::kText, 0.22f);
+  const ImU32 grid = Packed(OverPicture().text, 0.22f);
   for (int i = -kHalf; i <= kHalf; ++i) {
     DrawWorldLine(view, world_from_stage * Vector3d(i, 0, -kHalf),
                   world_from_stage * Vector3d(i, 0, kHalf), grid, Px(1), draw);
@@ -187,7 +187,7 @@ void DrawStage(const app::Workspace& workspace, const ViewCamera& view, ImDrawLi
   }
   for (int axis = 0; axis < 3; ++axis) {
     DrawWorldLine(view, world_from_stage.translation, world_from_stage * Vector3d::Unit(axis),
-                  Packed(colour::kAxes[axis]), Px(2), draw);
+                  Packed(kAxisColours[axis]), Px(2), draw);
   }
 }
 

@@ -263,7 +263,7 @@ void ShowAnchorTable(app::Workspace& workspace,
   ImGui::TableSetupColumn("Picks", ImGuiTableColumnFlags_WidthFixed, Px(46));
   ImGui::TableSetupColumn("Error", ImGuiTableColumnFlags_WidthFixed, Px(66));
   ImGui::TableSetupColumn("Angle", ImGuiTableColumnFlags_WidthFixed, Px(56));
-  ImGui::PushStyleColor(ImGuiCol_Text, colour::kDim);
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
   ImGui::TableHeadersRow();
   ImGui::PopStyleColor();
   const std::span<const AnchorEntry> entries = AnchorEntries();

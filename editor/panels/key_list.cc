@@ -25,7 +25,7 @@ void ShowRow(const KeyBinding& binding, const std::string& keys) {
   if (binding.with_shift != nullptr) {
     does += Text(Tr("; with Shift %s"), Tr(binding.with_shift));
   }
-  ImGui::PushStyleColor(ImGuiCol_Text, colour::kDim);
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
   ImGui::TextWrapped("%s", does.c_str());
   ImGui::PopStyleColor();
 }

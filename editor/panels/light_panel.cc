@@ -87,15 +87,15 @@ void DragPanorama(app::Workspace& workspace,
 
 void DrawSun(const ImVec2& at, bool is_sun, ImDrawList& draw) {
   const float radius = Px(is_sun ? 9.0f : 6.0f);
-  draw.AddCircle(at, radius + Px(1.5f), Packed(colour::kWindow), 24, Px(2));
-  draw.AddCircle(at, radius, Packed(colour::kAccent), 24, Px(2));
+  draw.AddCircle(at, radius + Px(1.5f), Packed(OverPicture().window), 24, Px(2));
+  draw.AddCircle(at, radius, Packed(OverPicture().accent), 24, Px(2));
   if (is_sun) {
     for (int i = 0; i < 8; ++i) {
       const float angle = static_cast<float>(i) * std::numbers::pi_v<float> / 4.0f;
       const ImVec2 out(std::cos(angle), std::sin(angle));
       draw.AddLine(ImVec2(at.x + (radius + Px(3)) * out.x, at.y + (radius + Px(3)) * out.y),
                    ImVec2(at.x + (radius + Px(7)) * out.x, at.y + (radius + Px(7)) * out.y),
-                   Packed(colour::kAccent), Px(2));
+                   Packed(OverPicture().accent), Px(2));
     }
   }
 }
@@ -133,12 +133,12 @@ void ShowPanorama(app::Workspace& workspace,
   const ImVec2 sun = place(look.stage_from_probe * picture.brightest);
   DrawSun(sun, picture.is_sun, draw);
   for (const bake::DirectionPair& pair : state.light.pairs) {
-    draw.AddCircle(place(look.stage_from_probe * pair.in_probe), Px(4), Packed(colour::kWarning), 0,
-                   Px(2));
+    draw.AddCircle(place(look.stage_from_probe * pair.in_probe), Px(4),
+                   Packed(OverPicture().warning), 0, Px(2));
   }
   if (state.light.in_probe) {
     draw.AddCircleFilled(place(look.stage_from_probe * *state.light.in_probe), Px(4),
-                         Packed(colour::kWarning));
+                         Packed(OverPicture().warning));
   }
   draw.PopClipRect();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -168,7 +168,7 @@ std::string SunText(const ProbeDocument& probe, const app::ProbePicture& picture
 bool PickButton(EditorState& state, const char* label, Picking mode, const char* tip) {
   const bool on = state.light.picking == mode;
   if (on) {
-    ImGui::PushStyleColor(ImGuiCol_Button, colour::kAccent);
+    ImGui::PushStyleColor(ImGuiCol_Button, Colours().chosen);
   }
   const bool pressed = ImGui::Button(label, ImVec2(-FLT_MIN, 0));
   if (on) {
@@ -411,7 +411,7 @@ void ShowLightPanel(app::Workspace& workspace, EditorState& state, const ProbeDo
       Hint(warning);
     }
   } else if (!workspace.probe_problem().empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour::kError);
+    ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
     ImGui::TextWrapped("%s", workspace.probe_problem().c_str());
     ImGui::PopStyleColor();
     Hint("People are lit evenly until then.");
@@ -421,7 +421,7 @@ void ShowLightPanel(app::Workspace& workspace, EditorState& state, const ProbeDo
   ShowDirections(workspace, state, probe);
   ShowBrightness(workspace, state, probe);
   if (!light.problem.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour::kWarning);
+    ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
     ImGui::TextWrapped("%s", light.problem.c_str());
     ImGui::PopStyleColor();
   }

@@ -144,7 +144,7 @@ void Label(const ImVec2& at, const std::string& text, ImU32 packed, ImDrawList& 
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   draw.AddRectFilled(ImVec2(at.x - Px(5), at.y - Px(2)),
                      ImVec2(at.x + size.x + Px(5), at.y + size.y + Px(2)),
-                     Packed(colour::kWindow, 0.8f), Px(3));
+                     Packed(OverPicture().window, 0.8f), Px(3));
   draw.AddText(at, packed, text.c_str());
 }
 
@@ -177,21 +177,21 @@ void ShowHistogram(const app::PreviewPicture& picture,
   const ImVec2 corner(origin.x + size.x - box.x - Px(12), origin.y + size.y - box.y - Px(12));
   const float text = ImGui::GetTextLineHeight();
   draw.AddRectFilled(corner, ImVec2(corner.x + box.x, corner.y + box.y),
-                     Packed(colour::kWindow, 0.85f), Px(4));
+                     Packed(OverPicture().window, 0.85f), Px(4));
   const ImVec2 low(corner.x + Px(10), corner.y + box.y - Px(10));
   const ImVec2 plot(box.x - Px(20), box.y - text - Px(28));
-  DrawCurve(comparison.real, low, plot, colour::kDim, draw);
-  DrawCurve(comparison.people, low, plot, colour::kAccent, draw);
+  DrawCurve(comparison.real, low, plot, OverPicture().dim, draw);
+  DrawCurve(comparison.people, low, plot, OverPicture().accent, draw);
   char legend[64];
   std::snprintf(legend, sizeof(legend), "Camera %.0f %%", 100.0 * comparison.real.Median());
-  draw.AddText(ImVec2(corner.x + Px(10), corner.y + Px(7)), Packed(colour::kText), legend);
+  draw.AddText(ImVec2(corner.x + Px(10), corner.y + Px(7)), Packed(OverPicture().text), legend);
   const float half = 0.5f * box.x;
   if (comparison.people.total > 0) {
     std::snprintf(legend, sizeof(legend), "People %.0f %%", 100.0 * comparison.people.Median());
   } else {
     std::snprintf(legend, sizeof(legend), "Nobody in view");
   }
-  draw.AddText(ImVec2(corner.x + half, corner.y + Px(7)), Packed(colour::kAccent), legend);
+  draw.AddText(ImVec2(corner.x + half, corner.y + Px(7)), Packed(OverPicture().accent), legend);
 }
 
 }  // namespace
@@ -224,10 +224,12 @@ void LightOverlay::ShowWipe(EditorState& state,
   const float x = origin.x + at * size.x;
   draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(plain_.id())), origin,
                 ImVec2(x, origin.y + size.y), ImVec2(0, 0), ImVec2(at, 1));
-  draw.AddLine(ImVec2(x, origin.y), ImVec2(x, origin.y + size.y), Packed(colour::kText), Px(2));
+  draw.AddLine(ImVec2(x, origin.y), ImVec2(x, origin.y + size.y), Packed(OverPicture().text),
+               Px(2));
   const float y = origin.y + size.y - Px(30);
-  Label(ImVec2(std::max(x - Px(70), origin.x + Px(8)), y), "Before", Packed(colour::kText), draw);
-  Label(ImVec2(x + Px(14), y), "After", Packed(colour::kText), draw);
+  Label(ImVec2(std::max(x - Px(70), origin.x + Px(8)), y), "Before", Packed(OverPicture().text),
+        draw);
+  Label(ImVec2(x + Px(14), y), "After", Packed(OverPicture().text), draw);
 }
 
 void LightOverlay::Show(app::Workspace& workspace,
@@ -263,7 +265,7 @@ void LightOverlay::Show(app::Workspace& workspace,
   const bool clicked =
       hovered && drag_ == Drag::kNothing && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
   if (light.picking == Picking::kGrey || light.picking == Picking::kOnStage) {
-    draw.AddCircle(mouse, Px(9), Packed(colour::kAccent), 0, Px(2));
+    draw.AddCircle(mouse, Px(9), Packed(OverPicture().accent), 0, Px(2));
     if (clicked) {
       const double scale = picture.bgr.cols / static_cast<double>(size.x);
       const Vector2d pixel =
@@ -289,7 +291,8 @@ void LightOverlay::Show(app::Workspace& workspace,
       light.dragged_in_probe = glm::conjugate(look.stage_from_probe) * MirroredAt(*mirror, mouse);
     }
     if (over || drag_ == Drag::kBall) {
-      draw.AddCircle(ToImGui(mirror->centre), mirror->radius, Packed(colour::kAccent), 48, Px(2));
+      draw.AddCircle(ToImGui(mirror->centre), mirror->radius, Packed(OverPicture().accent), 48,
+                     Px(2));
     }
     if (drag_ == Drag::kBall) {
       TurnByMirror(workspace, state, *probe, *mirror);

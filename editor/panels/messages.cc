@@ -15,13 +15,13 @@ namespace {
 ImVec4 ColourOf(app::Message::Level level) {
   switch (level) {
     case app::Message::Level::kWarning:
-      return colour::kWarning;
+      return Colours().warning;
     case app::Message::Level::kError:
-      return colour::kError;
+      return Colours().error;
     case app::Message::Level::kInfo:
       break;
   }
-  return colour::kDim;
+  return Colours().dim;
 }
 
 void ShowTask(app::BackgroundTask& task) {
@@ -59,7 +59,7 @@ void ShowMessagesTools(app::Workspace& workspace) {
     return;
   }
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(colour::kWarning, "%s",
+  ImGui::TextColored(Colours().warning, "%s",
                      Tr("The project was changed outside of this window as well."));
   ImGui::SameLine();
   if (ImGui::Button(Tr("Take what is in the files"))) {

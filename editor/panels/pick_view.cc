@@ -69,7 +69,7 @@ void DrawLabel(const ImVec2& at, const char* text, ImU32 packed, ImDrawList& dra
   const ImVec2 from(at.x + Px(12), at.y - 0.5f * size.y);
   draw.AddRectFilled(ImVec2(from.x - Px(4), from.y - Px(2)),
                      ImVec2(from.x + size.x + Px(4), from.y + size.y + Px(2)),
-                     Packed(colour::kWindow, 0.75f), Px(3));
+                     Packed(OverPicture().window, 0.75f), Px(3));
   draw.AddText(from, packed, text);
 }
 
@@ -84,7 +84,7 @@ void DrawAnchors(const app::Workspace& workspace,
   const std::optional<stage::StageSolution>& solution = workspace.loaded().picks.solution;
   for (size_t i = 0; i < kAnchors.size(); ++i) {
     const bool active = static_cast<int>(i) == state.anchor;
-    const ImU32 packed = active ? Packed(colour::kAccent) : Packed(colour::kWarning);
+    const ImU32 packed = active ? Packed(OverPicture().accent) : Packed(OverPicture().warning);
     const stage::Anchor& anchor = picks.*kAnchors[i].anchor;
     for (const stage::Pick& pick : anchor.picks) {
       if (SameFrame(pick, keyframe)) {
@@ -120,11 +120,11 @@ void DrawLoupe(const ImVec2& pointer,
   const float v = (static_cast<float>(pixel.y()) + 0.5f) / static_cast<float>(texture.height());
   const float du = kSourceHalf / static_cast<float>(texture.width());
   const float dv = kSourceHalf / static_cast<float>(texture.height());
-  draw.AddRectFilled(a, b, Packed(colour::kWindow));
+  draw.AddRectFilled(a, b, Packed(OverPicture().window));
   draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture.id())), a, b,
                 ImVec2(u - du, v - dv), ImVec2(u + du, v + dv));
-  draw.AddRect(a, b, Packed(colour::kLine), 0, 0, Px(2));
-  DrawCross(center, Packed(colour::kAccent), draw);
+  draw.AddRect(a, b, Packed(OverPicture().line), 0, 0, Px(2));
+  DrawCross(center, Packed(OverPicture().accent), draw);
 }
 
 void ShowAnchorButtons(const app::Workspace& workspace, EditorState& state) {
@@ -170,14 +170,14 @@ void PickView::ShowImage(app::Workspace& workspace,
   draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture_.id())),
                 ToImGui(map.origin), ToImGui(map.origin + extent));
   if (keyframe.grey.empty()) {
-    draw.AddText(ToImGui(map.origin + Vector2d(Px(12), Px(12))), Packed(colour::kDim),
+    draw.AddText(ToImGui(map.origin + Vector2d(Px(12), Px(12))), Packed(OverPicture().dim),
                  "The map was made small and holds no image here.");
   }
   DrawAnchors(workspace, state, keyframe, map, draw);
   const Vector2d pixel = map.ToPixel(ToEigen(ImGui::GetMousePos()));
   if (hovered && camera.Contains(pixel)) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_None);
-    DrawCross(ImGui::GetMousePos(), Packed(colour::kText), draw);
+    DrawCross(ImGui::GetMousePos(), Packed(OverPicture().text), draw);
     DrawLoupe(ImGui::GetMousePos(), pixel, texture_, draw);
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
       SetPick(workspace, state.anchor, keyframe, pixel);

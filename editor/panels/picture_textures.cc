@@ -29,8 +29,8 @@ void ShowThumbnail(PictureTextures& textures,
                          IM_COL32_WHITE, rounding);
   } else {
     // A head and shoulders in outline, until there is a picture.
-    const ImU32 ink = Packed(colour::kDim, 0.35f);
-    draw.AddRectFilled(from, to, Packed(colour::kFrame), rounding);
+    const ImU32 ink = Packed(Colours().dim, 0.35f);
+    draw.AddRectFilled(from, to, Packed(Colours().frame), rounding);
     draw.AddCircleFilled(ImVec2(from.x + 0.5f * side, from.y + 0.4f * side), 0.17f * side, ink);
     draw.PushClipRect(from, to, true);
     draw.AddCircleFilled(ImVec2(from.x + 0.5f * side, from.y + 0.98f * side), 0.33f * side, ink);

@@ -59,7 +59,7 @@ void DrawSkeleton(const app::CastPortrait& portrait, const Place& place, const s
       const ImVec2 from = place.At(portrait.pixels[static_cast<size_t>(portrait.parents[i])]);
       const ImVec2 to = place.At(portrait.pixels[i]);
       draw.AddLine(from, to, shadow, Px(3.5f));
-      draw.AddLine(from, to, Packed(colour::kAxes[2], 0.9f), Px(1.5f));
+      draw.AddLine(from, to, Packed(kAxisColours[2], 0.9f), Px(1.5f));
     }
   }
   for (size_t i = 0; i < portrait.pixels.size(); ++i) {
@@ -67,7 +67,7 @@ void DrawSkeleton(const app::CastPortrait& portrait, const Place& place, const s
     const ImVec2 at = place.At(portrait.pixels[i]);
     draw.AddCircleFilled(at, Px(chosen ? 7.0f : 3.5f), shadow);
     draw.AddCircleFilled(at, Px(chosen ? 5.5f : 2.2f),
-                         Packed(chosen ? colour::kAccent : colour::kText));
+                         Packed(chosen ? OverPicture().accent : OverPicture().text));
   }
 }
 
@@ -103,7 +103,7 @@ void Interact(EditorState& state,
 void DrawPicture(EditorState& state, const app::CastPortrait* portrait, Place& place) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float rounding = ImGui::GetStyle().FrameRounding;
-  draw.AddRectFilled(place.from, place.to, Packed(colour::kFrame), rounding);
+  draw.AddRectFilled(place.from, place.to, Packed(Colours().frame), rounding);
   if (portrait == nullptr) {
     return;
   }
@@ -127,8 +127,8 @@ void Caption(const Place& frame, const char* text) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(ImVec2(at.x - Px(6), at.y - Px(3)),
                      ImVec2(at.x + size.x + Px(6), at.y + size.y + Px(3)),
-                     Packed(colour::kWindow, 0.75f), ImGui::GetStyle().FrameRounding);
-  draw.AddText(at, Packed(colour::kText), text);
+                     Packed(OverPicture().window, 0.75f), ImGui::GetStyle().FrameRounding);
+  draw.AddText(at, Packed(OverPicture().text), text);
 }
 
 }  // namespace

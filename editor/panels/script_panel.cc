@@ -34,21 +34,21 @@ constexpr double kTypingPause = 1.0;  // seconds after which typing is another c
 ImVec4 ColourOf(LuaPart part) {
   switch (part) {
     case LuaPart::kKeyword:
-      return colour::kKeyword;
+      return Colours().keyword;
     case LuaPart::kText:
-      return colour::kString;
+      return Colours().string;
     case LuaPart::kNumber:
-      return colour::kNumber;
+      return Colours().number;
     case LuaPart::kComment:
-      return colour::kDim;
+      return Colours().dim;
     case LuaPart::kCall:
-      return colour::kCall;
+      return Colours().call;
     case LuaPart::kBad:
-      return colour::kError;
+      return Colours().error;
     case LuaPart::kPlain:
       break;
   }
-  return colour::kText;
+  return Colours().text;
 }
 
 // What the field is told while it has the keyboard: it keeps a text of its own.
@@ -140,7 +140,7 @@ void ScriptPanel::DrawText(const FieldView& view) {
     if (problems_.contains(static_cast<int>(i) + 1)) {
       draw.AddRectFilled(ImVec2(view.at.x + view.gutter, y),
                          ImVec2(view.at.x + view.size.x, y + view.line),
-                         Packed(colour::kError, 0.13f));
+                         Packed(Colours().error, kErrorTint));
     }
     size_t at = line_begin;
     const auto write = [&](size_t to, const ImVec4& colour) {
@@ -151,14 +151,14 @@ void ScriptPanel::DrawText(const FieldView& view) {
       }
     };
     while (word != words_.end() && word->begin < line_end) {
-      write(std::max<size_t>(word->begin, at), colour::kText);
+      write(std::max<size_t>(word->begin, at), Colours().text);
       write(std::min<size_t>(word->end, line_end), ColourOf(word->part));
       if (word->end > line_end) {
         break;  // goes on in the next line
       }
       ++word;
     }
-    write(line_end, colour::kText);
+    write(line_end, Colours().text);
   }
 }
 
@@ -172,14 +172,14 @@ void ScriptPanel::DrawGutter(const FieldView& view) {
     const auto problem = problems_.find(static_cast<int>(i) + 1);
     const bool wrong = problem != problems_.end();
     draw.AddText(ImVec2(view.at.x + view.gutter - Px(14) - width, y),
-                 Packed(wrong          ? colour::kError
-                        : i == current ? colour::kText
-                                       : colour::kDim,
+                 Packed(wrong          ? Colours().error
+                        : i == current ? Colours().text
+                                       : Colours().dim,
                         wrong || i == current ? 1.0f : 0.7f),
                  number.c_str());
     if (wrong) {
       draw.AddCircleFilled(ImVec2(view.at.x + Px(8), y + 0.5f * view.line), Px(4),
-                           Packed(colour::kError));
+                           Packed(Colours().error));
       if (ImGui::IsMouseHoveringRect(ImVec2(view.at.x, y),
                                      ImVec2(view.at.x + view.gutter, y + view.line))) {
         ImGui::BeginTooltip();
@@ -282,7 +282,7 @@ void ScriptPanel::ShowField(app::Workspace& workspace, EditorState& state) {
     const float x = view.text.x +
                     ImGui::CalcTextSize(buffer_.data() + lines_[line], buffer_.data() + cursor_).x;
     const float y = view.text.y + view.line * static_cast<float>(line);
-    draw.AddLine(ImVec2(x, y), ImVec2(x, y + view.line), Packed(colour::kText), Px(1.5f));
+    draw.AddLine(ImVec2(x, y), ImVec2(x, y + view.line), Packed(Colours().text), Px(1.5f));
   }
   draw.PopClipRect();
   draw.PushClipRect(view.at, ImVec2(view.at.x + view.gutter, view.at.y + view.size.y), true);

@@ -11,6 +11,7 @@
 #include "editor/app/user_folders.h"
 #include "editor/panels/dialogs.h"
 #include "editor/panels/key_list.h"
+#include "editor/panels/look.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -69,7 +70,7 @@ std::string FolderProblem(const fs::path& folder) {
 
 bool WideButton(const char* label, bool important) {
   if (important) {
-    ImGui::PushStyleColor(ImGuiCol_Button, colour::kAccent);
+    ImGui::PushStyleColor(ImGuiCol_Button, Colours().chosen);
   }
   const bool chosen = ImGui::Button(label, ImVec2(-FLT_MIN, Px(38)));
   if (important) {
@@ -135,6 +136,7 @@ void StartPage::OpenDialog(Open dialog, const app::RecentProjects& recent) {
 
 void StartPage::ShowActions(const app::RecentProjects& recent,
                             bool has_sample,
+                            app::Settings& settings,
                             StartChoice& choice) {
   ImGui::PushFont(ThemeFonts().title);
   ImGui::TextUnformatted("Lararium");
@@ -158,6 +160,8 @@ void StartPage::ShowActions(const app::RecentProjects& recent,
                                      "whatever you like.")
                                 : Tr("The sample was not installed with this program."));
   }
+  ImGui::Dummy(ImVec2(0, Px(20)));
+  ShowLook(settings);
 }
 
 void StartPage::ShowPicture(const app::RecentProject& project,
@@ -172,11 +176,11 @@ void StartPage::ShowPicture(const app::RecentProject& project,
                          last, IM_COL32(255, 255, 255, face.exists ? 255 : 90),
                          ImGui::GetStyle().FrameRounding);
   } else {
-    draw.AddRectFilled(from, to, Packed(colour::kFrame), ImGui::GetStyle().FrameRounding);
+    draw.AddRectFilled(from, to, Packed(Colours().frame), ImGui::GetStyle().FrameRounding);
     const char* text = Tr("No picture yet");
     const ImVec2 extent = ImGui::CalcTextSize(text);
     draw.AddText(ImVec2(from.x + 0.5f * (size.x - extent.x), from.y + 0.5f * (size.y - extent.y)),
-                 Packed(colour::kDim), text);
+                 Packed(Colours().dim), text);
   }
   ImGui::Dummy(size);
 }
@@ -202,7 +206,7 @@ void StartPage::ShowCard(app::RecentProjects& recent,
     ImGui::SetTooltip("%s", project.folder.c_str());
   }
   ImGui::GetWindowDrawList()->AddRectFilled(
-      from, to, Packed(hovered ? colour::kHover : colour::kPanel), Px(6));
+      from, to, Packed(hovered ? Colours().hover : Colours().panel), Px(6));
   ImGui::SetCursorScreenPos(ImVec2(from.x + Px(kPad), from.y + Px(kPad)));
   ImGui::BeginGroup();
   ShowPicture(project, face, ImVec2(inner, picture));
@@ -224,7 +228,7 @@ void StartPage::ShowCard(app::RecentProjects& recent,
     ImGui::SameLine();
     forget = ImGui::SmallButton(Tr("Forget"));
     ImGui::SameLine();
-    ImGui::TextColored(colour::kWarning, "%s", Tr("not there"));
+    ImGui::TextColored(Colours().warning, "%s", Tr("not there"));
   } else if (hovered) {
     forget = ImGui::SmallButton(Tr("Forget"));
     if (ImGui::IsItemHovered()) {
@@ -362,7 +366,8 @@ void StartPage::ShowDialog(app::RecentProjects& recent,
 
 StartChoice StartPage::Show(app::RecentProjects& recent,
                             std::span<const KeyPress> keys,
-                            bool has_sample) {
+                            bool has_sample,
+                            app::Settings& settings) {
   StartChoice choice;
   HandleKeys(recent, keys, choice);
   Look(recent);
@@ -377,12 +382,12 @@ StartChoice StartPage::Show(app::RecentProjects& recent,
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
   ImGui::BeginChild("actions", ImVec2(Px(kActions), 0));
-  ShowActions(recent, has_sample, choice);
+  ShowActions(recent, has_sample, settings, choice);
   ImGui::EndChild();
   ImGui::SameLine(0.0f, Px(48));
   ImGui::BeginChild("recent");
   if (!problem_.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour::kError);
+    ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
     ImGui::TextWrapped("%s", problem_.c_str());
     ImGui::PopStyleColor();
     ImGui::Dummy(ImVec2(0, Px(8)));

@@ -28,7 +28,11 @@ class StartPage {
  public:
   // Fills the window. keys: since the last frame. has_sample: whether the sample is there.
   // Forgetting and locating projects changes recent at once.
-  StartChoice Show(app::RecentProjects& recent, std::span<const KeyPress> keys, bool has_sample);
+  // settings may be changed too.
+  StartChoice Show(app::RecentProjects& recent,
+                   std::span<const KeyPress> keys,
+                   bool has_sample,
+                   app::Settings& settings);
 
   // Shown until the next choice, such as why a project cannot be opened.
   void SetProblem(std::string problem) { problem_ = std::move(problem); }
@@ -46,7 +50,10 @@ class StartPage {
                   std::span<const KeyPress> keys,
                   StartChoice& choice);
   void OpenDialog(Open dialog, const app::RecentProjects& recent);
-  void ShowActions(const app::RecentProjects& recent, bool has_sample, StartChoice& choice);
+  void ShowActions(const app::RecentProjects& recent,
+                   bool has_sample,
+                   app::Settings& settings,
+                   StartChoice& choice);
   void ShowRecent(app::RecentProjects& recent, StartChoice& choice);
   void ShowCard(app::RecentProjects& recent,
                 const app::RecentProject& project,

@@ -6,14 +6,13 @@ namespace lararium::panels {
 
 namespace {
 
-constexpr float kFontPx = 15.5f;
-constexpr float kCodePx = 15.0f;
-constexpr float kTitlePx = 30.0f;
 constexpr const char* kFontFolders[] = {
     "/usr/share/fonts/opentype/inter", "/usr/share/fonts/truetype/inter",
     "/usr/local/share/fonts/inter", "/usr/share/fonts/truetype/dejavu"};
 
-float g_scale = 1.0f;  // of the one interface; set with the theme
+// Of the one interface; set with the theme.
+float g_scale = 1.0f;
+Theme g_theme = Theme::kDark;
 Fonts g_fonts;
 
 ImFont* LoadFont(const char* name, float size) {
@@ -33,14 +32,14 @@ ImFont* LoadFont(const char* name, float size) {
 
 Fonts LoadFonts(float scale) {
   Fonts fonts;
-  fonts.regular = LoadFont("Inter-Regular.otf", kFontPx * scale);
+  fonts.regular = LoadFont("Inter-Regular.otf", kTextPx * scale);
   if (fonts.regular == nullptr) {
     ImFontConfig config;
-    config.SizePixels = kFontPx * scale;
+    config.SizePixels = kTextPx * scale;
     fonts.regular = ImGui::GetIO().Fonts->AddFontDefault(&config);
   }
   // Behind that of the interface, which ImGui takes to be the first.
-  fonts.strong = LoadFont("Inter-SemiBold.otf", kFontPx * scale);
+  fonts.strong = LoadFont("Inter-SemiBold.otf", kTextPx * scale);
   fonts.code = LoadFont("DejaVuSansMono.ttf", kCodePx * scale);
   fonts.title = LoadFont("Inter-SemiBold.otf", kTitlePx * scale);
   if (fonts.strong == nullptr) {
@@ -56,46 +55,50 @@ Fonts LoadFonts(float scale) {
 void SetColours(ImGuiStyle& style) {
   ImVec4* c = style.Colors;
   const ImVec4 clear(0, 0, 0, 0);
-  const auto accent = [](float alpha) {
-    return ImVec4(colour::kAccent.x, colour::kAccent.y, colour::kAccent.z, alpha);
-  };
-  c[ImGuiCol_Text] = colour::kText;
-  c[ImGuiCol_TextDisabled] = colour::kDim;
-  c[ImGuiCol_WindowBg] = colour::kWindow;
+  const auto accent = [](float alpha) { return WithAlpha(Colours().accent, alpha); };
+  c[ImGuiCol_Text] = Colours().text;
+  c[ImGuiCol_TextDisabled] = Colours().dim;
+  c[ImGuiCol_WindowBg] = Colours().window;
   c[ImGuiCol_ChildBg] = clear;
-  c[ImGuiCol_PopupBg] = colour::kPanel;
-  c[ImGuiCol_MenuBarBg] = colour::kWindow;
-  c[ImGuiCol_Border] = colour::kLine;
-  c[ImGuiCol_Separator] = colour::kLine;
+  c[ImGuiCol_PopupBg] = Colours().panel;
+  c[ImGuiCol_MenuBarBg] = Colours().window;
+  c[ImGuiCol_Border] = Colours().line;
+  c[ImGuiCol_Separator] = Colours().line;
   c[ImGuiCol_SeparatorHovered] = accent(0.6f);
   c[ImGuiCol_SeparatorActive] = accent(1.0f);
-  c[ImGuiCol_FrameBg] = colour::kFrame;
-  c[ImGuiCol_FrameBgHovered] = colour::kHover;
-  c[ImGuiCol_FrameBgActive] = colour::kHover;
-  c[ImGuiCol_Button] = colour::kFrame;
-  c[ImGuiCol_ButtonHovered] = colour::kHover;
-  c[ImGuiCol_ButtonActive] = accent(0.8f);
-  c[ImGuiCol_Header] = accent(0.30f);
-  c[ImGuiCol_HeaderHovered] = colour::kHover;
-  c[ImGuiCol_HeaderActive] = accent(0.45f);
+  c[ImGuiCol_FrameBg] = Colours().frame;
+  c[ImGuiCol_FrameBgHovered] = Colours().hover;
+  c[ImGuiCol_FrameBgActive] = Colours().hover;
+  c[ImGuiCol_Button] = Colours().frame;
+  c[ImGuiCol_ButtonHovered] = Colours().hover;
+  c[ImGuiCol_ButtonActive] = Colours().chosen;
+  c[ImGuiCol_Header] = accent(kSelectedTint);
+  c[ImGuiCol_HeaderHovered] = Colours().hover;
+  c[ImGuiCol_HeaderActive] = accent(kPressedTint);
   c[ImGuiCol_CheckMark] = accent(1.0f);
   c[ImGuiCol_SliderGrab] = accent(0.9f);
   c[ImGuiCol_SliderGrabActive] = accent(1.0f);
   c[ImGuiCol_PlotHistogram] = accent(1.0f);
-  c[ImGuiCol_TextSelectedBg] = accent(0.35f);
+  c[ImGuiCol_TextSelectedBg] = accent(kPressedTint);
   c[ImGuiCol_NavHighlight] = accent(0.8f);
   c[ImGuiCol_ScrollbarBg] = clear;
-  c[ImGuiCol_ScrollbarGrab] = colour::kFrame;
-  c[ImGuiCol_ScrollbarGrabHovered] = colour::kHover;
-  c[ImGuiCol_ScrollbarGrabActive] = colour::kHover;
-  c[ImGuiCol_TitleBg] = colour::kPanel;
-  c[ImGuiCol_TitleBgActive] = colour::kPanel;
+  c[ImGuiCol_ScrollbarGrab] = Colours().frame;
+  c[ImGuiCol_ScrollbarGrabHovered] = Colours().hover;
+  c[ImGuiCol_ScrollbarGrabActive] = Colours().hover;
+  c[ImGuiCol_TitleBg] = Colours().panel;
+  c[ImGuiCol_TitleBgActive] = Colours().panel;
+  c[ImGuiCol_TableHeaderBg] = Colours().frame;
+  c[ImGuiCol_TableBorderStrong] = Colours().line;
+  c[ImGuiCol_TableBorderLight] = Colours().line;
   c[ImGuiCol_ModalWindowDimBg] = ImVec4(0, 0, 0, 0.45f);
 }
 
 }  // namespace
 
-void ApplyTheme(float scale) {
+const Palette& Colours() { return PaletteOf(g_theme); }
+
+void ApplyTheme(Theme theme, float scale) {
+  g_theme = theme;
   g_scale = scale;
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
@@ -118,6 +121,7 @@ void ApplyTheme(float scale) {
   style.PopupBorderSize = 1;
   style.ScaleAllSizes(scale);
   SetColours(style);
+  ImGui::GetIO().Fonts->Clear();
   g_fonts = LoadFonts(scale);
 }
 

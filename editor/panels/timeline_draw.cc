@@ -19,15 +19,6 @@ ImVec4 Mixed(const ImVec4& a, const ImVec4& b, float t) {
   return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, 1.0f};
 }
 
-// Black or white, whichever reads better on a colour (its relative luminance, WCAG 2).
-ImU32 Ink(const ImVec4& on) {
-  const auto linear = [](float v) {
-    return v <= 0.03928f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-  };
-  const float luminance = 0.2126f * linear(on.x) + 0.7152f * linear(on.y) + 0.0722f * linear(on.z);
-  return luminance > 0.18f ? IM_COL32(16, 18, 22, 255) : IM_COL32(240, 242, 246, 255);
-}
-
 // Lines from bottom left to top right, cut off at the sides.
 void DrawHatch(ImDrawList& draw, const ImVec2& from, const ImVec2& to, ImU32 colour) {
   const float height = to.y - from.y;
@@ -71,7 +62,7 @@ ImVec4 LaneColour(LaneKind kind) {
     case LaneKind::kMarkers:
       return {0.780f, 0.800f, 0.840f, 1.0f};
   }
-  return colour::kText;
+  return Colours().text;
 }
 
 const char* LaneTitle(LaneKind kind) {
@@ -137,12 +128,12 @@ void DrawItem(ImDrawList& draw,
               const std::string& label,
               const ItemLook& look) {
   ImVec4 fill =
-      look.scripted ? Mixed(colour, colour::kPanel, 0.72f) : Mixed(colour, colour::kPanel, 0.18f);
+      look.scripted ? Mixed(colour, Colours().panel, 0.72f) : Mixed(colour, Colours().panel, 0.18f);
   if (look.hovered || look.selected) {
-    fill = Mixed(fill, colour::kText, 0.14f);
+    fill = Mixed(fill, Colours().text, 0.14f);
   }
   if (to.x - from.x < Px(kNarrow) && !look.selected) {
-    draw.AddRectFilled(from, to, Packed(look.failed ? colour::kError : fill));
+    draw.AddRectFilled(from, to, Packed(look.failed ? Colours().error : fill));
     return;
   }
   draw.AddRectFilled(from, to, Packed(fill), Px(3));
@@ -151,20 +142,19 @@ void DrawItem(ImDrawList& draw,
   }
   if (look.open_end && to.x - from.x > Px(12)) {
     // An end that nobody wrote: it lasts as long as it takes.
-    draw.AddRectFilled(ImVec2(to.x - Px(3), from.y), to, Packed(colour::kPanel, 0.55f));
+    draw.AddRectFilled(ImVec2(to.x - Px(3), from.y), to, Packed(Colours().panel, 0.55f));
   }
   if (look.selected) {
-    draw.AddRect(from, to, Packed(colour::kText), Px(3), 0, Px(2));
+    draw.AddRect(from, to, Packed(Colours().text), Px(3), 0, Px(2));
   } else if (look.failed) {
-    draw.AddRect(from, to, Packed(colour::kError), Px(3), 0, Px(1.5f));
+    draw.AddRect(from, to, Packed(Colours().error), Px(3), 0, Px(1.5f));
   }
   const float text_left = from.x + Px(6);
   if (!label.empty() && to.x - text_left > Px(12)) {
     const float y = from.y + Px(0.5f * (kTextLine - 4)) - 0.5f * ImGui::GetTextLineHeight();
     const ImVec4 clip(from.x, from.y, to.x - Px(3), to.y);
-    draw.AddText(nullptr, 0.0f, ImVec2(text_left, y),
-                 look.scripted ? Packed(colour::kText) : Ink(fill), label.c_str(), nullptr, 0.0f,
-                 &clip);
+    draw.AddText(nullptr, 0.0f, ImVec2(text_left, y), Packed(InkOn(fill)), label.c_str(), nullptr,
+                 0.0f, &clip);
   }
 }
 
@@ -243,9 +233,9 @@ void DrawRuler(ImDrawList& draw, const TimeScale& scale, float top, float height
     }
     const bool major = i % step.parts == 0;
     draw.AddLine(ImVec2(x, top + height - Px(major ? 8 : 4)), ImVec2(x, top + height),
-                 Packed(colour::kDim, major ? 0.9f : 0.45f));
+                 Packed(Colours().dim, major ? 0.9f : 0.45f));
     if (major) {
-      draw.AddText(ImVec2(x + Px(4), top + Px(2)), Packed(colour::kDim),
+      draw.AddText(ImVec2(x + Px(4), top + Px(2)), Packed(Colours().dim),
                    FormatTime(seconds, step.seconds).c_str());
     }
   }
@@ -257,20 +247,20 @@ void DrawGrid(ImDrawList& draw, const TimeScale& scale, float top, float bottom)
   for (auto i = static_cast<int64_t>(std::floor(scale.first / step.seconds)); i <= last; ++i) {
     const float x = std::round(scale.XOf(static_cast<double>(i) * step.seconds));
     if (x >= scale.left) {
-      draw.AddLine(ImVec2(x, top), ImVec2(x, bottom), Packed(colour::kLine, 0.7f));
+      draw.AddLine(ImVec2(x, top), ImVec2(x, bottom), Packed(Colours().line, 0.7f));
     }
   }
 }
 
 void DrawPlayhead(ImDrawList& draw, float x, float top, float bottom) {
-  draw.AddLine(ImVec2(x, top), ImVec2(x, bottom), Packed(colour::kAccent), Px(1.5f));
+  draw.AddLine(ImVec2(x, top), ImVec2(x, bottom), Packed(Colours().accent), Px(1.5f));
 }
 
 void DrawPlayheadHandle(ImDrawList& draw, float x, float top, float height) {
   const float half = Px(6);
   draw.AddTriangleFilled(ImVec2(x - half, top + height - Px(10)),
                          ImVec2(x + half, top + height - Px(10)), ImVec2(x, top + height),
-                         Packed(colour::kAccent));
+                         Packed(Colours().accent));
 }
 
 }  // namespace lararium::panels

@@ -337,7 +337,7 @@ void ShowBlock(app::Workspace& workspace, EditorState& state, const drama::TaskR
     EndProperties();
   }
   if (!task.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, task.failed ? colour::kError : colour::kDim);
+    ImGui::PushStyleColor(ImGuiCol_Text, task.failed ? Colours().error : Colours().dim);
     ImGui::TextWrapped("%s", task.message.c_str());
     ImGui::PopStyleColor();
   }

@@ -176,9 +176,7 @@ double PlayedSeconds(std::span<const TaskRecord> tasks, const TimelineLane& lane
 }
 
 bool ToggleButton(const char* label, bool& on, const std::string& tip) {
-  ImGui::PushStyleColor(
-      ImGuiCol_Button,
-      on ? ImVec4(colour::kAccent.x, colour::kAccent.y, colour::kAccent.z, 0.45f) : colour::kFrame);
+  ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
   const bool pressed = ImGui::Button(label);
   ImGui::PopStyleColor();
   if (pressed) {
@@ -716,11 +714,11 @@ void TimelinePanel::DrawItems(const app::Workspace& workspace,
                labelled ? FaceOf(workspace, item).label : std::string(), look);
       if (row.lane == LaneKind::kMarkers) {
         const std::string& name = FaceOf(workspace, item).label;
-        draw.AddText(ImVec2(x1 + Px(3), y0 + Px(1)), Packed(colour::kText), name.c_str());
+        draw.AddText(ImVec2(x1 + Px(3), y0 + Px(1)), Packed(Colours().text), name.c_str());
       }
       if (row.lane == LaneKind::kSpeech && labelled) {
         DrawVoiceOf(workspace, FaceOf(workspace, item).line, span.begin, ImVec2(x0, y0 + Px(19)),
-                    ImVec2(x1 - 1.0f, y1), Packed(colour::kWindow, 0.75f), draw);
+                    ImVec2(x1 - 1.0f, y1), Packed(Colours().window, 0.75f), draw);
       }
     }
   }
@@ -771,7 +769,7 @@ void TimelinePanel::DrawGutter(const TimelineRow& row, const ImVec2& at, float w
                        ImVec2(at.x + Px(28), at.y + Px(kRow - 7)), Packed(LaneColour(row.lane)),
                        Px(1));
     const bool scripted = row.kind == TimelineRow::Kind::kBlocks;
-    write(Px(36), colour::kDim,
+    write(Px(36), Colours().dim,
           row.of_object ? Tr("used")
           : scripted    ? std::string(LaneTitle(row.lane)) + ", " + Tr("script")
                         : LaneTitle(row.lane));
@@ -781,12 +779,12 @@ void TimelinePanel::DrawGutter(const TimelineRow& row, const ImVec2& at, float w
   const ImVec2 c(at.x + Px(11), at.y + Px(0.5f * kRow));
   if (folded) {
     draw.AddTriangleFilled(ImVec2(c.x - Px(3), c.y - Px(5)), ImVec2(c.x - Px(3), c.y + Px(5)),
-                           ImVec2(c.x + Px(4), c.y), Packed(colour::kDim));
+                           ImVec2(c.x + Px(4), c.y), Packed(Colours().dim));
   } else {
     draw.AddTriangleFilled(ImVec2(c.x - Px(5), c.y - Px(3)), ImVec2(c.x + Px(5), c.y - Px(3)),
-                           ImVec2(c.x, c.y + Px(4)), Packed(colour::kDim));
+                           ImVec2(c.x, c.y + Px(4)), Packed(Colours().dim));
   }
-  write(Px(22), colour::kText, row.group.empty() ? Tr("Stage") : row.group);
+  write(Px(22), Colours().text, row.group.empty() ? Tr("Stage") : row.group);
 }
 
 void TimelinePanel::DrawRow(const app::Workspace& workspace,
@@ -798,11 +796,11 @@ void TimelinePanel::DrawRow(const app::Workspace& workspace,
   if (row.kind == TimelineRow::Kind::kHeading) {
     draw.AddRectFilled(ImVec2(scale_.left - Px(kGutter), top + Px(1)),
                        ImVec2(scale_.left + scale_.width, top + height - Px(1)),
-                       Packed(colour::kFrame, 0.45f));
+                       Packed(Colours().frame, 0.45f));
     return;
   }
   draw.AddLine(ImVec2(scale_.left, top + height), ImVec2(scale_.left + scale_.width, top + height),
-               Packed(colour::kLine, 0.5f));
+               Packed(Colours().line, 0.5f));
   draw.PushClipRect(ImVec2(scale_.left, top - 1), ImVec2(scale_.left + scale_.width, top + height),
                     true);
   if (row.kind == TimelineRow::Kind::kItems) {
@@ -842,7 +840,7 @@ void TimelinePanel::ShowRuler(app::Workspace& workspace, float height) {
   DrawRuler(draw, scale_, at.y, height);
   if (drag_.snapped_to >= 0.0) {
     const float x = scale_.XOf(drag_.snapped_to);
-    draw.AddLine(ImVec2(x, at.y), ImVec2(x, at.y + height), Packed(colour::kText, 0.8f), Px(1));
+    draw.AddLine(ImVec2(x, at.y), ImVec2(x, at.y + height), Packed(Colours().text, 0.8f), Px(1));
   }
   DrawPlayheadHandle(draw, scale_.XOf(workspace.time()), at.y, height);
   draw.PopClipRect();
@@ -874,7 +872,7 @@ void TimelinePanel::ShowRows(app::Workspace& workspace, EditorState& state) {
   const float end = scale_.XOf(workspace.duration());
   draw.AddRectFilled(ImVec2(std::max(end, scale_.left), view.y),
                      ImVec2(scale_.left + scale_.width, view.y + view_size.y),
-                     Packed(colour::kWindow, 0.45f));
+                     Packed(Colours().window, 0.45f));
   draw.PopClipRect();
   for (size_t i = static_cast<size_t>(std::max(RowAt(view.y - origin.y), 0)); i < shown_.size();
        ++i) {
@@ -889,7 +887,7 @@ void TimelinePanel::ShowRows(app::Workspace& workspace, EditorState& state) {
                     ImVec2(scale_.left + scale_.width, view.y + view_size.y), true);
   if (drag_.snapped_to >= 0.0) {
     const float x = scale_.XOf(drag_.snapped_to);
-    draw.AddLine(ImVec2(x, view.y), ImVec2(x, view.y + view_size.y), Packed(colour::kText, 0.8f),
+    draw.AddLine(ImVec2(x, view.y), ImVec2(x, view.y + view_size.y), Packed(Colours().text, 0.8f),
                  Px(1));
   }
   if (drag_.kind == Drag::Kind::kBox && drag_.moved) {
@@ -897,14 +895,14 @@ void TimelinePanel::ShowRows(app::Workspace& workspace, EditorState& state) {
     const ImVec2& b = ImGui::GetIO().MousePos;
     const ImVec2 from(std::min(a.x, b.x), std::min(a.y, b.y));
     const ImVec2 to(std::max(a.x, b.x), std::max(a.y, b.y));
-    draw.AddRectFilled(from, to, Packed(colour::kAccent, 0.15f));
-    draw.AddRect(from, to, Packed(colour::kAccent, 0.8f));
+    draw.AddRectFilled(from, to, Packed(Colours().accent, 0.15f));
+    draw.AddRect(from, to, Packed(Colours().accent, 0.8f));
   }
   DrawPlayhead(draw, scale_.XOf(workspace.time()), view.y, view.y + view_size.y);
   draw.PopClipRect();
   if (shown_.empty() || (rows_.size() <= 1 && workspace.document().cast.empty())) {
     const char* text = Tr("Nobody is on the stage yet. Add a person in the list at the left.");
-    draw.AddText(ImVec2(scale_.left + Px(24), view.y + Px(34)), Packed(colour::kDim), text);
+    draw.AddText(ImVec2(scale_.left + Px(24), view.y + Px(34)), Packed(Colours().dim), text);
   }
   if (std::exchange(open_context_, false)) {
     ImGui::OpenPopup("item menu");

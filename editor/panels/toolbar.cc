@@ -3,11 +3,13 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <array>
 #include <cstdio>
 #include <string>
 #include <tuple>
 
 #include "editor/panels/light_panel.h"
+#include "editor/panels/look.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -146,6 +148,8 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   if (MenuItem("Sound", KeyAction::kSound, workspace.sound())) {
     workspace.SetSound(!workspace.sound());
   }
+  ImGui::Separator();
+  LookMenu(state.settings);
 }
 
 void SetGizmo(EditorState& state, GizmoMode mode) {
@@ -283,38 +287,39 @@ void ShowToolbar(app::Workspace& workspace, EditorState& state) {
     OpenTrainDialog(workspace, state);
   }
   ImGui::EndDisabled();
-  ImGui::SameLine();
+  SameLineIfFits(std::array{"Add a session\xe2\x80\xa6"});
   ImGui::BeginDisabled(!CanAddSession(workspace));
   if (ImGui::Button("Add a session\xe2\x80\xa6")) {
     OpenDialog(state, Dialog::kAddSession);
   }
   ImGui::EndDisabled();
-  ImGui::SameLine();
+  SameLineIfFits(std::array{"Bake"});
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kBaking));
   if (ImGui::Button("Bake")) {
     workspace.Bake();
   }
   ImGui::EndDisabled();
-  ImGui::SameLine();
+  SameLineIfFits(std::array{"Export\xe2\x80\xa6"});
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kExporting));
   if (ImGui::Button("Export\xe2\x80\xa6")) {
     OpenDialog(state, Dialog::kExport);
   }
   ImGui::EndDisabled();
 
-  ImGui::SameLine(0.0f, gap);
   static constexpr const char* kViews[] = {"Through the camera", "Around the place", "Picks"};
+  SameLineIfFits(kViews, gap);
   int view = static_cast<int>(state.view);
   if (Segmented("view", kViews, view)) {
     state.view = static_cast<ViewKind>(view);
   }
-  ImGui::SameLine(0.0f, gap);
   static constexpr const char* kModes[] = {"Move", "Turn", "Scale"};
+  SameLineIfFits(kModes, gap);
   int mode = static_cast<int>(state.gizmo);
   if (Segmented("gizmo", kModes, mode)) {
     SetGizmo(state, static_cast<GizmoMode>(mode));
   }
-  ImGui::SameLine(0.0f, gap);
+  static constexpr const char* kUndo[] = {"Undo", "Redo"};
+  SameLineIfFits(kUndo, gap);
   ImGui::BeginDisabled(!workspace.commands().CanUndo());
   if (ImGui::Button("Undo")) {
     workspace.Undo();

@@ -40,9 +40,10 @@ bool ShowTrackball(app::Workspace& workspace,
     changed = true;
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddCircleFilled(ToImGui(center), radius, Packed(colour::kFrame), 48);
+  draw.AddCircleFilled(ToImGui(center), radius, Packed(Colours().frame), 48);
   draw.AddCircle(ToImGui(center), radius,
-                 active || hovered ? Packed(colour::kAccent) : Packed(colour::kLine), 48, Px(1.5f));
+                 active || hovered ? Packed(Colours().accent) : Packed(Colours().line), 48,
+                 Px(1.5f));
   static constexpr const char* kNames[] = {"X", "Y", "Z"};
   const ImVec2 letter = ImGui::CalcTextSize("X");
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +52,7 @@ bool ShowTrackball(app::Workspace& workspace,
     const Vector2d tip = center + 0.74 * radius * Vector2d(in_view.x(), -in_view.y());
     const Vector2d label = center + 0.88 * radius * Vector2d(in_view.x(), -in_view.y());
     const float alpha = in_view.z() < 0.0 ? 0.45f : 1.0f;  // faint behind the ball
-    const ImU32 packed = Packed(colour::kAxes[axis], alpha);
+    const ImU32 packed = Packed(kAxisColours[axis], alpha);
     draw.AddLine(ToImGui(center), ToImGui(tip), packed, Px(2.5f));
     draw.AddText(ImVec2(static_cast<float>(label.x()) - 0.5f * letter.x,
                         static_cast<float>(label.y()) - 0.5f * letter.y),

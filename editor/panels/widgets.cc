@@ -88,13 +88,13 @@ void Heading(const char* text) {
 }
 
 void DimText(const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour::kDim);
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
 }
 
 void Hint(const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour::kDim);
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
 }
@@ -121,7 +121,7 @@ void ShowModal(const char* title, float width, bool& open, const std::function<v
 
 DialogAnswer DialogButtons(const char* action, const std::string& problem) {
   ImGui::Dummy(ImVec2(0, Px(2)));
-  ImGui::PushStyleColor(ImGuiCol_Text, colour::kWarning);
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
   ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
   ImGui::PopStyleColor();
   const float width = Px(110);
@@ -133,7 +133,7 @@ DialogAnswer DialogButtons(const char* action, const std::string& problem) {
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!problem.empty());
-  ImGui::PushStyleColor(ImGuiCol_Button, colour::kAccent);
+  ImGui::PushStyleColor(ImGuiCol_Button, Colours().chosen);
   if (ImGui::Button(action, ImVec2(width, 0))) {
     answer = DialogAnswer::kAct;
   }
@@ -176,8 +176,8 @@ bool Segmented(const char* id, std::span<const char* const> labels, int& chosen)
       ImGui::SameLine();
     }
     const bool active = i == chosen;
-    ImGui::PushStyleColor(ImGuiCol_Button, active ? colour::kAccent : colour::kFrame);
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, active ? colour::kAccent : colour::kHover);
+    ImGui::PushStyleColor(ImGuiCol_Button, active ? Colours().chosen : Colours().frame);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, active ? Colours().chosen : Colours().hover);
     if (ImGui::Button(labels[static_cast<size_t>(i)]) && !active) {
       chosen = i;
       changed = true;
@@ -189,9 +189,22 @@ bool Segmented(const char* id, std::span<const char* const> labels, int& chosen)
   return changed;
 }
 
+void SameLineIfFits(std::span<const char* const> labels, float gap) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float before = gap < 0.0f ? style.ItemSpacing.x : gap;
+  float width = 0.0f;
+  for (const char* label : labels) {
+    width += ImGui::CalcTextSize(label).x + 2.0f * style.FramePadding.x;
+  }
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + before + width <= right) {
+    ImGui::SameLine(0.0f, before);
+  }
+}
+
 bool Fold(const char* title, bool open_at_first) {
   ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
-  ImGui::PushStyleColor(ImGuiCol_HeaderActive, colour::kHover);
+  ImGui::PushStyleColor(ImGuiCol_HeaderActive, Colours().hover);
   const ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_SpanAvailWidth |
                                    ImGuiTreeNodeFlags_NoTreePushOnOpen |
                                    (open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);

@@ -36,6 +36,10 @@ std::string ElidedFront(const std::string& text, float width);
 // A row of buttons of which one is chosen; true when the choice changed.
 bool Segmented(const char* id, std::span<const char* const> labels, int& chosen);
 
+// Where buttons with these labels fit beside what came before they go there, after a gap of
+// pixels (below 0: the usual one); otherwise onto the next line.
+void SameLineIfFits(std::span<const char* const> labels, float gap = -1.0f);
+
 // A heading that folds what follows away; true while it is open.
 bool Fold(const char* title, bool open_at_first);
 

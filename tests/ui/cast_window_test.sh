@@ -17,7 +17,6 @@ if [ ! -e $model ]; then
 fi
 on_a_display "$0" "$@"
 start_clean
-export XDG_CACHE_HOME=$out/cache
 project=$out/cast.lararium
 json=$project/project.json
 

@@ -22,7 +22,7 @@ on_a_display() {
 # Empties the output folder, which then holds the program's state too.
 start_clean() {
   export LIBGL_ALWAYS_SOFTWARE=1
-  export XDG_STATE_HOME=$out/state
+  export XDG_STATE_HOME=$out/state XDG_CONFIG_HOME=$out/config XDG_CACHE_HOME=$out/cache
   rm -rf "$out"
   mkdir -p "$out"
   pid=0
@@ -34,6 +34,14 @@ fail() {
   cat "$out/editor.log"
   [ $pid -ne 0 ] && kill $pid
   exit 1
+}
+
+# hold KEY...: together, for as long as a slow frame: fields look at keys once a frame.
+hold() {
+  for key in "$@"; do xdotool keydown "$key"; done
+  sleep 0.4
+  for key in "$@"; do xdotool keyup "$key"; done
+  sleep 0.3
 }
 
 # wait_for SECONDS COMMAND...: until the command succeeds.

@@ -1,0 +1,75 @@
+#include "editor/panels/palette.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lararium::panels {
+
+namespace {
+
+ImVec4 Rgb(unsigned value) {
+  return {static_cast<float>(value >> 16 & 0xff) / 255.0f,
+          static_cast<float>(value >> 8 & 0xff) / 255.0f, static_cast<float>(value & 0xff) / 255.0f,
+          1.0f};
+}
+
+const Palette kDark = {.accent = Rgb(0xd96b49),
+                       .chosen = Rgb(0x9c4328),
+                       .text = Rgb(0xe3e5e9),
+                       .dim = Rgb(0xa8adb6),
+                       .warning = Rgb(0xeabf5f),
+                       .error = Rgb(0xf27871),
+                       .window = Rgb(0x191b1f),
+                       .panel = Rgb(0x212429),
+                       .frame = Rgb(0x2e3239),
+                       .hover = Rgb(0x3b4049),
+                       .line = Rgb(0x33373f),
+                       .keyword = Rgb(0xc792ea),
+                       .string = Rgb(0xa5d087),
+                       .number = Rgb(0xf5b476),
+                       .call = Rgb(0x73bff1)};
+
+const Palette kLight = {.accent = Rgb(0xb84f2b),
+                        .chosen = Rgb(0xf1b194),
+                        .text = Rgb(0x1e2126),
+                        .dim = Rgb(0x545a64),
+                        .warning = Rgb(0x7a5000),
+                        .error = Rgb(0xb0211e),
+                        .window = Rgb(0xe6e8eb),
+                        .panel = Rgb(0xf8f9fa),
+                        .frame = Rgb(0xe4e6ea),
+                        .hover = Rgb(0xd6dade),
+                        .line = Rgb(0xcdd1d6),
+                        .keyword = Rgb(0x75339e),
+                        .string = Rgb(0x2b6619),
+                        .number = Rgb(0x8f4a00),
+                        .call = Rgb(0x0d5a9e)};
+
+}  // namespace
+
+const Palette& PaletteOf(Theme theme) { return theme == Theme::kLight ? kLight : kDark; }
+
+ImVec4 Over(const ImVec4& front, const ImVec4& ground) {
+  const auto mix = [&](float a, float b) { return b + (a - b) * front.w; };
+  return {mix(front.x, ground.x), mix(front.y, ground.y), mix(front.z, ground.z), 1.0f};
+}
+
+double Luminance(const ImVec4& colour) {
+  const auto linear = [](double v) {
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(colour.x) + 0.7152 * linear(colour.y) + 0.0722 * linear(colour.z);
+}
+
+double Contrast(const ImVec4& a, const ImVec4& b) {
+  const auto [low, high] = std::minmax({Luminance(a), Luminance(b)});
+  return (high + 0.05) / (low + 0.05);
+}
+
+ImVec4 InkOn(const ImVec4& ground) {
+  const ImVec4 black = Rgb(0x000000);
+  const ImVec4 white = Rgb(0xffffff);
+  return Contrast(black, ground) >= Contrast(white, ground) ? black : white;
+}
+
+}  // namespace lararium::panels

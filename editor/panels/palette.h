@@ -1,0 +1,64 @@
+#pragma once
+
+// The colours of the interface, dark and light. Text keeps a contrast of at least 4.5 to 1 on
+// whatever lies below it (WCAG 2, level AA); tests hold both palettes to that.
+
+#include <imgui.h>
+
+#include "editor/app/settings.h"
+
+namespace lararium::panels {
+
+using app::Theme;
+
+// sRGB, opaque.
+struct Palette {
+  ImVec4 accent;  // lines, ticks and marks; no ground for text
+  ImVec4 chosen;  // below the text of what is chosen, or of the button that matters most
+  ImVec4 text;
+  ImVec4 dim;  // text that matters less
+  ImVec4 warning;
+  ImVec4 error;
+  ImVec4 window;  // behind and between the panels
+  ImVec4 panel;
+  ImVec4 frame;  // fields and buttons
+  ImVec4 hover;
+  ImVec4 line;
+
+  // Words of scripts.
+  ImVec4 keyword;
+  ImVec4 string;
+  ImVec4 number;
+  ImVec4 call;
+};
+
+const Palette& PaletteOf(Theme theme);
+
+// Of what lies over photographs and in the view around the place, in either theme.
+inline const Palette& OverPicture() { return PaletteOf(Theme::kDark); }
+
+// X, Y, Z.
+inline const ImVec4 kAxisColours[3] = {
+    {0.878f, 0.365f, 0.365f, 1.0f}, {0.482f, 0.757f, 0.388f, 1.0f}, {0.369f, 0.592f, 0.918f, 1.0f}};
+
+// How a colour that lets some of the ground through looks on it. front.w: how opaque it is.
+ImVec4 Over(const ImVec4& front, const ImVec4& ground);
+
+// WCAG 2: relative luminance, 0 to 1, and contrast ratio, 1 to 21, of opaque colours.
+double Luminance(const ImVec4& colour);
+double Contrast(const ImVec4& a, const ImVec4& b);
+
+// Black or white, whichever reads better on a colour.
+ImVec4 InkOn(const ImVec4& ground);
+
+// How strongly the accent tints rows below text.
+inline constexpr float kSelectedTint = 0.30f;
+inline constexpr float kPressedTint = 0.40f;
+inline constexpr float kErrorTint = 0.13f;
+
+inline ImVec4 WithAlpha(ImVec4 colour, float alpha) {
+  colour.w = alpha;
+  return colour;
+}
+
+}  // namespace lararium::panels
