@@ -71,7 +71,7 @@ void Layout::ShowViewport(Workspace& workspace) {
 
 void Layout::ShowBottom(Workspace& workspace) {
   using panels::BottomTab;
-  const int problems = panels::CountProblems(workspace);
+  const int problems = panels::CountProblems(workspace) + missing_.count();
   const std::string checks =
       problems > 0 ? panels::Text(panels::Tr("Checks (%d)"), problems) : panels::Tr("Checks");
   const char* const labels[] = {panels::Tr("Timeline"), panels::Tr("Script"), checks.c_str(),
@@ -92,6 +92,7 @@ void Layout::ShowBottom(Workspace& workspace) {
       break;
     case BottomTab::kChecks:
       panels::ShowChecksTools(workspace);
+      missing_.Show(workspace);
       panels::ShowChecks(workspace, state_);
       break;
     case BottomTab::kMessages:
@@ -150,6 +151,13 @@ void Layout::ShowPanels(Workspace& workspace) {
 
 void Layout::Show(Workspace& workspace, Settings& settings) {
   state_.settings = settings;
+  missing_.Look(workspace);
+  if (!std::exchange(opened_, true) && missing_.count() > 0) {
+    state_.bottom = panels::BottomTab::kChecks;  // where they can be located
+  }
+  if (missing_.locating()) {
+    state_.keys.clear();
+  }
   timeline_.HandleKeys(workspace, state_);
   panels::HandleShortcuts(workspace, state_);
   const ImGuiViewport* viewport = ImGui::GetMainViewport();

@@ -9,6 +9,7 @@
 #include "editor/panels/around_view.h"
 #include "editor/panels/camera_view.h"
 #include "editor/panels/editor_state.h"
+#include "editor/panels/missing_panel.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/script_panel.h"
 #include "editor/panels/timeline_panel.h"
@@ -41,6 +42,8 @@ class Layout {
   std::unique_ptr<panels::AroundView> around_;
   panels::TimelinePanel timeline_;
   panels::ScriptPanel script_;
+  panels::MissingPanel missing_;
+  bool opened_ = false;  // a frame was shown
   // Logical pixels.
   float outliner_width_ = 224.0f;
   float inspector_width_ = 336.0f;

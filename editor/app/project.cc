@@ -516,47 +516,4 @@ Status CreateProject(const ProjectPaths& paths, const std::string& title) {
   return SaveProject(paths, document);
 }
 
-std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDocument& document) {
-  std::vector<Status> missing;
-  const auto expect = [&](const std::filesystem::path& file, const std::string& remedy) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-      missing.push_back(Status::Error(file.string(), "is not there", remedy));
-    }
-  };
-  expect(paths.Drama(), "write a drama, or take lua/template for a start");
-  for (const PlaceDocument& place : document.places) {
-    expect(paths.Scene(place.name), "train the place \"" + place.name + "\"");
-    std::vector<SourceDocument> sources = {place.training, place.preview};
-    for (const SessionDocument& session : place.added) {
-      sources.push_back(session.source);
-    }
-    for (const SourceDocument& source : sources) {
-      if (!source.empty()) {
-        expect(paths.Resolve(source.path), "put the recording of \"" + place.name + "\" back");
-      }
-    }
-    for (const OccluderDocument& occluder : place.occluders) {
-      expect(paths.Resolve(occluder.file), "put it back, or remove the occluder");
-    }
-    for (const ProbeDocument& probe : place.probes) {
-      expect(paths.Resolve(probe.file), "put it back, or remove the light probe");
-    }
-  }
-  for (const CastDocument& member : document.cast) {
-    if (!member.model.empty()) {
-      expect(paths.Resolve(member.model), "put it back, or import \"" + member.name + "\" anew");
-    }
-    for (const ClipDocument& clip : member.clips) {
-      expect(paths.Resolve(clip.file), "put it back, or remove the clip \"" + clip.name + "\"");
-    }
-  }
-  for (const ObjectDocument& object : document.objects) {
-    if (!object.file.empty()) {
-      expect(paths.Resolve(object.file), "put it back, or remove \"" + object.name + "\"");
-    }
-  }
-  return missing;
-}
-
 }  // namespace lararium::app

@@ -169,7 +169,7 @@ Status SaveProject(const ProjectPaths& paths, const ProjectDocument& document);
 // folder that has something in it.
 Status CreateProject(const ProjectPaths& paths, const std::string& title);
 
-// One Status for each file that the document names and that is not there.
+// One Status for each file that the project needs and that is not there (missing_files.h).
 std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDocument& document);
 
 }  // namespace lararium::app

@@ -24,9 +24,14 @@ namespace {
 
 constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", ".webm"};
 constexpr std::array<const char*, 6> kModels = {".glb", ".gltf", ".fbx", ".dae", ".obj", ".ply"};
+// Of things and of people.
+constexpr std::array<const char*, 8> kAllModels = {".glb", ".gltf", ".vrm", ".fbx",
+                                                   ".dae", ".obj",  ".ply", ".x"};
 constexpr std::array<const char*, 7> kFigures = {".json", ".glb", ".gltf", ".vrm",
                                                  ".fbx",  ".dae", ".x"};
 constexpr std::array<const char*, 2> kProbes = {".exr", ".hdr"};
+constexpr std::array<const char*, 4> kClips = {".bvh", ".fbx", ".glb", ".gltf"};
+constexpr std::array<const char*, 1> kBones = {".json"};
 
 // The end of the open dialog, which both buttons close. True when the action was chosen.
 bool DialogDone(EditorState& state, const char* action, const std::string& problem) {
@@ -360,6 +365,24 @@ constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, "Train a place", TrainDialo
                                     {Dialog::kObject, "Add an object", ObjectDialog}};
 
 }  // namespace
+
+std::span<const char* const> ExtensionsOf(app::FileKind kind) {
+  switch (kind) {
+    case app::FileKind::kVideo:
+      return kVideos;
+    case app::FileKind::kImages:
+      return {};
+    case app::FileKind::kModel:
+      return kAllModels;
+    case app::FileKind::kProbe:
+      return kProbes;
+    case app::FileKind::kClip:
+      return kClips;
+    case app::FileKind::kBones:
+      return kBones;
+  }
+  return {};
+}
 
 std::string NameProblem(const std::string& name) {
   return app::IsPlainName(name) ? "" : "The name takes letters, digits, _ and -.";

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
+#include "editor/app/missing_files.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
 
@@ -11,6 +13,9 @@ namespace lararium::panels {
 // The dialog that is open, if one is. What is wrong with what was typed is said
 // in the dialog; Cancel always leads out.
 void ShowDialogs(app::Workspace& workspace, EditorState& state);
+
+// Of files of a kind: with dots, lower case; none for folders.
+std::span<const char* const> ExtensionsOf(app::FileKind kind);
 
 // What is wrong with the name of a project, place, person or thing; empty when nothing is.
 std::string NameProblem(const std::string& name);

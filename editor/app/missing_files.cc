@@ -1,0 +1,134 @@
+#include "editor/app/missing_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace lararium::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Calls see(path, kind, role, remedy) for each file that a document names. Document: const or
+// not.
+template <typename Document, typename See>
+void ForEachFile(Document& document, const See& see) {
+  const auto recording = [&](auto& source, const std::string& role) {
+    if (!source.empty()) {
+      see(source.path,
+          source.kind == SourceDocument::Kind::kImages ? FileKind::kImages : FileKind::kVideo, role,
+          "put it back");
+    }
+  };
+  for (auto& place : document.places) {
+    const std::string of_place = " of \"" + place.name + "\"";
+    recording(place.training, "the recording" + of_place);
+    recording(place.preview, "the recording for the preview" + of_place);
+    for (auto& session : place.added) {
+      recording(session.source, "an added session" + of_place);
+    }
+    for (auto& occluder : place.occluders) {
+      see(occluder.file, FileKind::kModel, "the occluder \"" + occluder.name + "\"",
+          "put it back, or remove the occluder");
+    }
+    for (auto& probe : place.probes) {
+      see(probe.file, FileKind::kProbe, "the light probe \"" + probe.name + "\"",
+          "put it back, or remove the light probe");
+    }
+  }
+  for (auto& member : document.cast) {
+    see(member.model, FileKind::kModel, "the figure of \"" + member.name + "\"",
+        "put it back, or import \"" + member.name + "\" anew");
+    see(member.bone_map, FileKind::kBones, "the bone map of \"" + member.name + "\"",
+        "put it back, or name the bones anew");
+    for (auto& clip : member.clips) {
+      see(clip.file, FileKind::kClip, "the clip \"" + clip.name + "\" of \"" + member.name + "\"",
+          "put it back, or remove the clip \"" + clip.name + "\"");
+    }
+  }
+  for (auto& object : document.objects) {
+    see(object.file, FileKind::kModel, "the object \"" + object.name + "\"",
+        "put it back, or remove \"" + object.name + "\"");
+  }
+}
+
+bool IsThere(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+// Takes what both end in alike off two paths: what is left has moved.
+std::pair<fs::path, fs::path> MovedFolders(fs::path from, fs::path to) {
+  if (from.filename() != to.filename()) {
+    return {from.parent_path(), to.parent_path()};  // renamed besides
+  }
+  while (from.has_filename() && to.has_filename() && from.filename() == to.filename()) {
+    from = from.parent_path();
+    to = to.parent_path();
+  }
+  return {from, to};
+}
+
+}  // namespace
+
+std::vector<MissingFile> MissingFiles(const ProjectPaths& paths, const ProjectDocument& document) {
+  std::vector<MissingFile> missing;
+  ForEachFile(document, [&](const std::string& path, FileKind kind, const std::string& role,
+                            const std::string& remedy) {
+    const bool known = std::any_of(missing.begin(), missing.end(),
+                                   [&](const MissingFile& file) { return file.path == path; });
+    if (!path.empty() && !known && !IsThere(paths.Resolve(path))) {
+      missing.push_back({path, kind, role, remedy});
+    }
+  });
+  return missing;
+}
+
+std::vector<Relocation> SameMove(const ProjectPaths& paths,
+                                 const std::vector<MissingFile>& missing,
+                                 const Relocation& located) {
+  const auto [old_folder, new_folder] = MovedFolders(paths.Resolve(located.from).lexically_normal(),
+                                                     paths.Resolve(located.to).lexically_normal());
+  std::vector<Relocation> moves;
+  for (const MissingFile& file : missing) {
+    const fs::path below =
+        paths.Resolve(file.path).lexically_normal().lexically_relative(old_folder);
+    if (file.path == located.from || below.empty() || *below.begin() == "..") {
+      continue;
+    }
+    if (const fs::path moved = new_folder / below; IsThere(moved)) {
+      moves.push_back({file.path, paths.Shorten(moved)});
+    }
+  }
+  return moves;
+}
+
+void Relocate(const Relocation& relocation, ProjectDocument& document) {
+  ForEachFile(document, [&](std::string& path, FileKind, const std::string&, const std::string&) {
+    if (path == relocation.from) {
+      path = relocation.to;
+    }
+  });
+}
+
+std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDocument& document) {
+  std::vector<Status> missing;
+  const auto expect = [&](const fs::path& file, const std::string& remedy) {
+    if (!IsThere(file)) {
+      missing.push_back(Status::Error(file.string(), "is not there", remedy));
+    }
+  };
+  expect(paths.Drama(), "write a drama, or take lua/template for a start");
+  for (const PlaceDocument& place : document.places) {
+    expect(paths.Scene(place.name), "train the place \"" + place.name + "\"");
+  }
+  for (const MissingFile& file : MissingFiles(paths, document)) {
+    missing.push_back(Status::Error(paths.Resolve(file.path).string(),
+                                    "is not there (" + file.role + ")",
+                                    file.remedy + ", or locate it in the editor"));
+  }
+  return missing;
+}
+
+}  // namespace lararium::app

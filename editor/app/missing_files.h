@@ -1,0 +1,42 @@
+#pragma once
+
+// Files that a project names and that are not where it says: which they are, and naming them
+// where they are now.
+
+#include <string>
+#include <vector>
+
+#include "editor/app/project.h"
+
+namespace lararium::app {
+
+enum class FileKind { kVideo, kImages, kModel, kProbe, kClip, kBones };
+
+struct MissingFile {
+  std::string path;  // as the document has it
+  FileKind kind = FileKind::kVideo;
+  std::string role;    // what it is in the project: "the recording of \"tavern\""
+  std::string remedy;  // other than locating it
+};
+
+// In the order of the document, each path once.
+std::vector<MissingFile> MissingFiles(const ProjectPaths& paths, const ProjectDocument& document);
+
+// One file that has moved; both as documents have them.
+struct Relocation {
+  std::string from;
+  std::string to;
+
+  friend bool operator==(const Relocation&, const Relocation&) = default;
+};
+
+// Of the other missing files those which made the same move: /old/x/a.mp4 is now /new/x/a.mp4,
+// so /old/y/b.glb may be /new/y/b.glb. Only what is there.
+std::vector<Relocation> SameMove(const ProjectPaths& paths,
+                                 const std::vector<MissingFile>& missing,
+                                 const Relocation& located);
+
+// Names the new path wherever the document has the old one.
+void Relocate(const Relocation& relocation, ProjectDocument& document);
+
+}  // namespace lararium::app

@@ -1,0 +1,136 @@
+#include "editor/panels/missing_panel.h"
+
+#include <imgui.h>
+
+#include <filesystem>
+
+#include "editor/panels/dialogs.h"
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+constexpr double kLookAgain = 1.0;  // seconds
+constexpr size_t kMostListed = 8;   // others that moved along, by name
+
+std::string LocateProblem(const app::ProjectPaths& paths,
+                          app::FileKind kind,
+                          const std::string& typed) {
+  std::error_code ignored;
+  const std::filesystem::path file = paths.Resolve(typed);
+  if (typed.empty() || !std::filesystem::exists(file, ignored)) {
+    return Tr("Choose a file that exists.");
+  }
+  const bool folder = std::filesystem::is_directory(file, ignored);
+  if (folder != (kind == app::FileKind::kImages)) {
+    return folder ? Tr("This is a folder; choose a file in it.") : Tr("Choose a folder of images.");
+  }
+  return "";
+}
+
+}  // namespace
+
+void MissingPanel::Look(const app::Workspace& workspace) {
+  if (looked_ < 0.0 || ImGui::GetTime() > looked_ + kLookAgain) {
+    looked_ = ImGui::GetTime();
+    missing_ = app::MissingFiles(workspace.paths(), workspace.document());
+  }
+}
+
+void MissingPanel::FillOffers(const app::Workspace& workspace, const app::Relocation& located) {
+  if (offered_for_ != located.to) {
+    offered_for_ = located.to;
+    offers_ = app::SameMove(workspace.paths(), missing_, located);
+  }
+}
+
+void MissingPanel::ShowRow(const app::Workspace& workspace, const app::MissingFile& file) {
+  ImGui::PushID(file.path.c_str());
+  if (ImGui::Button(Tr("Locate\xe2\x80\xa6"))) {
+    locating_ = file;
+    const std::filesystem::path was = workspace.paths().Resolve(file.path);
+    std::error_code ignored;
+    typed_ = std::filesystem::is_directory(was.parent_path(), ignored)
+                 ? was.string()
+                 : workspace.paths().folder.string();
+    offered_for_.clear();
+    offers_.clear();
+    take_offers_ = true;
+  }
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(Elided(file.role, 0.5f * ImGui::GetContentRegionAvail().x).c_str());
+  ImGui::SameLine(0.0f, Px(12));
+  DimText(ElidedFront(file.path, ImGui::GetContentRegionAvail().x));
+  ImGui::PopID();
+}
+
+void MissingPanel::ShowDialog(app::Workspace& workspace) {
+  const app::ProjectPaths& paths = workspace.paths();
+  Hint(Text(Tr("Where is %s now? It was in %s."), locating_->role.c_str(),
+            paths.Resolve(locating_->path).c_str()));
+  if (BeginProperties("locate")) {
+    PropertyLabel(locating_->kind == app::FileKind::kImages ? Tr("Folder") : Tr("File"));
+    PathField("file", typed_, paths.folder, ExtensionsOf(locating_->kind));
+    EndProperties();
+  }
+  const std::string problem = LocateProblem(paths, locating_->kind, typed_);
+  const app::Relocation located{locating_->path,
+                                typed_.empty() ? "" : paths.Shorten(paths.Resolve(typed_))};
+  if (problem.empty()) {
+    FillOffers(workspace, located);
+  }
+  if (problem.empty() && !offers_.empty()) {
+    const std::string label = TrCount("Also %d other that moved along",
+                                      "Also %d others that moved "
+                                      "along",
+                                      static_cast<int>(offers_.size()));
+    ImGui::Checkbox(label.c_str(), &take_offers_);
+    for (size_t i = 0; i < offers_.size() && i < kMostListed; ++i) {
+      DimText("    " + ElidedFront(offers_[i].to, ImGui::GetContentRegionAvail().x - Px(24)));
+    }
+  }
+  const DialogAnswer answer = DialogButtons(Tr("Locate"), problem);
+  if (answer == DialogAnswer::kAct) {
+    const std::string name = std::filesystem::path(located.to).filename().string();
+    workspace.Edit("locate " + name, [&](app::ProjectDocument& document) {
+      app::Relocate(located, document);
+      for (const app::Relocation& offer : take_offers_ ? offers_ : decltype(offers_)()) {
+        app::Relocate(offer, document);
+      }
+    });
+    looked_ = -1.0;
+  }
+  if (answer != DialogAnswer::kNone) {
+    locating_.reset();
+  }
+}
+
+void MissingPanel::Show(app::Workspace& workspace) {
+  if (!missing_.empty()) {
+    Heading(TrCount("%d file is not where the project says",
+                    "%d files are not where the project "
+                    "says",
+                    count())
+                .c_str());
+    for (const app::MissingFile& file : missing_) {
+      ShowRow(workspace, file);
+    }
+    ImGui::Dummy(ImVec2(0, Px(6)));
+  }
+  if (locating_) {
+    bool open = true;
+    ShowModal(Tr("Locate a file"), 620, open, [&] {
+      ShowDialog(workspace);
+      open = locating_.has_value();
+    });
+    if (!open) {
+      locating_.reset();
+    }
+  }
+}
+
+}  // namespace lararium::panels
