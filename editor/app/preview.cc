@@ -46,6 +46,8 @@ class Preview::Worker {
   void TakeScript(std::shared_ptr<const std::string> script);
   // Adds what the picture that was just drawn is compared with.
   Status Compare(PreviewPicture& picture);
+  // Of the frame that was just tracked.
+  void NoteTrails(int64_t frame);
   // What the frame at hand sounds like, or silence.
   void PlaySound(bool on);
 
@@ -58,6 +60,8 @@ class Preview::Worker {
   std::shared_ptr<const stage::Place> place_;
   std::optional<int64_t> end_;  // number of frames, once known for certain
   std::optional<vision::TrackedFrame> tracked_;
+  std::vector<vision::SeenPoint> seen_;  // in the picture's pixels
+  PointTrails trails_;
   show::StagedFrame staged_;
   std::shared_ptr<const std::string> script_;  // as last asked for
   Status script_problem_;                      // why the one before goes on
@@ -108,7 +112,18 @@ Status Preview::Worker::Track(int64_t frame) {
     return Status();
   }
   tracked_ = poses_->Track(*image);
+  NoteTrails(frame);
   return Status();
+}
+
+void Preview::Worker::NoteTrails(int64_t frame) {
+  poses_->Seen(seen_);
+  const geometry::CameraModel display = tracked_->camera.DisplayPinhole();
+  for (vision::SeenPoint& point : seen_) {
+    const Eigen::Vector2d plane = tracked_->camera.PlaneFromPixel(point.pixel.cast<double>());
+    point.pixel = display.PixelFromPlane(plane).cast<float>();
+  }
+  trails_.Add(frame, tracked_->map, seen_);
 }
 
 PreviewPicture Preview::Worker::Describe() const {
@@ -123,6 +138,7 @@ PreviewPicture Preview::Worker::Describe() const {
   picture.camera_from_map = staged_.tracked.camera_from_map;
   picture.camera_from_stage = staged_.camera_from_stage;
   picture.gain = staged_.gain;
+  picture.trails = trails_.trails();
   for (const show::StagedActor& actor : staged_.actors) {
     const auto skin = staged_.skin.begin() + actor.skin_begin;
     picture.actors.push_back({show_->content().cast[actor.cast].human,

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "editor/app/point_trails.h"
 #include "editor/app/project.h"
 #include "shared/core/log.h"
 #include "shared/core/mailbox.h"
@@ -61,6 +62,7 @@ struct PreviewPicture {
   std::optional<geometry::Rigid3> camera_from_stage;
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};  // that people were drawn with
   std::vector<PreviewActor> actors;                // those that the drama shows at this moment
+  std::vector<PointTrail> trails;                  // of the points that the pose stands on
 };
 
 // What the recording is like, once it is open.

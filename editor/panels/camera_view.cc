@@ -61,6 +61,28 @@ const char* ReasonText(vision::TrackReason reason) {
   return "";
 }
 
+// The points that the pose stands on, where they are seen now, and where they were seen in the
+// frames before, the older the fainter.
+void DrawTrails(const app::PreviewPicture& picture, const Rect& rect, ImDrawList& draw) {
+  const float scale = rect.size.x / static_cast<float>(picture.display.width);
+  const auto place = [&](const Eigen::Vector2f& pixel) {
+    return ImVec2(rect.origin.x + scale * (pixel.x() + 0.5f),
+                  rect.origin.y + scale * (pixel.y() + 0.5f));
+  };
+  // Patches that were followed, or features that were found.
+  const ImVec4 colour = picture.followed ? OverPicture().call : OverPicture().warning;
+  for (const app::PointTrail& trail : picture.trails) {
+    for (size_t i = 1; i < trail.pixels.size(); ++i) {
+      const float age = static_cast<float>(i) / static_cast<float>(app::PointTrails::kLongest);
+      draw.AddLine(place(trail.pixels[i - 1]), place(trail.pixels[i]),
+                   Packed(colour, 0.85f * (1.0f - age)), Px(1.5f));
+    }
+    const ImVec2 at = place(trail.pixels.front());
+    draw.AddCircleFilled(at, Px(3.0f), Packed(OverPicture().window, 0.6f));
+    draw.AddCircleFilled(at, Px(2.0f), Packed(colour));
+  }
+}
+
 void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList& draw) {
   char text[128];
   const bool tracked = picture.camera_from_stage.has_value();
@@ -190,6 +212,9 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
       DrawStage(workspace, view, draw);
       ShowGizmo(workspace, state, view, hovered, draw);
+    }
+    if (state.show_matches) {
+      DrawTrails(*picture, rect, draw);
     }
     light_.Show(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
     DrawBadge(*picture, rect, draw);

@@ -50,6 +50,7 @@ enum class KeyAction {
   kScale,
   kLayOnFloor,
   kLight,
+  kMatches,
   kSound,
   // the camera view
   kNudgeLeft,

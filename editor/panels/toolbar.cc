@@ -141,6 +141,9 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   ImGui::Separator();
   ImGui::MenuItem("Stage over the picture", nullptr, &state.show_stage);
   ImGui::MenuItem("Points", nullptr, &state.show_points);
+  if (MenuItem("Matches over the picture", KeyAction::kMatches, state.show_matches)) {
+    state.show_matches = !state.show_matches;
+  }
   ImGui::Separator();
   if (MenuItem("Evidence", KeyAction::kEvidence, workspace.shows_evidence())) {
     workspace.SetEvidence(!workspace.shows_evidence());
@@ -234,6 +237,9 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       break;
     case KeyAction::kLight:
       SelectLight(workspace, state);
+      break;
+    case KeyAction::kMatches:
+      state.show_matches = !state.show_matches;
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());

@@ -36,12 +36,6 @@ struct FollowedPose {
   double share() const { return expected > 0 ? static_cast<double>(agreeing) / expected : 0.0; }
 };
 
-// A map point that was seen where the pose puts it.
-struct SeenPoint {
-  uint32_t point = 0;
-  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
-};
-
 // Allocates nothing between constructions, however long it runs.
 class Follower {
  public:

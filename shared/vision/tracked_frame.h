@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
@@ -56,11 +57,20 @@ struct TrackedFrame {
   std::optional<float> shutter = std::nullopt;
 };
 
+// A map point that was seen where the pose puts it.
+struct SeenPoint {
+  uint32_t point = 0;
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
+};
+
 // Gives frames their poses: the SIFT tracker, recorded poses, a headset.
 class PoseSource {
  public:
   virtual ~PoseSource() = default;
   virtual TrackedFrame Track(const geometry::Frame& frame) = 0;
+  // The points that the last pose stands on, of TrackedFrame::map; nothing without a pose, or
+  // from a source that looks for no points.
+  virtual void Seen(std::vector<SeenPoint>& seen) const { seen.clear(); }
   // What hides the points of a map from now on, in place of what did before. Between
   // frames. A source that looks for no points has no use for it.
   virtual void SetOccluders([[maybe_unused]] uint32_t map,

@@ -65,6 +65,8 @@ class Tracker final : public PoseSource {
     tracked.frame = frame;
     tracked.camera = CameraFor(frame);
     tracked.gain = last_gain_;
+    by_patches_ = false;
+    found_in_.reset();
     if (frame.grey.empty()) {
       tracked.reason = TrackReason::kTooFewFeatures;
     } else if (cv::mean(frame.grey)[0] < kDarkMean) {
@@ -82,6 +84,18 @@ class Tracker final : public PoseSource {
                     : had_pose_             ? TrackState::kLost
                                             : TrackState::kSearching;
     return tracked;
+  }
+
+  void Seen(std::vector<SeenPoint>& seen) const override {
+    seen.clear();
+    if (by_patches_) {
+      const std::span<const SeenPoint> patches = followers_[map_]->seen();
+      seen.assign(patches.begin(), patches.end());
+    } else if (found_in_) {
+      for (const LocatedPoint& located : finder_.points(*found_in_)) {
+        seen.push_back({located.point, located.pixel});
+      }
+    }
   }
 
   void SetOccluders(uint32_t map, std::span<const OccluderMesh> meshes) override {
@@ -180,6 +194,9 @@ class Tracker final : public PoseSource {
     tracked.features = finder_.features();
     tracked.matches = location.matches;
     tracked.inliers = location.inliers;
+    if (location.camera_from_map) {
+      found_in_ = located.map;
+    }
   }
 
   // A pose found without a prior becomes the start of following, and as exact where
@@ -224,6 +241,7 @@ class Tracker final : public PoseSource {
     share_ = followed.share();
     blur_px_ = followed.blur_px;
     depth_ = followed.evidence.depths[1];
+    by_patches_ = true;
   }
 
   // Now and then a frame is also found without a prior: an honest state can be wrong
@@ -310,6 +328,8 @@ class Tracker final : public PoseSource {
   double depth_ = 1.0;  // of what is visible
   double blur_px_ = 0.0;
   bool had_pose_ = false;
+  bool by_patches_ = false;           // the last pose is that of followers_[map_]
+  std::optional<uint32_t> found_in_;  // the map that finder_ found the last frame in
 
   int64_t checked_index_ = 0;
   std::optional<Rigid3> checked_pose_;  // that was followed; none where following began anew since

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "shared/core/random.h"
 #include "tests/vision/poster.h"
@@ -49,6 +50,31 @@ TEST_F(Tracker, RegistersAPosterToAFractionOfAPixel) {
     EXPECT_LT(CornerError(*tracked.camera_from_map, truth), 0.25);
     EXPECT_GE(tracked.inliers, 50);
   }
+}
+
+TEST_F(Tracker, TellsWhichPointsAPoseStandsOnAndWhereTheyWereSeen) {
+  const auto tracker = Create();
+  std::vector<SeenPoint> seen = {{1, {0, 0}}};
+  for (int64_t index = 0; index < 3; ++index) {  // found, then followed
+    const Rigid3 truth = PosterPose(0.01 * static_cast<double>(index), 0.0, 1.5);
+    const TrackedFrame tracked = tracker->Track(PhotographPoster(poster_, truth, index));
+    ASSERT_TRUE(tracked.camera_from_map.has_value());
+    tracker->Seen(seen);
+    EXPECT_GE(seen.size(), 50u);
+    for (const SeenPoint& point : seen) {
+      ASSERT_LT(point.point, map_->points.size());
+      const auto pixel = kCamera.Project(truth * map_->points[point.point].cast<double>());
+      ASSERT_TRUE(pixel);
+      EXPECT_LT((*pixel - point.pixel.cast<double>()).norm(), 3.0);
+    }
+  }
+  Frame covered;
+  covered.index = 3;
+  covered.grey = cv::Mat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(120));
+  cv::cvtColor(covered.grey, covered.bgr, cv::COLOR_GRAY2BGR);
+  EXPECT_FALSE(tracker->Track(covered).camera_from_map.has_value());
+  tracker->Seen(seen);
+  EXPECT_TRUE(seen.empty());
 }
 
 TEST_F(Tracker, SearchesLosesAndRecoversInOneFrame) {
