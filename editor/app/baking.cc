@@ -465,7 +465,9 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
       steps.push_back(GlossyStep(paths, place, probe));
     }
     for (const OccluderDocument& occluder : place.occluders) {
-      steps.push_back(MeshStep(paths, place, occluder));
+      if (!occluder.drawn()) {
+        steps.push_back(MeshStep(paths, place, occluder));
+      }
     }
   }
   for (const CastDocument& member : document.cast) {

@@ -216,7 +216,7 @@ class DryRunner {
   // What of all places is in the way.
   Status LoadPlaces() {
     for (const PlaceDocument& place : document_.places) {
-      LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StagePlace(paths_, place, {}, {}));
+      LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StageObstacles(paths_, place));
       places_.push_back(std::move(staged));
     }
     return Status();

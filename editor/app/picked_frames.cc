@@ -9,15 +9,22 @@ namespace lararium::app {
 namespace {
 
 // The frames of a session that were picked in, in their order.
-std::set<int64_t> PickedFrames(const stage::StagePicks& picks, uint32_t session) {
+std::set<int64_t> PickedFrames(const PlaceDocument& place, uint32_t session) {
   std::set<int64_t> frames;
-  for (const stage::Anchor* anchor :
-       {&picks.origin, &picks.forward, &picks.floor, &picks.length_from, &picks.length_to}) {
-    for (const stage::Pick& pick : anchor->picks) {
+  const auto add = [&](const stage::Anchor& anchor) {
+    for (const stage::Pick& pick : anchor.picks) {
       if (pick.session == session) {
         frames.insert(pick.frame_index);
       }
     }
+  };
+  const stage::StagePicks& picks = place.picks;
+  for (const stage::Anchor* anchor :
+       {&picks.origin, &picks.forward, &picks.floor, &picks.length_from, &picks.length_to}) {
+    add(*anchor);
+  }
+  for (const OccluderDocument& occluder : place.occluders) {
+    std::for_each(occluder.corners.begin(), occluder.corners.end(), add);
   }
   return frames;
 }
@@ -31,12 +38,12 @@ bool IsKeyframe(const vision::SceneDatabase& database, uint32_t session, int64_t
 
 }  // namespace
 
-Status KeepPickedFrames(const stage::StagePicks& picks,
+Status KeepPickedFrames(const PlaceDocument& place,
                         uint32_t session,
                         const train::TrainReport& report,
                         capture::FrameSource& source,
                         vision::SceneDatabase& database) {
-  for (const int64_t frame : PickedFrames(picks, session)) {
+  for (const int64_t frame : PickedFrames(place, session)) {
     const auto located = std::find_if(report.located.begin(), report.located.end(),
                                       [&](const auto& l) { return l.frame_index == frame; });
     if (located == report.located.end() || IsKeyframe(database, session, frame)) {

@@ -5,19 +5,19 @@
 
 #include <cstdint>
 
+#include "editor/app/project.h"
 #include "editor/train/trainer.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/status.h"
-#include "shared/stage/picks.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::app {
 
 // Adds to the database, as keyframes without observations, the frames that were
-// picked in and that training located, but did not choose. They go after the
-// others; images come from source, whose frames the report is about and whose
-// camera is the database's. Frames that were not located are left out.
-Status KeepPickedFrames(const stage::StagePicks& picks,
+// picked in (for the stage, or for an occluder's corners) and that training located, but did not
+// choose. They go after the others; images come from source, whose frames the report is about and
+// whose camera is the database's. Frames that were not located are left out.
+Status KeepPickedFrames(const PlaceDocument& place,
                         uint32_t session,
                         const train::TrainReport& report,
                         capture::FrameSource& source,

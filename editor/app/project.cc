@@ -78,6 +78,15 @@ Result<stage::Pick> ParsePick(const JsonView& view) {
   return pick;
 }
 
+Status ParsePickList(const JsonView& view, stage::Anchor& anchor) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, view.Array(kMaxEntries));
+  for (const JsonView& entry : list) {
+    LARARIUM_ASSIGN_OR_RETURN(stage::Pick pick, ParsePick(entry));
+    anchor.picks.push_back(std::move(pick));
+  }
+  return Status();
+}
+
 // The anchors' names are fixed; each is a list of picks under its name.
 std::array<std::pair<const char*, stage::Anchor stage::StagePicks::*>, 5> Anchors() {
   return {{{"origin", &stage::StagePicks::origin},
@@ -93,11 +102,7 @@ Result<stage::StagePicks> ParsePicks(const JsonView& view) {
   stage::StagePicks picks = EmptyPicks();
   for (const auto& [key, anchor] : Anchors()) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(kMaxEntries));
-    for (const JsonView& entry : list) {
-      LARARIUM_ASSIGN_OR_RETURN(stage::Pick pick, ParsePick(entry));
-      (picks.*anchor).picks.push_back(std::move(pick));
-    }
+    LARARIUM_RETURN_IF_ERROR(ParsePickList(field, picks.*anchor));
   }
   LARARIUM_ASSIGN_OR_RETURN(picks.length_m, view.Number("length_m", 1e-6, kMaxLength));
   return picks;
@@ -127,13 +132,35 @@ Result<TagsDocument> ParseTags(const JsonView& view) {
   return tags;
 }
 
+Status ParseCorners(const JsonView& view, OccluderDocument& occluder) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("corners"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> corners, field.Array(kMaxCorners));
+  for (const JsonView& corner : corners) {
+    stage::Anchor& anchor = occluder.corners.emplace_back();
+    anchor.name = CornerName(occluder.corners.size() - 1);
+    LARARIUM_RETURN_IF_ERROR(ParsePickList(corner, anchor));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(occluder.depth, view.Number("depth", 0.0, kMaxDepth));
+  return Status();
+}
+
 Result<OccluderDocument> ParseOccluder(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"name", "file", "translation", "rotation", "scale", "blocks_sound"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "file", "translation", "rotation", "scale",
+                                              "blocks_sound", "corners", "depth"}));
   OccluderDocument occluder;
   LARARIUM_ASSIGN_OR_RETURN(occluder.name, ParsePlainName(view, "name"));
-  LARARIUM_ASSIGN_OR_RETURN(occluder.file, view.Text("file"));
-  LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(view));
+  if (view.Has("file") == view.Has("corners")) {
+    return view.Problem("must have either the \"file\" of a model or \"corners\"");
+  }
+  if (view.Has("corners")) {
+    LARARIUM_RETURN_IF_ERROR(ParseCorners(view, occluder));
+  } else {
+    LARARIUM_ASSIGN_OR_RETURN(occluder.file, view.Text("file"));
+    if (occluder.file.empty()) {
+      return view.Problem("\"file\" must name a model");
+    }
+    LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(view));
+  }
   if (view.Has("blocks_sound")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView blocks, view.Field("blocks_sound"));
     LARARIUM_ASSIGN_OR_RETURN(occluder.blocks_sound, blocks.Boolean());
@@ -275,6 +302,19 @@ Json FormatIntrinsics(const CameraModel& camera) {
           {"p1", camera.p1},       {"p2", camera.p2}};
 }
 
+Json FormatPickList(const stage::Anchor& anchor) {
+  Json list = Json::array();
+  for (const stage::Pick& pick : anchor.picks) {
+    list.push_back({{"frame_index", pick.frame_index},
+                    {"frame", pick.frame},
+                    {"pixel", Json::array({pick.pixel.x(), pick.pixel.y()})}});
+    if (pick.session != 0) {
+      list.back()["session"] = pick.session;
+    }
+  }
+  return list;
+}
+
 Json FormatPlace(const PlaceDocument& place) {
   Json json = {{"name", place.name},
                {"picks", FormatPicks(place.picks)},
@@ -304,12 +344,7 @@ Json FormatPlace(const PlaceDocument& place) {
     json["tags"] = {{"family", place.tags->family}, {"size_m", place.tags->size_m}};
   }
   for (const OccluderDocument& occluder : place.occluders) {
-    Json entry = {{"name", occluder.name}, {"file", occluder.file}};
-    FormatSimilarity(occluder.stage_from_mesh, entry);
-    if (!occluder.blocks_sound) {
-      entry["blocks_sound"] = false;
-    }
-    json["occluders"].push_back(std::move(entry));
+    json["occluders"].push_back(FormatOccluder(occluder));
   }
   for (const ProbeDocument& probe : place.probes) {
     json["probes"].push_back({{"name", probe.name},
@@ -337,19 +372,30 @@ end
 
 }  // namespace
 
+std::string CornerName(size_t index) { return "corner " + std::to_string(index + 1); }
+
 Json FormatPicks(const stage::StagePicks& picks) {
   Json json = {{"length_m", picks.length_m}};
   for (const auto& [key, anchor] : Anchors()) {
-    Json list = Json::array();
-    for (const stage::Pick& pick : (picks.*anchor).picks) {
-      list.push_back({{"frame_index", pick.frame_index},
-                      {"frame", pick.frame},
-                      {"pixel", Json::array({pick.pixel.x(), pick.pixel.y()})}});
-      if (pick.session != 0) {
-        list.back()["session"] = pick.session;
-      }
+    json[key] = FormatPickList(picks.*anchor);
+  }
+  return json;
+}
+
+Json FormatOccluder(const OccluderDocument& occluder) {
+  Json json = {{"name", occluder.name}};
+  if (occluder.drawn()) {
+    json["corners"] = Json::array();
+    for (const stage::Anchor& corner : occluder.corners) {
+      json["corners"].push_back(FormatPickList(corner));
     }
-    json[key] = std::move(list);
+    json["depth"] = occluder.depth;
+  } else {
+    json["file"] = occluder.file;
+    FormatSimilarity(occluder.stage_from_mesh, json);
+  }
+  if (!occluder.blocks_sound) {
+    json["blocks_sound"] = false;
   }
   return json;
 }

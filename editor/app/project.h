@@ -35,12 +35,27 @@ struct SourceDocument {
   bool empty() const { return kind == Kind::kNone; }
 };
 
+// Either a model or drawn on training images.
 struct OccluderDocument {
   std::string name;
-  std::string file;  // a model, any format that the editor imports
-  geometry::Similarity3 stage_from_mesh;
+  std::string file;  // a model, any format that the editor imports; empty: drawn
+  geometry::Similarity3 stage_from_mesh;  // of a model
   bool blocks_sound = true;
+  // Of one that is drawn: the corners of its face, in their order around it, each picked in two
+  // or more training images. They are located in the map at hand, so that training again keeps
+  // them (drawn_occluder.h).
+  std::vector<stage::Anchor> corners;
+  double depth = 0.0;  // metres that it goes on behind that face; 0: the face alone
+
+  bool drawn() const { return file.empty(); }
 };
+
+// Of the corners of one occluder.
+inline constexpr size_t kMaxCorners = 64;
+inline constexpr double kMaxDepth = 1e3;  // metres
+
+// The name of an occluder's corner in errors: "corner 1" and so on.
+std::string CornerName(size_t index);
 
 // A recording of the place in other light, merged into the map of the first.
 struct SessionDocument {
@@ -161,6 +176,7 @@ struct ProjectPaths {
 Result<ProjectDocument> ParseProject(const Json& json, const std::string& place);
 Json FormatProject(const ProjectDocument& document);
 Json FormatPicks(const stage::StagePicks& picks);
+Json FormatOccluder(const OccluderDocument& occluder);
 
 Result<ProjectDocument> LoadProject(const ProjectPaths& paths);
 Status SaveProject(const ProjectPaths& paths, const ProjectDocument& document);

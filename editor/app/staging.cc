@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "editor/app/baking.h"
+#include "editor/app/drawn_occluder.h"
 #include "editor/app/lines.h"
 #include "editor/app/paradata.h"
 #include "editor/app/sounds.h"
@@ -141,6 +142,16 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
   staged.camera_nudge = place.camera_nudge;
   staged.camera = place.camera;
   for (const OccluderDocument& occluder : place.occluders) {
+    if (occluder.drawn()) {
+      if (map.keyframes.empty()) {
+        continue;
+      }
+      LARARIUM_ASSIGN_OR_RETURN(DrawnOccluder drawn,
+                                DrawOccluder(occluder, map, staged.map_from_stage.scale));
+      staged.occluders.push_back({occluder.name, std::move(drawn.mesh_in_map),
+                                  staged.map_from_stage.Inverse(), occluder.blocks_sound});
+      continue;
+    }
     LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh mesh, LoadBakedMesh(paths, place, occluder));
     staged.occluders.push_back(
         {occluder.name, std::move(mesh), occluder.stage_from_mesh, occluder.blocks_sound});
@@ -148,6 +159,17 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
   LARARIUM_ASSIGN_OR_RETURN(staged.probes, LoadBakedProbes(paths, place, EvenRadiance(map)));
   staged.acoustics = place.acoustics;
   return staged;
+}
+
+Result<stage::Place> StageObstacles(const ProjectPaths& paths, const PlaceDocument& place) {
+  const bool any_drawn = std::any_of(place.occluders.begin(), place.occluders.end(),
+                                     [](const OccluderDocument& o) { return o.drawn(); });
+  std::error_code ignored;
+  if (!any_drawn || !std::filesystem::exists(paths.Scene(place.name), ignored)) {
+    return StagePlace(paths, place, {}, {});
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
+  return StagePlace(paths, place, *map.database, map.picks.map_from_picked);
 }
 
 std::vector<light::PlacedProbe> RelitProbes(std::span<const light::PlacedProbe> baked_light,

@@ -63,11 +63,16 @@ geometry::Similarity3 LayOnFloor(const geometry::Similarity3& map_from_picked,
 
 // Picks, adjustment, nudge, occluders and light of a place. picks are resolved
 // already. Fails where something was not baked.
-// map: for the even light of places without a probe that can be used.
+// map: for the even light of places without a probe that can be used, and for occluders that
+// were drawn on its images, which are left out of one without images.
 Result<stage::Place> StagePlace(const ProjectPaths& paths,
                                 const PlaceDocument& place,
                                 const vision::SceneDatabase& map,
                                 const geometry::Similarity3& map_from_picked);
+
+// The same of what does not depend on the map: what is in the way, in stage metres. The map is
+// read only where occluders were drawn, and missed where the place is not trained.
+Result<stage::Place> StageObstacles(const ProjectPaths& paths, const PlaceDocument& place);
 
 // The light of probes that were baked, turned, brightened and moved as they are now: exact,
 // and at once. Probes that were not baked, or from another file, are not there.

@@ -55,8 +55,7 @@ Status FillStage(const ProjectPaths& paths,
   }
   std::vector<stage::Place> places;
   for (const PlaceDocument& place : document.places) {
-    // What is in the way lies in stage metres, wherever the map is.
-    LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StagePlace(paths, place, {}, {}));
+    LARARIUM_ASSIGN_OR_RETURN(stage::Place staged, StageObstacles(paths, place));
     places.push_back(std::move(staged));
   }
   return stage.SetFloor({}, places);

@@ -43,7 +43,7 @@ Result<train::TrainResult> MergeSession(const ProjectPaths& paths,
       train::TrainResult result,
       train::AddSession(map, *source, OptionsFor(paths, session, *source, options), progress, log));
   LARARIUM_RETURN_IF_ERROR(
-      KeepPickedFrames(place.picks, number, result.report, *source, result.database));
+      KeepPickedFrames(place, number, result.report, *source, result.database));
   return result;
 }
 
@@ -99,8 +99,7 @@ Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
   LARARIUM_ASSIGN_OR_RETURN(
       train::TrainResult result,
       train::Train(*source, OptionsFor(paths, first, *source, options), progress, log));
-  LARARIUM_RETURN_IF_ERROR(
-      KeepPickedFrames(place.picks, 0, result.report, *source, result.database));
+  LARARIUM_RETURN_IF_ERROR(KeepPickedFrames(place, 0, result.report, *source, result.database));
   for (const SessionDocument& session : place.added) {
     log.info("adding {}", session.source.path);
     LARARIUM_ASSIGN_OR_RETURN(

@@ -8,6 +8,7 @@
 
 #include "editor/app/baking.h"
 #include "editor/app/camera_measure.h"
+#include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
 #include "editor/app/sounds.h"
 #include "editor/app/subcommands.h"
@@ -417,7 +418,8 @@ void Workspace::ReloadMap() {
 }
 
 std::string Workspace::PreviewKey() const {
-  const PlaceDocument& at = *place();
+  // Drawing on would open everything anew with each corner.
+  const PlaceDocument at = WithoutDrafts(*place(), *loaded_.database);
   Json key = {{"place", at.name},
               {"scene", FileStamp(paths_.Scene(at.name))},
               {"training", at.training.path},
@@ -429,7 +431,12 @@ std::string Workspace::PreviewKey() const {
     key["sounds"].push_back({sound.name, sound.built_in ? "" : FileStamp(sound.file)});
   }
   for (const OccluderDocument& occluder : at.occluders) {
-    key["occluders"].push_back({occluder.name, occluder.file});
+    Json& entry = key["occluders"].emplace_back(Json::array({occluder.name, occluder.file}));
+    if (occluder.drawn()) {
+      // A depth is in metres, the map is not.
+      const double scale = loaded_.picks.map_from_picked.scale * at.picked_from_stage.scale;
+      entry.push_back({FormatOccluder(occluder), occluder.depth * scale});
+    }
   }
   for (const ProbeDocument& probe : at.probes) {
     // How it lies and how bright it is changes without opening anew.
@@ -464,8 +471,9 @@ void Workspace::ReloadPreview() {
       const std::lock_guard turn(*baking);
       LARARIUM_ASSIGN_OR_RETURN(*report, app::Bake(paths, *document, progress));
     }
-    LARARIUM_ASSIGN_OR_RETURN(*content, AssembleShow(paths, *document, *document->FindPlace(name),
-                                                     database, map_from_picked));
+    const PlaceDocument place = WithoutDrafts(*document->FindPlace(name), *database);
+    LARARIUM_ASSIGN_OR_RETURN(*content,
+                              AssembleShow(paths, *document, place, database, map_from_picked));
     content->drama = *script;  // as it is written now, saved or not
     return Status();
   };
@@ -557,7 +565,8 @@ void Workspace::RequestPicture() {
           std::find_if(at.occluders.begin(), at.occluders.end(),
                        [&](const OccluderDocument& o) { return o.name == occluder.name; });
       if (known != at.occluders.end()) {
-        occluder.stage_from_mesh = known->stage_from_mesh;
+        occluder.stage_from_mesh =
+            known->drawn() ? staged->map_from_stage.Inverse() : known->stage_from_mesh;
       }
     }
     loaded_.staged = staged;

@@ -226,12 +226,13 @@ void AroundView::DrawMeshes(const app::Workspace& workspace, const EditorState& 
   }
   for (const Ghost& ghost : occluders_) {
     const Selection selection{Selection::Kind::kOccluder, ghost.name};
-    if (const auto transform = SelectedTransform(workspace, selection)) {
-      const bool selected = state.selection == selection;
-      status = overlay_->DrawMesh(
-          ghost.mesh, geometry::ToGlm(*transform),
-          selected ? glm::u8vec4(217, 107, 73, 60) : glm::u8vec4(120, 150, 190, 44));
-    }
+    // One that was drawn lies in the map and cannot be moved.
+    const Similarity3 transform = SelectedTransform(workspace, selection)
+                                      .value_or(workspace.loaded().picks.map_from_picked.Inverse());
+    const bool selected = state.selection == selection;
+    status = overlay_->DrawMesh(
+        ghost.mesh, geometry::ToGlm(transform),
+        selected ? glm::u8vec4(217, 107, 73, 60) : glm::u8vec4(120, 150, 190, 44));
   }
   CHECK(status.ok());  // the meshes are our own
 }

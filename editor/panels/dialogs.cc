@@ -15,6 +15,8 @@
 #include "editor/import/cast_presets.h"
 #include "editor/import/objects/object_models.h"
 #include "editor/panels/key_list.h"
+#include "editor/panels/pick_view.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -187,11 +189,17 @@ void OccluderDialog(app::Workspace& workspace, EditorState& state) {
     return workspace.place() != nullptr && Taken(workspace.place()->occluders, name);
   };
   if (NameAndFile(workspace, state, kModels, true, taken)) {
-    const app::OccluderDocument occluder{
-        state.fields.name, DocumentPath(workspace, state.fields.file), {}};
+    app::OccluderDocument occluder;
+    occluder.name = state.fields.name;
+    occluder.file = DocumentPath(workspace, state.fields.file);
     workspace.EditPlace("add " + occluder.name,
                         [&](app::PlaceDocument& place) { place.occluders.push_back(occluder); });
     state.selection = {Selection::Kind::kOccluder, occluder.name};
+  }
+  if (workspace.loaded().database != nullptr &&
+      ImGui::Button(Tr("Draw it on the training images instead"), ImVec2(-FLT_MIN, 0))) {
+    state.dialog = Dialog::kNone;
+    DrawNewOccluder(workspace, state);
   }
 }
 

@@ -82,7 +82,8 @@ std::optional<Similarity3> SelectedTransform(const app::Workspace& workspace,
     return place->picked_from_stage;
   }
   if (selection.kind == Selection::Kind::kOccluder) {
-    if (const app::OccluderDocument* occluder = FindOccluder(*place, selection.name)) {
+    const app::OccluderDocument* occluder = FindOccluder(*place, selection.name);
+    if (occluder != nullptr && !occluder->drawn()) {
       return place->picked_from_stage * occluder->stage_from_mesh;
     }
   }

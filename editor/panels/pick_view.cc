@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "editor/app/drawn_occluder.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -38,11 +42,6 @@ struct ImageMap {
   }
 };
 
-bool SameFrame(const stage::Pick& pick, const vision::Keyframe& keyframe) {
-  return pick.session == keyframe.session && pick.frame_index == keyframe.frame_index &&
-         (pick.frame.empty() || pick.frame == keyframe.name);
-}
-
 void SetPick(app::Workspace& workspace,
              int anchor_index,
              const vision::Keyframe& keyframe,
@@ -50,7 +49,7 @@ void SetPick(app::Workspace& workspace,
   const AnchorEntry& entry = kAnchors[static_cast<size_t>(anchor_index)];
   workspace.EditPlace(std::string("pick ") + entry.label, [&](app::PlaceDocument& place) {
     std::vector<stage::Pick>& picks = (place.picks.*entry.anchor).picks;
-    std::erase_if(picks, [&](const stage::Pick& pick) { return SameFrame(pick, keyframe); });
+    std::erase_if(picks, [&](const stage::Pick& pick) { return stage::LiesIn(pick, keyframe); });
     picks.push_back({keyframe.frame_index, keyframe.name, pixel, keyframe.session});
   });
 }
@@ -87,7 +86,7 @@ void DrawAnchors(const app::Workspace& workspace,
     const ImU32 packed = active ? Packed(OverPicture().accent) : Packed(OverPicture().warning);
     const stage::Anchor& anchor = picks.*kAnchors[i].anchor;
     for (const stage::Pick& pick : anchor.picks) {
-      if (SameFrame(pick, keyframe)) {
+      if (stage::LiesIn(pick, keyframe)) {
         const ImVec2 at = ToImGui(map.ToScreen(pick.pixel));
         DrawCross(at, packed, draw);
         DrawLabel(at, kAnchors[i].label, packed, draw);
@@ -104,6 +103,48 @@ void DrawAnchors(const app::Workspace& workspace,
       }
     }
   }
+}
+
+// The corners of an occluder that were picked in this image, with the edges between them, and
+// rings where those that are located project to.
+void DrawCorners(const app::Workspace& workspace,
+                 const app::OccluderDocument& occluder,
+                 const vision::Keyframe& keyframe,
+                 const ImageMap& map,
+                 ImDrawList& draw) {
+  std::vector<ImVec2> outline;
+  for (size_t i = 0; i < occluder.corners.size(); ++i) {
+    if (const stage::Pick* pick = app::PickIn(occluder.corners[i], keyframe)) {
+      outline.push_back(ToImGui(map.ToScreen(pick->pixel)));
+      DrawCross(outline.back(), Packed(OverPicture().accent), draw);
+      DrawLabel(outline.back(), std::to_string(i + 1).c_str(), Packed(OverPicture().text), draw);
+    }
+  }
+  const bool all = outline.size() == occluder.corners.size();
+  draw.AddPolyline(outline.data(), static_cast<int>(outline.size()),
+                   Packed(OverPicture().accent, 0.8f),
+                   all && outline.size() > 2 ? ImDrawFlags_Closed : 0, Px(1.5f));
+  const vision::SceneDatabase& database = *workspace.loaded().database;
+  for (const stage::Anchor& corner : occluder.corners) {
+    if (corner.picks.size() < 2) {
+      continue;
+    }
+    const Result<stage::AnchorReport> report = stage::SolveAnchor(corner, database);
+    if (!report.ok()) {
+      continue;
+    }
+    if (const auto pixel =
+            database.camera.Project(keyframe.camera_from_map * report->point_in_map)) {
+      draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), Packed(OverPicture().warning), 0,
+                     Px(1.5f));
+    }
+  }
+}
+
+// What the next click does, beside the pointer.
+std::string ClickText(const app::OccluderDocument& occluder, const vision::Keyframe& keyframe) {
+  const std::optional<size_t> next = app::NextCorner(occluder, keyframe);
+  return next ? Text(Tr("corner %d"), static_cast<int>(*next) + 1) : "";
 }
 
 // A magnifier beside the pointer, so that a single pixel can be aimed at.
@@ -141,9 +182,78 @@ void ShowAnchorButtons(const app::Workspace& workspace, EditorState& state) {
   DimText(kAnchors[static_cast<size_t>(state.anchor)].hint);
 }
 
+void ShowCornerHint(const app::Workspace& workspace, const app::OccluderDocument& occluder) {
+  const auto drawn = app::DrawOccluder(occluder, *workspace.loaded().database, 1.0);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(occluder.name.c_str());
+  ImGui::SameLine(0.0f, Px(14));
+  DimText(drawn.ok() ? Text(Tr("%d corners, %.2f px off on average; drag one to move it"),
+                            static_cast<int>(occluder.corners.size()), drawn->error_px)
+                     : Tr("Click the corners of a face in turn, then the same ones in another "
+                          "image."));
+}
+
 }  // namespace
 
 std::span<const AnchorEntry> AnchorEntries() { return kAnchors; }
+
+const app::OccluderDocument* OccluderInWork(const app::Workspace& workspace,
+                                            const EditorState& state) {
+  if (workspace.place() == nullptr || state.selection.kind != Selection::Kind::kOccluder) {
+    return nullptr;
+  }
+  for (const app::OccluderDocument& occluder : workspace.place()->occluders) {
+    if (occluder.name == state.selection.name && occluder.drawn()) {
+      return &occluder;
+    }
+  }
+  return nullptr;
+}
+
+void DrawNewOccluder(app::Workspace& workspace, EditorState& state) {
+  const std::vector<app::OccluderDocument>& known = workspace.place()->occluders;
+  app::OccluderDocument occluder;
+  for (int number = 1; occluder.name.empty(); ++number) {
+    const std::string name = "face" + std::to_string(number);
+    const auto has_name = [&](const app::OccluderDocument& o) { return o.name == name; };
+    if (std::none_of(known.begin(), known.end(), has_name)) {
+      occluder.name = name;
+    }
+  }
+  workspace.EditPlace("add " + occluder.name,
+                      [&](app::PlaceDocument& place) { place.occluders.push_back(occluder); });
+  state.selection = {Selection::Kind::kOccluder, occluder.name};
+  state.view = ViewKind::kPicks;
+}
+
+// A corner that is there is taken up and moved; elsewhere the next one is set.
+void PickView::DragCorner(app::Workspace& workspace,
+                          const app::OccluderDocument& occluder,
+                          const vision::Keyframe& keyframe,
+                          const Vector2d& pixel,
+                          double reach_px) {
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    const std::optional<size_t> near = app::CornerNear(occluder, keyframe, pixel, reach_px);
+    dragged_corner_ = near ? near : app::NextCorner(occluder, keyframe);
+    if (near || !dragged_corner_) {
+      return;  // nothing is moved by a click alone
+    }
+  } else if (!dragged_corner_ || !ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
+    return;
+  }
+  const std::string name = occluder.name;
+  const size_t corner = *dragged_corner_;
+  workspace.EditPlace(
+      "draw " + name,
+      [&](app::PlaceDocument& place) {
+        for (app::OccluderDocument& edited : place.occluders) {
+          if (edited.name == name) {
+            app::SetCorner(edited, corner, keyframe, pixel);
+          }
+        }
+      },
+      "corner");
+}
 
 void PickView::ShowImage(app::Workspace& workspace,
                          EditorState& state,
@@ -173,15 +283,29 @@ void PickView::ShowImage(app::Workspace& workspace,
     draw.AddText(ToImGui(map.origin + Vector2d(Px(12), Px(12))), Packed(OverPicture().dim),
                  "The map was made small and holds no image here.");
   }
-  DrawAnchors(workspace, state, keyframe, map, draw);
+  const app::OccluderDocument* drawn = OccluderInWork(workspace, state);
+  if (drawn != nullptr) {
+    DrawCorners(workspace, *drawn, keyframe, map, draw);
+  } else {
+    DrawAnchors(workspace, state, keyframe, map, draw);
+  }
   const Vector2d pixel = map.ToPixel(ToEigen(ImGui::GetMousePos()));
   if (hovered && camera.Contains(pixel)) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_None);
     DrawCross(ImGui::GetMousePos(), Packed(OverPicture().text), draw);
     DrawLoupe(ImGui::GetMousePos(), pixel, texture_, draw);
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    if (drawn != nullptr) {
+      if (const std::string text = ClickText(*drawn, keyframe); !text.empty()) {
+        DrawLabel(ImGui::GetMousePos(), text.c_str(), Packed(OverPicture().text), draw);
+      }
+      DragCorner(workspace, *drawn, keyframe, pixel, 8.0 / map.scale);
+    } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
       SetPick(workspace, state.anchor, keyframe, pixel);
     }
+  }
+  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && dragged_corner_) {
+    dragged_corner_.reset();
+    workspace.EndGesture();
   }
   ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + size.y + Px(8)));
 }
@@ -193,7 +317,11 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
     Hint("Picks are made in the training images. Train the place first.");
     return;
   }
-  ShowAnchorButtons(workspace, state);
+  if (const app::OccluderDocument* drawn = OccluderInWork(workspace, state)) {
+    ShowCornerHint(workspace, *drawn);
+  } else {
+    ShowAnchorButtons(workspace, state);
+  }
   const int last = static_cast<int>(database->keyframes.size()) - 1;
   state.keyframe = std::clamp(state.keyframe, 0, last);
   const vision::Keyframe& keyframe = database->keyframes[static_cast<size_t>(state.keyframe)];

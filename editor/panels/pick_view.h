@@ -3,6 +3,8 @@
 // Picking the stage: points of the place are clicked in training images, each in
 // two or more of them.
 
+#include <optional>
+
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
 #include "shared/render/texture.h"
@@ -17,6 +19,14 @@ struct AnchorEntry {
 };
 std::span<const AnchorEntry> AnchorEntries();
 
+// The occluder that is drawn in this view: the selected one, where it is no model. nullptr: the
+// stage's points are picked.
+const app::OccluderDocument* OccluderInWork(const app::Workspace& workspace,
+                                            const EditorState& state);
+
+// Adds an occluder without corners and shows the view to draw it in.
+void DrawNewOccluder(app::Workspace& workspace, EditorState& state);
+
 class PickView {
  public:
   // Fills the current window.
@@ -25,7 +35,14 @@ class PickView {
  private:
   void ShowImage(app::Workspace& workspace, EditorState& state, const vision::Keyframe& keyframe);
 
+  void DragCorner(app::Workspace& workspace,
+                  const app::OccluderDocument& occluder,
+                  const vision::Keyframe& keyframe,
+                  const Eigen::Vector2d& pixel,
+                  double reach_px);
+
   render::Texture texture_;
+  std::optional<size_t> dragged_corner_;
   const vision::Keyframe* uploaded_ = nullptr;
 };
 

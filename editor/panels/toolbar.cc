@@ -10,6 +10,7 @@
 
 #include "editor/panels/light_panel.h"
 #include "editor/panels/look.h"
+#include "editor/panels/pick_view.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -103,6 +104,10 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   const bool any = workspace.place() != nullptr;
   if (ImGui::MenuItem("Add an occluder\xe2\x80\xa6", nullptr, false, any)) {
     OpenDialog(state, Dialog::kOccluder);
+  }
+  if (ImGui::MenuItem("Draw an occluder", nullptr, false,
+                      any && workspace.loaded().database != nullptr)) {
+    DrawNewOccluder(workspace, state);
   }
   if (ImGui::MenuItem("Add a light probe\xe2\x80\xa6", nullptr, false, any)) {
     OpenDialog(state, Dialog::kProbe);

@@ -43,11 +43,8 @@ Status Problem(const Anchor& anchor, std::string_view problem, std::string_view 
 }
 
 std::optional<Sight> FindSight(const Pick& pick, const SceneDatabase& database) {
-  const auto found = std::find_if(
-      database.keyframes.begin(), database.keyframes.end(), [&](const Keyframe& keyframe) {
-        return keyframe.session == pick.session && keyframe.frame_index == pick.frame_index &&
-               (pick.frame.empty() || pick.frame == keyframe.name);
-      });
+  const auto found = std::find_if(database.keyframes.begin(), database.keyframes.end(),
+                                  [&](const Keyframe& keyframe) { return LiesIn(pick, keyframe); });
   if (found == database.keyframes.end() || !database.camera.Contains(pick.pixel)) {
     return std::nullopt;
   }
@@ -281,22 +278,6 @@ double ReprojectionError(std::span<const Sight> sights,
   return std::sqrt(sum / static_cast<double>(sights.size()));
 }
 
-Result<AnchorReport> SolveAnchor(const Anchor& anchor, const SceneDatabase& database) {
-  const std::vector<Sight> sights = FindSights(anchor, database);
-  LARARIUM_ASSIGN_OR_RETURN(const Eigen::Vector3d point, LocateAnchor(anchor, sights, database));
-  const double angle = WidestAngle(sights, point, database);
-  if (sights.size() > 1 && angle < kMinTriangulationAngle) {
-    return Problem(anchor, "the picks see it from almost the same direction",
-                   "pick it in keyframes taken farther apart");
-  }
-  return AnchorReport{anchor.name,
-                      static_cast<int>(sights.size()),
-                      ReprojectionError(sights, point, database),
-                      angle,
-                      point,
-                      FramesLeftOut(anchor, database)};
-}
-
 // Sum of squared changes of the anchor's distance from other when each
 // coordinate of each pick moves by one pixel: central differences over half
 // pixels, through the whole solution.
@@ -342,6 +323,27 @@ Result<Eigen::Vector3d> UpDirection(const Anchor& floor_anchor,
 }
 
 }  // namespace
+
+bool LiesIn(const Pick& pick, const Keyframe& keyframe) {
+  return keyframe.session == pick.session && keyframe.frame_index == pick.frame_index &&
+         (pick.frame.empty() || pick.frame == keyframe.name);
+}
+
+Result<AnchorReport> SolveAnchor(const Anchor& anchor, const SceneDatabase& database) {
+  const std::vector<Sight> sights = FindSights(anchor, database);
+  LARARIUM_ASSIGN_OR_RETURN(const Eigen::Vector3d point, LocateAnchor(anchor, sights, database));
+  const double angle = WidestAngle(sights, point, database);
+  if (sights.size() > 1 && angle < kMinTriangulationAngle) {
+    return Problem(anchor, "the picks see it from almost the same direction",
+                   "pick it in keyframes taken farther apart");
+  }
+  return AnchorReport{anchor.name,
+                      static_cast<int>(sights.size()),
+                      ReprojectionError(sights, point, database),
+                      angle,
+                      point,
+                      FramesLeftOut(anchor, database)};
+}
 
 Result<StageSolution> SolveStage(const StagePicks& picks,
                                  const SceneDatabase& database,

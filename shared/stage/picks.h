@@ -23,6 +23,9 @@ struct Pick {
   uint32_t session = 0;                             // the recording that the frame is of
 };
 
+// Whether a pick was made in this keyframe.
+bool LiesIn(const Pick& pick, const vision::Keyframe& keyframe);
+
 // One point of the place. With picks in two or more keyframes it is
 // triangulated. With one it is where the pick's ray meets the plane through the
 // map points that are seen around it: good on walls and floors.
@@ -53,6 +56,9 @@ struct AnchorReport {
   Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
   std::vector<std::string> left_out;  // frames of picks that are no keyframes of this map
 };
+
+// Where the anchor lies in the map. Errors name it, and what to pick instead.
+Result<AnchorReport> SolveAnchor(const Anchor& anchor, const vision::SceneDatabase& database);
 
 struct StageSolution {
   geometry::Similarity3 map_from_stage;

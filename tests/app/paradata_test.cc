@@ -29,7 +29,9 @@ class ParadataTest : public ::testing::Test {
     document_.objects[0].model = "cup";
     document_.places.resize(1);
     document_.places[0].name = "bar";
-    document_.places[0].occluders = {{"wall", "wall.glb", {}}};
+    document_.places[0].occluders.resize(1);
+    document_.places[0].occluders[0].name = "wall";
+    document_.places[0].occluders[0].file = "wall.glb";
     Write("lines.csv", "id,speaker,la\nkeeper,,Placidus\nsalvete,keeper,Salvēte!\n");
     Write("drama.lua", "track{markers = {{at = 1, name = \"noon\"}, {at = 2, name = \"noon\"}}}\n");
   }

@@ -26,10 +26,22 @@ ProjectDocument FullDocument() {
   place.picked_from_stage = {0.1, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, 0.2, 0.3}};
   place.camera_nudge = {0.01, -0.02, 0.03};
   place.camera = light::CameraTraits{640, 0.01f, 0.0005f, 0.75f, 0.625f, 0.5f};
-  place.occluders = {{"counter", "counter.glb", {1.0, Eigen::Quaterniond(0, 0, 1, 0), {1, 2, 3}}}};
+  OccluderDocument counter;
+  counter.name = "counter";
+  counter.file = "counter.glb";
+  counter.stage_from_mesh = {1.0, Eigen::Quaterniond(0, 0, 1, 0), {1, 2, 3}};
+  place.occluders = {counter};
   place.probes = {
       {"noon", "probe.exr", {0.5, 1.2, -1.0}, 12.5, Eigen::Quaterniond(0.6, 0, 0.8, 0), 2.0},
       {"dusk", "dusk.exr", {0.5, 1.2, -1.0}, 19.0, Eigen::Quaterniond::Identity(), 0.5}};
+  OccluderDocument drawn;
+  drawn.name = "wall";
+  drawn.depth = 0.25;
+  for (size_t i = 0; i < 3; ++i) {
+    const double x = 10.0 * static_cast<double>(i);
+    drawn.corners.push_back({CornerName(i), {{3, "a.png", {x, 1}}, {9, "b.png", {x, 2}, 1}}});
+  }
+  place.occluders.push_back(drawn);
   PlaceDocument untouched;
   untouched.name = "maquette";
   ProjectDocument document;
@@ -77,6 +89,13 @@ TEST(Project, SurvivesWritingAndReading) {
   EXPECT_FALSE(loaded->places[1].camera.has_value());
   EXPECT_EQ(loaded->places[0].intrinsics, document.places[0].intrinsics);
   EXPECT_TRUE(loaded->places[1].training.empty());
+  const OccluderDocument& wall = loaded->places[0].occluders.back();
+  EXPECT_TRUE(wall.drawn());
+  ASSERT_EQ(wall.corners.size(), 3u);
+  EXPECT_EQ(wall.corners[2].name, "corner 3");
+  EXPECT_EQ(wall.corners[2].picks[1].session, 1u);
+  EXPECT_EQ(wall.corners[2].picks[1].pixel, Eigen::Vector2d(20, 2));
+  EXPECT_EQ(wall.depth, 0.25);
 }
 
 TEST(Project, ANewOneLoadsAndLacksNothing) {
@@ -171,6 +190,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"added_focal", "/places/0/added/0/intrinsics/fy", -1.0},
                     Damage{"family", "/places/0/tags/family", "tag1h1"},
                     Damage{"tag_size", "/places/0/tags/size_m", 0.0},
+                    Damage{"model_and_corners", "/places/0/occluders/0/corners", Json::array()},
+                    Damage{"corner", "/places/0/occluders/1/corners/1", "there"},
+                    Damage{"corner_pixel", "/places/0/occluders/1/corners/1/0/pixel", {1e300, 0}},
+                    Damage{"depth", "/places/0/occluders/1/depth", -0.1},
+                    Damage{"no_model", "/places/0/occluders/0/file", ""},
                     Damage{"probe", "/places/0/probes/0/scale", -1.0},
                     Damage{"probe_twice", "/places/0/probes/1/name", "noon"},
                     Damage{"hour", "/places/0/probes/1/hour", 24.5},

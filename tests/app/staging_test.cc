@@ -161,22 +161,26 @@ class CountingSource : public capture::FrameSource {
 
 TEST(KeepPickedFrames, AddsLocatedFramesThatWerePickedIn) {
   vision::SceneDatabase map = RoomMap({});
-  stage::StagePicks picks = EmptyPicks();
-  picks.origin.picks = {{10, "frame10", {1, 1}},      // a keyframe already
-                        {13, "frame13", {1, 1}},      // located
-                        {14, "frame14", {1, 1}},      // not located
-                        {17, "frame17", {1, 1}, 1}};  // of another session
-  picks.length_to.picks = {{13, "frame13", {2, 2}}};
+  PlaceDocument place;
+  place.picks.origin.picks = {{10, "frame10", {1, 1}},      // a keyframe already
+                              {13, "frame13", {1, 1}},      // located
+                              {14, "frame14", {1, 1}},      // not located
+                              {17, "frame17", {1, 1}, 1}};  // of another session
+  place.picks.length_to.picks = {{13, "frame13", {2, 2}}};
+  OccluderDocument occluder;
+  occluder.corners = {{"corner 1", {{15, "frame15", {3, 3}}}}};
+  place.occluders = {occluder};
   train::TrainReport report;
-  for (const int64_t frame : {10, 13, 17}) {
+  for (const int64_t frame : {10, 13, 15, 17}) {
     geometry::Rigid3 pose;
     pose.translation.x() = static_cast<double>(frame);
     report.located.push_back({frame, "frame" + std::to_string(frame), pose, frame == 10});
   }
   CountingSource source;
-  ASSERT_TRUE(KeepPickedFrames(picks, 0, report, source, map).ok());
-  ASSERT_EQ(map.keyframes.size(), 6u);
-  const vision::Keyframe& added = map.keyframes.back();
+  ASSERT_TRUE(KeepPickedFrames(place, 0, report, source, map).ok());
+  ASSERT_EQ(map.keyframes.size(), 7u);
+  EXPECT_EQ(map.keyframes.back().frame_index, 15);
+  const vision::Keyframe& added = map.keyframes[5];
   EXPECT_EQ(added.frame_index, 13);
   EXPECT_EQ(added.name, "frame13");
   EXPECT_EQ(added.camera_from_map.translation.x(), 13.0);
