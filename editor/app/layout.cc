@@ -14,6 +14,7 @@
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/toolbar.h"
+#include "editor/panels/tour_card.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::app {
@@ -173,7 +174,11 @@ void Layout::Show(Workspace& workspace, Settings& settings) {
   panels::ShowToolbar(workspace, state_);
   ShowPanels(workspace);
   panels::ShowDialogs(workspace, state_);
+  if (std::exchange(state_.begin_tour, false)) {
+    tour_.Begin(panels::FactsOf(workspace, state_));
+  }
   ImGui::End();
+  panels::ShowTourCard(workspace, state_, tour_);
   state_.keys.clear();
   settings = state_.settings;
 }

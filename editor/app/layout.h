@@ -13,6 +13,7 @@
 #include "editor/panels/pick_view.h"
 #include "editor/panels/script_panel.h"
 #include "editor/panels/timeline_panel.h"
+#include "editor/panels/tour.h"
 
 namespace lararium::app {
 
@@ -24,6 +25,7 @@ class Layout {
   // The whole interface, for one frame. settings: may be changed in it.
   void Show(Workspace& workspace, Settings& settings);
 
+  void BeginTour() { state_.begin_tour = true; }
   void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
   bool quit_requested() const { return state_.quit; }
   bool leave_requested() const { return state_.leave; }
@@ -43,6 +45,7 @@ class Layout {
   panels::TimelinePanel timeline_;
   panels::ScriptPanel script_;
   panels::MissingPanel missing_;
+  panels::Tour tour_;
   bool opened_ = false;  // a frame was shown
   // Logical pixels.
   float outliner_width_ = 224.0f;

@@ -120,6 +120,7 @@ void WindowContent::Follow(const StartChoice& choice) {
       problem = own.status();
       if (own.ok()) {
         Open(*own);
+        tour_ = workspace_ != nullptr;
       }
       break;
     }
@@ -159,6 +160,9 @@ Status WindowContent::Show() {
 Status WindowContent::ShowProject() {
   if (layout_ == nullptr) {
     LARARIUM_ASSIGN_OR_RETURN(layout_, Layout::Create());
+  }
+  if (std::exchange(tour_, false)) {
+    layout_->BeginTour();
   }
   for (const panels::KeyPress& press : std::exchange(keys_, {})) {
     layout_->AddKey(press);

@@ -58,6 +58,7 @@ class WindowContent {
   std::unique_ptr<Workspace> workspace_;  // nullptr: the start page is shown
   std::unique_ptr<Layout> layout_;        // of workspace_
   bool pictured_ = false;                 // its picture was kept once
+  bool tour_ = false;                     // begins with the project's first frame
   bool quit_ = false;
 };
 

@@ -933,6 +933,7 @@ void Workspace::Export(const std::filesystem::path& out) {
       },
       [this, out](const Status& status, bool cancelled) {
         Report(status, cancelled, "Wrote " + out.string());
+        exported_ |= status.ok() && !cancelled;
       });
 }
 

@@ -121,6 +121,8 @@ class Workspace {
   bool checked() const { return checked_; }
   const std::vector<std::string>& problems() const { return problems_; }
   void Export(const std::filesystem::path& out);
+  // Once in this window.
+  bool exported() const { return exported_; }
   TaskList& tasks() { return tasks_; }
   bool tasks_empty() const { return tasks_.entries().empty(); }
 
@@ -262,6 +264,7 @@ class Workspace {
   double since_script_ = 0.0;  // seconds since it changed
   bool stage_changed_ = true;  // since the last run
   bool checked_ = false;
+  bool exported_ = false;
   std::vector<std::string> problems_;
   CastPictures cast_pictures_;
   std::shared_ptr<const CastCatalogue> catalogue_;

@@ -101,9 +101,10 @@ struct EditorState {
 
   Dialog dialog = Dialog::kNone;
   DialogFields fields;
-  app::Settings settings;  // of the window, which follows and keeps them
-  bool quit = false;       // asked for; the window decides
-  bool leave = false;      // the project, for the start page; likewise
+  app::Settings settings;   // of the window, which follows and keeps them
+  bool begin_tour = false;  // asked for
+  bool quit = false;        // asked for; the window decides
+  bool leave = false;       // the project, for the start page; likewise
 };
 
 }  // namespace lararium::panels

@@ -156,8 +156,8 @@ void StartPage::ShowActions(const app::RecentProjects& recent,
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
     ImGui::SetTooltip("%s", has_sample
-                                ? Tr("Your own copy of a small place with two people: change "
-                                     "whatever you like.")
+                                ? Tr("Your own copy of a small place with two people, and a tour "
+                                     "of it: change whatever you like.")
                                 : Tr("The sample was not installed with this program."));
   }
   ImGui::Dummy(ImVec2(0, Px(20)));

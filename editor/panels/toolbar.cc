@@ -286,6 +286,9 @@ void ShowMenuBar(app::Workspace& workspace, EditorState& state) {
     if (MenuItem("Keys", KeyAction::kKeyList)) {
       OpenDialog(state, Dialog::kKeys);
     }
+    if (ImGui::MenuItem("Guided tour")) {
+      state.begin_tour = true;
+    }
     ImGui::EndMenu();
   }
   ImGui::EndMenuBar();

@@ -1,0 +1,102 @@
+#include "editor/panels/tour_card.h"
+
+#include <imgui.h>
+
+#include <string>
+
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+constexpr float kWidth = 380.0f;  // logical pixels
+
+void ShowProgress(const Tour& tour) {
+  const float shown = static_cast<float>(tour.number() + (tour.finished() ? 1 : 0));
+  const float all = static_cast<float>(TourSteps().size());
+  ImGui::ProgressBar(shown / all, ImVec2(-FLT_MIN, Px(5)), "");
+}
+
+void ShowStep(const TourStep& step) {
+  Heading(Tr(step.title));
+  std::string text = Tr(step.text);
+  if (step.key != KeyAction::kNone) {
+    text += Text(Tr(" Key: %s."), KeyText(step.key).c_str());
+  }
+  ImGui::TextWrapped("%s", text.c_str());
+}
+
+}  // namespace
+
+TourFacts FactsOf(const app::Workspace& workspace, const EditorState& state) {
+  TourFacts facts;
+  facts.trained = workspace.loaded().database != nullptr;
+  facts.picture = workspace.picture() != nullptr;
+  facts.playing = workspace.playing();
+  facts.around = state.view == ViewKind::kAround;
+  facts.matches = state.show_matches;
+  facts.person = state.selection.kind == Selection::Kind::kActor;
+  facts.script = workspace.script().revision();
+  facts.can_redo = workspace.commands().CanRedo();
+  facts.checked = workspace.checked();
+  facts.dirty = workspace.commands().dirty();
+  facts.exported = workspace.exported();
+  if (const app::PlaceDocument* place = workspace.place()) {
+    const geometry::Similarity3& stage = place->picked_from_stage;
+    facts.stage = Text("%g %g %g %g %g %g %g %g", stage.scale, stage.translation.x(),
+                       stage.translation.y(), stage.translation.z(), stage.rotation.w(),
+                       stage.rotation.x(), stage.rotation.y(), stage.rotation.z());
+    for (const app::ProbeDocument& probe : place->probes) {
+      const Eigen::Quaterniond& q = probe.stage_from_probe;
+      facts.light += Text("%g %g %g %g ", q.w(), q.x(), q.y(), q.z());
+    }
+  }
+  return facts;
+}
+
+void ShowTourCard(const app::Workspace& workspace, const EditorState& state, Tour& tour) {
+  if (tour.step() == nullptr) {
+    return;
+  }
+  const TourFacts facts = FactsOf(workspace, state);
+  tour.Update(facts);
+  // Over the views, at their left; it can be moved.
+  const ImGuiViewport& window = *ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(
+      ImVec2(window.WorkPos.x + Px(250), window.WorkPos.y + 0.5f * window.WorkSize.y),
+      ImGuiCond_Appearing, ImVec2(0.0f, 1.0f));
+  ImGui::SetNextWindowSize(ImVec2(Px(kWidth), 0));
+  const std::string title = std::string(Tr("Tour")) + "##card";
+  bool open = true;
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, Colours().frame);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6));
+  if (ImGui::Begin(title.c_str(), &open,
+                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                       ImGuiWindowFlags_NoSavedSettings)) {
+    ShowProgress(tour);
+    if (tour.finished()) {
+      ImGui::TextWrapped("%s", Tr("That was the tour. Film a place of your own and begin with New "
+                                  "from video on the start page."));
+      open &= !ImGui::Button(Tr("Close"));
+    } else {
+      ShowStep(*tour.step());
+      ImGui::Dummy(ImVec2(0, Px(2)));
+      if (ImGui::Button(Tr("Skip"))) {
+        tour.Skip(facts);
+      }
+      ImGui::SameLine();
+      open &= !ImGui::Button(Tr("End the tour"));
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+  if (!open) {
+    tour.End();
+  }
+}
+
+}  // namespace lararium::panels
