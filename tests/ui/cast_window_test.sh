@@ -33,7 +33,7 @@ has() { echo "tr -d ' \n' < '$json' | grep -qE '$1'"; }
 has_not() { echo "! tr -d ' \n' < '$json' | grep -qE '$1'"; }
 
 "$editor" new "$project" > /dev/null || fail "cannot make a project"
-open_window 700 780
+open_window 700 780 "$project"
 sleep 2
 xdotool key F8 sleep 1  # the messages leave the most room above
 

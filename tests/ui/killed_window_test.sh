@@ -23,7 +23,7 @@ steps() {
     awk '{printf "%d", $1 / 0.005 + 0.5}'
 }
 start_editor() {
-  open_window 700 200
+  open_window 700 200 "$project"
   sleep 1
 }
 

@@ -29,7 +29,7 @@ heading_within() {
 }
 
 start_editor() {
-  open_window 700 780
+  open_window 700 780 "$project"
   sleep 3
   xdotool key F8 sleep 1  # the messages leave the most room above
   press l

@@ -16,8 +16,6 @@ start_clean
 project=$out/ui.lararium
 json=$project/project.json
 
-press() { xdotool key --delay 60 "$1" && sleep 0.5; }
-click() { xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.8; }
 names() { grep -q "$1" "$json"; }
 
 mkdir -p "$out/new/film" "$out/new/models"
@@ -33,10 +31,7 @@ cat > "$json" << JSON
   "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
             "length_m": 1}}]}
 JSON
-"$editor" "$project" >> "$out/editor.log" 2>&1 &
-pid=$!
-wait_for 40 xdotool search --name Lararium || fail "no window"
-xdotool mousemove 700 300
+open_window 700 300 "$project"
 sleep 4
 import -window root "$out/missing.png"
 
@@ -55,7 +50,5 @@ press ctrl+z
 press ctrl+s
 wait_for 10 names "$out/old/film/walk.mp4" || fail "undo did not take it back"
 names "$out/old/models/counter.glb" || fail "undo took one of the two back only"
-press ctrl+q
-wait_for 20 bash -c "! kill -0 $pid" || fail "did not quit"
-wait $pid || fail "exit code $?"
+quit
 echo "passed; screenshots: $out/missing.png $out/located.png"

@@ -15,25 +15,13 @@ start_clean
 project=$out/ui.lararium
 json=$project/project.json
 
-press() { xdotool key --delay 60 "$1" && sleep 0.5; }
-click() { xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.6; }
 # How often the corners were picked in an image: "0.png" and so on.
 picks_in() { tr -d ' \n' < "$json" | grep -o "\"frame\":\"$1\"" | wc -l; }
 picked() { [ "$(picks_in "$1")" -eq "$2" ]; }
 
-"$editor" new "$project" > /dev/null || fail "cannot make a project"
-cat > "$json" << 'JSON'
-{"schema": 1, "title": "Test", "credits": "", "cast": [], "places": [{
-  "name": "site", "camera_nudge": [0, 0, 0], "occluders": [],
-  "adjust": {"translation": [0, 0, 0], "rotation": [1, 0, 0, 0], "scale": 1},
-  "picks": {"origin": [], "forward": [], "floor": [], "length_from": [], "length_to": [],
-            "length_m": 1}}]}
-JSON
+new_project_with_place
 "$make_room_map" "$project/places/site/scene.larscene" || fail "cannot make a map"
-"$editor" "$project" >> "$out/editor.log" 2>&1 &
-pid=$!
-wait_for 40 xdotool search --name Lararium || fail "no window"
-xdotool mousemove 700 780
+open_window 700 780 "$project"
 sleep 5
 press F8  # the messages leave the most room above
 click 107 14   # Place
@@ -71,7 +59,5 @@ wait_for 10 taken_back || fail "undo of the drag"
 press ctrl+z
 press ctrl+s
 wait_for 10 picked 8.png 3 || fail "undo of a click"
-press ctrl+q
-wait_for 20 bash -c "! kill -0 $pid" || fail "did not quit"
-wait $pid || fail "exit code $?"
+quit
 echo "passed; screenshots: $out/first.png $out/second.png"

@@ -17,19 +17,9 @@ export HOME=$out/home XDG_DATA_HOME=$out/data
 mkdir -p "$HOME"
 recent=$XDG_STATE_HOME/lararium/recent.json
 
-press() { xdotool key --delay 60 "$1" && sleep 0.5; }
-click() { xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.6; }
 start_editor() {
-  "$editor" "$@" >> "$out/editor.log" 2>&1 &
-  pid=$!
-  wait_for 40 xdotool search --name Lararium || fail "no window"
-  xdotool mousemove 1300 860
+  open_window 1300 860 "$@"
   sleep 2
-}
-quit() {
-  press ctrl+q
-  wait_for 20 bash -c "! kill -0 $pid" || fail "did not quit"
-  wait $pid || fail "exit code $?"
 }
 titled() { xdotool search --name "^$1" > /dev/null; }
 # The folders of the list, newest first.

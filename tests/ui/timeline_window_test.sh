@@ -46,7 +46,7 @@ track{actor = "keeper",
 }
 track{markers = {{at = 12, name = "noon"}}}
 LUA
-open_window 700 300
+open_window 700 300 "$project"
 sleep 3
 import -window root "$out/timeline.png"
 

@@ -68,18 +68,18 @@ new_project_with_place() {
 JSON
 }
 
-# open_window X Y: opens $project, and rests the mouse at a place that nothing minds.
+# open_window X Y [PROJECT]: opens a project, or none, and rests the mouse where nothing minds.
 open_window() {
-  "$editor" "$project" >> "$out/editor.log" 2>&1 &
+  local x=$1 y=$2
+  shift 2
+  "$editor" "$@" >> "$out/editor.log" 2>&1 &
   pid=$!
   wait_for 40 xdotool search --name Lararium || fail "no window"
-  xdotool mousemove "$1" "$2"
+  xdotool mousemove "$x" "$y"
 }
 
 press() { xdotool key --delay 60 "$1" && sleep 0.5; }
-# Enter is read from the state of the key once a frame: hold it for a while.
-hold() { xdotool keydown "$1" && sleep 0.4 && xdotool keyup "$1" && sleep 0.2; }
-click() { xdotool mousemove "$1" "$2" sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5; }
+click() { xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.6; }
 # drag X Y TO_X TO_Y
 drag() {
   xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.3
