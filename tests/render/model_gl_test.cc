@@ -525,16 +525,19 @@ std::vector<uint32_t> EvenReflections(const glm::vec3& radiance) {
   return std::vector<uint32_t>(light::GlossyMap::kTexels, light::PackRadiance(radiance));
 }
 
+human::Human RoughSquare(human::Surface surface, const glm::vec3& albedo) {
+  human::SkinnedMesh square = Square();
+  square.albedo.assign(4, albedo);
+  human::Human human = MakeHuman(square, 1);
+  human.materials = {{.name = "", .surface = surface, .roughness = 0.4f}};
+  human.meshes[0].material = 0;
+  return human;
+}
+
 TEST_F(ModelTest, EvenReflectionsAreTheShareOfEvenLight) {
   // Seen along the normal a dielectric of f0 0.028 and roughness 0.4 reflects 2.44 % of even
   // light, which alone is seen of what is black.
-  human::SkinnedMesh black = Square();
-  black.albedo.assign(4, glm::vec3(0.0f));
-  human::Human human = MakeHuman(black, 1);
-  human.materials.resize(1);
-  human.materials[0].surface = human::Surface::kSkin;
-  human.materials[0].roughness = 0.4f;
-  human.meshes[0].material = 0;
+  const human::Human human = RoughSquare(human::Surface::kSkin, glm::vec3(0.0f));
   SceneHuman shown;
   shown.human = renderer_->AddHuman(human).value();
   shown.skin = {&kNoMotion, 1};
@@ -561,25 +564,15 @@ TEST_F(ModelTest, EvenReflectionsAreTheShareOfEvenLight) {
 // (what bounces within the roughness is left out).
 TEST_F(ModelTest, MetalsMirrorInTheirOwnColourAndAreNotMatte) {
   const glm::vec3 bronze(0.8f, 0.5f, 0.2f);
-  human::SkinnedMesh square = Square();
-  square.albedo.assign(4, bronze);
-  human::Human human = MakeHuman(square, 1);
-  human.materials = {{.name = "", .surface = human::Surface::kMetal, .roughness = 0.4f}};
-  human.meshes[0].material = 0;
-  SceneHuman shown;
-  shown.human = renderer_->AddHuman(human).value();
-  shown.skin = {&kNoMotion, 1};
-  light::ProbeLight light;
-  shown.light = &light;
   RenderScene scene = Scene();
-  scene.light = light.sky = EvenLight();
-  scene.humans = {&shown, 1};
+  scene.light = EvenLight();
   const std::vector<uint32_t> reflections = EvenReflections(glm::vec3(0.8f));
   scene.glossy = reflections;
   scene.glossy_number = 1;
-  const glm::vec3 seen = LinearAt(Draw(scene), 40, 40);
+  const cv::Mat picture = DrawHuman(RoughSquare(human::Surface::kMetal, bronze), scene);
+  const glm::dvec3 seen = LinearAt(picture, 40, 40);
   for (int channel = 0; channel < 3; ++channel) {
-    EXPECT_NEAR(seen[channel], 0.8f * 0.78f * bronze[channel], 0.02f) << channel;
+    EXPECT_NEAR(seen[channel], 0.8 * 0.78 * bronze[channel], 0.02) << channel;
   }
 }
 
