@@ -87,6 +87,7 @@ drag() {
   xdotool mousemove "$3" "$4" sleep 0.4 mouseup 1 sleep 0.5
 }
 
+# Waits long: people may be baking.
 quit() {
   press ctrl+q
   wait_for 60 bash -c "! kill -0 $pid" || fail "did not quit"
