@@ -106,6 +106,12 @@ struct BakeStep {
   std::string stand_in = {};
 };
 
+// Whether the product is there as it would be made now.
+bool IsMade(const BakeStep& step) {
+  const Result<std::string> hash = HashOf(step.settings, step.sources);
+  return hash.ok() && UpToDate(step.product, *hash);
+}
+
 std::vector<std::byte> BytesOf(std::string_view text) {
   const std::span bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};
@@ -295,15 +301,6 @@ FigureSource ImportedFigure(const ProjectPaths& paths, const CastDocument& membe
   return figure;
 }
 
-Result<FigureSource> FigureOf(const ProjectPaths& paths, const CastDocument& member) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::optional<import::CastRecipe> recipe, RecipeOf(member));
-  if (recipe) {
-    const std::optional<std::filesystem::path> library = FindCastLibrary();
-    return library ? FigureOfRecipe(*recipe, *library) : StandIn(member);
-  }
-  return member.model.empty() ? PlainFigure(member) : ImportedFigure(paths, member);
-}
-
 Status AddClips(const ProjectPaths& paths, const CastDocument& member, human::Human& human) {
   for (const ClipDocument& document : member.clips) {
     import::ClipImportOptions options;
@@ -317,8 +314,9 @@ Status AddClips(const ProjectPaths& paths, const CastDocument& member, human::Hu
   return Status();
 }
 
-Result<BakeStep> HumanStep(const ProjectPaths& paths, const CastDocument& member) {
-  LARARIUM_ASSIGN_OR_RETURN(const FigureSource figure, FigureOf(paths, member));
+BakeStep HumanStep(const ProjectPaths& paths,
+                   const CastDocument& member,
+                   const FigureSource& figure) {
   BakeStep step{"human " + member.name,
                 paths.Human(member.name),
                 figure.sources,
@@ -336,6 +334,18 @@ Result<BakeStep> HumanStep(const ProjectPaths& paths, const CastDocument& member
     return human::SerializeHuman(human);
   };
   return step;
+}
+
+Result<BakeStep> HumanStep(const ProjectPaths& paths, const CastDocument& member) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::optional<import::CastRecipe> recipe, RecipeOf(member));
+  if (!recipe) {
+    return HumanStep(paths, member,
+                     member.model.empty() ? PlainFigure(member) : ImportedFigure(paths, member));
+  }
+  const std::optional<std::filesystem::path> library = FindCastLibrary();
+  BakeStep step = HumanStep(paths, member, FigureOfRecipe(*recipe, library.value_or("")));
+  // Who was made with the library stays as they are where it is gone.
+  return library || IsMade(step) ? step : HumanStep(paths, member, StandIn(member));
 }
 
 // Hands on that work is to end, and keeps its reports to itself.
