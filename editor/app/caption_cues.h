@@ -13,7 +13,8 @@
 namespace lararium::app {
 
 // The captions of all that was said, in a language, by the drama's time. One is gone when the
-// next begins, as readers of these files show one at a time. Lines without captions are passed over.
+// next begins, as readers of these files show one at a time. Lines without captions are passed
+// over.
 std::vector<bake::FileCue> CuesOf(const std::vector<SaidLine>& said,
                                   const stage::CaptionBook& book,
                                   const std::string& language);

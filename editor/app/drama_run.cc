@@ -106,9 +106,9 @@ Result<std::unique_ptr<StagedDrama>> StageDrama(const ProjectPaths& paths,
   auto staged = std::make_unique<StagedDrama>();
   LARARIUM_RETURN_IF_ERROR(FillStage(paths, document, spoken, staged->stage, staged->content));
   staged->log = MakeSilentLog();
-  LARARIUM_ASSIGN_OR_RETURN(staged->drama,
-                            drama::Drama::Create(script, paths.Drama().filename().string(),
-                                                 staged->stage, {}, *staged->log));
+  LARARIUM_ASSIGN_OR_RETURN(
+      staged->drama, drama::Drama::Create(script, paths.Drama().filename().string(), staged->stage,
+                                          {}, *staged->log));
   return staged;
 }
 

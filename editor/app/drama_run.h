@@ -82,10 +82,11 @@ Result<std::unique_ptr<StagedDrama>> StageDrama(const ProjectPaths& paths,
                                                 const std::string& script);
 
 // Ticks for so long. Fails only where it is cancelled.
-Status PlayDry(drama::Drama& drama,
-               double seconds,
-               Progress& progress,
-               const std::function<void()>& after_tick = [] {});
+Status PlayDry(
+    drama::Drama& drama,
+    double seconds,
+    Progress& progress,
+    const std::function<void()>& after_tick = [] {});
 
 // Stages a drama and plays it.
 Result<DramaRun> RunDrama(const ProjectPaths& paths,

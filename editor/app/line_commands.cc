@@ -48,8 +48,8 @@ Result<std::vector<SaidLine>> RunForLines(const ProjectPaths& paths,
   LARARIUM_ASSIGN_OR_RETURN(const std::string script, ReadText(paths.Drama()));
   LARARIUM_ASSIGN_OR_RETURN(const auto staged, StageDrama(paths, document, spoken, script));
   LineListener listener(staged->stage, staged->content);
-  LARARIUM_RETURN_IF_ERROR(PlayDry(*staged->drama, seconds, progress,
-                                   [&] { listener.Listen(staged->drama->time()); }));
+  LARARIUM_RETURN_IF_ERROR(
+      PlayDry(*staged->drama, seconds, progress, [&] { listener.Listen(staged->drama->time()); }));
   return listener.said();
 }
 

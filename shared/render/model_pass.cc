@@ -42,7 +42,7 @@ constexpr float kModelReach = 1.5f;
 constexpr uint32_t kGlossyUnit = SunMask::kUnit + 1;
 
 constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
-                                                                         "CLOTH", "EYE", "METAL"};
+                                                                         "CLOTH", "EYE",  "METAL"};
 
 constexpr std::array<const char*, GpuModel::kSkins> kSkinNames = {"LINEAR", "DUAL_QUATERNION",
                                                                   "RIGID"};

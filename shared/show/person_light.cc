@@ -421,8 +421,8 @@ void PersonLight::FindChanged() {
       weighed = std::max(weighed, std::abs(weights[k] - used_weights[k]));
     }
     const bool changed = rescaled || moved * kSeenParts > brightest || weighed > kSeenWeight;
-    changed_[i] = static_cast<uint8_t>((changed_[i] << 1 & kChangedBefore) |
-                                       (changed ? kChangedNow : 0));
+    changed_[i] =
+        static_cast<uint8_t>((changed_[i] << 1 & kChangedBefore) | (changed ? kChangedNow : 0));
     if (changed) {
       std::copy_n(light, stride, used);
       std::copy_n(weights, light::kMaxKeyPoses, used_weights);

@@ -78,7 +78,8 @@ std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(std::span<const S
 std::vector<vision::OccluderMesh> OccludersInMap(const stage::Place& place) {
   std::vector<vision::OccluderMesh> meshes;
   for (const stage::Occluder& occluder : place.occluders) {
-    meshes.push_back(vision::Placed(occluder.mesh, place.map_from_stage * occluder.stage_from_mesh));
+    meshes.push_back(
+        vision::Placed(occluder.mesh, place.map_from_stage * occluder.stage_from_mesh));
   }
   return meshes;
 }

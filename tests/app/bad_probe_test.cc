@@ -80,7 +80,8 @@ class BadProbeTest : public ::testing::Test {
 TEST_F(BadProbeTest, AMissingFile) {
   Use("nowhere.exr");
   ExpectEvenLight("nowhere.exr");
-  EXPECT_THAT(Check().text, HasSubstr("nowhere.exr: is not there (the light probe \"noon\"); put it back"));
+  EXPECT_THAT(Check().text,
+              HasSubstr("nowhere.exr: is not there (the light probe \"noon\"); put it back"));
 }
 
 TEST_F(BadProbeTest, NotTwiceAsWideAsHigh) {

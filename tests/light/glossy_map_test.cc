@@ -20,7 +20,7 @@ TEST(GlossyMap, TexelsAndDirectionsAreInverse) {
       const glm::vec3 direction = GlossyDirection(column, row);
       const glm::vec2 texel = GlossyTexel(direction);
       EXPECT_LT(glm::distance(GlossyDirection(static_cast<int>(std::lround(texel.x)),
-                                                  static_cast<int>(std::lround(texel.y))),
+                                              static_cast<int>(std::lround(texel.y))),
                               direction),
                 1e-5f)
           << column << " " << row;
@@ -32,8 +32,7 @@ TEST(GlossyMap, TheBorderFoldsOntoItself) {
   const int last = GlossyMap::kSize - 1;
   for (int i = 0; i <= last; ++i) {
     EXPECT_LT(glm::distance(GlossyDirection(i, 0), GlossyDirection(last - i, 0)), 1e-5f);
-    EXPECT_LT(glm::distance(GlossyDirection(last, i), GlossyDirection(last, last - i)),
-              1e-5f);
+    EXPECT_LT(glm::distance(GlossyDirection(last, i), GlossyDirection(last, last - i)), 1e-5f);
   }
 }
 

@@ -275,9 +275,9 @@ TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
 
 // Glints of eyes are sharper than the vertices are close. Of hair the strands hang down.
 TEST_F(ModelTest, LightAtVerticesIsThatAtPixelsWhereVerticesAreClose) {
-  for (const human::Surface surface : {human::Surface::kPlain, human::Surface::kSkin,
-                                       human::Surface::kCloth, human::Surface::kEye,
-                                       human::Surface::kMetal}) {
+  for (const human::Surface surface :
+       {human::Surface::kPlain, human::Surface::kSkin, human::Surface::kCloth, human::Surface::kEye,
+        human::Surface::kMetal}) {
     human::Human human = MakeHuman(Sphere(glm::vec3(0.5f)), 1);
     human.materials = {{.name = "", .surface = surface, .colour = glm::vec3(0.9f, 0.7f, 0.5f)}};
     human.meshes[0].material = 0;

@@ -54,9 +54,8 @@ TEST(LampShade, AgreesWithRaysButNearEdges) {
   for (int i = 0; i < kPoints; ++i) {
     const glm::vec3 point(random.Uniform(-3.0, 3.0), random.Uniform(0.0, 2.0),
                           random.Uniform(-3.0, 3.0));
-    const bool expected =
-        tree.Hides({lamp.position.x, lamp.position.y, lamp.position.z},
-                   {point.x, point.y, point.z}, light::LampWalls::kOnWall);
+    const bool expected = tree.Hides({lamp.position.x, lamp.position.y, lamp.position.z},
+                                     {point.x, point.y, point.z}, light::LampWalls::kOnWall);
     const float past = light::PastWalls(*lamp.walls, lamp.position, point);
     hidden += expected ? 1 : 0;
     wrong += std::abs(past - (expected ? 0.0f : 1.0f)) > 0.5f ? 1 : 0;

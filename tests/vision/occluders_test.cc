@@ -95,8 +95,8 @@ TEST(OccluderTree, TheFirstHitIsTheNearestOfAllTriangles) {
   const OccluderTree tree(mesh);
   std::vector<OccluderTree> alone;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-    alone.emplace_back(OccluderMesh{
-        mesh.positions, {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}});
+    alone.emplace_back(
+        OccluderMesh{mesh.positions, {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}});
   }
   Random random(6);
   int hits = 0;
