@@ -103,7 +103,8 @@ int main(int argc, char** argv) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().DisplaySize = ImVec2(1440, 900);
-  panels::ApplyTheme(1.0f);
+  app::Settings settings;
+  panels::ApplyTheme(app::Theme::kDark, 1.0f);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   const auto layout = app::Layout::Create();
   CHECK(layout.ok());
@@ -128,7 +129,7 @@ int main(int argc, char** argv) {
     (*workspace)->Update(1.0 / 60.0);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
-    (*layout)->Show(**workspace);
+    (*layout)->Show(**workspace, settings);
     ImGui::Render();
     const double drawn = ThreadSeconds();
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
