@@ -260,6 +260,7 @@ TEST_F(ModelTest, ANormalMapTurnsTheSurface) {
   EXPECT_NEAR(brightness(0, s), expected({0, s, s}), 2.0);
 }
 
+// The metal is smooth: rough ones lose what bounces within them.
 TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
   const cv::Mat grey(8, 8, CV_8UC3, cv::Scalar::all(120));
   for (const human::Surface surface :
@@ -267,7 +268,11 @@ TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
         human::Surface::kCloth, human::Surface::kEye, human::Surface::kMetal}) {
     RenderScene scene = Scene();
     const cv::Mat picture =
-        DrawHuman(Textured(grey, {.name = "", .surface = surface, .colour_texture = 0}), scene);
+        DrawHuman(Textured(grey, {.name = "",
+                                  .surface = surface,
+                                  .colour_texture = 0,
+                                  .roughness = surface == human::Surface::kMetal ? 0.2f : 0.8f}),
+                  scene);
     EXPECT_GT(picture.at<cv::Vec3b>(40, 40)[1], 95) << static_cast<int>(surface);
     EXPECT_LT(picture.at<cv::Vec3b>(40, 40)[1], 150) << static_cast<int>(surface);
   }
