@@ -91,6 +91,7 @@ void StageMoment(const vision::TrackedFrame& tracked,
     show.StageFrame(tracked, time - before, staged);
   }
   show.StageFrame(tracked, time, staged);
+  staged.lines.clear();  // captions are no part of the scene
 }
 
 // All that is virtual at the moment, stage axes.

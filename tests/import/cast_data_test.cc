@@ -171,9 +171,11 @@ TEST_P(CastPresets, AreCoarserFromAfar) {
     }
   }
   const human::SkinnedMesh& skin = Preset(GetParam()).meshes[0];
-  ASSERT_EQ(skin.coarser.size(), 3u);
+  ASSERT_EQ(skin.coarser.size(), 4u);
   EXPECT_LT(skin.coarser[2].indices.size(), 0.15 * skin.indices.size());
   EXPECT_LT(skin.coarser[2].error, 0.01f);
+  EXPECT_LT(skin.coarser[3].indices.size(), 0.08 * skin.indices.size());
+  EXPECT_LT(skin.coarser[3].error, 0.02f);
 }
 
 float OutsideCapsules(const human::Human& human, const glm::vec3& p) {
