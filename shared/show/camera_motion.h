@@ -19,9 +19,13 @@ class CameraMotionTracker {
  public:
   // What lies further back says nothing about now.
   static constexpr int64_t kLongest = 4;  // frames
+  // No head goes faster from one frame to the next: it was found elsewhere, as where a
+  // recording begins again.
+  static constexpr double kFarthest = 0.25;  // metres a frame
+  static constexpr double kWidest = 0.44;    // radians a frame
 
-  // The motion up to this frame; none where no frame shortly before had a pose. The same
-  // frame once more has the same motion, whatever its pose is now.
+  // The motion up to this frame; none where no frame shortly before had a pose, none over
+  // a leap. The same frame once more has the same motion, whatever its pose is now.
   std::optional<CameraMotion> Update(int64_t frame, const geometry::Rigid3& camera_from_stage);
 
   // After a gap without poses, at another place.

@@ -12,33 +12,46 @@ geometry::Rigid3 At(double x) {
 TEST(CameraMotionTracker, KnowsTheMotionFromTheFrameBefore) {
   CameraMotionTracker motion;
   EXPECT_FALSE(motion.Update(10, At(0.0)).has_value());
-  const auto next = motion.Update(11, At(1.0));
+  const auto next = motion.Update(11, At(0.1));
   ASSERT_TRUE(next.has_value());
   EXPECT_EQ(next->frames, 1);
   EXPECT_EQ(next->before_from_stage.translation.x(), 0.0);
-  const auto dropped = motion.Update(14, At(4.0));
+  const auto dropped = motion.Update(14, At(0.4));
   ASSERT_TRUE(dropped.has_value());
   EXPECT_EQ(dropped->frames, 3);
-  EXPECT_EQ(dropped->before_from_stage.translation.x(), 1.0);
+  EXPECT_EQ(dropped->before_from_stage.translation.x(), 0.1);
 }
 
 TEST(CameraMotionTracker, ThePausedFrameKeepsItsMotion) {
   CameraMotionTracker motion;
   motion.Update(3, At(0.0));
-  motion.Update(4, At(1.0));
-  const auto again = motion.Update(4, At(1.5));
+  motion.Update(4, At(0.1));
+  const auto again = motion.Update(4, At(0.15));
   ASSERT_TRUE(again.has_value());
   EXPECT_EQ(again->before_from_stage.translation.x(), 0.0);
-  EXPECT_EQ(motion.Update(5, At(2.0))->before_from_stage.translation.x(), 1.5);
+  EXPECT_EQ(motion.Update(5, At(0.2))->before_from_stage.translation.x(), 0.15);
 }
 
 TEST(CameraMotionTracker, SaysNothingAfterGapsAndLeaps) {
   CameraMotionTracker motion;
   motion.Update(3, At(0.0));
-  EXPECT_FALSE(motion.Update(3 + CameraMotionTracker::kLongest + 1, At(1.0)).has_value());
-  EXPECT_FALSE(motion.Update(0, At(2.0)).has_value()) << "back to the beginning";
+  EXPECT_FALSE(motion.Update(3 + CameraMotionTracker::kLongest + 1, At(0.1)).has_value());
+  EXPECT_FALSE(motion.Update(0, At(0.2)).has_value()) << "back to the beginning";
   motion.Reset();
-  EXPECT_FALSE(motion.Update(1, At(3.0)).has_value());
+  EXPECT_FALSE(motion.Update(1, At(0.3)).has_value());
+}
+
+TEST(CameraMotionTracker, ALeapIsNoMotion) {
+  CameraMotionTracker motion;
+  motion.Update(1, At(0.0));
+  EXPECT_FALSE(motion.Update(2, At(1.5)).has_value()) << "found elsewhere";
+  EXPECT_TRUE(motion.Update(3, At(1.6)).has_value()) << "and followed from there";
+  geometry::Rigid3 turned = At(0.0);
+  EXPECT_FALSE(motion.Update(4, turned).has_value());
+  turned.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY());
+  EXPECT_FALSE(motion.Update(5, turned).has_value());
+  turned.rotation = Eigen::AngleAxisd(1.05, Eigen::Vector3d::UnitY());
+  EXPECT_TRUE(motion.Update(6, turned).has_value()) << "a quick turn of the head";
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ track{actor = "keeper",
 }
 
 track{actor = "server",
-  walks = {{at = 0, from = {x = -0.25, z = -0.35, heading = 160}}},
+  walks = {{at = 0, from = {x = 1.45, z = -0.40, heading = 100}}},
   uses = {
     {at = 2, object = "door", action = "open"},
     {at = 9, object = "lamp", action = "take"},
@@ -105,12 +105,12 @@ track{actor = "girl",
 }
 
 track{actor = "labourer",
-  walks = {{at = 0, from = {x = 0.62, z = 0.45, heading = -90}}},
+  walks = {{at = 0, from = {x = -0.25, z = -0.44, heading = -40}}},
   uses = {
     {at = 4, object = "beaker", action = "take"},
     {at = 9, object = "beaker", action = "drink"},
     {at = 15.5, object = "beaker", action = "drink"},
-    {at = 21, object = "beaker", action = "put", on = "table", surface = "top"},
+    {at = 21, object = "beaker", action = "put", on = "counter", surface = "top"},
   },
   gaze = {{at = 24.5, length = 9, target = "server"}},
   expressions = {{at = 25, length = 5, expression = "sadness", intensity = 0.4, fade = 0.8}},
@@ -295,7 +295,7 @@ local function quarrel()
     try(function()
       labourer:take("beaker")
       labourer:use("beaker", "drink")
-      labourer:put("beaker", "table", "top")
+      labourer:put("beaker", "counter", "top")
     end)
   end)
   for _, who in ipairs{keeper, server, patrician, labourer, girl} do
