@@ -58,19 +58,27 @@ Status AddNumber(T value, std::string& word) {
   return Status();
 }
 
-Status AddArgument(char type, const lo_arg& argument, std::string& word) {
+// Arguments lie at multiples of four bytes, whatever they are.
+template <typename T>
+T Read(const void* argument) {
+  T value;
+  std::memcpy(&value, argument, sizeof(value));
+  return value;
+}
+
+Status AddArgument(char type, const void* argument, std::string& word) {
   switch (type) {
     case LO_INT32:
-      return AddNumber(argument.i, word);
+      return AddNumber(Read<int32_t>(argument), word);
     case LO_INT64:
-      return AddNumber(argument.h, word);
+      return AddNumber(Read<int64_t>(argument), word);
     case LO_FLOAT:
-      return AddNumber(argument.f, word);
+      return AddNumber(Read<float>(argument), word);
     case LO_DOUBLE:
-      return AddNumber(argument.d, word);
+      return AddNumber(Read<double>(argument), word);
     case LO_STRING:
     case LO_SYMBOL:
-      word += "," + drama::MessageText(&argument.s);
+      word += "," + drama::MessageText(static_cast<const char*>(argument));
       return Status();
     case LO_TRUE:
     case LO_FALSE:
@@ -112,7 +120,7 @@ Status ParseMessage(std::span<const std::byte> packet, std::vector<std::string>&
   std::string word(text, *length);
   for (int i = 0; i < count; ++i) {
     LARARIUM_RETURN_IF_ERROR(AddArgument(lo_message_get_types(message.get())[i],
-                                         *lo_message_get_argv(message.get())[i], word));
+                                         lo_message_get_argv(message.get())[i], word));
   }
   if (word.size() > kMaxWord) {
     return Status::Error(kPlace, "is longer than 400 bytes");

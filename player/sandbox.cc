@@ -89,6 +89,11 @@ struct Release {
   void operator()(void* filter) const { seccomp_release(filter); }
 };
 
+// A condition on a call's first argument.
+scmp_arg_cmp First(scmp_compare op, scmp_datum_t a) {
+  return {.arg = 0, .op = op, .datum_a = a, .datum_b = 0};
+}
+
 Status Problem(const char* what, int code) {
   return Status::Error("sandbox", std::string(what) + ": " + std::strerror(-code),
                        "run with --sandbox off if the system has no seccomp");
@@ -113,10 +118,10 @@ Status EnterSandbox() {
   }
   // Sockets between programs of this machine are what displays and sound need: no others.
   const int sockets = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(socket), 1,
-                                       SCMP_A0(SCMP_CMP_NE, AF_UNIX));
+                                       First(SCMP_CMP_NE, AF_UNIX));
   // Threads share their memory: a new process does not.
   const int processes = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(clone), 1,
-                                         SCMP_A0(SCMP_CMP_MASKED_EQ, 0x00000100 /* CLONE_VM */, 0));
+                                         First(SCMP_CMP_MASKED_EQ, 0x00000100 /* CLONE_VM */));
   // Its flags lie in memory, where a filter cannot look; without it libraries take clone.
   const int clone3 = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
   for (const int added : {sockets, processes, clone3}) {

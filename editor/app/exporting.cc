@@ -1,5 +1,6 @@
 #include "editor/app/exporting.h"
 
+#include <optional>
 #include <utility>
 
 #include "editor/app/baking.h"
@@ -11,6 +12,7 @@
 #include "editor/bake/caption_font.h"
 #include "editor/export/export.h"
 #include "editor/train/budget.h"
+#include "shared/bundle/signature.h"
 #include "shared/core/file.h"
 #include "shared/vision/scene_database.h"
 
@@ -74,9 +76,12 @@ Status PackTexts(const ProjectPaths& paths,
 
 Status ExportProject(const ProjectPaths& paths,
                      const ProjectDocument& document,
-                     const std::filesystem::path& out,
-                     const MapBudget& budget,
+                     const ExportRequest& request,
                      Progress& progress) {
+  std::optional<bundle::SecretKey> key;
+  if (!request.key.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(key, bundle::LoadSecretKey(request.key));
+  }
   LARARIUM_RETURN_IF_ERROR(Bake(paths, document, progress).status());
   exporter::ExportContent content;
   content.title = document.title;
@@ -89,7 +94,8 @@ Status ExportProject(const ProjectPaths& paths,
     if (progress.Cancelled()) {
       return Status::Error("export", "cancelled");
     }
-    LARARIUM_ASSIGN_OR_RETURN(exporter::PlaceContent packed, PackPlace(paths, place, budget));
+    LARARIUM_ASSIGN_OR_RETURN(exporter::PlaceContent packed,
+                              PackPlace(paths, place, request.budget));
     content.places.push_back(std::move(packed));
   }
   for (const CastDocument& member : document.cast) {
@@ -103,7 +109,7 @@ Status ExportProject(const ProjectPaths& paths,
   }
   LARARIUM_RETURN_IF_ERROR(PackTexts(paths, document, content));
   LARARIUM_ASSIGN_OR_RETURN(content.sounds, LoadSounds(paths));
-  return exporter::ExportBundle(content, out, progress);
+  return exporter::ExportBundle(content, request.out, progress, key ? &*key : nullptr);
 }
 
 }  // namespace lararium::app

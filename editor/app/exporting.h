@@ -18,12 +18,17 @@ struct MapBudget {
   double image_coverage = 0.98;
 };
 
-// Bakes what is stale and packs all places, the cast and the drama. On failure a
+struct ExportRequest {
+  std::filesystem::path out;
+  MapBudget budget = {};
+  std::filesystem::path key = {};  // a secret key's file; empty: the show is not signed
+};
+
+// Bakes what is stale, packs all places, the cast and the drama, and signs that. On failure a
 // bundle that was there before is left as it was.
 Status ExportProject(const ProjectPaths& paths,
                      const ProjectDocument& document,
-                     const std::filesystem::path& out,
-                     const MapBudget& budget,
+                     const ExportRequest& request,
                      Progress& progress);
 
 }  // namespace lararium::app

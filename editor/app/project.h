@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "editor/app/cast_document.h"
 #include "editor/app/object_document.h"
+#include "editor/bake/line_table.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
@@ -116,7 +118,7 @@ struct SpeechDocument {
   bool empty() const { return spoken.empty() && captions.empty(); }
 };
 
-// All that a curator edits, but the drama and its lines, which are files of their own.
+// All that a curator edits, but the drama, which is a file of its own.
 struct ProjectDocument {
   std::string title;
   std::string credits;
@@ -124,6 +126,9 @@ struct ProjectDocument {
   std::vector<CastDocument> cast;
   std::vector<ObjectDocument> objects;
   SpeechDocument speech;
+  // The table of lines while a window has the project open: a file of its own, which
+  // project.json knows nothing of. nullptr: not read, or it cannot be.
+  std::shared_ptr<const bake::LineTable> lines = nullptr;
 
   const PlaceDocument* FindPlace(std::string_view name) const;
   PlaceDocument* FindPlace(std::string_view name);

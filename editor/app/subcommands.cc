@@ -330,16 +330,9 @@ Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress
 Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress) {
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
-  MapBudget budget;
-  budget.max_points = options.points.value_or(budget.max_points);
-  std::optional<bundle::SecretKey> key;
-  if (!options.sign.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(key, bundle::LoadSecretKey(options.sign));
-  }
-  LARARIUM_RETURN_IF_ERROR(ExportProject(paths, document, options.out, budget, progress));
-  if (key) {
-    LARARIUM_RETURN_IF_ERROR(bundle::SignBundle(options.out, *key));
-  }
+  ExportRequest request{.out = options.out, .key = options.sign};
+  request.budget.max_points = options.points.value_or(request.budget.max_points);
+  LARARIUM_RETURN_IF_ERROR(ExportProject(paths, document, request, progress));
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(options.out, ignored);
   return CommandResult{"wrote " + options.out.string() + " (" + std::to_string(bytes) + " bytes)\n",

@@ -10,6 +10,7 @@
 #include "editor/app/camera_measure.h"
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
+#include "editor/app/player_trial.h"
 #include "editor/app/sounds.h"
 #include "editor/app/subcommands.h"
 #include "editor/app/training.h"
@@ -47,8 +48,15 @@ Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log)
   if (std::filesystem::exists(paths.Drama(), ignored)) {
     LARARIUM_ASSIGN_OR_RETURN(script, ReadText(paths.Drama(), drama::TimelineText::kMaxBytes));
   }
+  Result<bake::LineTable> lines = bake::LoadLines(paths.folder);
+  if (lines.ok()) {
+    document.lines = std::make_shared<const bake::LineTable>(*std::move(lines));
+  }
   std::unique_ptr<Workspace> workspace(
       new Workspace(std::move(paths), std::move(document), std::move(script), log));
+  if (!lines.ok()) {
+    workspace->Tell(Message::Level::kError, lines.message());
+  }
   workspace->Recover();
   for (const Status& missing : FindMissingFiles(workspace->paths_, workspace->document())) {
     workspace->Tell(Message::Level::kWarning, missing.message());
@@ -70,7 +78,11 @@ Workspace::Workspace(ProjectPaths paths, ProjectDocument document, std::string s
       journal_(paths_.Journal(), commands_.document(), script_.snapshot()),
       script_stamp_(FileStamp(paths_.Drama())),
       project_stamp_(FileStamp(paths_.Project())),
+      lines_stamp_(LinesStamp()),
+      written_lines_(commands_.document().lines),
       cast_pictures_(paths_, CacheFolder() / "presets", baking_) {}
+
+Workspace::~Workspace() { WriteLines(); }
 
 // Takes over what a crash left, as one edit of what is saved.
 void Workspace::Recover() {
@@ -93,7 +105,11 @@ void Workspace::Recover() {
   drama::TextEdit edit = script_.Replace(std::move(content.script));
   const size_t bytes = edit.removed.size() + edit.inserted.size();
   commands_.Edit(
-      "recover", [&](ProjectDocument& current) { current = std::move(content.project); },
+      "recover",
+      [&](ProjectDocument& current) {
+        content.project.lines = current.lines;
+        current = std::move(content.project);
+      },
       "recover");
   commands_.EditPatched("recover", std::move(edit), bytes, "recover");
   commands_.EndGesture();
@@ -170,6 +186,42 @@ void Workspace::EditScript(const std::string& name, std::string text, std::strin
   NoteScriptEdit(name, script_.Replace(std::move(text)), gesture);
 }
 
+void Workspace::EditLines(const std::string& name,
+                          bake::LineTable table,
+                          std::string_view gesture) {
+  auto next = std::make_shared<const bake::LineTable>(std::move(table));
+  Edit(
+      name, [&](ProjectDocument& document) { document.lines = next; }, gesture);
+}
+
+std::string Workspace::LinesStamp() const {
+  return FileStamp(paths_.folder / "lines.csv") + FileStamp(paths_.folder / "lines.json");
+}
+
+std::shared_ptr<const bake::LineTable> Workspace::ReadLines() {
+  lines_stamp_ = LinesStamp();
+  Result<bake::LineTable> table = bake::LoadLines(paths_.folder);
+  if (!table.ok()) {
+    Tell(Message::Level::kError, table.message());
+    return nullptr;
+  }
+  return std::make_shared<const bake::LineTable>(*std::move(table));
+}
+
+void Workspace::WriteLines() {
+  if (document().lines == written_lines_ || document().lines == nullptr) {
+    return;
+  }
+  if (const Status status = bake::SaveLines(paths_.folder, *document().lines); !status.ok()) {
+    Tell(Message::Level::kError, status.message());
+    return;
+  }
+  written_lines_ = document().lines;
+  lines_stamp_ = LinesStamp();
+  preview_stale_ = true;
+  stage_changed_ = true;
+}
+
 void Workspace::NoteScriptEdit(const std::string& name,
                                drama::TextEdit edit,
                                std::string_view gesture) {
@@ -212,6 +264,7 @@ void Workspace::Redo() {
 
 void Workspace::Save() {
   LookOutside();
+  WriteLines();
   if (changed_outside()) {
     Tell(Message::Level::kWarning,
          "Nothing was saved: the project was also changed outside of this window. Choose above "
@@ -254,6 +307,7 @@ void Workspace::Note(const Status& journal) {
 void Workspace::OnScriptChanged() { since_script_ = 0.0; }
 
 void Workspace::OnDocumentChanged() {
+  since_lines_ = 0.0;
   Note(journal_.NoteProject(document()));
   if (!commands_.dirty()) {
     journal_.Discard(document(), script_.snapshot());
@@ -293,6 +347,20 @@ void Workspace::LookOutside() {
   if (changed_outside() && !commands_.dirty()) {
     TakeOutside();
   }
+  // What somebody else writes into the table is an edit like any other.
+  if (LinesStamp() != lines_stamp_) {
+    written_lines_ = ReadLines();
+    if (written_lines_ != nullptr) {
+      const bool clean = !commands_.dirty();
+      Edit("take over the lines",
+           [&](ProjectDocument& current) { current.lines = written_lines_; });
+      if (clean) {
+        commands_.MarkSaved();
+        journal_.Discard(document(), script_.snapshot());
+      }
+    }
+    preview_stale_ = true;
+  }
 }
 
 void Workspace::TakeOutside() {
@@ -302,7 +370,11 @@ void Workspace::TakeOutside() {
     Tell(Message::Level::kInfo, "drama.lua was changed outside of this window and is read again.");
   }
   if (outside_project_) {
-    Edit("take over project.json", [&](ProjectDocument& current) { current = *outside_project_; });
+    Edit("take over project.json", [&](ProjectDocument& current) {
+      const auto lines = current.lines;
+      current = *outside_project_;
+      current.lines = lines;
+    });
     outside_project_ = nullptr;
     saved_project_ = commands_.snapshot();
     Tell(Message::Level::kInfo,
@@ -601,6 +673,11 @@ void Workspace::Update(double seconds) {
     LookOutside();
   }
   since_script_ += seconds;
+  since_lines_ += seconds;
+  constexpr double kPauseAfterLines = 0.8;  // seconds: whoever types goes on before
+  if (since_lines_ > kPauseAfterLines) {
+    WriteLines();
+  }
   if (preview_ != nullptr && preview_->failed() && previewed_script_ != script_.revision()) {
     preview_key_.clear();  // the script may be what it failed for
     preview_stale_ = true;
@@ -924,16 +1001,48 @@ void Workspace::Bake() {
       });
 }
 
-void Workspace::Export(const std::filesystem::path& out) {
+void Workspace::Export(const ExportRequest& request) {
+  const auto shown = std::make_shared<ExportedShow>();
+  shown->file = request.out;
+  export_problem_.clear();
   tasks_.Start(
       kExporting,
-      [paths = paths_, document = commands_.snapshot(), out, baking = baking_](Progress& progress) {
+      [paths = paths_, document = commands_.snapshot(), request, shown,
+       baking = baking_](Progress& progress) -> Status {
         const std::lock_guard turn(*baking);
-        return ExportProject(paths, *document, out, MapBudget(), progress);
+        LARARIUM_RETURN_IF_ERROR(ExportProject(paths, *document, request, progress));
+        LARARIUM_ASSIGN_OR_RETURN(shown->contents, ReadShowContents(request.out));
+        return Status();
       },
-      [this, out](const Status& status, bool cancelled) {
-        Report(status, cancelled, "Wrote " + out.string());
-        exported_ |= status.ok() && !cancelled;
+      [this, shown](const Status& status, bool cancelled) {
+        Report(status, cancelled, "Wrote " + shown->file.string());
+        if (status.ok() && !cancelled) {
+          exported_ = shown;
+        } else {
+          export_problem_ = cancelled ? "The export was cancelled." : status.message();
+        }
+      });
+}
+
+void Workspace::TryShow() {
+  const std::filesystem::path player = FindPlayer();
+  if (exported_ == nullptr || place() == nullptr) {
+    return;
+  }
+  if (player.empty()) {
+    Tell(Message::Level::kError,
+         "lararium-player: is neither beside the editor nor on PATH; install it there");
+    return;
+  }
+  tasks_.Start(
+      kTrying,
+      [player, arguments = TrialArguments(paths_, *place(), exported_->file)](Progress& progress) {
+        return RunProgram(player, arguments, progress);
+      },
+      [this](const Status& status, bool cancelled) {
+        if (!status.ok() && !cancelled) {
+          Tell(Message::Level::kError, status.message());
+        }
       });
 }
 

@@ -24,6 +24,7 @@
 #include "editor/app/probe_picture.h"
 #include "editor/app/project.h"
 #include "editor/app/script_document.h"
+#include "editor/app/show_contents.h"
 #include "editor/app/staging.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
@@ -57,6 +58,7 @@ class Workspace {
   static constexpr const char* kTraining = "Training";
   static constexpr const char* kBaking = "Baking";
   static constexpr const char* kExporting = "Exporting";
+  static constexpr const char* kTrying = "Playing the show";
   static constexpr const char* kOpening = "Opening";
   static constexpr const char* kMeasuring = "Measuring";
   static constexpr const char* kCatalogue = "Opening the cast library";
@@ -68,6 +70,7 @@ class Workspace {
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
+  ~Workspace();
 
   const ProjectPaths& paths() const { return paths_; }
   const ProjectDocument& document() const { return commands_.document(); }
@@ -95,6 +98,9 @@ class Workspace {
                     const std::function<Status(drama::TimelineText&)>& change,
                     std::string_view gesture = {});
   void EditScript(const std::string& name, std::string text, std::string_view gesture = {});
+  // Edits of the table of lines, document().lines, which has to be there. Its file follows a
+  // moment after the last edit, whether or not the project is saved: voices are made from it.
+  void EditLines(const std::string& name, bake::LineTable table, std::string_view gesture = {});
   void EndGesture() { commands_.EndGesture(); }
   void Undo();
   void Redo();
@@ -120,9 +126,17 @@ class Workspace {
   void Check();
   bool checked() const { return checked_; }
   const std::vector<std::string>& problems() const { return problems_; }
-  void Export(const std::filesystem::path& out);
-  // Once in this window.
-  bool exported() const { return exported_; }
+  void Export(const ExportRequest& request);
+  // What was exported last in this window; nullptr before that. And why the last export failed;
+  // empty where it did not.
+  struct ExportedShow {
+    std::filesystem::path file;
+    ShowContents contents;
+  };
+  const ExportedShow* exported() const { return exported_.get(); }
+  const std::string& export_problem() const { return export_problem_; }
+  // Opens the exported show in the player, at the place at hand.
+  void TryShow();
   TaskList& tasks() { return tasks_; }
   bool tasks_empty() const { return tasks_.entries().empty(); }
 
@@ -201,6 +215,10 @@ class Workspace {
   void OnScriptChanged();
   // Looks whether others changed project.json or drama.lua.
   void LookOutside();
+  // The table of lines from its file, and into it where it was edited.
+  std::shared_ptr<const bake::LineTable> ReadLines();
+  void WriteLines();
+  std::string LinesStamp() const;
   void RunDramaAgain();
 
   void TellOfPictures();
@@ -228,6 +246,9 @@ class Workspace {
   Journal journal_;
   std::string script_stamp_;  // of the files as they were read or written last
   std::string project_stamp_;
+  std::string lines_stamp_;
+  std::shared_ptr<const bake::LineTable> written_lines_;
+  double since_lines_ = 0.0;  // seconds since they were edited
   std::optional<std::string> outside_script_;
   std::shared_ptr<const ProjectDocument> outside_project_;
   std::string place_name_;
@@ -264,7 +285,8 @@ class Workspace {
   double since_script_ = 0.0;  // seconds since it changed
   bool stage_changed_ = true;  // since the last run
   bool checked_ = false;
-  bool exported_ = false;
+  std::shared_ptr<const ExportedShow> exported_;
+  std::string export_problem_;
   std::vector<std::string> problems_;
   CastPictures cast_pictures_;
   std::shared_ptr<const CastCatalogue> catalogue_;

@@ -176,7 +176,8 @@ Status PackAll(const std::vector<Content>& contents,
 
 Status ExportBundle(const ExportContent& content,
                     const std::filesystem::path& path,
-                    Progress& progress) {
+                    Progress& progress,
+                    const bundle::SecretKey* key) {
   Packing packing;
   packing.manifest.title = content.title;
   packing.manifest.credits = content.credits;
@@ -192,7 +193,7 @@ Status ExportBundle(const ExportContent& content,
   LARARIUM_RETURN_IF_ERROR(PackAll(content.sounds, PackSound, packing, progress));
   LARARIUM_RETURN_IF_ERROR(PackParadata(content, packing));
   progress.Report("writing", 0.0);
-  LARARIUM_RETURN_IF_ERROR(bundle::WriteBundle(path, packing.manifest, packing.members));
+  LARARIUM_RETURN_IF_ERROR(bundle::WriteBundle(path, packing.manifest, packing.members, key));
   progress.Report("verifying", 0.0);
   LARARIUM_RETURN_IF_ERROR(bundle::Bundle::Open(path).status());
   progress.Report("verifying", 1.0);

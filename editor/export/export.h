@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shared/audio/sound_library.h"
+#include "shared/bundle/signature.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/light/glossy_map.h"
@@ -65,10 +66,11 @@ struct ExportContent {
 };
 
 // Checks the parts with the player's own parsers, writes the bundle, and opens it
-// again as the player would. On failure a file that was there before is left as
+// again as the player would. key: signs it. On failure a file that was there before is left as
 // it was.
 Status ExportBundle(const ExportContent& content,
                     const std::filesystem::path& path,
-                    Progress& progress);
+                    Progress& progress,
+                    const bundle::SecretKey* key = nullptr);
 
 }  // namespace lararium::exporter

@@ -14,6 +14,7 @@
 #include "editor/app/training.h"
 #include "editor/import/cast_presets.h"
 #include "editor/import/objects/object_models.h"
+#include "editor/panels/export_panel.h"
 #include "editor/panels/key_list.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/text.h"
@@ -124,25 +125,6 @@ void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
     } else {
       workspace.Tell(app::Message::Level::kError, recording.message());
     }
-  }
-}
-
-void ExportDialog(app::Workspace& workspace, EditorState& state) {
-  DialogFields& fields = state.fields;
-  if (fields.file.empty()) {
-    const std::filesystem::path folder = workspace.paths().folder;
-    fields.file = (folder.parent_path() / folder.stem()).string() + ".larshow";
-  }
-  Hint("Packs what visitors need into one file. What is stale is baked first.");
-  if (BeginProperties("export")) {
-    static constexpr std::array<const char*, 1> kShows = {".larshow"};
-    PropertyLabel("File");
-    PathField("file", fields.file, workspace.paths().folder, kShows);
-    EndProperties();
-  }
-  const bool named = fields.file.ends_with(".larshow");
-  if (DialogDone(state, "Export", named ? "" : "The name ends in .larshow.")) {
-    workspace.Export(workspace.paths().Resolve(fields.file));
   }
 }
 

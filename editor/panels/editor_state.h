@@ -10,6 +10,7 @@
 
 #include "editor/app/cast_pictures.h"
 #include "editor/app/settings.h"
+#include "editor/app/show_contents.h"
 #include "editor/bake/probe_match.h"
 #include "editor/panels/gizmo.h"
 #include "editor/panels/keys.h"
@@ -39,6 +40,11 @@ struct DialogFields {
   std::string preset;   // of a person; empty: none
   int model = 0;        // of the built-in objects
   bool images = false;  // the recording is a folder of images
+  // of an export
+  std::string key;                            // that signs it, a file; empty: none does
+  int points = app::MapBudget().max_points;   // of each map at most
+  bool exporting = false;                     // it was started in this dialog
+  std::optional<app::ShowContents> contents;  // as forecast
 };
 
 // How the person who is selected is looked at.

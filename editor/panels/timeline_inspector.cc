@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/app/line_edits.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/timeline_draw.h"
@@ -16,6 +17,7 @@
 #include "editor/panels/timeline_rows.h"
 #include "editor/panels/widgets.h"
 #include "shared/human/face.h"
+#include "shared/stage/caption_file.h"
 
 namespace lararium::panels {
 
@@ -247,13 +249,78 @@ void UseFields(Item& item) {
   }
 }
 
+// What the line says in one language, two rows high.
+void LineText(Item& item, const bake::LineTable& table, const std::string& language) {
+  const std::string id = item.TextOr("line", "");
+  const bake::Line* line = table.Find(id);
+  std::string text;
+  if (line != nullptr && line->text.contains(language)) {
+    text = line->text.find(language)->second;
+  }
+  PropertyLabel(language.c_str());
+  ImGui::PushID(language.c_str());
+  const float height = 2 * ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().FramePadding.y;
+  if (ImGui::InputTextMultiline("##says", &text, ImVec2(-FLT_MIN, height))) {
+    item.workspace.EditLines(Text(Tr("write %s"), id.c_str()),
+                             app::WithText(table, id, item.actor, language, text),
+                             "line " + id + " " + language);
+  }
+  EndGestureWithItem(item.workspace);
+  ImGui::PopID();
+}
+
+// The tag of a further language, taken with Enter.
+void NewLanguage(Item& item, const bake::LineTable& table) {
+  static std::string tag;
+  PropertyLabel(Tr("Language"));
+  ImGui::InputTextWithHint("##language", Tr("la, it, en: then Enter"), &tag);
+  if (ImGui::IsItemDeactivatedAfterEdit() && stage::IsLanguageTag(tag)) {
+    bake::LineTable next = table;
+    if (std::find(next.languages.begin(), next.languages.end(), tag) == next.languages.end()) {
+      next.languages.push_back(tag);
+      item.workspace.EditLines(Text(Tr("add the language %s"), tag.c_str()), std::move(next));
+    }
+    tag.clear();
+  }
+}
+
+// Which line, and what it says in each language.
+void LineFields(Item& item) {
+  const auto table = item.workspace.document().lines;  // kept while it is edited
+  if (table == nullptr) {
+    TextField(item, Tr("Line"), "line");
+    return;
+  }
+  std::vector<std::string> ids;
+  for (const bake::Line& line : table->lines) {
+    ids.push_back(line.id);
+  }
+  const std::string id = item.TextOr("line", "");
+  if (table->Find(id) == nullptr) {
+    ids.insert(ids.begin(), id);
+  }
+  NameField(item, Tr("Line"), "line", ids, nullptr);
+  for (const std::string& language : table->languages) {
+    LineText(item, *table, language);
+  }
+  NewLanguage(item, *table);
+  PropertyLabel("");
+  if (ImGui::Button(Tr("Another line"))) {
+    const std::string next =
+        app::FreeLineId(*table, item.actor.empty() ? std::string("text") : item.actor);
+    item.workspace.EditLines(Text(Tr("add the line %s"), next.c_str()),
+                             app::WithLine(*table, next, item.actor));
+    item.Set("line", next);
+    item.workspace.EndGesture();
+  }
+}
+
 void FieldsOfKind(Item& item) {
   const app::StageWords* words = WordsOf(item.workspace);
   switch (item.kind) {
     case LaneKind::kSpeech:
     case LaneKind::kCaptions:
-      NameField(item, Tr("Line"), "line",
-                words != nullptr ? Names(words->lines) : std::vector<std::string>(), nullptr);
+      LineFields(item);
       break;
     case LaneKind::kGestures:
       NameField(item, Tr("Clip"), "clip", ClipNames(item), nullptr);

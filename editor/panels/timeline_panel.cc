@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "editor/app/line_edits.h"
 #include "editor/app/timeline_fields.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -99,6 +100,20 @@ std::string BlockLabel(const TaskRecord& task, bool of_object) {
                    : action + (task.object.empty() ? "" : " " + task.object);
 }
 
+// A line of the actor that the timeline does not have yet, else a new one.
+std::string LineFor(const app::Workspace& workspace, const std::string& actor) {
+  const bake::LineTable none;
+  const auto& table = workspace.document().lines;
+  const bake::LineTable& lines = table != nullptr ? *table : none;
+  for (const bake::Line& line : lines.lines) {
+    const bool named = workspace.script().text().find('"' + line.id + '"') != std::string::npos;
+    if (line.speaker == actor && !actor.empty() && !named) {
+      return line.id;
+    }
+  }
+  return app::FreeLineId(lines, actor.empty() ? "text" : actor);
+}
+
 // What a new item says before it was edited.
 Json NewFields(const app::Workspace& workspace,
                LaneKind kind,
@@ -114,7 +129,7 @@ Json NewFields(const app::Workspace& workspace,
   switch (kind) {
     case LaneKind::kSpeech:
     case LaneKind::kCaptions:
-      fields["line"] = first(words.lines, "line");
+      fields["line"] = LineFor(workspace, actor);
       break;
     case LaneKind::kGestures:
     case LaneKind::kClips: {

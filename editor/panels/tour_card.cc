@@ -43,7 +43,7 @@ TourFacts FactsOf(const app::Workspace& workspace, const EditorState& state) {
   facts.can_redo = workspace.commands().CanRedo();
   facts.checked = workspace.checked();
   facts.dirty = workspace.commands().dirty();
-  facts.exported = workspace.exported();
+  facts.exported = workspace.exported() != nullptr;
   if (const app::PlaceDocument* place = workspace.place()) {
     const geometry::Similarity3& stage = place->picked_from_stage;
     facts.stage = Text("%g %g %g %g %g %g %g %g", stage.scale, stage.translation.x(),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "editor/panels/angles.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 
 namespace lararium::panels {
@@ -119,7 +120,7 @@ void ShowModal(const char* title, float width, bool& open, const std::function<v
   ImGui::EndPopup();
 }
 
-DialogAnswer DialogButtons(const char* action, const std::string& problem) {
+DialogAnswer DialogButtons(const char* action, const std::string& problem, const char* cancel) {
   ImGui::Dummy(ImVec2(0, Px(2)));
   ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
   ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
@@ -128,7 +129,7 @@ DialogAnswer DialogButtons(const char* action, const std::string& problem) {
   const float spacing = ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
   DialogAnswer answer = DialogAnswer::kNone;
-  if (ImGui::Button("Cancel", ImVec2(width, 0))) {
+  if (ImGui::Button(cancel != nullptr ? cancel : Tr("Cancel"), ImVec2(width, 0))) {
     answer = DialogAnswer::kCancel;
   }
   ImGui::SameLine();
@@ -359,10 +360,11 @@ bool Swatch(app::Workspace& workspace, const char* id, glm::vec3& srgb) {
 bool PathField(const char* id,
                std::string& path,
                const std::filesystem::path& folder,
-               std::span<const char* const> extensions) {
+               std::span<const char* const> extensions,
+               float right) {
   ImGui::PushID(id);
   const float button = ImGui::GetFrameHeight() * 1.4f;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button -
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - right - button -
                           ImGui::GetStyle().ItemSpacing.x);
   bool changed = ImGui::InputText("##path", &path);
   ImGui::SameLine();

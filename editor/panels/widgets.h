@@ -25,9 +25,11 @@ void Hint(const std::string& text);
 void ShowModal(const char* title, float width, bool& open, const std::function<void()>& content);
 
 enum class DialogAnswer { kNone, kCancel, kAct };
-// Ends a dialog with a row of Cancel and the action. problem: why the action is not possible
-// yet; empty when it is.
-DialogAnswer DialogButtons(const char* action, const std::string& problem);
+// Ends a dialog with a row of Cancel, or what takes its place, and the action. problem: why the
+// action is not possible yet; empty when it is.
+DialogAnswer DialogButtons(const char* action,
+                           const std::string& problem,
+                           const char* cancel = nullptr);
 
 // As much of a text as fits in pixels, with an ellipsis for the rest: its end, or its front.
 std::string Elided(const std::string& text, float width);
@@ -91,10 +93,12 @@ bool NameCombo(const char* id,
 bool Swatch(app::Workspace& workspace, const char* id, glm::vec3& srgb);
 
 // A path as text, and a button that lists the folder. extensions: with dots,
-// lower case; none: folders are chosen. folder: what relative paths start from.
+// lower case; none: folders are chosen. folder: what relative paths start from. right: pixels
+// that stay free beside it.
 bool PathField(const char* id,
                std::string& path,
                const std::filesystem::path& folder,
-               std::span<const char* const> extensions);
+               std::span<const char* const> extensions,
+               float right = 0.0f);
 
 }  // namespace lararium::panels

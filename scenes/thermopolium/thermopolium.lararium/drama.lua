@@ -105,7 +105,10 @@ track{actor = "girl",
 }
 
 track{actor = "labourer",
-  walks = {{at = 0, from = {x = -0.25, z = -0.44, heading = -40}}},
+  walks = {
+    {at = 0, from = {x = -0.25, z = -0.44, heading = -40}},
+    {id = "turns round", at = 31, to = {x = -0.45, z = -0.40, heading = -140}},
+  },
   uses = {
     {at = 4, object = "beaker", action = "take"},
     {at = 9, object = "beaker", action = "drink"},

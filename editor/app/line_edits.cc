@@ -1,0 +1,54 @@
+#include "editor/app/line_edits.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lararium::app {
+
+namespace {
+
+bake::Line& LineOf(bake::LineTable& table, const std::string& id, const std::string& speaker) {
+  const auto found = std::find_if(table.lines.begin(), table.lines.end(),
+                                  [&](const bake::Line& line) { return line.id == id; });
+  if (found != table.lines.end()) {
+    return *found;
+  }
+  table.lines.push_back({.id = id, .speaker = speaker, .notes = {}, .text = {}});
+  return table.lines.back();
+}
+
+}  // namespace
+
+bake::LineTable WithText(bake::LineTable table,
+                         const std::string& id,
+                         const std::string& speaker,
+                         const std::string& language,
+                         const std::string& text) {
+  if (std::find(table.languages.begin(), table.languages.end(), language) ==
+      table.languages.end()) {
+    table.languages.push_back(language);
+  }
+  bake::Line& line = LineOf(table, id, speaker);
+  if (text.empty()) {
+    line.text.erase(language);
+  } else {
+    line.text[language] = text;
+  }
+  return table;
+}
+
+bake::LineTable WithLine(bake::LineTable table, const std::string& id, const std::string& speaker) {
+  LineOf(table, id, speaker);
+  return table;
+}
+
+std::string FreeLineId(const bake::LineTable& table, const std::string& stem) {
+  for (int number = 1;; ++number) {
+    std::string id = stem + std::to_string(number);
+    if (table.Find(id) == nullptr) {
+      return id;
+    }
+  }
+}
+
+}  // namespace lararium::app
