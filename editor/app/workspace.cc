@@ -79,8 +79,9 @@ void Workspace::Recover() {
     const std::filesystem::path aside = paths_.folder / "journal.damaged";
     std::error_code error;
     std::filesystem::rename(paths_.Journal(), aside, error);
-    Tell(Message::Level::kWarning, left.message() + "; it was moved to " + aside.string() +
-                                       " and the project opened as saved");
+    Tell(Message::Level::kWarning,
+         Text(Tr("%s; it was moved to %s and the project opened as saved"), left.message().c_str(),
+              aside.c_str()));
     return;
   }
   if (!left->has_value() || (*left)->edits == 0) {
@@ -93,15 +94,17 @@ void Workspace::Recover() {
   drama::TextEdit edit = script_.Replace(std::move(content.script));
   const size_t bytes = edit.removed.size() + edit.inserted.size();
   commands_.Edit(
-      "recover", [&](ProjectDocument& current) { current = std::move(content.project); },
+      Tr("recover"), [&](ProjectDocument& current) { current = std::move(content.project); },
       "recover");
-  commands_.EditPatched("recover", std::move(edit), bytes, "recover");
+  commands_.EditPatched(Tr("recover"), std::move(edit), bytes, "recover");
   commands_.EndGesture();
   OnDocumentChanged();
   OnScriptChanged();
-  Tell(Message::Level::kWarning, std::string("Edits that were not saved have been recovered") +
-                                     (content.torn ? ", without the last one. " : ". ") +
-                                     "Undo takes them back.");
+  Tell(Message::Level::kWarning,
+       content.torn ? Tr("Edits that were not saved have been recovered, without the "
+                         "last one. Undo takes them back.")
+                    : Tr("Edits that were not saved have been recovered. Undo "
+                         "takes them back."));
 }
 
 void Workspace::Tell(Message::Level level, std::string text) {
@@ -116,7 +119,7 @@ void Workspace::Tell(Message::Level level, std::string text) {
 
 void Workspace::Report(const Status& status, bool cancelled, const std::string& success) {
   if (cancelled) {
-    Tell(Message::Level::kInfo, "Cancelled. Nothing was changed.");
+    Tell(Message::Level::kInfo, Tr("Cancelled. Nothing was changed."));
   } else if (!status.ok()) {
     Tell(Message::Level::kError, status.message());
   } else {
@@ -214,8 +217,8 @@ void Workspace::Save() {
   LookOutside();
   if (changed_outside()) {
     Tell(Message::Level::kWarning,
-         "Nothing was saved: the project was also changed outside of this window. Choose above "
-         "the messages which one to keep.");
+         Tr("Nothing was saved: the project was also changed outside of this window. Choose above "
+            "the messages which one to keep."));
     return;
   }
   std::error_code ignored;
@@ -235,7 +238,7 @@ void Workspace::Save() {
   project_stamp_ = FileStamp(paths_.Project());
   commands_.MarkSaved();
   journal_.Discard(document(), script_.snapshot());
-  Tell(Message::Level::kInfo, "Saved " + paths_.folder.string());
+  Tell(Message::Level::kInfo, Text(Tr("Saved %s"), paths_.folder.c_str()));
   preview_stale_ = true;
 }
 
@@ -274,7 +277,7 @@ void Workspace::LookOutside() {
     script_stamp_ = std::move(stamp);
     const Result<std::string> text = ReadText(paths_.Drama(), drama::TimelineText::kMaxBytes);
     if (!text.ok()) {
-      Tell(Message::Level::kWarning, text.message() + "; saving writes it anew");
+      Tell(Message::Level::kWarning, Text(Tr("%s; saving writes it anew"), text.message().c_str()));
     } else if (*text != script_.text()) {
       outside_script_ = *text;
     } else {
@@ -285,7 +288,8 @@ void Workspace::LookOutside() {
     project_stamp_ = std::move(stamp);
     Result<ProjectDocument> project = LoadProject(paths_);
     if (!project.ok()) {
-      Tell(Message::Level::kWarning, project.message() + "; saving writes it anew");
+      Tell(Message::Level::kWarning,
+           Text(Tr("%s; saving writes it anew"), project.message().c_str()));
     } else if (FormatProject(*project) != FormatProject(document())) {
       outside_project_ = std::make_shared<const ProjectDocument>(*std::move(project));
     }
@@ -297,16 +301,18 @@ void Workspace::LookOutside() {
 
 void Workspace::TakeOutside() {
   if (outside_script_) {
-    EditScript("take over drama.lua", *std::exchange(outside_script_, std::nullopt));
+    EditScript(Tr("take over drama.lua"), *std::exchange(outside_script_, std::nullopt));
     saved_script_ = script_.snapshot();
-    Tell(Message::Level::kInfo, "drama.lua was changed outside of this window and is read again.");
+    Tell(Message::Level::kInfo,
+         Tr("drama.lua was changed outside of this window and is read again."));
   }
   if (outside_project_) {
-    Edit("take over project.json", [&](ProjectDocument& current) { current = *outside_project_; });
+    Edit(Tr("take over project.json"),
+         [&](ProjectDocument& current) { current = *outside_project_; });
     outside_project_ = nullptr;
     saved_project_ = commands_.snapshot();
     Tell(Message::Level::kInfo,
-         "project.json was changed outside of this window and is read again.");
+         Tr("project.json was changed outside of this window and is read again."));
   }
   const bool all_saved = script_.text() == *saved_script_ &&
                          FormatProject(document()) == FormatProject(*saved_project_);
@@ -375,7 +381,7 @@ void Workspace::LayStageOnFloor() {
   constexpr double kSame = 1e-7;  // metres, radians
   if ((laid.translation - now.translation).norm() > kSame ||
       laid.rotation.angularDistance(now.rotation) > kSame) {
-    EditPlace("lay the stage on the floor",
+    EditPlace(Tr("lay the stage on the floor"),
               [&](PlaceDocument& edited) { edited.picked_from_stage = laid; });
   }
 }
@@ -716,7 +722,7 @@ const CastCatalogue* Workspace::catalogue() {
   const std::optional<std::filesystem::path> folder = FindCastLibrary();
   if (!folder) {
     catalogue_problem_ =
-        "The cast library is not installed; fetch it with scripts/fetch_cast_library.sh.";
+        Tr("The cast library is not installed; fetch it with scripts/fetch_cast_library.sh.");
     return nullptr;
   }
   const auto listed = std::make_shared<CastCatalogue>();
@@ -801,7 +807,7 @@ void Workspace::MeasureCameraTraits() {
       [this, traits, name = place_name_](const Status& status, bool cancelled) {
         Report(status, cancelled, name + ": " + CameraText(*traits));
         if (status.ok() && !cancelled) {
-          Edit("measure the camera", [&](ProjectDocument& document) {
+          Edit(Tr("measure the camera"), [&](ProjectDocument& document) {
             if (PlaceDocument* place = document.FindPlace(name)) {
               place->camera = *traits;
             }
@@ -834,7 +840,7 @@ void Workspace::SaveBones(const CastDocument& member) {
     return;
   }
   const std::filesystem::path file = BoneMapFile(paths_, member);
-  Edit("save the bones of " + member.name, [&](ProjectDocument& document) {
+  Edit(Text(Tr("save the bones of %s"), member.name.c_str()), [&](ProjectDocument& document) {
     for (CastDocument& known : document.cast) {
       if (known.name == member.name) {
         known.bone_map = paths_.Shorten(file);
@@ -842,7 +848,7 @@ void Workspace::SaveBones(const CastDocument& member) {
       }
     }
   });
-  Tell(Message::Level::kInfo, "Wrote " + file.string());
+  Tell(Message::Level::kInfo, Text(Tr("Wrote %s"), file.c_str()));
 }
 
 const train::TrainReport* Workspace::last_training() const {
@@ -861,9 +867,9 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
       [this, report, name = place_name_, done = std::move(done)](const Status& status,
                                                                  bool cancelled) {
         Report(status, cancelled,
-               name + ": " + std::to_string(report->located.size()) + " of " +
-                   std::to_string(report->frames) + " images located, " +
-                   std::to_string(report->points) + " points.");
+               Text(Tr("%s: %d of %d images located, %d points."), name.c_str(),
+                    static_cast<int>(report->located.size()), report->frames,
+                    static_cast<int>(report->points)));
         if (status.ok() && !cancelled) {
           training_ = report;
           trained_place_ = name;
@@ -872,7 +878,7 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
         map_stale_ |= status.ok() && name == place_name_;
       });
   if (!started) {
-    Tell(Message::Level::kWarning, "A training is running already. Cancel it first.");
+    Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
   }
 }
 
@@ -894,7 +900,7 @@ void Workspace::AddSession(const SessionDocument& session) {
         return TrainSession(paths, place, session, {}, progress, log);
       },
       [this, session, name = place_name_] {
-        Edit("add a session", [&](ProjectDocument& document) {
+        Edit(Tr("add a session"), [&](ProjectDocument& document) {
           if (PlaceDocument* place = document.FindPlace(name)) {
             place->added.push_back(session);
           }
@@ -917,8 +923,8 @@ void Workspace::Bake() {
           Tell(Message::Level::kWarning, warning);
         }
         Report(status, cancelled,
-               "Baked " + std::to_string(report->baked.size()) + ", " +
-                   std::to_string(report->unchanged.size()) + " were up to date.");
+               Text(Tr("Baked %d, %d were up to date."), static_cast<int>(report->baked.size()),
+                    static_cast<int>(report->unchanged.size())));
         preview_key_.clear();
         preview_stale_ = true;
       });
@@ -932,7 +938,7 @@ void Workspace::Export(const std::filesystem::path& out) {
         return ExportProject(paths, *document, out, MapBudget(), progress);
       },
       [this, out](const Status& status, bool cancelled) {
-        Report(status, cancelled, "Wrote " + out.string());
+        Report(status, cancelled, Text(Tr("Wrote %s"), out.c_str()));
         exported_ |= status.ok() && !cancelled;
       });
 }

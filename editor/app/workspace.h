@@ -25,6 +25,7 @@
 #include "editor/app/project.h"
 #include "editor/app/script_document.h"
 #include "editor/app/staging.h"
+#include "editor/app/text.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
@@ -54,17 +55,17 @@ struct LoadedPlace {
 
 class Workspace {
  public:
-  static constexpr const char* kTraining = "Training";
-  static constexpr const char* kBaking = "Baking";
-  static constexpr const char* kExporting = "Exporting";
-  static constexpr const char* kOpening = "Opening";
-  static constexpr const char* kMeasuring = "Measuring";
-  static constexpr const char* kCatalogue = "Opening the cast library";
-  static constexpr const char* kReview = "Reading the bones";
-  static constexpr const char* kProbe = "Reading the light probe";
-  static constexpr const char* kCamera = "Measuring the camera";
-  static constexpr const char* kDryRun = "Running the drama";
-  static constexpr const char* kChecking = "Checking";
+  static constexpr const char* kTraining = TrLater("Training");
+  static constexpr const char* kBaking = TrLater("Baking");
+  static constexpr const char* kExporting = TrLater("Exporting");
+  static constexpr const char* kOpening = TrLater("Opening");
+  static constexpr const char* kMeasuring = TrLater("Measuring");
+  static constexpr const char* kCatalogue = TrLater("Opening the cast library");
+  static constexpr const char* kReview = TrLater("Reading the bones");
+  static constexpr const char* kProbe = TrLater("Reading the light probe");
+  static constexpr const char* kCamera = TrLater("Measuring the camera");
+  static constexpr const char* kDryRun = TrLater("Running the drama");
+  static constexpr const char* kChecking = TrLater("Checking");
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
