@@ -207,7 +207,7 @@ void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
   Heading(place.name.c_str());
   const auto database = workspace.loaded().database;
   if (BeginProperties("place")) {
-    PropertyText(Tr("Training"), SourceText(place.training));
+    PropertyText(TrIn("recording", "Training"), SourceText(place.training));
     for (const app::SessionDocument& session : place.added) {
       PropertyText(Tr("Added"), SourceText(session.source));
     }
