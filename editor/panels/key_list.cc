@@ -32,10 +32,7 @@ void ShowRow(const KeyBinding& binding, const std::string& keys) {
 
 void ShowScope(KeyScope scope) {
   Heading(ScopeTitle(scope));
-  ImGui::PushID(static_cast<int>(scope));
-  const bool shown = ImGui::BeginTable("scope", 2);
-  ImGui::PopID();
-  if (!shown) {
+  if (!ImGui::BeginTable(std::to_string(static_cast<int>(scope)).c_str(), 2)) {
     return;
   }
   ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, Px(kKeyWidth));
