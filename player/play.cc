@@ -52,6 +52,8 @@ constexpr double kCostOfLevel = 0.6;
 
 // Not the drama's: switches the evidence view.
 constexpr std::string_view kEvidenceKey = "f2";
+// The drama's too; leaves the player, unless it is a kiosk.
+constexpr std::string_view kLeaveKey = "escape";
 
 volatile std::sig_atomic_t g_end_requested = 0;
 
@@ -190,6 +192,9 @@ void Performance::PressKeys() {
     }
     show_->PressKey(key);
     if (!kiosk_) {
+      if (key == kLeaveKey) {
+        g_end_requested = 1;
+      }
       continue;
     }
     const Kiosk::Change change =

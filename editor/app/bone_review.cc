@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "editor/app/text.h"
 #include "editor/import/model_import.h"
 
 namespace lararium::app {
@@ -34,9 +35,9 @@ bool OnTheWrongSide(const std::string& joint, const human::Human& human) {
 
 std::string ProblemOf(const NamedBone& named, const human::Human& human) {
   if (OnTheWrongSide(named.joint, human)) {
-    return "lies on the other side of the body";
+    return Tr("lies on the other side of the body");
   }
-  return named.confidence < kSure ? "not sure" : "";
+  return named.confidence < kSure ? Tr("not sure") : "";
 }
 
 void AddFound(const import::ImportedHuman& imported, BoneReview& review) {
@@ -57,7 +58,7 @@ void AddMissing(BoneReview& review) {
   std::stable_partition(missing.begin(), missing.end(), IsNeeded);
   for (const std::string& joint : missing) {
     review.rows.push_back(
-        {joint, "", std::nullopt, 0.0f, IsNeeded(joint) ? "not found; a person needs it" : ""});
+        {joint, "", std::nullopt, 0.0f, IsNeeded(joint) ? Tr("not found; a person needs it") : ""});
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <utility>
 
+#include "editor/app/text.h"
+
 namespace lararium::app {
 namespace {
 
@@ -17,18 +19,18 @@ struct GroupTitle {
   const char* title;
   std::array<std::string_view, 4> groups;
 };
-constexpr GroupTitle kTitles[] = {{"Head", {"head"}},
-                                  {"Forehead and brows", {"forehead", "eyebrows"}},
-                                  {"Eyes", {"eyes"}},
-                                  {"Nose", {"nose"}},
-                                  {"Mouth", {"mouth"}},
-                                  {"Chin and cheeks", {"chin", "cheek"}},
-                                  {"Ears", {"ears"}},
-                                  {"Neck", {"neck"}},
-                                  {"Torso", {"torso", "stomach", "breast"}},
-                                  {"Hips", {"hip", "buttocks", "pelvis"}},
-                                  {"Arms and hands", {}},
-                                  {"Legs and feet", {"legs"}}};
+constexpr GroupTitle kTitles[] = {{TrLater("Head"), {"head"}},
+                                  {TrLater("Forehead and brows"), {"forehead", "eyebrows"}},
+                                  {TrLater("Eyes"), {"eyes"}},
+                                  {TrLater("Nose"), {"nose"}},
+                                  {TrLater("Mouth"), {"mouth"}},
+                                  {TrLater("Chin and cheeks"), {"chin", "cheek"}},
+                                  {TrLater("Ears"), {"ears"}},
+                                  {TrLater("Neck"), {"neck"}},
+                                  {TrLater("Torso"), {"torso", "stomach", "breast"}},
+                                  {TrLater("Hips"), {"hip", "buttocks", "pelvis"}},
+                                  {TrLater("Arms and hands"), {}},
+                                  {TrLater("Legs and feet"), {"legs"}}};
 constexpr const char* kArms = "Arms and hands";
 constexpr const char* kLegs = "Legs and feet";
 
@@ -69,10 +71,13 @@ constexpr std::pair<std::string_view, std::string_view> kWords[] = {
     {"triangular", "triangle"}};
 
 constexpr std::pair<std::string_view, std::string_view> kEnds[] = {
-    {"decr", "less"},        {"incr", "more"},        {"min", "less"},       {"max", "more"},
-    {"lesshump", "less"},    {"morehump", "more"},    {"lessgreek", "less"}, {"moregreek", "more"},
-    {"varun", "bowed"},      {"valgus", "knock"},     {"decrease", "less"},  {"increase", "more"},
-    {"compress", "shorter"}, {"uncompress", "longer"}};
+    {"decr", TrLater("less")},        {"incr", TrLater("more")},
+    {"min", TrLater("less")},         {"max", TrLater("more")},
+    {"lesshump", TrLater("less")},    {"morehump", TrLater("more")},
+    {"lessgreek", TrLater("less")},   {"moregreek", TrLater("more")},
+    {"varun", TrLater("bowed")},      {"valgus", TrLater("knock")},
+    {"decrease", TrLater("less")},    {"increase", TrLater("more")},
+    {"compress", TrLater("shorter")}, {"uncompress", TrLater("longer")}};
 
 // The sides are moved together.
 std::string_view WithoutSide(std::string_view name) {

@@ -4,17 +4,30 @@
 #include <filesystem>
 #include <utility>
 
+#include "editor/app/text.h"
+
 namespace lararium::app {
 
 namespace {
 
 namespace fs = std::filesystem;
 
+// What a file is in the project: in English, as errors say it, and as the interface does.
+struct Role {
+  std::string role;
+  std::string shown;
+};
+
+// format: see TrLater(); it takes the name, or the name and its owner's.
+Role RoleOf(const char* format, const std::string& name, const std::string& owner = "") {
+  return {Text(format, name.c_str(), owner.c_str()), Text(Tr(format), name.c_str(), owner.c_str())};
+}
+
 // Calls see(path, kind, role, remedy) for each file that a document names. Document: const or
 // not.
 template <typename Document, typename See>
 void ForEachFile(Document& document, const See& see) {
-  const auto recording = [&](auto& source, const std::string& role) {
+  const auto recording = [&](auto& source, const Role& role) {
     if (!source.empty()) {
       see(source.path,
           source.kind == SourceDocument::Kind::kImages ? FileKind::kImages : FileKind::kVideo, role,
@@ -22,33 +35,34 @@ void ForEachFile(Document& document, const See& see) {
     }
   };
   for (auto& place : document.places) {
-    const std::string of_place = " of \"" + place.name + "\"";
-    recording(place.training, "the recording" + of_place);
-    recording(place.preview, "the recording for the preview" + of_place);
+    recording(place.training, RoleOf(TrLater("the recording of \"%s\""), place.name));
+    recording(place.preview,
+              RoleOf(TrLater("the recording for the preview of \"%s\""), place.name));
     for (auto& session : place.added) {
-      recording(session.source, "an added session" + of_place);
+      recording(session.source, RoleOf(TrLater("an added session of \"%s\""), place.name));
     }
     for (auto& occluder : place.occluders) {
-      see(occluder.file, FileKind::kModel, "the occluder \"" + occluder.name + "\"",
+      see(occluder.file, FileKind::kModel, RoleOf(TrLater("the occluder \"%s\""), occluder.name),
           "put it back, or remove the occluder");
     }
     for (auto& probe : place.probes) {
-      see(probe.file, FileKind::kProbe, "the light probe \"" + probe.name + "\"",
+      see(probe.file, FileKind::kProbe, RoleOf(TrLater("the light probe \"%s\""), probe.name),
           "put it back, or remove the light probe");
     }
   }
   for (auto& member : document.cast) {
-    see(member.model, FileKind::kModel, "the figure of \"" + member.name + "\"",
+    see(member.model, FileKind::kModel, RoleOf(TrLater("the figure of \"%s\""), member.name),
         "put it back, or import \"" + member.name + "\" anew");
-    see(member.bone_map, FileKind::kBones, "the bone map of \"" + member.name + "\"",
+    see(member.bone_map, FileKind::kBones, RoleOf(TrLater("the bone map of \"%s\""), member.name),
         "put it back, or name the bones anew");
     for (auto& clip : member.clips) {
-      see(clip.file, FileKind::kClip, "the clip \"" + clip.name + "\" of \"" + member.name + "\"",
+      see(clip.file, FileKind::kClip,
+          RoleOf(TrLater("the clip \"%s\" of \"%s\""), clip.name, member.name),
           "put it back, or remove the clip \"" + clip.name + "\"");
     }
   }
   for (auto& object : document.objects) {
-    see(object.file, FileKind::kModel, "the object \"" + object.name + "\"",
+    see(object.file, FileKind::kModel, RoleOf(TrLater("the object \"%s\""), object.name),
         "put it back, or remove \"" + object.name + "\"");
   }
 }
@@ -74,12 +88,12 @@ std::pair<fs::path, fs::path> MovedFolders(fs::path from, fs::path to) {
 
 std::vector<MissingFile> MissingFiles(const ProjectPaths& paths, const ProjectDocument& document) {
   std::vector<MissingFile> missing;
-  ForEachFile(document, [&](const std::string& path, FileKind kind, const std::string& role,
+  ForEachFile(document, [&](const std::string& path, FileKind kind, const Role& role,
                             const std::string& remedy) {
     const bool known = std::any_of(missing.begin(), missing.end(),
                                    [&](const MissingFile& file) { return file.path == path; });
     if (!path.empty() && !known && !IsThere(paths.Resolve(path))) {
-      missing.push_back({path, kind, role, remedy});
+      missing.push_back({path, kind, role.role, role.shown, remedy});
     }
   });
   return missing;
@@ -105,7 +119,7 @@ std::vector<Relocation> SameMove(const ProjectPaths& paths,
 }
 
 void Relocate(const Relocation& relocation, ProjectDocument& document) {
-  ForEachFile(document, [&](std::string& path, FileKind, const std::string&, const std::string&) {
+  ForEachFile(document, [&](std::string& path, FileKind, const Role&, const std::string&) {
     if (path == relocation.from) {
       path = relocation.to;
     }

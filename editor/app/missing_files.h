@@ -16,6 +16,7 @@ struct MissingFile {
   std::string path;  // as the document has it
   FileKind kind = FileKind::kVideo;
   std::string role;    // what it is in the project: "the recording of \"tavern\""
+  std::string shown;   // the same in the language of the interface
   std::string remedy;  // other than locating it
 };
 

@@ -18,7 +18,7 @@ constexpr size_t kMaxFileBytes = size_t{1} << 16;
 Result<Settings> Parse(const std::string& text, const std::string& place) {
   LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
   const JsonView view(json, place);
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"schema", "theme", "scale"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"schema", "theme", "scale", "language"}));
   LARARIUM_RETURN_IF_ERROR(view.Integer("schema", kSchema, kSchema).status());
   Settings settings;
   LARARIUM_ASSIGN_OR_RETURN(const std::string theme, view.Text("theme"));
@@ -29,6 +29,12 @@ Result<Settings> Parse(const std::string& text, const std::string& place) {
   LARARIUM_ASSIGN_OR_RETURN(settings.scale, view.Number("scale"));
   if (std::find(kScales.begin(), kScales.end(), settings.scale) == kScales.end()) {
     return view.Problem("\"scale\" must be 1, 1.25, 1.5 or 2");
+  }
+  if (view.Has("language")) {  // those of older versions have none
+    LARARIUM_ASSIGN_OR_RETURN(settings.language, view.Text("language"));
+    if (std::find(kLanguages.begin(), kLanguages.end(), settings.language) == kLanguages.end()) {
+      return view.Problem("\"language\" must be \"\", \"en\" or \"it\"");
+    }
   }
   return settings;
 }
@@ -53,7 +59,8 @@ Status SaveSettings(const std::filesystem::path& file, const Settings& settings)
   std::filesystem::create_directories(file.parent_path(), error);
   return SaveJson(file, {{"schema", kSchema},
                          {"theme", settings.theme == Theme::kLight ? "light" : "dark"},
-                         {"scale", settings.scale}});
+                         {"scale", settings.scale},
+                         {"language", settings.language}});
 }
 
 }  // namespace lararium::app

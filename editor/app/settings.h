@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 
 #include "shared/core/status.h"
 
@@ -13,12 +14,15 @@ enum class Theme { kDark, kLight };
 
 struct Settings {
   Theme theme = Theme::kDark;
-  double scale = 1.0;  // of the interface, beyond that of the display; one of kScales
+  double scale = 1.0;    // of the interface, beyond that of the display; one of kScales
+  std::string language;  // one of kLanguages
 
   friend bool operator==(const Settings&, const Settings&) = default;
 };
 
 inline constexpr std::array<double, 4> kScales = {1.0, 1.25, 1.5, 2.0};
+// Those of the catalogues in po/, and English; the first is that of the environment.
+inline constexpr std::array<const char*, 3> kLanguages = {"", "en", "it"};
 
 // Without a file: as above. One that cannot be read is moved aside, as SetAside() does.
 Result<Settings> LoadSettings(const std::filesystem::path& file);

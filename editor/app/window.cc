@@ -90,9 +90,12 @@ int KeyOfLayout(int key) {
   return letter ? name[0] - 'a' + GLFW_KEY_A : key;
 }
 
-Status MainLoop(render::Window& window, std::unique_ptr<Workspace> workspace, Log& log) {
+Status MainLoop(render::Window& window,
+                std::unique_ptr<Workspace> workspace,
+                const Settings& settings,
+                Log& log) {
   Interface interface(window);
-  WindowContent content(std::move(workspace), log);
+  WindowContent content(std::move(workspace), settings, log);
   render::WindowCallbacks callbacks;
   callbacks.key = [&content](int key, int action, int modifiers) {
     if (action != GLFW_RELEASE) {
@@ -130,6 +133,7 @@ Status MainLoop(render::Window& window, std::unique_ptr<Workspace> workspace, Lo
 }  // namespace
 
 Status RunWindow(const WindowOptions& options, Log& log) {
+  const Settings settings = RestoreSettings(log);
   std::unique_ptr<Workspace> workspace;
   if (!options.project.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(workspace, Workspace::Open({options.project}, log));
@@ -138,7 +142,7 @@ Status RunWindow(const WindowOptions& options, Log& log) {
   window_options.width = 1440;
   window_options.height = 900;
   LARARIUM_ASSIGN_OR_RETURN(render::Window window, render::Window::Create(window_options));
-  return MainLoop(window, std::move(workspace), log);
+  return MainLoop(window, std::move(workspace), settings, log);
 }
 
 }  // namespace lararium::app

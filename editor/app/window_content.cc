@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "editor/app/sample.h"
+#include "editor/app/text.h"
 #include "editor/app/user_folders.h"
 #include "editor/panels/dialogs.h"
 
@@ -17,16 +18,25 @@ std::filesystem::path SettingsFile() { return ConfigFolder() / "editor.json"; }
 
 }  // namespace
 
-WindowContent::WindowContent(std::unique_ptr<Workspace> workspace, Log& log)
-    : log_(log), recent_(StateFolder() / "recent.json"), sample_(ShippedSample()) {
+Settings RestoreSettings(Log& log) {
+  Result<Settings> settings = LoadSettings(SettingsFile());
+  if (!settings.ok()) {
+    log.warn("{}", settings.message());
+    settings = Settings();
+  }
+  LoadTexts(TextFolder(), settings->language);
+  return *settings;
+}
+
+WindowContent::WindowContent(std::unique_ptr<Workspace> workspace,
+                             const Settings& settings,
+                             Log& log)
+    : log_(log),
+      settings_(settings),
+      recent_(StateFolder() / "recent.json"),
+      sample_(ShippedSample()) {
   if (const Status status = recent_.Reload(); !status.ok()) {
     start_.SetProblem(status.message());
-  }
-  const Result<Settings> settings = LoadSettings(SettingsFile());
-  if (settings.ok()) {
-    settings_ = *settings;
-  } else {
-    log_.warn("{}", settings.message());
   }
   if (workspace != nullptr) {
     Enter(std::move(workspace));
@@ -148,6 +158,9 @@ Status WindowContent::Show() {
     Follow(choice);
   } else {
     LARARIUM_RETURN_IF_ERROR(ShowProject());
+  }
+  if (settings_.language != before.language) {
+    LoadTexts(TextFolder(), settings_.language);
   }
   if (settings_ != before) {
     if (const Status status = SaveSettings(SettingsFile(), settings_); !status.ok()) {

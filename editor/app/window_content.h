@@ -14,10 +14,13 @@
 
 namespace lararium::app {
 
+// What was chosen when the window was last open; its language is that of all texts from now on.
+Settings RestoreSettings(Log& log);
+
 class WindowContent {
  public:
   // workspace: what is open at first; nullptr: the start page. Borrows log.
-  WindowContent(std::unique_ptr<Workspace> workspace, Log& log);
+  WindowContent(std::unique_ptr<Workspace> workspace, const Settings& settings, Log& log);
   ~WindowContent();
   WindowContent(const WindowContent&) = delete;
   WindowContent& operator=(const WindowContent&) = delete;

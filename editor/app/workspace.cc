@@ -91,8 +91,9 @@ void Workspace::Recover() {
     const std::filesystem::path aside = paths_.folder / "journal.damaged";
     std::error_code error;
     std::filesystem::rename(paths_.Journal(), aside, error);
-    Tell(Message::Level::kWarning, left.message() + "; it was moved to " + aside.string() +
-                                       " and the project opened as saved");
+    Tell(Message::Level::kWarning,
+         Text(Tr("%s; it was moved to %s and the project opened as saved"), left.message().c_str(),
+              aside.c_str()));
     return;
   }
   if (!left->has_value() || (*left)->edits == 0) {
@@ -105,19 +106,21 @@ void Workspace::Recover() {
   drama::TextEdit edit = script_.Replace(std::move(content.script));
   const size_t bytes = edit.removed.size() + edit.inserted.size();
   commands_.Edit(
-      "recover",
+      Tr("recover"),
       [&](ProjectDocument& current) {
         content.project.lines = current.lines;
         current = std::move(content.project);
       },
       "recover");
-  commands_.EditPatched("recover", std::move(edit), bytes, "recover");
+  commands_.EditPatched(Tr("recover"), std::move(edit), bytes, "recover");
   commands_.EndGesture();
   OnDocumentChanged();
   OnScriptChanged();
-  Tell(Message::Level::kWarning, std::string("Edits that were not saved have been recovered") +
-                                     (content.torn ? ", without the last one. " : ". ") +
-                                     "Undo takes them back.");
+  Tell(Message::Level::kWarning,
+       content.torn ? Tr("Edits that were not saved have been recovered, without the "
+                         "last one. Undo takes them back.")
+                    : Tr("Edits that were not saved have been recovered. Undo "
+                         "takes them back."));
 }
 
 void Workspace::Tell(Message::Level level, std::string text) {
@@ -132,7 +135,7 @@ void Workspace::Tell(Message::Level level, std::string text) {
 
 void Workspace::Report(const Status& status, bool cancelled, const std::string& success) {
   if (cancelled) {
-    Tell(Message::Level::kInfo, "Cancelled. Nothing was changed.");
+    Tell(Message::Level::kInfo, Tr("Cancelled. Nothing was changed."));
   } else if (!status.ok()) {
     Tell(Message::Level::kError, status.message());
   } else {
@@ -267,8 +270,8 @@ void Workspace::Save() {
   WriteLines();
   if (changed_outside()) {
     Tell(Message::Level::kWarning,
-         "Nothing was saved: the project was also changed outside of this window. Choose above "
-         "the messages which one to keep.");
+         Tr("Nothing was saved: the project was also changed outside of this window. Choose above "
+            "the messages which one to keep."));
     return;
   }
   std::error_code ignored;
@@ -288,7 +291,7 @@ void Workspace::Save() {
   project_stamp_ = FileStamp(paths_.Project());
   commands_.MarkSaved();
   journal_.Discard(document(), script_.snapshot());
-  Tell(Message::Level::kInfo, "Saved " + paths_.folder.string());
+  Tell(Message::Level::kInfo, Text(Tr("Saved %s"), paths_.folder.c_str()));
   preview_stale_ = true;
 }
 
@@ -328,7 +331,7 @@ void Workspace::LookOutside() {
     script_stamp_ = std::move(stamp);
     const Result<std::string> text = ReadText(paths_.Drama(), drama::TimelineText::kMaxBytes);
     if (!text.ok()) {
-      Tell(Message::Level::kWarning, text.message() + "; saving writes it anew");
+      Tell(Message::Level::kWarning, Text(Tr("%s; saving writes it anew"), text.message().c_str()));
     } else if (*text != script_.text()) {
       outside_script_ = *text;
     } else {
@@ -339,7 +342,8 @@ void Workspace::LookOutside() {
     project_stamp_ = std::move(stamp);
     Result<ProjectDocument> project = LoadProject(paths_);
     if (!project.ok()) {
-      Tell(Message::Level::kWarning, project.message() + "; saving writes it anew");
+      Tell(Message::Level::kWarning,
+           Text(Tr("%s; saving writes it anew"), project.message().c_str()));
     } else if (FormatProject(*project) != FormatProject(document())) {
       outside_project_ = std::make_shared<const ProjectDocument>(*std::move(project));
     }
@@ -352,7 +356,7 @@ void Workspace::LookOutside() {
     written_lines_ = ReadLines();
     if (written_lines_ != nullptr) {
       const bool clean = !commands_.dirty();
-      Edit("take over the lines",
+      Edit(Tr("take over the lines"),
            [&](ProjectDocument& current) { current.lines = written_lines_; });
       if (clean) {
         commands_.MarkSaved();
@@ -365,12 +369,13 @@ void Workspace::LookOutside() {
 
 void Workspace::TakeOutside() {
   if (outside_script_) {
-    EditScript("take over drama.lua", *std::exchange(outside_script_, std::nullopt));
+    EditScript(Tr("take over drama.lua"), *std::exchange(outside_script_, std::nullopt));
     saved_script_ = script_.snapshot();
-    Tell(Message::Level::kInfo, "drama.lua was changed outside of this window and is read again.");
+    Tell(Message::Level::kInfo,
+         Tr("drama.lua was changed outside of this window and is read again."));
   }
   if (outside_project_) {
-    Edit("take over project.json", [&](ProjectDocument& current) {
+    Edit(Tr("take over project.json"), [&](ProjectDocument& current) {
       const auto lines = current.lines;
       current = *outside_project_;
       current.lines = lines;
@@ -378,7 +383,7 @@ void Workspace::TakeOutside() {
     outside_project_ = nullptr;
     saved_project_ = commands_.snapshot();
     Tell(Message::Level::kInfo,
-         "project.json was changed outside of this window and is read again.");
+         Tr("project.json was changed outside of this window and is read again."));
   }
   const bool all_saved = script_.text() == *saved_script_ &&
                          FormatProject(document()) == FormatProject(*saved_project_);
@@ -447,7 +452,7 @@ void Workspace::LayStageOnFloor() {
   constexpr double kSame = 1e-7;  // metres, radians
   if ((laid.translation - now.translation).norm() > kSame ||
       laid.rotation.angularDistance(now.rotation) > kSame) {
-    EditPlace("lay the stage on the floor",
+    EditPlace(Tr("lay the stage on the floor"),
               [&](PlaceDocument& edited) { edited.picked_from_stage = laid; });
   }
 }
@@ -701,7 +706,11 @@ void Workspace::Update(double seconds) {
     picture_ = std::move(*picture);
     awaiting_picture_ = picture_->frame != requested_frame_ || picture_->time != requested_time_;
   }
-  for (const Status& problem : preview_->TakeProblems()) {
+  const std::vector<Status> problems = preview_->TakeProblems();
+  if (preview_stale_ || cast_pictures_.Working() || tasks_.Running(kOpening)) {
+    return;  // of a stage that is about to be replaced: somebody was added whom the drama names
+  }
+  for (const Status& problem : problems) {
     Tell(Message::Level::kError, problem.message());
     awaiting_picture_ = false;
   }
@@ -793,7 +802,7 @@ const CastCatalogue* Workspace::catalogue() {
   const std::optional<std::filesystem::path> folder = FindCastLibrary();
   if (!folder) {
     catalogue_problem_ =
-        "The cast library is not installed; fetch it with scripts/fetch_cast_library.sh.";
+        Tr("The cast library is not installed; fetch it with scripts/fetch_cast_library.sh.");
     return nullptr;
   }
   const auto listed = std::make_shared<CastCatalogue>();
@@ -878,7 +887,7 @@ void Workspace::MeasureCameraTraits() {
       [this, traits, name = place_name_](const Status& status, bool cancelled) {
         Report(status, cancelled, name + ": " + CameraText(*traits));
         if (status.ok() && !cancelled) {
-          Edit("measure the camera", [&](ProjectDocument& document) {
+          Edit(Tr("measure the camera"), [&](ProjectDocument& document) {
             if (PlaceDocument* place = document.FindPlace(name)) {
               place->camera = *traits;
             }
@@ -911,7 +920,7 @@ void Workspace::SaveBones(const CastDocument& member) {
     return;
   }
   const std::filesystem::path file = BoneMapFile(paths_, member);
-  Edit("save the bones of " + member.name, [&](ProjectDocument& document) {
+  Edit(Text(Tr("save the bones of %s"), member.name.c_str()), [&](ProjectDocument& document) {
     for (CastDocument& known : document.cast) {
       if (known.name == member.name) {
         known.bone_map = paths_.Shorten(file);
@@ -919,7 +928,7 @@ void Workspace::SaveBones(const CastDocument& member) {
       }
     }
   });
-  Tell(Message::Level::kInfo, "Wrote " + file.string());
+  Tell(Message::Level::kInfo, Text(Tr("Wrote %s"), file.c_str()));
 }
 
 const train::TrainReport* Workspace::last_training() const {
@@ -938,9 +947,9 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
       [this, report, name = place_name_, done = std::move(done)](const Status& status,
                                                                  bool cancelled) {
         Report(status, cancelled,
-               name + ": " + std::to_string(report->located.size()) + " of " +
-                   std::to_string(report->frames) + " images located, " +
-                   std::to_string(report->points) + " points.");
+               Text(Tr("%s: %d of %d images located, %d points."), name.c_str(),
+                    static_cast<int>(report->located.size()), report->frames,
+                    static_cast<int>(report->points)));
         if (status.ok() && !cancelled) {
           training_ = report;
           trained_place_ = name;
@@ -949,7 +958,7 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
         map_stale_ |= status.ok() && name == place_name_;
       });
   if (!started) {
-    Tell(Message::Level::kWarning, "A training is running already. Cancel it first.");
+    Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
   }
 }
 
@@ -971,7 +980,7 @@ void Workspace::AddSession(const SessionDocument& session) {
         return TrainSession(paths, place, session, {}, progress, log);
       },
       [this, session, name = place_name_] {
-        Edit("add a session", [&](ProjectDocument& document) {
+        Edit(Tr("add a session"), [&](ProjectDocument& document) {
           if (PlaceDocument* place = document.FindPlace(name)) {
             place->added.push_back(session);
           }
@@ -994,14 +1003,19 @@ void Workspace::Bake() {
           Tell(Message::Level::kWarning, warning);
         }
         Report(status, cancelled,
-               "Baked " + std::to_string(report->baked.size()) + ", " +
-                   std::to_string(report->unchanged.size()) + " were up to date.");
+               Text(Tr("Baked %d, %d were up to date."), static_cast<int>(report->baked.size()),
+                    static_cast<int>(report->unchanged.size())));
         preview_key_.clear();
         preview_stale_ = true;
       });
 }
 
 void Workspace::Export(const ExportRequest& request) {
+  Save();  // the drama is packed as its file is
+  if (changed_outside() || commands_.dirty()) {
+    export_problem_ = messages_.back().text;
+    return;
+  }
   const auto shown = std::make_shared<ExportedShow>();
   shown->file = request.out;
   export_problem_.clear();
@@ -1015,11 +1029,12 @@ void Workspace::Export(const ExportRequest& request) {
         return Status();
       },
       [this, shown](const Status& status, bool cancelled) {
-        Report(status, cancelled, "Wrote " + shown->file.string());
+        Report(status, cancelled, Text(Tr("Wrote %s"), shown->file.c_str()));
         if (status.ok() && !cancelled) {
           exported_ = shown;
         } else {
-          export_problem_ = cancelled ? "The export was cancelled." : status.message();
+          export_problem_ =
+              cancelled ? std::string(Tr("The export was cancelled.")) : status.message();
         }
       });
 }
@@ -1031,7 +1046,7 @@ void Workspace::TryShow() {
   }
   if (player.empty()) {
     Tell(Message::Level::kError,
-         "lararium-player: is neither beside the editor nor on PATH; install it there");
+         Tr("lararium-player: is neither beside the editor nor on PATH; install it there"));
     return;
   }
   tasks_.Start(

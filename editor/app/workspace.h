@@ -26,6 +26,7 @@
 #include "editor/app/script_document.h"
 #include "editor/app/show_contents.h"
 #include "editor/app/staging.h"
+#include "editor/app/text.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
@@ -55,18 +56,18 @@ struct LoadedPlace {
 
 class Workspace {
  public:
-  static constexpr const char* kTraining = "Training";
-  static constexpr const char* kBaking = "Baking";
-  static constexpr const char* kExporting = "Exporting";
-  static constexpr const char* kTrying = "Playing the show";
-  static constexpr const char* kOpening = "Opening";
-  static constexpr const char* kMeasuring = "Measuring";
-  static constexpr const char* kCatalogue = "Opening the cast library";
-  static constexpr const char* kReview = "Reading the bones";
-  static constexpr const char* kProbe = "Reading the light probe";
-  static constexpr const char* kCamera = "Measuring the camera";
-  static constexpr const char* kDryRun = "Running the drama";
-  static constexpr const char* kChecking = "Checking";
+  static constexpr const char* kTraining = TrLater("Training");
+  static constexpr const char* kBaking = TrLater("Baking");
+  static constexpr const char* kExporting = TrLater("Exporting");
+  static constexpr const char* kTrying = TrLater("Playing the show");
+  static constexpr const char* kOpening = TrLater("Opening");
+  static constexpr const char* kMeasuring = TrLater("Measuring");
+  static constexpr const char* kCatalogue = TrLater("Opening the cast library");
+  static constexpr const char* kReview = TrLater("Reading the bones");
+  static constexpr const char* kProbe = TrLater("Reading the light probe");
+  static constexpr const char* kCamera = TrLater("Measuring the camera");
+  static constexpr const char* kDryRun = TrLater("Running the drama");
+  static constexpr const char* kChecking = TrLater("Checking");
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
@@ -126,6 +127,7 @@ class Workspace {
   void Check();
   bool checked() const { return checked_; }
   const std::vector<std::string>& problems() const { return problems_; }
+  // Saves first.
   void Export(const ExportRequest& request);
   // What was exported last in this window; nullptr before that. And why the last export failed;
   // empty where it did not.

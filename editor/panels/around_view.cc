@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 #include "shared/geometry/glm_convert.h"
@@ -331,7 +332,7 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
                     (state.drag.has_value() || was_dragging || !active);
   draw.AddText(ImVec2(origin.x + Px(12), corner.y - Px(28)), Packed(OverPicture().dim),
-               "Drag to orbit, Shift or right drag to pan, wheel to zoom");
+               Tr("Drag to orbit, Shift or right drag to pan, wheel to zoom"));
   draw.PopClipRect();
   Interact(state, hovered, busy, ToEigen(size));
 }

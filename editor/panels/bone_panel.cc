@@ -7,14 +7,12 @@
 #include <optional>
 #include <string>
 
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::panels {
 namespace {
-
-constexpr const char* kNone = "no such joint";
-constexpr const char* kAsFound = "as it is found";
 
 ImVec4 ColourOf(const app::BoneRow& row) {
   if (row.problem.empty()) {
@@ -27,13 +25,14 @@ void Choose(app::Workspace& workspace,
             const app::CastDocument& member,
             const std::string& joint,
             const std::optional<std::string>& bone) {
-  workspace.Edit("bone of " + joint + " of " + member.name, [&](app::ProjectDocument& document) {
-    for (app::CastDocument& known : document.cast) {
-      if (known.name == member.name) {
-        app::ChooseBone(joint, bone, known);
-      }
-    }
-  });
+  workspace.Edit(Text(Tr("bone of %s of %s"), joint.c_str(), member.name.c_str()),
+                 [&](app::ProjectDocument& document) {
+                   for (app::CastDocument& known : document.cast) {
+                     if (known.name == member.name) {
+                       app::ChooseBone(joint, bone, known);
+                     }
+                   }
+                 });
 }
 
 void JointCell(EditorState& state, const app::BoneRow& row) {
@@ -59,10 +58,10 @@ void BoneCell(app::Workspace& workspace,
     return;
   }
   state.cast.joint = row.joint;
-  if (member.bones.contains(row.joint) && ImGui::Selectable(kAsFound)) {
+  if (member.bones.contains(row.joint) && ImGui::Selectable(Tr("as it is found"))) {
     Choose(workspace, member, row.joint, std::nullopt);
   }
-  if (ImGui::Selectable(kNone)) {
+  if (ImGui::Selectable(Tr("no such joint"))) {
     Choose(workspace, member, row.joint, "");
   }
   ImGui::Separator();
@@ -76,20 +75,34 @@ void BoneCell(app::Workspace& workspace,
   ImGui::EndCombo();
 }
 
-std::string HowFound(const app::CastDocument& member, const app::BoneRow& row) {
-  if (member.bones.contains(row.joint)) {
-    return "by hand";
+const char* FoundByText(import::FoundBy found_by) {
+  switch (found_by) {
+    case import::FoundBy::kSavedMap:
+      return Tr("saved map");
+    case import::FoundBy::kFile:
+      return Tr("file");
+    case import::FoundBy::kName:
+      return Tr("name");
+    case import::FoundBy::kStructure:
+      return Tr("structure");
   }
-  return row.found_by ? import::NameOf(*row.found_by) : "\xe2\x80\x93";
+  return "";
+}
+
+const char* HowFound(const app::CastDocument& member, const app::BoneRow& row) {
+  if (member.bones.contains(row.joint)) {
+    return Tr("by hand");
+  }
+  return row.found_by ? FoundByText(*row.found_by) : "\xe2\x80\x93";
 }
 
 void FoundCell(const app::CastDocument& member, const app::BoneRow& row) {
   ImGui::AlignTextToFramePadding();
   ImGui::PushStyleColor(ImGuiCol_Text, row.problem.empty() ? Colours().dim : ColourOf(row));
-  ImGui::TextUnformatted(HowFound(member, row).c_str());
+  ImGui::TextUnformatted(HowFound(member, row));
   ImGui::PopStyleColor();
   if (row.found_by && ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%.0f%% sure%s%s", static_cast<double>(100.0f * row.confidence),
+    ImGui::SetTooltip(Tr("%.0f%% sure%s%s"), static_cast<double>(100.0f * row.confidence),
                       row.problem.empty() ? "" : ": ", row.problem.c_str());
   }
 }
@@ -108,9 +121,9 @@ void ShowTable(app::Workspace& workspace,
   if (!ImGui::BeginTable("bones", 3, kFlags)) {
     return;
   }
-  ImGui::TableSetupColumn("Joint", ImGuiTableColumnFlags_WidthFixed, Px(112));
-  ImGui::TableSetupColumn("Bone", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Found by", ImGuiTableColumnFlags_WidthFixed, Px(66));
+  ImGui::TableSetupColumn(Tr("Joint"), ImGuiTableColumnFlags_WidthFixed, Px(112));
+  ImGui::TableSetupColumn(Tr("Bone"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(Tr("Found by"), ImGuiTableColumnFlags_WidthFixed, Px(66));
   ImGui::TableHeadersRow();
   for (const app::BoneRow& row : review.rows) {
     if (!IsShown(state, member, row)) {
@@ -133,44 +146,45 @@ void ShowVerdict(const app::BoneReview& review) {
   const auto problems = std::count_if(review.rows.begin(), review.rows.end(),
                                       [](const app::BoneRow& row) { return !row.problem.empty(); });
   if (problems == 0) {
-    Hint("Every joint that a person needs was found.");
+    Hint(Tr("Every joint that a person needs was found."));
     return;
   }
   ImGui::PushStyleColor(ImGuiCol_Text, review.is_human ? Colours().warning : Colours().error);
   ImGui::TextWrapped(
+      "%s",
       review.is_human
-          ? "A person; look over the rows in yellow."
-          : "Not yet a person: without the joints in red it cannot walk, reach or look about. "
-            "Choose their bones.");
+          ? Tr("A person; look over the rows in yellow.")
+          : Tr("Not yet a person: without the joints in red it cannot walk, reach or look about. "
+               "Choose their bones."));
   ImGui::PopStyleColor();
 }
 
 }  // namespace
 
 void ShowBones(app::Workspace& workspace, EditorState& state, const app::CastDocument& member) {
-  if (!Fold("Bones", true)) {
+  if (!Fold(Label(Tr("Bones"), "bones"), true)) {
     return;
   }
   const app::BoneReview* review = workspace.bone_review(member);
   if (review == nullptr) {
     Hint(workspace.tasks().Running(app::Workspace::kReview)
-             ? "Reading the figure\xe2\x80\xa6"
-             : "The figure could not be read; the messages below say why.");
+             ? Tr("Reading the figure\xe2\x80\xa6")
+             : Tr("The figure could not be read; the messages below say why."));
     return;
   }
   ShowVerdict(*review);
-  ImGui::Checkbox("All joints that people can have", &state.cast.all_joints);
+  ImGui::Checkbox(Tr("All joints that people can have"), &state.cast.all_joints);
   ShowTable(workspace, state, member, *review);
   for (const std::string& note : review->notes) {
     Hint(note);
   }
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kReview));
-  if (ImGui::Button("Save the map", ImVec2(-FLT_MIN, 0))) {
+  if (ImGui::Button(Tr("Save the map"), ImVec2(-FLT_MIN, 0))) {
     workspace.SaveBones(member);
   }
   ImGui::EndDisabled();
-  Hint(member.bone_map.empty() ? "For other figures of the same make: cast --bone-map."
-                               : "Saved in " + member.bone_map);
+  Hint(member.bone_map.empty() ? Tr("For other figures of the same make: cast --bone-map.")
+                               : Text(Tr("Saved in %s"), member.bone_map.c_str()));
 }
 
 }  // namespace lararium::panels

@@ -4,10 +4,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
 
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -50,13 +52,13 @@ const char* ReasonText(vision::TrackReason reason) {
     case vision::TrackReason::kNone:
       return "";
     case vision::TrackReason::kTooDark:
-      return "too dark";
+      return Tr("too dark");
     case vision::TrackReason::kTooFewFeatures:
-      return "too few features: blurred or covered";
+      return Tr("too few features: blurred or covered");
     case vision::TrackReason::kTooFewMatches:
-      return "does not look like this place";
+      return Tr("does not look like this place");
     case vision::TrackReason::kNoConsistentPose:
-      return "no consistent pose";
+      return Tr("no consistent pose");
   }
   return "";
 }
@@ -84,24 +86,21 @@ void DrawTrails(const app::PreviewPicture& picture, const Rect& rect, ImDrawList
 }
 
 void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList& draw) {
-  char text[128];
   const bool tracked = picture.camera_from_stage.has_value();
-  if (tracked) {
-    std::snprintf(text, sizeof(text), "%s, %.0f %% sure, %d points",
-                  picture.followed ? "Followed" : "Found", 100.0f * picture.confidence,
-                  picture.inliers);
-  } else {
-    std::snprintf(text, sizeof(text), "%s: %s",
-                  picture.state == vision::TrackState::kLost ? "Lost" : "Searching",
-                  ReasonText(picture.reason));
-  }
-  const ImVec2 size = ImGui::CalcTextSize(text);
+  const std::string text =
+      tracked
+          ? Text(Tr("%s, %.0f %% sure, %d points"), picture.followed ? Tr("Followed") : Tr("Found"),
+                 static_cast<double>(100.0f * picture.confidence), picture.inliers)
+          : Text("%s: %s",
+                 picture.state == vision::TrackState::kLost ? Tr("Lost") : Tr("Searching"),
+                 ReasonText(picture.reason));
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(rect.origin.x + Px(12), rect.origin.y + Px(12));
   draw.AddRectFilled(at, ImVec2(at.x + size.x + Px(34), at.y + size.y + Px(10)),
                      Packed(OverPicture().window, 0.8f), Px(4));
   draw.AddCircleFilled(ImVec2(at.x + Px(13), at.y + Px(5) + 0.5f * size.y), Px(4),
                        tracked ? Packed(kAxisColours[1]) : Packed(OverPicture().warning));
-  draw.AddText(ImVec2(at.x + Px(24), at.y + Px(5)), Packed(OverPicture().text), text);
+  draw.AddText(ImVec2(at.x + Px(24), at.y + Px(5)), Packed(OverPicture().text), text.c_str());
 }
 
 // Along the camera's axes: x right, y down, z forward.
@@ -140,7 +139,7 @@ void NudgeWithKeys(app::Workspace& workspace, const EditorState& state) {
     }
     const double step = (press.modifiers & GLFW_MOD_SHIFT) != 0 ? 10.0 * kStep : kStep;
     workspace.EditPlace(
-        "nudge the camera",
+        Tr("nudge the camera"),
         [&](app::PlaceDocument& place) { place.camera_nudge += step * direction; }, "nudge keys");
   }
 }
@@ -148,7 +147,8 @@ void NudgeWithKeys(app::Workspace& workspace, const EditorState& state) {
 void ShowTransport(app::Workspace& workspace) {
   const std::optional<app::PreviewSource> recording = workspace.recording();
   ImGui::BeginDisabled(!recording.has_value());
-  if (ImGui::Button(workspace.playing() ? "Pause" : "Play", ImVec2(Px(72), 0))) {
+  if (ImGui::Button(workspace.playing() ? Tr("Pause") : Tr("Play"),
+                    ImVec2(WidestButton(std::array{Tr("Pause"), Tr("Play")}, 72.0f), 0))) {
     workspace.SetPlaying(!workspace.playing());
   }
   ImGui::SameLine();
@@ -160,7 +160,7 @@ void ShowTransport(app::Workspace& workspace) {
   const float time_width = Px(70);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - time_width);
   int frame = static_cast<int>(workspace.frame());
-  if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last), "frame %d",
+  if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last), Tr("frame %d"),
                        ImGuiSliderFlags_AlwaysClamp)) {
     workspace.SetPlaying(false);
     workspace.SetFrame(frame);
@@ -172,13 +172,13 @@ void ShowTransport(app::Workspace& workspace) {
 }
 
 void ShowEmpty(const app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
-  const char* text = "Opening the recording\xe2\x80\xa6";
+  const char* text = Tr("Opening the recording\xe2\x80\xa6");
   if (workspace.place() == nullptr) {
-    text = "This project has no place yet. Train one from a recording.";
+    text = Tr("This project has no place yet. Train one from a recording.");
   } else if (workspace.loaded().database == nullptr && workspace.tasks_empty()) {
-    text = "This place is not trained yet. Choose Train\xe2\x80\xa6 above.";
+    text = Tr("This place is not trained yet. Choose Train\xe2\x80\xa6 above.");
   } else if (workspace.tasks_empty() && !workspace.recording() && !workspace.messages().empty()) {
-    text = "No picture. The messages below say why.";
+    text = Tr("No picture. The messages below say why.");
   }
   const ImVec2 extent = ImGui::CalcTextSize(text);
   ImGui::GetWindowDrawList()->AddText(

@@ -10,6 +10,7 @@
 #include "editor/panels/bone_panel.h"
 #include "editor/panels/portrait_view.h"
 #include "editor/panels/recipe_panel.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -17,9 +18,9 @@ namespace lararium::panels {
 namespace {
 
 bool ShowPlainFigure(app::Workspace& workspace, app::CastDocument& member) {
-  bool changed = NumberProperty(workspace, "Height", member.height, 0.005, app::kMinHeight,
+  bool changed = NumberProperty(workspace, Tr("Height"), member.height, 0.005, app::kMinHeight,
                                 app::kMaxHeight, "%.2f m");
-  changed |= ColourProperty(workspace, "Tunic", member.tunic);
+  changed |= ColourProperty(workspace, Tr("Tunic"), member.tunic);
   return changed;
 }
 
@@ -42,12 +43,13 @@ RecipeChange ShowRecipeOf(app::Workspace& workspace,
 
 std::string KindOf(const app::CastDocument& member) {
   if (!member.preset.empty()) {
-    return "From the preset " + member.preset + ".";
+    return Text(Tr("From the preset %s."), member.preset.c_str());
   }
   if (member.recipe) {
-    return "Built from a recipe of this project.";
+    return Tr("Built from a recipe of this project.");
   }
-  return member.model.empty() ? "The plain figure that is built in." : "Imported: " + member.model;
+  return member.model.empty() ? Tr("The plain figure that is built in.")
+                              : Text(Tr("Imported: %s"), member.model.c_str());
 }
 
 RecipeChange ShowFigure(app::Workspace& workspace, EditorState& state, app::CastDocument& member) {
@@ -59,7 +61,7 @@ RecipeChange ShowFigure(app::Workspace& workspace, EditorState& state, app::Cast
     ShowBones(workspace, state, member);
   } else if (BeginProperties("plain figure")) {
     if (ShowPlainFigure(workspace, member)) {
-      change.Drag("figure");
+      change.Drag(Tr("figure"));
     }
     EndProperties();
   }
@@ -80,7 +82,7 @@ void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDoc
   const RecipeChange change = ShowFigure(workspace, state, edited);
   if (change.any()) {
     workspace.Edit(
-        change.what + " of " + member.name,
+        Text(Tr("%s of %s"), change.what.c_str(), member.name.c_str()),
         [&edited](app::ProjectDocument& document) {
           std::replace_if(
               document.cast.begin(), document.cast.end(),
@@ -88,17 +90,19 @@ void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDoc
         },
         change.gesture);
   }
-  if (!member.clips.empty() && Fold("Clips", false) && BeginProperties("clips")) {
+  if (!member.clips.empty() && Fold(Label(Tr("Clips"), "clips"), false) &&
+      BeginProperties("clips")) {
     for (const app::ClipDocument& clip : member.clips) {
       PropertyText(clip.name.c_str(), clip.file);
     }
     EndProperties();
   }
-  Hint("Where people stand and what they do is written in the drama.");
-  if (ImGui::Button("Remove", ImVec2(-FLT_MIN, 0))) {
-    workspace.Edit("remove " + member.name, [name = member.name](app::ProjectDocument& document) {
-      std::erase_if(document.cast, [&](const auto& m) { return m.name == name; });
-    });
+  Hint(Tr("Where people stand and what they do is written in the drama."));
+  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    workspace.Edit(Text(Tr("remove %s"), member.name.c_str()),
+                   [name = member.name](app::ProjectDocument& document) {
+                     std::erase_if(document.cast, [&](const auto& m) { return m.name == name; });
+                   });
     state.selection = {};
   }
   ImGui::EndChild();

@@ -94,16 +94,16 @@ Result<app::SessionDocument> ChosenRecording(const app::Workspace& workspace,
 void TrainDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
-      "Learns the place from a recording: walk sideways around it, slowly, with everything in "
-      "view that visitors will see.");
+      Tr("Learns the place from a recording: walk sideways around it, slowly, with everything in "
+         "view that visitors will see."));
   if (BeginProperties("train")) {
-    PropertyLabel("Place");
+    PropertyLabel(Tr("Place"));
     ImGui::InputText("##place", &fields.place);
     RecordingFields(workspace.paths().folder, fields,
-                    "estimated; or fx, fy, cx, cy, k1, k2, p1, p2");
+                    Tr("estimated; or fx, fy, cx, cy, k1, k2, p1, p2"));
     EndProperties();
   }
-  if (DialogDone(state, "Train", TrainProblem(workspace, fields))) {
+  if (DialogDone(state, Tr("Train"), TrainProblem(workspace, fields))) {
     TrainRecording(workspace, fields);
   }
 }
@@ -111,14 +111,14 @@ void TrainDialog(app::Workspace& workspace, EditorState& state) {
 void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
-      "Merges a recording of the place in other light into the map, so that "
-      "visitors are located in both. The stage stays where it is.");
+      Tr("Merges a recording of the place in other light into the map, so that "
+         "visitors are located in both. The stage stays where it is."));
   if (BeginProperties("add session")) {
     RecordingFields(workspace.paths().folder, fields,
-                    "as the map's camera; or fx, fy, cx, cy, k1, k2, p1, p2");
+                    Tr("as the map's camera; or fx, fy, cx, cy, k1, k2, p1, p2"));
     EndProperties();
   }
-  if (DialogDone(state, "Add", RecordingProblem(workspace.paths(), fields))) {
+  if (DialogDone(state, Tr("Add"), RecordingProblem(workspace.paths(), fields))) {
     const Result<app::SessionDocument> recording = ChosenRecording(workspace, fields);
     if (recording.ok()) {
       workspace.AddSession(*recording);
@@ -142,21 +142,21 @@ bool NameAndFile(app::Workspace& workspace,
                  const std::function<bool(const std::string&)>& taken) {
   DialogFields& fields = state.fields;
   if (BeginProperties("add")) {
-    PropertyLabel("Name");
+    PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
-    PropertyLabel("File");
+    PropertyLabel(Tr("File"));
     PathField("file", fields.file, workspace.paths().folder, extensions);
     EndProperties();
   }
   std::string problem = NameProblem(fields.name);
   if (problem.empty() && taken(fields.name)) {
-    problem = "That name is taken.";
+    problem = Tr("That name is taken.");
   }
   if (problem.empty() && (file_needed || !fields.file.empty()) &&
       !Exists(workspace.paths(), fields.file)) {
-    problem = "Choose a file that exists.";
+    problem = Tr("Choose a file that exists.");
   }
-  return DialogDone(state, "Add", problem);
+  return DialogDone(state, Tr("Add"), problem);
 }
 
 std::string DocumentPath(const app::Workspace& workspace, const std::string& typed) {
@@ -165,8 +165,8 @@ std::string DocumentPath(const app::Workspace& workspace, const std::string& typ
 
 void OccluderDialog(app::Workspace& workspace, EditorState& state) {
   Hint(
-      "A model of something real, in stage axes and metres where possible: it hides people who "
-      "stand behind it.");
+      Tr("A model of something real, in stage axes and metres where possible: it hides people who "
+         "stand behind it."));
   const auto taken = [&](const std::string& name) {
     return workspace.place() != nullptr && Taken(workspace.place()->occluders, name);
   };
@@ -174,7 +174,7 @@ void OccluderDialog(app::Workspace& workspace, EditorState& state) {
     app::OccluderDocument occluder;
     occluder.name = state.fields.name;
     occluder.file = DocumentPath(workspace, state.fields.file);
-    workspace.EditPlace("add " + occluder.name,
+    workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
                         [&](app::PlaceDocument& place) { place.occluders.push_back(occluder); });
     state.selection = {Selection::Kind::kOccluder, occluder.name};
   }
@@ -245,51 +245,51 @@ std::string CastProblem(const app::Workspace& workspace, const DialogFields& fie
     return problem;
   }
   if (Taken(workspace.document().cast, fields.name)) {
-    return "That name is taken.";
+    return Tr("That name is taken.");
   }
   if (!fields.preset.empty() && !fields.file.empty()) {
-    return "Choose a preset or a file.";
+    return Tr("Choose a preset or a file.");
   }
   return fields.file.empty() || Exists(workspace.paths(), fields.file)
              ? ""
-             : "Choose a file that exists.";
+             : Tr("Choose a file that exists.");
 }
 
 void CastDialog(app::Workspace& workspace, EditorState& state) {
   Hint(
-      "One of the people that come with the editor, a recipe of your own (.json), or a rigged "
-      "figure to import. Without any: the plain figure that is built in.");
+      Tr("One of the people that come with the editor, a recipe of your own (.json), or a rigged "
+         "figure to import. Without any: the plain figure that is built in."));
   DialogFields& fields = state.fields;
   const std::string before = fields.preset;
   if (PresetGrid(workspace, state) && fields.name == before) {
     fields.name = fields.preset;
   }
   if (BeginProperties("cast")) {
-    PropertyLabel("Name");
+    PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
-    PropertyLabel("File");
+    PropertyLabel(Tr("File"));
     PathField("file", fields.file, workspace.paths().folder, kFigures);
     EndProperties();
   }
-  if (DialogDone(state, "Add", CastProblem(workspace, fields))) {
+  if (DialogDone(state, Tr("Add"), CastProblem(workspace, fields))) {
     app::CastDocument member;
     member.name = fields.name;
     member.preset = fields.preset;
     LoadFigure(workspace, fields.file, member);
-    workspace.Edit("add " + member.name,
+    workspace.Edit(Text(Tr("add %s"), member.name.c_str()),
                    [&](app::ProjectDocument& document) { document.cast.push_back(member); });
     state.selection = {Selection::Kind::kActor, member.name};
   }
 }
 
 void ObjectDialog(app::Workspace& workspace, EditorState& state) {
-  Hint("A thing that people of the drama use. Where it stands is chosen afterwards.");
+  Hint(Tr("A thing that people of the drama use. Where it stands is chosen afterwards."));
   DialogFields& fields = state.fields;
   const std::span<const std::string_view> models = import::ObjectModelNames();
   if (BeginProperties("object")) {
-    PropertyLabel("Name");
+    PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
-    PropertyLabel("Model");
+    PropertyLabel(Tr("Model"));
     const auto name_of = [](void*, int index, const char** text) {
       *text = import::ObjectModelNames()[static_cast<size_t>(index)].data();
       return true;
@@ -299,13 +299,13 @@ void ObjectDialog(app::Workspace& workspace, EditorState& state) {
   }
   std::string problem = NameProblem(fields.name);
   if (problem.empty() && Taken(workspace.document().objects, fields.name)) {
-    problem = "That name is taken.";
+    problem = Tr("That name is taken.");
   }
-  if (DialogDone(state, "Add", problem)) {
+  if (DialogDone(state, Tr("Add"), problem)) {
     app::ObjectDocument object;
     object.name = fields.name;
     object.model = models[static_cast<size_t>(fields.model)];
-    workspace.Edit("add " + object.name,
+    workspace.Edit(Text(Tr("add %s"), object.name.c_str()),
                    [&](app::ProjectDocument& document) { document.objects.push_back(object); });
     state.selection = {Selection::Kind::kObject, object.name};
   }
@@ -313,28 +313,28 @@ void ObjectDialog(app::Workspace& workspace, EditorState& state) {
 
 void ProbeDialog(app::Workspace& workspace, EditorState& state) {
   Hint(
-      "An equirectangular HDR photograph, twice as wide as high, its centre looking along the "
-      "stage's -Z. Where and when it was taken is said afterwards.");
+      Tr("An equirectangular HDR photograph, twice as wide as high, its centre looking along the "
+         "stage's -Z. Where and when it was taken is said afterwards."));
   DialogFields& fields = state.fields;
   if (BeginProperties("probe")) {
-    PropertyLabel("Name");
+    PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
-    PropertyLabel("File");
+    PropertyLabel(Tr("File"));
     PathField("file", fields.file, workspace.paths().folder, kProbes);
     EndProperties();
   }
   std::string problem = NameProblem(fields.name);
   if (problem.empty() && Taken(workspace.place()->probes, fields.name)) {
-    problem = "That name is taken.";
+    problem = Tr("That name is taken.");
   }
   if (problem.empty() && !Exists(workspace.paths(), fields.file)) {
-    problem = "Choose a file that exists.";
+    problem = Tr("Choose a file that exists.");
   }
-  if (DialogDone(state, "Add", problem)) {
+  if (DialogDone(state, Tr("Add"), problem)) {
     app::ProbeDocument probe;
     probe.name = fields.name;
     probe.file = DocumentPath(workspace, fields.file);
-    workspace.EditPlace("add " + probe.name,
+    workspace.EditPlace(Text(Tr("add %s"), probe.name.c_str()),
                         [&](app::PlaceDocument& place) { place.probes.push_back(probe); });
     state.selection = {Selection::Kind::kProbe, probe.name};
   }
@@ -346,13 +346,14 @@ struct DialogEntry {
   void (*show)(app::Workspace&, EditorState&);
 };
 
-constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, "Train a place", TrainDialog},
-                                    {Dialog::kAddSession, "Add a session", AddSessionDialog},
-                                    {Dialog::kExport, "Export the show", ExportDialog},
-                                    {Dialog::kOccluder, "Add an occluder", OccluderDialog},
-                                    {Dialog::kProbe, "Light probe", ProbeDialog},
-                                    {Dialog::kCast, "Add a person", CastDialog},
-                                    {Dialog::kObject, "Add an object", ObjectDialog}};
+constexpr DialogEntry kDialogs[] = {
+    {Dialog::kTrain, TrLater("Train a place"), TrainDialog},
+    {Dialog::kAddSession, TrLater("Add a session"), AddSessionDialog},
+    {Dialog::kExport, TrLater("Export the show"), ExportDialog},
+    {Dialog::kOccluder, TrLater("Add an occluder"), OccluderDialog},
+    {Dialog::kProbe, TrLater("Light probe"), ProbeDialog},
+    {Dialog::kCast, TrLater("Add a person"), CastDialog},
+    {Dialog::kObject, TrLater("Add an object"), ObjectDialog}};
 
 }  // namespace
 
@@ -375,15 +376,15 @@ std::span<const char* const> ExtensionsOf(app::FileKind kind) {
 }
 
 std::string NameProblem(const std::string& name) {
-  return app::IsPlainName(name) ? "" : "The name takes letters, digits, _ and -.";
+  return app::IsPlainName(name) ? "" : Tr("The name takes letters, digits, _ and -.");
 }
 
 std::string RecordingProblem(const app::ProjectPaths& paths, const DialogFields& fields) {
   if (!Exists(paths, fields.file)) {
-    return "Choose a recording that exists.";
+    return Tr("Choose a recording that exists.");
   }
   if (!fields.intrinsics.empty() && ParseNumbers(fields.intrinsics).empty()) {
-    return "Intrinsics are 4 or 8 numbers.";
+    return Tr("Intrinsics are 4 or 8 numbers.");
   }
   return "";
 }
@@ -391,15 +392,15 @@ std::string RecordingProblem(const app::ProjectPaths& paths, const DialogFields&
 void RecordingFields(const std::filesystem::path& folder,
                      DialogFields& fields,
                      const char* no_intrinsics) {
-  PropertyLabel("Recording");
-  static constexpr const char* kKinds[] = {"Video", "Folder of images"};
+  PropertyLabel(Tr("Recording"));
+  const char* const kinds[] = {Tr("Video"), Tr("Folder of images")};
   int kind = fields.images ? 1 : 0;
-  if (Segmented("kind", kKinds, kind)) {
+  if (Segmented("kind", kinds, kind)) {
     fields.images = kind == 1;
   }
-  PropertyLabel(fields.images ? "Folder" : "File");
+  PropertyLabel(fields.images ? Tr("Folder") : Tr("File"));
   PathField("file", fields.file, folder, fields.images ? std::span<const char* const>() : kVideos);
-  PropertyLabel("Intrinsics");
+  PropertyLabel(Tr("Intrinsics"));
   ImGui::InputTextWithHint("##intrinsics", no_intrinsics, &fields.intrinsics);
 }
 
@@ -416,7 +417,7 @@ void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
   }
   trained.training = recording->source;
   trained.intrinsics = recording->intrinsics;
-  workspace.Edit("train " + fields.place, [&](app::ProjectDocument& document) {
+  workspace.Edit(Text(Tr("train %s"), fields.place.c_str()), [&](app::ProjectDocument& document) {
     if (app::PlaceDocument* known = document.FindPlace(trained.name)) {
       *known = trained;
     } else {
@@ -438,7 +439,7 @@ void ShowDialogs(app::Workspace& workspace, EditorState& state) {
       continue;
     }
     bool open = true;
-    ShowModal(entry.title, 520, open, [&] {
+    ShowModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
       entry.show(workspace, state);
       open = state.dialog == entry.dialog;
     });

@@ -42,8 +42,10 @@ void ShowContentsTable(const app::ShowContents& contents, bool written) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(Text("%d", row.count).c_str());
     ImGui::TableNextColumn();
-    const bool known = row.unbaked == 0 || row.bytes > 0;
-    DimText(known ? Megabytes(row.bytes) : std::string(Tr("not baked yet")));
+    if (row.count > 0) {
+      const bool known = row.unbaked == 0 || row.bytes > 0;
+      DimText(known ? Megabytes(row.bytes) : std::string(Tr("not baked yet")));
+    }
   }
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(written ? Tr("The show") : Tr("The show, about"));
@@ -136,7 +138,9 @@ std::string Problem(const app::Workspace& workspace, const DialogFields& fields)
 
 void ShowBefore(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
-  Hint(Tr("Packs what visitors need into one file. What is stale is baked first."));
+  Hint(
+      Tr("Packs what visitors need into one file. The project is saved and what is stale is "
+         "baked first."));
   ShowFields(workspace, fields);
   if (!fields.contents) {
     fields.contents =
@@ -201,10 +205,13 @@ void ShowAfter(app::Workspace& workspace, EditorState& state) {
                                    : Tr("Not signed: players that ask for a signature refuse it."));
   DimText(Tr("The player is left with Escape."));
   const bool playing = workspace.tasks().Running(app::Workspace::kTrying);
-  const std::string problem = playing ? Tr("It is being played.") : "";
-  switch (DialogButtons(Tr("Test in player"), problem, Tr("Close"))) {
+  switch (DialogButtons(playing ? Tr("Stop player") : Tr("Test in player"), "", Tr("Close"))) {
     case DialogAnswer::kAct:
-      workspace.TryShow();
+      if (playing) {
+        workspace.tasks().Cancel(app::Workspace::kTrying);
+      } else {
+        workspace.TryShow();
+      }
       break;
     case DialogAnswer::kCancel:
       state.dialog = Dialog::kNone;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 
 namespace lararium::panels {
@@ -96,11 +97,11 @@ void MoveSelected(app::Workspace& workspace,
                   std::string_view gesture) {
   if (selection.kind == Selection::Kind::kStage) {
     workspace.EditPlace(
-        "move the stage",
+        Tr("move the stage"),
         [&](app::PlaceDocument& place) { place.picked_from_stage = world_from_thing; }, gesture);
   } else if (selection.kind == Selection::Kind::kOccluder) {
     workspace.EditPlace(
-        "move " + selection.name,
+        Text(Tr("move %s"), selection.name.c_str()),
         [&](app::PlaceDocument& place) {
           for (app::OccluderDocument& occluder : place.occluders) {
             if (occluder.name == selection.name) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <set>
@@ -33,50 +32,44 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kMinScale = 1e-4;
 constexpr double kMaxScale = 1e4;
 
-template <typename... Values>
-std::string Format(const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof(text), format, values...);
-  return text;
-}
-
 bool TransformProperties(app::Workspace& workspace, Similarity3& transform) {
-  bool changed = VectorProperty(workspace, "Position", transform.translation, 0.005, "%.3f");
-  changed |= RotationProperty(workspace, "Rotation", transform.rotation);
+  bool changed = VectorProperty(workspace, Tr("Position"), transform.translation, 0.005, "%.3f");
+  changed |= RotationProperty(workspace, Tr("Rotation"), transform.rotation);
   changed |=
-      NumberProperty(workspace, "Scale", transform.scale, 0.005, kMinScale, kMaxScale, "%.4f");
+      NumberProperty(workspace, Tr("Scale"), transform.scale, 0.005, kMinScale, kMaxScale, "%.4f");
   return changed;
 }
 
 void ShowProject(app::Workspace& workspace) {
-  Heading("Project");
+  Heading(Tr("Project"));
   if (!BeginProperties("project")) {
     return;
   }
   std::string title = workspace.document().title;
-  PropertyLabel("Title");
+  PropertyLabel(Tr("Title"));
   if (ImGui::InputText("##title", &title)) {
     workspace.Edit(
-        "title", [&](app::ProjectDocument& document) { document.title = title; }, "title");
+        Tr("title"), [&](app::ProjectDocument& document) { document.title = title; }, "title");
   }
   if (ImGui::IsItemDeactivated()) {
     workspace.EndGesture();
   }
   std::string credits = workspace.document().credits;
-  PropertyLabel("Credits");
+  PropertyLabel(Tr("Credits"));
   if (ImGui::InputTextMultiline("##credits", &credits, ImVec2(-FLT_MIN, Px(90)))) {
     workspace.Edit(
-        "credits", [&](app::ProjectDocument& document) { document.credits = credits; }, "credits");
+        Tr("credits"), [&](app::ProjectDocument& document) { document.credits = credits; },
+        "credits");
   }
   if (ImGui::IsItemDeactivated()) {
     workspace.EndGesture();
   }
-  PropertyText("Drama", workspace.paths().Drama().filename().string());
+  PropertyText(Tr("Drama"), workspace.paths().Drama().filename().string());
   EndProperties();
 }
 
 std::string SourceText(const app::SourceDocument& source) {
-  return source.empty() ? "none" : source.path;
+  return source.empty() ? Tr("none") : source.path;
 }
 
 size_t CountSessions(const vision::SceneDatabase& database) {
@@ -91,56 +84,58 @@ void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& datab
   const geometry::CameraModel& camera = database.camera;
   const train::TrainReport* training = workspace.last_training();
   if (training != nullptr) {
-    PropertyText("Frames", Format("%zu of %d located", training->located.size(), training->frames));
+    PropertyText(Tr("Frames"),
+                 Text(Tr("%zu of %d located"), training->located.size(), training->frames));
   }
-  PropertyText("Keyframes", std::to_string(database.keyframes.size()));
-  PropertyText("Points", std::to_string(database.points.size()));
-  PropertyText("Sessions", std::to_string(CountSessions(database)));
-  PropertyText("Error", Format("%.3f px", database.mean_reprojection_error_px));
-  PropertyText("Image", Format("%d x %d", camera.width, camera.height));
-  std::string focal = Format("%.1f, %.1f px", camera.fx, camera.fy);
+  PropertyText(Tr("Keyframes"), std::to_string(database.keyframes.size()));
+  PropertyText(Tr("Points"), std::to_string(database.points.size()));
+  PropertyText(Tr("Sessions"), std::to_string(CountSessions(database)));
+  PropertyText(Tr("Error"), Text("%.3f px", database.mean_reprojection_error_px));
+  PropertyText(Tr("Image"), Text("%d x %d", camera.width, camera.height));
+  std::string focal = Text("%.1f, %.1f px", camera.fx, camera.fy);
   if (training != nullptr && training->intrinsics_estimated) {
-    focal = Format("%.1f \xc2\xb1 %.1f px", camera.fx, training->focal_deviation_px);
+    focal = Text("%.1f \xc2\xb1 %.1f px", camera.fx, training->focal_deviation_px);
   }
-  PropertyText("Focal", focal);
-  PropertyText("Centre", Format("%.1f, %.1f px", camera.cx, camera.cy));
-  PropertyText("Distortion", Format("%.4f, %.4f", camera.k1, camera.k2));
+  PropertyText(Tr("Focal"), focal);
+  PropertyText(Tr("Centre"), Text("%.1f, %.1f px", camera.cx, camera.cy));
+  PropertyText(Tr("Distortion"), Text("%.4f, %.4f", camera.k1, camera.k2));
 }
 
 const char* ScaleSource(const app::LoadedPlace& loaded) {
   if (!loaded.measured) {
-    return "being measured";
+    return Tr("being measured");
   }
   if (loaded.measures.tags) {
-    return "tags in the images";
+    return Tr("tags in the images");
   }
-  return loaded.picks.solution ? "the picked length" : "a guess";
+  return loaded.picks.solution ? Tr("the picked length") : Tr("a guess");
 }
 
 // Where the stage's metres come from, and how far off they may be.
 void ShowScale(app::Workspace& workspace, const app::PlaceDocument& place) {
-  Heading("Metres");
+  Heading(Tr("Metres"));
   const app::LoadedPlace& loaded = workspace.loaded();
   app::TagsDocument tags = place.tags.value_or(app::TagsDocument());
   bool changed = false;
   if (BeginProperties("scale")) {
-    PropertyText("From", ScaleSource(loaded));
+    PropertyText(Tr("From"), ScaleSource(loaded));
     if (loaded.measures.tags) {
       const train::TagScale& scale = *loaded.measures.tags;
-      PropertyText("Tags", Format("%zu, %zu left out", scale.tags.size(), scale.left_out.size()));
-      PropertyText("Uncertainty", Format("\xc2\xb1 %.2f %%", 100.0 * scale.deviation));
-      PropertyText("Residual", Format("%.2f %% of the sides", 100.0 * scale.spread));
+      PropertyText(Tr("Tags"),
+                   Text(Tr("%zu, %zu left out"), scale.tags.size(), scale.left_out.size()));
+      PropertyText(Tr("Uncertainty"), Text("\xc2\xb1 %.2f %%", 100.0 * scale.deviation));
+      PropertyText(Tr("Residual"), Text(Tr("%.2f %% of the sides"), 100.0 * scale.spread));
     }
     if (loaded.picks.solution) {
       const stage::StageSolution& solution = *loaded.picks.solution;
-      PropertyText("Known length", Format("%.3f m, measured %.3f m", place.picks.length_m,
-                                          solution.measured_length_m));
-      PropertyText("for each px", Format("\xc2\xb1 %.2f cm (%.2f %%)",
-                                         100.0 * solution.length_spread * place.picks.length_m,
-                                         100.0 * solution.length_spread));
+      PropertyText(Tr("Known length"), Text(Tr("%.3f m, measured %.3f m"), place.picks.length_m,
+                                            solution.measured_length_m));
+      PropertyText(Tr("for each px"), Text("\xc2\xb1 %.2f cm (%.2f %%)",
+                                           100.0 * solution.length_spread * place.picks.length_m,
+                                           100.0 * solution.length_spread));
     }
     if (place.tags) {
-      PropertyLabel("Family");
+      PropertyLabel(Tr("Family"));
       if (ImGui::BeginCombo("##family", tags.family.c_str())) {
         for (const std::string_view family : train::TagFamilies()) {
           if (ImGui::Selectable(std::string(family).c_str(), family == tags.family)) {
@@ -150,56 +145,59 @@ void ShowScale(app::Workspace& workspace, const app::PlaceDocument& place) {
         }
         ImGui::EndCombo();
       }
-      changed |= NumberProperty(workspace, "Tag size", tags.size_m, 0.001, 0.001, 100.0, "%.4f m");
+      changed |=
+          NumberProperty(workspace, Tr("Tag size"), tags.size_m, 0.001, 0.001, 100.0, "%.4f m");
     }
     EndProperties();
   }
   if (changed) {
     workspace.EditPlace(
-        "tags", [&](app::PlaceDocument& p) { p.tags = tags; }, "tags");
+        Tr("tags"), [&](app::PlaceDocument& p) { p.tags = tags; }, "tags");
   }
   if (!loaded.measures.tag_problem.ok()) {
     Hint(loaded.measures.tag_problem.message());
   }
   if (!place.tags) {
-    Hint("An AprilTag of known size in view of the recording gives the metres without picking.");
-    if (ImGui::Button("Take the metres from tags", ImVec2(-FLT_MIN, 0))) {
-      workspace.EditPlace("metres from tags", [](app::PlaceDocument& p) {
+    Hint(
+        Tr("An AprilTag of known size in view of the recording gives the metres without picking."));
+    if (ImGui::Button(Tr("Take the metres from tags"), ImVec2(-FLT_MIN, 0))) {
+      workspace.EditPlace(Tr("metres from tags"), [](app::PlaceDocument& p) {
         p.tags = app::TagsDocument();
         p.tags->size_m = 0.1;
       });
     }
-  } else if (ImGui::Button("Do without tags", ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace("do without tags", [](app::PlaceDocument& p) { p.tags.reset(); });
+  } else if (ImGui::Button(Tr("Do without tags"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Tr("do without tags"), [](app::PlaceDocument& p) { p.tags.reset(); });
   }
 }
 
 void LayOnFloorButton(app::Workspace& workspace) {
   ImGui::BeginDisabled(!workspace.loaded().measures.floor.has_value());
-  if (ImGui::Button("Lay the stage on the floor", ImVec2(-FLT_MIN, 0))) {
+  if (ImGui::Button(Tr("Lay the stage on the floor"), ImVec2(-FLT_MIN, 0))) {
     workspace.LayStageOnFloor();
   }
   ImGui::EndDisabled();
 }
 
 void ShowFloor(app::Workspace& workspace, const app::PlaceDocument& place) {
-  Heading("Floor");
+  Heading(Tr("Floor"));
   const app::LoadedPlace& loaded = workspace.loaded();
   if (!loaded.measures.floor) {
-    Hint("No large level surface was found among the points.");
+    Hint(Tr("No large level surface was found among the points."));
     return;
   }
   const train::FloorPlane& floor = *loaded.measures.floor;
   const Similarity3 map_from_stage = loaded.picks.map_from_picked * place.picked_from_stage;
   if (BeginProperties("floor")) {
-    PropertyText("Points", std::to_string(floor.points));
-    PropertyText("Spread", Format("%.1f mm", 1000.0 * floor.spread / map_from_stage.scale));
-    PropertyText("Level to", Format("%.2f\xc2\xb0", kDegrees * floor.tilt_deviation));
+    PropertyText(Tr("Points"), std::to_string(floor.points));
+    PropertyText(Tr("Spread"), Text("%.1f mm", 1000.0 * floor.spread / map_from_stage.scale));
+    PropertyText(Tr("Level to"), Text("%.2f\xc2\xb0", kDegrees * floor.tilt_deviation));
     const double cosine = floor.normal.dot(map_from_stage.rotation * Eigen::Vector3d::UnitY());
     const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
     const double height = floor.Height(map_from_stage.translation) / map_from_stage.scale;
-    PropertyText("Stage", Format("%.1f mm %s, tilted %.2f\xc2\xb0", 1000.0 * std::abs(height),
-                                 height < 0.0 ? "below" : "above", kDegrees * tilt));
+    PropertyText(Tr("Stage"), Text(height < 0.0 ? Tr("%.1f mm below, tilted %.2f\xc2\xb0")
+                                                : Tr("%.1f mm above, tilted %.2f\xc2\xb0"),
+                                   1000.0 * std::abs(height), kDegrees * tilt));
     EndProperties();
   }
   LayOnFloorButton(workspace);
@@ -209,15 +207,15 @@ void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
   Heading(place.name.c_str());
   const auto database = workspace.loaded().database;
   if (BeginProperties("place")) {
-    PropertyText("Training", SourceText(place.training));
+    PropertyText(TrIn("recording", "Training"), SourceText(place.training));
     for (const app::SessionDocument& session : place.added) {
-      PropertyText("Added", SourceText(session.source));
+      PropertyText(Tr("Added"), SourceText(session.source));
     }
-    PropertyText("Preview", place.preview.empty() ? "the training" : place.preview.path);
+    PropertyText(Tr("Preview"), place.preview.empty() ? Tr("the training") : place.preview.path);
     if (database != nullptr) {
       ShowMap(workspace, *database);
     } else {
-      PropertyText("State", "not trained");
+      PropertyText(Tr("State"), Tr("not trained"));
     }
     EndProperties();
   }
@@ -228,8 +226,8 @@ void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
 }
 
 void ShowStage(app::Workspace& workspace, EditorState& state, const app::PlaceDocument& place) {
-  Heading("Stage");
-  Hint("Moved by hand on top of the picks, in their metres.");
+  Heading(Tr("Stage"));
+  Hint(Tr("Moved by hand on top of the picks, in their metres."));
   Similarity3 transform = place.picked_from_stage;
   bool changed = false;
   if (BeginProperties("stage")) {
@@ -241,7 +239,7 @@ void ShowStage(app::Workspace& workspace, EditorState& state, const app::PlaceDo
     MoveSelected(workspace, state.selection, transform, "inspector stage");
   }
   LayOnFloorButton(workspace);
-  if (ImGui::Button("Back to the picks", ImVec2(-FLT_MIN, 0))) {
+  if (ImGui::Button(Tr("Back to the picks"), ImVec2(-FLT_MIN, 0))) {
     MoveSelected(workspace, state.selection, Similarity3(), "");
   }
 }
@@ -263,10 +261,10 @@ void ShowAnchorTable(app::Workspace& workspace,
   if (!ImGui::BeginTable("anchors", 4, ImGuiTableFlags_SizingStretchProp)) {
     return;
   }
-  ImGui::TableSetupColumn("Point", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Picks", ImGuiTableColumnFlags_WidthFixed, Px(46));
-  ImGui::TableSetupColumn("Error", ImGuiTableColumnFlags_WidthFixed, Px(66));
-  ImGui::TableSetupColumn("Angle", ImGuiTableColumnFlags_WidthFixed, Px(56));
+  ImGui::TableSetupColumn(Tr("Point"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(TrIn("column", "Picks"), ImGuiTableColumnFlags_WidthFixed, Px(46));
+  ImGui::TableSetupColumn(Tr("Error"), ImGuiTableColumnFlags_WidthFixed, Px(66));
+  ImGui::TableSetupColumn(Tr("Angle"), ImGuiTableColumnFlags_WidthFixed, Px(56));
   ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
   ImGui::TableHeadersRow();
   ImGui::PopStyleColor();
@@ -275,7 +273,7 @@ void ShowAnchorTable(app::Workspace& workspace,
     const stage::Anchor& anchor = place.picks.*entries[i].anchor;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    if (ImGui::Selectable(entries[i].label, state.anchor == static_cast<int>(i),
+    if (ImGui::Selectable(Tr(entries[i].label), state.anchor == static_cast<int>(i),
                           ImGuiSelectableFlags_SpanAllColumns)) {
       state.anchor = static_cast<int>(i);
       state.view = ViewKind::kPicks;
@@ -284,10 +282,10 @@ void ShowAnchorTable(app::Workspace& workspace,
     ImGui::Text("%zu", anchor.picks.size());
     const stage::AnchorReport* report = FindReport(workspace, anchor.name);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(report != nullptr ? Format("%.2f px", report->error_px).c_str() : "-");
+    ImGui::TextUnformatted(report != nullptr ? Text("%.2f px", report->error_px).c_str() : "-");
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(
-        report != nullptr ? Format("%.1f\xc2\xb0", report->angle * kDegrees).c_str() : "-");
+        report != nullptr ? Text("%.1f\xc2\xb0", report->angle * kDegrees).c_str() : "-");
   }
   ImGui::EndTable();
 }
@@ -299,7 +297,8 @@ void ShowLeftOut(const app::Workspace& workspace) {
   }
   for (const stage::AnchorReport& report : workspace.loaded().picks.solution->anchors) {
     if (!report.left_out.empty()) {
-      std::string text = report.name + ": left out, in frames that are no keyframes now:";
+      std::string text =
+          Text(Tr("%s: left out, in frames that are no keyframes now:"), report.name.c_str());
       for (const std::string& frame : report.left_out) {
         text += " " + frame;
       }
@@ -309,38 +308,39 @@ void ShowLeftOut(const app::Workspace& workspace) {
 }
 
 void ShowPicks(app::Workspace& workspace, EditorState& state, const app::PlaceDocument& place) {
-  Heading("Picks");
-  Hint("Points of the place, clicked in two or more training images, tie the stage to it.");
+  Heading(Tr("Picks"));
+  Hint(Tr("Points of the place, clicked in two or more training images, tie the stage to it."));
   ShowAnchorTable(workspace, state, place);
   if (BeginProperties("length")) {
     double length = place.picks.length_m;
-    if (NumberProperty(workspace, "Length", length, 0.01, 1e-3, 1e4, "%.3f m")) {
+    if (NumberProperty(workspace, Tr("Length"), length, 0.01, 1e-3, 1e4, "%.3f m")) {
       workspace.EditPlace(
-          "known length", [&](app::PlaceDocument& p) { p.picks.length_m = length; }, "length");
+          Tr("known length"), [&](app::PlaceDocument& p) { p.picks.length_m = length; }, "length");
     }
     if (const auto& solution = workspace.loaded().picks.solution) {
-      PropertyText("Uncertainty", Format("%.2f cm (%.2f %%) for each px",
-                                         100.0 * solution->length_spread * place.picks.length_m,
-                                         100.0 * solution->length_spread));
+      PropertyText(Tr("Uncertainty"), Text(Tr("%.2f cm (%.2f %%) for each px"),
+                                           100.0 * solution->length_spread * place.picks.length_m,
+                                           100.0 * solution->length_spread));
       if (workspace.loaded().measures.tags) {
-        PropertyText("By the tags", Format("%.3f m", solution->measured_length_m));
+        PropertyText(Tr("By the tags"), Text("%.3f m", solution->measured_length_m));
       }
     }
     EndProperties();
   }
-  Hint("The length lies between the two length points; without them, between origin and forward.");
+  Hint(Tr(
+      "The length lies between the two length points; without them, between origin and forward."));
   ShowLeftOut(workspace);
   if (state.view != ViewKind::kPicks) {
-    if (ImGui::Button("Pick in the training images", ImVec2(-FLT_MIN, 0))) {
+    if (ImGui::Button(Tr("Pick in the training images"), ImVec2(-FLT_MIN, 0))) {
       state.view = ViewKind::kPicks;
     }
   } else {
     const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(state.anchor)];
     const bool any = !(place.picks.*entry.anchor).picks.empty();
     ImGui::BeginDisabled(!any);
-    const std::string label = std::string("Clear the picks of ") + entry.label;
+    const std::string label = Text(Tr("Clear the picks of %s"), Tr(entry.label));
     if (ImGui::Button(label.c_str(), ImVec2(-FLT_MIN, 0))) {
-      workspace.EditPlace("clear picks",
+      workspace.EditPlace(Tr("clear picks"),
                           [&](app::PlaceDocument& p) { (p.picks.*entry.anchor).picks.clear(); });
     }
     ImGui::EndDisabled();
@@ -348,21 +348,22 @@ void ShowPicks(app::Workspace& workspace, EditorState& state, const app::PlaceDo
 }
 
 void ShowNudge(app::Workspace& workspace, const app::PlaceDocument& place) {
-  Heading("Camera nudge");
-  Hint(
+  Heading(Tr("Camera nudge"));
+  Hint(Tr(
       "Moves the camera along its own axes: right, down, forward. In the camera view: arrow keys, "
-      "Page Up and Page Down; with Shift ten times as far.");
+      "Page Up and Page Down; with Shift ten times as far."));
   if (!BeginProperties("nudge")) {
     return;
   }
   Eigen::Vector3d nudge = place.camera_nudge;
-  if (VectorProperty(workspace, "Metres", nudge, 0.001, "%.3f")) {
+  if (VectorProperty(workspace, Tr("Metres"), nudge, 0.001, "%.3f")) {
     workspace.EditPlace(
-        "nudge the camera", [&](app::PlaceDocument& p) { p.camera_nudge = nudge; }, "nudge");
+        Tr("nudge the camera"), [&](app::PlaceDocument& p) { p.camera_nudge = nudge; }, "nudge");
   }
   EndProperties();
-  if (ImGui::Button("Back to zero", ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace("reset the nudge", [](app::PlaceDocument& p) { p.camera_nudge.setZero(); });
+  if (ImGui::Button(Tr("Back to zero"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Tr("reset the nudge"),
+                        [](app::PlaceDocument& p) { p.camera_nudge.setZero(); });
   }
 }
 
@@ -389,7 +390,7 @@ void ShowOccluderModel(app::Workspace& workspace,
   Similarity3 transform = occluder.stage_from_mesh;
   bool changed = false;
   if (BeginProperties("occluder")) {
-    PropertyText("File", occluder.file);
+    PropertyText(Tr("File"), occluder.file);
     changed = TransformProperties(workspace, transform);
     EndProperties();
   }
@@ -418,8 +419,7 @@ void ShowCornerTable(const app::OccluderDocument& occluder,
     ImGui::TableNextColumn();
     ImGui::Text("%zu", occluder.corners[i].picks.size());
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(i < reports.size() ? Format("%.2f px", reports[i].error_px).c_str()
-                                              : "-");
+    ImGui::TextUnformatted(i < reports.size() ? Text("%.2f px", reports[i].error_px).c_str() : "-");
   }
   ImGui::EndTable();
 }
@@ -436,12 +436,12 @@ void ShowCorners(app::Workspace& workspace,
       double depth = occluder.depth;
       if (NumberProperty(workspace, Tr("Depth"), depth, 0.01, 0.0, app::kMaxDepth, "%.2f m")) {
         EditOccluder(
-            workspace, "depth of " + occluder.name, occluder.name,
+            workspace, Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
             [&](app::OccluderDocument& edited) { edited.depth = depth; }, "occluder depth");
       }
       if (drawn.ok()) {
-        PropertyText(Tr("Error"), Format("%.2f px", drawn->error_px));
-        PropertyText(Tr("Uneven by"), Format("%.1f cm", 100.0 * drawn->unevenness / units));
+        PropertyText(Tr("Error"), Text("%.2f px", drawn->error_px));
+        PropertyText(Tr("Uneven by"), Text("%.1f cm", 100.0 * drawn->unevenness / units));
       }
       EndProperties();
     }
@@ -459,7 +459,7 @@ void ShowCorners(app::Workspace& workspace,
   }
   ImGui::BeginDisabled(occluder.corners.empty());
   if (ImGui::Button(Tr("Remove the last corner"), ImVec2(-FLT_MIN, 0))) {
-    EditOccluder(workspace, "remove a corner", occluder.name,
+    EditOccluder(workspace, Tr("remove a corner"), occluder.name,
                  [](app::OccluderDocument& edited) { edited.corners.pop_back(); });
   }
   ImGui::EndDisabled();
@@ -469,35 +469,36 @@ void ShowOccluder(app::Workspace& workspace,
                   EditorState& state,
                   const app::OccluderDocument& occluder) {
   Heading(occluder.name.c_str());
-  Hint("Real, and only there to hide people who stand behind it.");
+  Hint(Tr("Real, and only there to hide people who stand behind it."));
   if (occluder.drawn()) {
     ShowCorners(workspace, state, occluder);
   } else {
     ShowOccluderModel(workspace, state, occluder);
   }
-  if (ImGui::Button("Remove", ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace("remove " + occluder.name, [name = occluder.name](app::PlaceDocument& p) {
-      std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
-    });
+  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
+                        [name = occluder.name](app::PlaceDocument& p) {
+                          std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
+                        });
     state.selection = {};
   }
 }
 
 void ShowProbe(app::Workspace& workspace, EditorState& state, app::ProbeDocument probe) {
   Heading(probe.name.c_str());
-  Hint(
+  Hint(Tr(
       "The light at a point of the stage and a time of day. Between probes it is blended, by where "
-      "somebody stands and by the drama's time of day.");
+      "somebody stands and by the drama's time of day."));
   bool changed = false;
   if (BeginProperties("probe")) {
-    PropertyText("File", probe.file);
-    changed = VectorProperty(workspace, "Position", probe.position, 0.01, "%.2f");
-    changed |= NumberProperty(workspace, "Time of day", probe.hour, 0.05, 0.0, 24.0, "%.2f h");
+    PropertyText(Tr("File"), probe.file);
+    changed = VectorProperty(workspace, Tr("Position"), probe.position, 0.01, "%.2f");
+    changed |= NumberProperty(workspace, Tr("Time of day"), probe.hour, 0.05, 0.0, 24.0, "%.2f h");
     EndProperties();
   }
   if (changed) {
     workspace.EditPlace(
-        "light probe",
+        Tr("light probe"),
         [&](app::PlaceDocument& p) {
           for (app::ProbeDocument& other : p.probes) {
             if (other.name == probe.name) {
@@ -508,8 +509,8 @@ void ShowProbe(app::Workspace& workspace, EditorState& state, app::ProbeDocument
         "probe " + probe.name);
   }
   ShowLightPanel(workspace, state, probe);
-  if (ImGui::Button("Remove", ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace("remove " + probe.name, [&](app::PlaceDocument& p) {
+  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Text(Tr("remove %s"), probe.name.c_str()), [&](app::PlaceDocument& p) {
       std::erase_if(p.probes, [&](const auto& other) { return other.name == probe.name; });
     });
     state.selection = {};
@@ -551,7 +552,7 @@ void ShowInspector(app::Workspace& workspace, EditorState& state) {
     return;
   }
   if (place == nullptr) {
-    Hint("Add a place to begin: choose Train\xe2\x80\xa6 and name a recording of it.");
+    Hint(Tr("Add a place to begin: choose Train\xe2\x80\xa6 and name a recording of it."));
     return;
   }
   switch (state.selection.kind) {

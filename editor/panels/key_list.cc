@@ -32,7 +32,7 @@ void ShowRow(const KeyBinding& binding, const std::string& keys) {
 
 void ShowScope(KeyScope scope) {
   Heading(ScopeTitle(scope));
-  if (!ImGui::BeginTable(ScopeTitle(scope), 2)) {
+  if (!ImGui::BeginTable(std::to_string(static_cast<int>(scope)).c_str(), 2)) {
     return;
   }
   ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, Px(kKeyWidth));
@@ -74,7 +74,7 @@ void ShowColumns() {
 bool ShowKeyList(std::span<const KeyPress> keys) {
   const ImVec2 window = ImGui::GetMainViewport()->WorkSize;
   bool open = true;
-  const std::string title = std::string(Tr("Keys")) + "##list";
+  const std::string title = Label(Tr("Keys"), "keys");
   const bool was_open = ImGui::IsPopupOpen(title.c_str());
   ShowModal(title.c_str(), std::min(kWidth, window.x / Px(1.0f) - 32.0f), open, [&] {
     ImGui::BeginChild("keys", ImVec2(0, std::min(Px(720), 0.8f * window.y)));

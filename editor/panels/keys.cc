@@ -140,7 +140,7 @@ std::string KeyName(int key) {
     case GLFW_KEY_ESCAPE:
       return Tr("Escape");
     case GLFW_KEY_DELETE:
-      return Tr("Delete");
+      return TrIn("key", "Delete");
     case GLFW_KEY_BACKSPACE:
       return Tr("Backspace");
     case GLFW_KEY_LEFT:

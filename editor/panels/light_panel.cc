@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <numbers>
 
 #include "editor/panels/light_maths.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 #include "shared/geometry/glm_convert.h"
@@ -24,13 +24,6 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kPanoramaWidth = 256;
 constexpr double kMinStops = -16.0;
 constexpr double kMaxStops = 16.0;
-
-template <typename... Values>
-std::string Format(const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof(text), format, values...);
-  return text;
-}
 
 void Tip(const char* text) {
   if (ImGui::IsItemHovered()) {
@@ -77,7 +70,7 @@ void DragPanorama(app::Workspace& workspace,
     const glm::quat turned = light.level
                                  ? bake::TurnedTo(now, *light.dragged_in_probe, under_pointer)
                                  : bake::DraggedTo(now, *light.dragged_in_probe, under_pointer);
-    TurnProbe(workspace, probe, turned, "turn the light", "probe panorama");
+    TurnProbe(workspace, probe, turned, Tr("turn the light"), "probe panorama");
   }
   if (ImGui::IsItemDeactivated()) {
     light.dragged_in_probe.reset();
@@ -151,8 +144,9 @@ void ShowPanorama(app::Workspace& workspace,
     return;
   }
   if (!ImGui::IsItemActive()) {
-    Tip("Drag the sun, or the picture, to where it is on the stage. The middle is straight "
-        "ahead, the top the sky.");
+    Tip(
+        Tr("Drag the sun, or the picture, to where it is on the stage. The middle is straight "
+           "ahead, the top the sky."));
   }
   const bool at_sun = std::hypot(mouse.x - sun.x, mouse.y - sun.y) < Px(14);
   DragPanorama(workspace, state, probe, under, picture.brightest, at_sun);
@@ -160,9 +154,9 @@ void ShowPanorama(app::Workspace& workspace,
 
 std::string SunText(const ProbeDocument& probe, const app::ProbePicture& picture) {
   const glm::vec3 d = Rotation(probe) * picture.brightest;
-  return Format("%s at %.0f\xc2\xb0, %.0f\xc2\xb0 high", picture.is_sun ? "Sun" : "Brightest",
-                kDegrees * std::atan2(d.x, -d.z),
-                kDegrees * std::asin(std::clamp(d.y, -1.0f, 1.0f)));
+  return Text(picture.is_sun ? Tr("Sun at %.0f\xc2\xb0, %.0f\xc2\xb0 high")
+                             : Tr("Brightest at %.0f\xc2\xb0, %.0f\xc2\xb0 high"),
+              kDegrees * std::atan2(d.x, -d.z), kDegrees * std::asin(std::clamp(d.y, -1.0f, 1.0f)));
 }
 
 bool PickButton(EditorState& state, const char* label, Picking mode, const char* tip) {
@@ -190,31 +184,32 @@ void BeginPicking(EditorState& state, Picking mode) {
 
 void ShowDirections(app::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
   LightView& light = state.light;
-  ImGui::Checkbox("Keep the probe level", &light.level);
-  Tip("Turn about the vertical only: for probes that were photographed level.");
+  ImGui::Checkbox(Tr("Keep the probe level"), &light.level);
+  Tip(Tr("Turn about the vertical only: for probes that were photographed level."));
   if (BeginProperties("turn")) {
     Eigen::Quaterniond rotation = probe.stage_from_probe;
-    if (RotationProperty(workspace, "Rotation", rotation)) {
-      TurnProbe(workspace, probe, geometry::ToGlm(rotation), "turn the light", "probe rotation");
+    if (RotationProperty(workspace, Tr("Rotation"), rotation)) {
+      TurnProbe(workspace, probe, geometry::ToGlm(rotation), Tr("turn the light"),
+                "probe rotation");
     }
     EndProperties();
   }
   const bool matching = light.picking == Picking::kOnProbe || light.picking == Picking::kOnStage;
-  if (PickButton(state, "Match a direction  (M)", matching ? light.picking : Picking::kOnProbe,
-                 "Click the same thing on the probe's picture and in the camera view. One pair "
-                 "turns the probe; two fix it, and say how far they disagree.")) {
+  if (PickButton(state, Tr("Match a direction  (M)"), matching ? light.picking : Picking::kOnProbe,
+                 Tr("Click the same thing on the probe's picture and in the camera view. One pair "
+                    "turns the probe; two fix it, and say how far they disagree."))) {
     BeginPicking(state, matching ? light.picking : Picking::kOnProbe);
   }
   if (light.picking == Picking::kOnProbe) {
-    Hint("1. Click something on the picture above that the camera sees too.");
+    Hint(Tr("1. Click something on the picture above that the camera sees too."));
   } else if (light.picking == Picking::kOnStage) {
-    Hint("2. Click the same thing in the camera view.");
+    Hint(Tr("2. Click the same thing in the camera view."));
   }
   if (light.direction_match) {
-    DimText(Format("%zu directions, each %.1f\xc2\xb0 off", light.pairs.size(),
-                   kDegrees * light.direction_match->residual));
+    DimText(Text(Tr("%zu directions, each %.1f\xc2\xb0 off"), light.pairs.size(),
+                 kDegrees * light.direction_match->residual));
   } else if (light.pairs.size() == 1) {
-    DimText("One direction. A second one fixes the tilt.");
+    DimText(Tr("One direction. A second one fixes the tilt."));
   }
 }
 
@@ -223,69 +218,71 @@ void ShowBrightness(app::Workspace& workspace, EditorState& state, const ProbeDo
   if (BeginProperties("brightness")) {
     ProbeDocument changed = probe;
     double stops = std::log2(std::max(probe.scale, 1e-9));
-    if (SliderProperty(workspace, "Exposure", stops, kMinStops / 2, kMaxStops / 2, "%+.2f stops")) {
+    if (SliderProperty(workspace, Tr("Exposure"), stops, kMinStops / 2, kMaxStops / 2,
+                       Tr("%+.2f stops"))) {
       changed.scale = std::exp2(stops);
-      EditProbe(workspace, changed, "the light's exposure", "probe exposure");
+      EditProbe(workspace, changed, Tr("the light's exposure"), "probe exposure");
     }
     WhiteBalance white = WhiteBalanceOf(geometry::ToGlm(probe.balance));
-    bool balanced = SliderProperty(workspace, "Warmth", white.warmth, -2.0, 2.0, "%+.2f stops");
-    balanced |= SliderProperty(workspace, "Tint", white.tint, -1.0, 1.0, "%+.2f stops");
+    bool balanced =
+        SliderProperty(workspace, Tr("Warmth"), white.warmth, -2.0, 2.0, Tr("%+.2f stops"));
+    balanced |= SliderProperty(workspace, Tr("Tint"), white.tint, -1.0, 1.0, Tr("%+.2f stops"));
     if (balanced) {
       const glm::vec3 balance = BalanceOf(white);
       changed.balance = {balance.r, balance.g, balance.b};
-      EditProbe(workspace, changed, "the light's white balance", "probe balance");
+      EditProbe(workspace, changed, Tr("the light's white balance"), "probe balance");
     }
     double albedo = light.albedo;
-    if (NumberProperty(workspace, "Grey is", albedo, 0.002, 0.02, 1.0, "%.2f albedo")) {
+    if (NumberProperty(workspace, Tr("Grey is"), albedo, 0.002, 0.02, 1.0, Tr("%.2f albedo"))) {
       light.albedo = static_cast<float>(albedo);
     }
     EndProperties();
   }
-  if (PickButton(state, "Pick a grey surface  (G)", Picking::kGrey,
-                 "Click a matte surface of that albedo in the camera view that nothing shades. "
-                 "Several picks are matched together.")) {
+  if (PickButton(state, Tr("Pick a grey surface  (G)"), Picking::kGrey,
+                 Tr("Click a matte surface of that albedo in the camera view that nothing shades. "
+                    "Several picks are matched together."))) {
     BeginPicking(state, Picking::kGrey);
   }
   if (light.picking == Picking::kGrey) {
-    Hint("Click the surface in the camera view. Escape ends.");
+    Hint(Tr("Click the surface in the camera view. Escape ends."));
   }
   if (light.scale_match) {
-    DimText(Format("%zu picked, %.2f stops off", light.patches.size(),
-                   static_cast<double>(light.scale_match->residual)));
+    DimText(Text(Tr("%zu picked, %.2f stops off"), light.patches.size(),
+                 static_cast<double>(light.scale_match->residual)));
     ImGui::SameLine();
-    if (ImGui::SmallButton("Forget")) {
+    if (ImGui::SmallButton(Tr("Forget"))) {
       light.patches.clear();
       light.scale_match.reset();
     }
-    Tip("Begin anew with the next grey surface.");
+    Tip(Tr("Begin anew with the next grey surface."));
   }
 }
 
 void ShowViews(app::Workspace& workspace, EditorState& state) {
   LightView& light = state.light;
-  ImGui::Checkbox("Balls at the probe", &light.balls);
-  Tip("A mirror ball and a grey one in the camera view. Drag the mirror to turn the probe.");
-  ImGui::Checkbox("Before and after  (B)", &light.wipe);
-  Tip("The camera's image alone to the left of a line that you drag.");
-  ImGui::Checkbox("Histogram", &light.histogram);
-  Tip("How bright the camera's image is, and how bright people are in it.");
+  ImGui::Checkbox(Tr("Balls at the probe"), &light.balls);
+  Tip(Tr("A mirror ball and a grey one in the camera view. Drag the mirror to turn the probe."));
+  ImGui::Checkbox(Tr("Before and after  (B)"), &light.wipe);
+  Tip(Tr("The camera's image alone to the left of a line that you drag."));
+  ImGui::Checkbox(Tr("Histogram"), &light.histogram);
+  Tip(Tr("How bright the camera's image is, and how bright people are in it."));
   bool look = workspace.camera_look();
-  if (ImGui::Checkbox("The camera's noise and blur", &look)) {
+  if (ImGui::Checkbox(Tr("The camera's noise and blur"), &look)) {
     workspace.SetCameraLook(look);
   }
-  Tip("People as the camera would have taken them; off: as they are drawn.");
+  Tip(Tr("People as the camera would have taken them; off: as they are drawn."));
   const std::optional<light::CameraTraits>& camera = workspace.place()->camera;
-  DimText(camera ? Format("Edges %.2f px soft, noise %.2f %%", camera->blur_px,
-                          100.0 * std::sqrt(camera->noise_floor * camera->noise_floor +
-                                            0.5f * camera->noise_slope))
-                 : std::string("Not measured yet"));
+  DimText(camera ? Text(Tr("Edges %.2f px soft, noise %.2f %%"), camera->blur_px,
+                        100.0 * std::sqrt(camera->noise_floor * camera->noise_floor +
+                                          0.5f * camera->noise_slope))
+                 : std::string(Tr("Not measured yet")));
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kCamera) ||
                        workspace.place()->training.empty());
-  if (ImGui::Button("Measure the camera", ImVec2(-FLT_MIN, 0))) {
+  if (ImGui::Button(Tr("Measure the camera"), ImVec2(-FLT_MIN, 0))) {
     workspace.MeasureCameraTraits();
   }
   ImGui::EndDisabled();
-  Tip("How noisy and how soft the images of the training recording are.");
+  Tip(Tr("How noisy and how soft the images of the training recording are."));
 }
 
 // Picks are of one probe.
@@ -332,7 +329,7 @@ void AddGreyPatch(app::Workspace& workspace,
   LightView& light = state.light;
   const app::ProbePicture* picture = workspace.probe_picture(probe);
   if (picture == nullptr) {
-    light.problem = "The probe is still being read.";
+    light.problem = Tr("The probe is still being read.");
     return;
   }
   std::vector<bake::GreyPatch> patches = light.patches;
@@ -351,7 +348,7 @@ void AddGreyPatch(app::Workspace& workspace,
   light.scale_match = *match;
   ProbeDocument changed = probe;
   changed.scale = match->scale;
-  EditProbe(workspace, changed, "brightness from a grey surface");
+  EditProbe(workspace, changed, Tr("brightness from a grey surface"));
 }
 
 void AddDirection(app::Workspace& workspace,
@@ -374,7 +371,7 @@ void AddDirection(app::Workspace& workspace,
     const glm::quat now = Rotation(probe);
     const glm::quat turned = light.level ? bake::TurnedTo(now, light.pairs[0].in_probe, in_stage)
                                          : bake::DraggedTo(now, light.pairs[0].in_probe, in_stage);
-    TurnProbe(workspace, probe, turned, "match the light's direction", "");
+    TurnProbe(workspace, probe, turned, Tr("match the light's direction"), "");
     return;
   }
   const Result<bake::DirectionMatch> match = bake::MatchDirections(light.pairs[0], light.pairs[1]);
@@ -384,7 +381,7 @@ void AddDirection(app::Workspace& workspace,
     return;
   }
   light.direction_match = *match;
-  TurnProbe(workspace, probe, match->stage_from_probe, "match the light's directions", "");
+  TurnProbe(workspace, probe, match->stage_from_probe, Tr("match the light's directions"), "");
 }
 
 app::ProbeLook LookAtProbe(const app::Workspace& workspace, const ProbeDocument& probe) {
@@ -414,9 +411,9 @@ void ShowLightPanel(app::Workspace& workspace, EditorState& state, const ProbeDo
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
     ImGui::TextWrapped("%s", workspace.probe_problem().c_str());
     ImGui::PopStyleColor();
-    Hint("People are lit evenly until then.");
+    Hint(Tr("People are lit evenly until then."));
   } else {
-    Hint("Reading the probe\xe2\x80\xa6");
+    Hint(Tr("Reading the probe\xe2\x80\xa6"));
   }
   ShowDirections(workspace, state, probe);
   ShowBrightness(workspace, state, probe);
@@ -437,12 +434,12 @@ bool HandleLightKey(app::Workspace& workspace, EditorState& state, const KeyPres
   const auto turn = [&](double degrees) {
     const glm::quat by =
         glm::angleAxis(static_cast<float>(degrees / kDegrees), glm::vec3(0.0f, 1.0f, 0.0f));
-    TurnProbe(workspace, *probe, by * Rotation(*probe), "turn the light", "probe keys");
+    TurnProbe(workspace, *probe, by * Rotation(*probe), Tr("turn the light"), "probe keys");
   };
   const auto brighten = [&](double stops) {
     ProbeDocument changed = *probe;
     changed.scale = std::max(probe->scale, 1e-9) * std::exp2(stops / 6.0);
-    EditProbe(workspace, changed, "the light's exposure", "probe exposure keys");
+    EditProbe(workspace, changed, Tr("the light's exposure"), "probe exposure keys");
   };
   if (!press.repeats) {
     workspace.EndGesture();  // each press is a command of its own

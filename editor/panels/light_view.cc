@@ -9,6 +9,7 @@
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/light_maths.h"
 #include "editor/panels/light_panel.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "shared/geometry/glm_convert.h"
 
@@ -98,7 +99,7 @@ void TurnByMirror(app::Workspace& workspace,
   TurnProbe(workspace, probe,
             state.light.level ? bake::TurnedTo(now, *state.light.dragged_in_probe, target)
                               : bake::DraggedTo(now, *state.light.dragged_in_probe, target),
-            "turn the light", "probe ball");
+            Tr("turn the light"), "probe ball");
 }
 
 float LinearBeforeShoulder(float shown, float knee) {
@@ -126,7 +127,7 @@ void PickOnStage(app::Workspace& workspace,
   }
   const auto mean = MeanLinear(picture.plain, pixel, kPatchHalf);
   if (!mean) {
-    state.light.problem = "The picture is still being drawn. Click once more.";
+    state.light.problem = Tr("The picture is still being drawn. Click once more.");
     return;
   }
   const app::ProbeLook look = LookAtProbe(workspace, probe);
@@ -140,7 +141,7 @@ void PickOnStage(app::Workspace& workspace,
   AddGreyPatch(workspace, state, probe, patch);
 }
 
-void Label(const ImVec2& at, const std::string& text, ImU32 packed, ImDrawList& draw) {
+void DrawLabel(const ImVec2& at, const std::string& text, ImU32 packed, ImDrawList& draw) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   draw.AddRectFilled(ImVec2(at.x - Px(5), at.y - Px(2)),
                      ImVec2(at.x + size.x + Px(5), at.y + size.y + Px(2)),
@@ -182,16 +183,15 @@ void ShowHistogram(const app::PreviewPicture& picture,
   const ImVec2 plot(box.x - Px(20), box.y - text - Px(28));
   DrawCurve(comparison.real, low, plot, OverPicture().dim, draw);
   DrawCurve(comparison.people, low, plot, OverPicture().accent, draw);
-  char legend[64];
-  std::snprintf(legend, sizeof(legend), "Camera %.0f %%", 100.0 * comparison.real.Median());
-  draw.AddText(ImVec2(corner.x + Px(10), corner.y + Px(7)), Packed(OverPicture().text), legend);
+  std::string legend = Text(Tr("Camera %.0f %%"), 100.0 * comparison.real.Median());
+  draw.AddText(ImVec2(corner.x + Px(10), corner.y + Px(7)), Packed(OverPicture().text),
+               legend.c_str());
   const float half = 0.5f * box.x;
-  if (comparison.people.total > 0) {
-    std::snprintf(legend, sizeof(legend), "People %.0f %%", 100.0 * comparison.people.Median());
-  } else {
-    std::snprintf(legend, sizeof(legend), "Nobody in view");
-  }
-  draw.AddText(ImVec2(corner.x + half, corner.y + Px(7)), Packed(OverPicture().accent), legend);
+  legend = comparison.people.total > 0
+               ? Text(Tr("People %.0f %%"), 100.0 * comparison.people.Median())
+               : Tr("Nobody in view");
+  draw.AddText(ImVec2(corner.x + half, corner.y + Px(7)), Packed(OverPicture().accent),
+               legend.c_str());
 }
 
 }  // namespace
@@ -227,9 +227,10 @@ void LightOverlay::ShowWipe(EditorState& state,
   draw.AddLine(ImVec2(x, origin.y), ImVec2(x, origin.y + size.y), Packed(OverPicture().text),
                Px(2));
   const float y = origin.y + size.y - Px(30);
-  Label(ImVec2(std::max(x - Px(70), origin.x + Px(8)), y), "Before", Packed(OverPicture().text),
-        draw);
-  Label(ImVec2(x + Px(14), y), "After", Packed(OverPicture().text), draw);
+  const float before = std::max(Px(70), ImGui::CalcTextSize(Tr("Before")).x + Px(14));
+  DrawLabel(ImVec2(std::max(x - before, origin.x + Px(8)), y), Tr("Before"),
+            Packed(OverPicture().text), draw);
+  DrawLabel(ImVec2(x + Px(14), y), Tr("After"), Packed(OverPicture().text), draw);
 }
 
 void LightOverlay::Show(app::Workspace& workspace,
@@ -297,7 +298,7 @@ void LightOverlay::Show(app::Workspace& workspace,
     if (drag_ == Drag::kBall) {
       TurnByMirror(workspace, state, *probe, *mirror);
     } else if (over) {
-      ImGui::SetTooltip("Drag to turn the light");
+      ImGui::SetTooltip("%s", Tr("Drag to turn the light"));
     }
   }
 }

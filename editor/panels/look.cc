@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <string>
 
@@ -17,10 +18,17 @@ namespace {
 
 constexpr std::array<Theme, 2> kThemes = {Theme::kDark, Theme::kLight};
 
-const char* ThemeName(Theme theme) { return theme == Theme::kLight ? Tr("Light") : Tr("Dark"); }
+const char* ThemeName(Theme theme) {
+  return theme == Theme::kLight ? TrIn("colours", "Light") : TrIn("colours", "Dark");
+}
 
 std::string ScaleName(double scale) {
   return Text("%d %%", static_cast<int>(std::lround(100.0 * scale)));
+}
+
+// Each in its own language, for whoever does not know the one that is shown.
+const char* LanguageName(const std::string& language) {
+  return language == "it" ? "Italiano" : language == "en" ? "English" : Tr("As the system");
 }
 
 }  // namespace
@@ -43,10 +51,20 @@ void ShowLook(app::Settings& settings) {
   if (Segmented("scale", labels, scale)) {
     settings.scale = app::kScales[static_cast<size_t>(scale)];
   }
+  ImGui::Dummy(ImVec2(0, 0));
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::BeginCombo("##language", LanguageName(settings.language))) {
+    for (const char* language : app::kLanguages) {
+      if (ImGui::Selectable(LanguageName(language), settings.language == language)) {
+        settings.language = language;
+      }
+    }
+    ImGui::EndCombo();
+  }
 }
 
 void LookMenu(app::Settings& settings) {
-  if (ImGui::BeginMenu(Tr("Colours"))) {
+  if (ImGui::BeginMenu(Label(Tr("Colours"), "colours").c_str())) {
     for (const Theme theme : kThemes) {
       if (ImGui::MenuItem(ThemeName(theme), nullptr, settings.theme == theme)) {
         settings.theme = theme;
@@ -54,10 +72,18 @@ void LookMenu(app::Settings& settings) {
     }
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu(Tr("Size"))) {
+  if (ImGui::BeginMenu(Label(Tr("Size"), "size").c_str())) {
     for (const double scale : app::kScales) {
       if (ImGui::MenuItem(ScaleName(scale).c_str(), nullptr, settings.scale == scale)) {
         settings.scale = scale;
+      }
+    }
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu(Label(Tr("Language"), "language").c_str())) {
+    for (const char* language : app::kLanguages) {
+      if (ImGui::MenuItem(LanguageName(language), nullptr, settings.language == language)) {
+        settings.language = language;
       }
     }
     ImGui::EndMenu();

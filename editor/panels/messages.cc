@@ -26,12 +26,12 @@ ImVec4 ColourOf(app::Message::Level level) {
 
 void ShowTask(app::BackgroundTask& task) {
   const app::BackgroundTask::State state = task.state();
-  std::string text = task.name();
+  std::string text = Tr(task.name().c_str());
   if (!state.step.empty()) {
-    text += ": " + state.step;
+    text += std::string(": ") + Tr(state.step.c_str());
   }
   if (const auto left = app::EstimateSecondsLeft(state.fraction, state.step_seconds)) {
-    text += ", " + app::FormatDuration(*left) + " left";
+    text += ", " + Text(Tr("%s left"), app::FormatDuration(*left).c_str());
   }
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
@@ -43,7 +43,7 @@ void ShowTask(app::BackgroundTask& task) {
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 0.5f * (ImGui::GetFrameHeight() - height));
   ImGui::PushID(&task);
   ImGui::BeginDisabled(state.cancelling);
-  if (ImGui::Button(state.cancelling ? "Stopping\xe2\x80\xa6" : "Cancel")) {
+  if (ImGui::Button(state.cancelling ? Tr("Stopping\xe2\x80\xa6") : Tr("Cancel"))) {
     task.Cancel();
   }
   ImGui::EndDisabled();
@@ -80,7 +80,7 @@ void ShowMessagesTools(app::Workspace& workspace) {
 void ShowMessages(const app::Workspace& workspace) {
   const bool at_end = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1.0f;
   if (workspace.messages().empty()) {
-    DimText("Nothing to report.");
+    DimText(Tr("Nothing to report."));
   }
   for (const app::Message& message : workspace.messages()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ColourOf(message.level));
@@ -110,13 +110,13 @@ void ShowStatusBar(app::Workspace& workspace) {
   }
   std::string text = workspace.paths().folder.string();
   if (workspace.commands().dirty()) {
-    text += "  \xe2\x80\xa2  not saved";
+    text += std::string("  \xe2\x80\xa2  ") + Tr("not saved");
   }
   const float width = ImGui::CalcTextSize(text.c_str()).x;
   const float right = ImGui::GetContentRegionMax().x - width;
   if (workspace.tasks_empty() && workspace.messages().empty()) {
     ImGui::AlignTextToFramePadding();
-    DimText("Ready");
+    DimText(Tr("Ready"));
     ImGui::SameLine();
   }
   if (right > ImGui::GetCursorPosX()) {

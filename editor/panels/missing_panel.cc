@@ -62,7 +62,7 @@ void MissingPanel::ShowRow(const app::Workspace& workspace, const app::MissingFi
   }
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(Elided(file.role, 0.5f * ImGui::GetContentRegionAvail().x).c_str());
+  ImGui::TextUnformatted(Elided(file.shown, 0.5f * ImGui::GetContentRegionAvail().x).c_str());
   ImGui::SameLine(0.0f, Px(12));
   DimText(ElidedFront(file.path, ImGui::GetContentRegionAvail().x));
   ImGui::PopID();
@@ -70,7 +70,7 @@ void MissingPanel::ShowRow(const app::Workspace& workspace, const app::MissingFi
 
 void MissingPanel::ShowDialog(app::Workspace& workspace) {
   const app::ProjectPaths& paths = workspace.paths();
-  Hint(Text(Tr("Where is %s now? It was in %s."), locating_->role.c_str(),
+  Hint(Text(Tr("Where is %s now? It was in %s."), locating_->shown.c_str(),
             paths.Resolve(locating_->path).c_str()));
   if (BeginProperties("locate")) {
     PropertyLabel(locating_->kind == app::FileKind::kImages ? Tr("Folder") : Tr("File"));
@@ -96,7 +96,7 @@ void MissingPanel::ShowDialog(app::Workspace& workspace) {
   const DialogAnswer answer = DialogButtons(Tr("Locate"), problem);
   if (answer == DialogAnswer::kAct) {
     const std::string name = std::filesystem::path(located.to).filename().string();
-    workspace.Edit("locate " + name, [&](app::ProjectDocument& document) {
+    workspace.Edit(Text(Tr("locate %s"), name.c_str()), [&](app::ProjectDocument& document) {
       app::Relocate(located, document);
       for (const app::Relocation& offer : take_offers_ ? offers_ : decltype(offers_)()) {
         app::Relocate(offer, document);
@@ -123,7 +123,7 @@ void MissingPanel::Show(app::Workspace& workspace) {
   }
   if (locating_) {
     bool open = true;
-    ShowModal(Tr("Locate a file"), 620, open, [&] {
+    ShowModal(Label(Tr("Locate a file"), "locate").c_str(), 620, open, [&] {
       ShowDialog(workspace);
       open = locating_.has_value();
     });

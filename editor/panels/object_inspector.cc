@@ -6,25 +6,27 @@
 #include <cfloat>
 
 #include "editor/app/object_document.h"
+#include "editor/panels/text.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::panels {
 
 void ShowObject(app::Workspace& workspace, EditorState& state, const app::ObjectDocument& object) {
   Heading(object.name.c_str());
-  Hint("Where it is at the beginning. What people do with it is written in the drama.");
+  Hint(Tr("Where it is at the beginning. What people do with it is written in the drama."));
   app::ObjectDocument edited = object;
   bool changed = false;
   if (BeginProperties("object")) {
-    PropertyText("Model", object.file.empty() ? object.model + ", built in" : object.file);
-    changed = VectorProperty(workspace, "Position", edited.position, 0.005, "%.3f m");
-    changed |=
-        NumberProperty(workspace, "Heading", edited.heading, 0.5, -360.0, 360.0, "%.0f\xc2\xb0");
+    PropertyText(Tr("Model"), object.file.empty() ? Text(Tr("%s, built in"), object.model.c_str())
+                                                  : object.file);
+    changed = VectorProperty(workspace, Tr("Position"), edited.position, 0.005, "%.3f m");
+    changed |= NumberProperty(workspace, Tr("Heading"), edited.heading, 0.5, -360.0, 360.0,
+                              "%.0f\xc2\xb0");
     EndProperties();
   }
   if (changed) {
     workspace.Edit(
-        "place " + object.name,
+        Text(Tr("place %s"), object.name.c_str()),
         [&edited](app::ProjectDocument& document) {
           std::replace_if(
               document.objects.begin(), document.objects.end(),
@@ -32,10 +34,11 @@ void ShowObject(app::Workspace& workspace, EditorState& state, const app::Object
         },
         "object");
   }
-  if (ImGui::Button("Remove", ImVec2(-FLT_MIN, 0))) {
-    workspace.Edit("remove " + object.name, [name = object.name](app::ProjectDocument& document) {
-      std::erase_if(document.objects, [&](const auto& o) { return o.name == name; });
-    });
+  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    workspace.Edit(Text(Tr("remove %s"), object.name.c_str()),
+                   [name = object.name](app::ProjectDocument& document) {
+                     std::erase_if(document.objects, [&](const auto& o) { return o.name == name; });
+                   });
     state.selection = {};
   }
 }

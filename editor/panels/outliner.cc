@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -52,7 +53,7 @@ void Section(const char* title, EditorState* state = nullptr, Dialog add = Dialo
   if (state != nullptr) {
     const float width = ImGui::GetFrameHeight();
     ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
-    ImGui::PushID(title);
+    ImGui::PushID(static_cast<int>(add));
     if (ImGui::Button("+", ImVec2(width, 0))) {
       state->dialog = add;
       state->fields = {};
@@ -65,11 +66,11 @@ void Section(const char* title, EditorState* state = nullptr, Dialog add = Dialo
 
 void ShowOutliner(app::Workspace& workspace, EditorState& state) {
   using Kind = Selection::Kind;
-  Row(state, "Project", {Kind::kProject, ""});
-  Section("Places", &state, Dialog::kTrain);
+  Row(state, Tr("Project"), {Kind::kProject, ""});
+  Section(Tr("Places"), &state, Dialog::kTrain);
   for (const app::PlaceDocument& place : workspace.document().places) {
     const bool shown = workspace.place() == &place;
-    const std::string label = shown ? place.name : place.name + " (not shown)";
+    const std::string label = shown ? place.name : Text(Tr("%s (not shown)"), place.name.c_str());
     Row(state, label.c_str(), {Kind::kPlace, place.name});
     if (!shown && state.selection == Selection{Kind::kPlace, place.name}) {
       workspace.ShowPlace(place.name);
@@ -77,24 +78,24 @@ void ShowOutliner(app::Workspace& workspace, EditorState& state) {
     }
   }
   if (const app::PlaceDocument* place = workspace.place()) {
-    Section("On the stage");
-    Row(state, "Stage", {Kind::kStage, ""});
-    Row(state, "Picks", {Kind::kPicks, ""});
-    Row(state, "Camera nudge", {Kind::kNudge, ""});
-    Section("Light probes", &state, Dialog::kProbe);
+    Section(Tr("On the stage"));
+    Row(state, Tr("Stage"), {Kind::kStage, ""});
+    Row(state, Tr("Picks"), {Kind::kPicks, ""});
+    Row(state, Tr("Camera nudge"), {Kind::kNudge, ""});
+    Section(Tr("Light probes"), &state, Dialog::kProbe);
     for (const app::ProbeDocument& probe : place->probes) {
       Row(state, probe.name.c_str(), {Kind::kProbe, probe.name});
     }
-    Section("Occluders", &state, Dialog::kOccluder);
+    Section(Tr("Occluders"), &state, Dialog::kOccluder);
     for (const app::OccluderDocument& occluder : place->occluders) {
       Row(state, occluder.name.c_str(), {Kind::kOccluder, occluder.name});
     }
   }
-  Section("Cast", &state, Dialog::kCast);
+  Section(Tr("Cast"), &state, Dialog::kCast);
   for (const app::CastDocument& member : workspace.document().cast) {
     PersonRow(workspace, state, member);
   }
-  Section("Objects", &state, Dialog::kObject);
+  Section(Tr("Objects"), &state, Dialog::kObject);
   for (const app::ObjectDocument& object : workspace.document().objects) {
     Row(state, object.name.c_str(), {Kind::kObject, object.name});
   }

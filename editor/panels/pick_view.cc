@@ -22,11 +22,14 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::array<AnchorEntry, 5> kAnchors = {{
-    {"Origin", "where the stage begins, on the floor", &stage::StagePicks::origin},
-    {"Forward", "a point straight ahead of the origin", &stage::StagePicks::forward},
-    {"Floor", "another point of the floor, to the side", &stage::StagePicks::floor},
-    {"Length from", "one end of a known length", &stage::StagePicks::length_from},
-    {"Length to", "its other end", &stage::StagePicks::length_to},
+    {TrLater("Origin"), TrLater("where the stage begins, on the floor"),
+     &stage::StagePicks::origin},
+    {TrLater("Forward"), TrLater("a point straight ahead of the origin"),
+     &stage::StagePicks::forward},
+    {TrLater("Floor"), TrLater("another point of the floor, to the side"),
+     &stage::StagePicks::floor},
+    {TrLater("Length from"), TrLater("one end of a known length"), &stage::StagePicks::length_from},
+    {TrLater("Length to"), TrLater("its other end"), &stage::StagePicks::length_to},
 }};
 
 struct ImageMap {
@@ -47,7 +50,7 @@ void SetPick(app::Workspace& workspace,
              const vision::Keyframe& keyframe,
              const Vector2d& pixel) {
   const AnchorEntry& entry = kAnchors[static_cast<size_t>(anchor_index)];
-  workspace.EditPlace(std::string("pick ") + entry.label, [&](app::PlaceDocument& place) {
+  workspace.EditPlace(Text(Tr("pick %s"), Tr(entry.label)), [&](app::PlaceDocument& place) {
     std::vector<stage::Pick>& picks = (place.picks.*entry.anchor).picks;
     std::erase_if(picks, [&](const stage::Pick& pick) { return stage::LiesIn(pick, keyframe); });
     picks.push_back({keyframe.frame_index, keyframe.name, pixel, keyframe.session});
@@ -89,7 +92,7 @@ void DrawAnchors(const app::Workspace& workspace,
       if (stage::LiesIn(pick, keyframe)) {
         const ImVec2 at = ToImGui(map.ToScreen(pick.pixel));
         DrawCross(at, packed, draw);
-        DrawLabel(at, kAnchors[i].label, packed, draw);
+        DrawLabel(at, Tr(kAnchors[i].label), packed, draw);
       }
     }
     if (!solution) {
@@ -173,13 +176,13 @@ void ShowAnchorButtons(const app::Workspace& workspace, EditorState& state) {
   std::array<const char*, kAnchors.size()> texts = {};
   for (size_t i = 0; i < kAnchors.size(); ++i) {
     const size_t count = (workspace.place()->picks.*kAnchors[i].anchor).picks.size();
-    labels[i] = kAnchors[i].label + std::string("  ") + std::to_string(count);
+    labels[i] = Tr(kAnchors[i].label) + std::string("  ") + std::to_string(count);
     texts[i] = labels[i].c_str();
   }
   Segmented("anchors", texts, state.anchor);
   ImGui::SameLine(0.0f, Px(14));
   ImGui::AlignTextToFramePadding();
-  DimText(kAnchors[static_cast<size_t>(state.anchor)].hint);
+  DimText(Tr(kAnchors[static_cast<size_t>(state.anchor)].hint));
 }
 
 void ShowCornerHint(const app::Workspace& workspace, const app::OccluderDocument& occluder) {
@@ -220,7 +223,7 @@ void DrawNewOccluder(app::Workspace& workspace, EditorState& state) {
       occluder.name = name;
     }
   }
-  workspace.EditPlace("add " + occluder.name,
+  workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
                       [&](app::PlaceDocument& place) { place.occluders.push_back(occluder); });
   state.selection = {Selection::Kind::kOccluder, occluder.name};
   state.view = ViewKind::kPicks;
@@ -244,7 +247,7 @@ void PickView::DragCorner(app::Workspace& workspace,
   const std::string name = occluder.name;
   const size_t corner = *dragged_corner_;
   workspace.EditPlace(
-      "draw " + name,
+      Text(Tr("draw %s"), name.c_str()),
       [&](app::PlaceDocument& place) {
         for (app::OccluderDocument& edited : place.occluders) {
           if (edited.name == name) {
@@ -281,7 +284,7 @@ void PickView::ShowImage(app::Workspace& workspace,
                 ToImGui(map.origin), ToImGui(map.origin + extent));
   if (keyframe.grey.empty()) {
     draw.AddText(ToImGui(map.origin + Vector2d(Px(12), Px(12))), Packed(OverPicture().dim),
-                 "The map was made small and holds no image here.");
+                 Tr("The map was made small and holds no image here."));
   }
   const app::OccluderDocument* drawn = OccluderInWork(workspace, state);
   if (drawn != nullptr) {
@@ -314,7 +317,7 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
   const auto& database = workspace.loaded().database;
   if (workspace.place() == nullptr || database == nullptr || database->keyframes.empty()) {
     uploaded_ = nullptr;
-    Hint("Picks are made in the training images. Train the place first.");
+    Hint(Tr("Picks are made in the training images. Train the place first."));
     return;
   }
   if (const app::OccluderDocument* drawn = OccluderInWork(workspace, state)) {
@@ -328,11 +331,11 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
   ShowImage(workspace, state, keyframe);
   std::string name = keyframe.name;
   if (keyframe.session != 0) {
-    name += ", session " + std::to_string(keyframe.session);
+    name += ", " + Text(Tr("session %d"), static_cast<int>(keyframe.session));
   }
   const float name_width = ImGui::CalcTextSize(name.c_str()).x + Px(12);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - name_width);
-  ImGui::SliderInt("##keyframe", &state.keyframe, 0, last, "training image %d",
+  ImGui::SliderInt("##keyframe", &state.keyframe, 0, last, Tr("training image %d"),
                    ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();

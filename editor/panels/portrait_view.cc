@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -158,13 +159,13 @@ void ShowPortrait(app::Workspace& workspace,
   Interact(state, portrait, picture, bones);
   ImGui::SetCursorScreenPos(ImVec2(from.x, frame.to.y + ImGui::GetStyle().ItemSpacing.y));
   if (workspace.cast_pictures().Working(member.name)) {
-    Caption(frame, "Building\xe2\x80\xa6");
+    Caption(frame, Tr("Building\xe2\x80\xa6"));
   }
-  static constexpr const char* kLabels[] = {"Bust", "Face", "Figure"};
-  Segmented("frame", kLabels, state.cast.frame);
+  const char* const labels[] = {Tr("Bust"), Tr("Face"), Tr("Figure")};
+  Segmented("frame", labels, state.cast.frame);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  DimText("Drag to turn");
+  DimText(Tr("Drag to turn"));
 }
 
 }  // namespace lararium::panels

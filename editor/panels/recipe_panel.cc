@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cfloat>
-#include <cstdio>
 #include <optional>
 
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -31,25 +31,20 @@ struct RecipeSlider {
 };
 
 constexpr RecipeSlider kBodySliders[] = {
-    {"Age", &CastRecipe::age, 1.0, 90.0, "%.0f years"},
-    {"Woman to man", &CastRecipe::sex, 0.0, 1.0, "%.2f"},
-    {"Weight", &CastRecipe::weight, 0.0, 1.0, "%.2f"},
-    {"Muscle", &CastRecipe::muscle, 0.0, 1.0, "%.2f"},
-    {"Proportions", &CastRecipe::proportions, 0.0, 1.0, "%.2f"}};
+    {TrLater("Age"), &CastRecipe::age, 1.0, 90.0, TrLater("%.0f years")},
+    {TrLater("Woman to man"), &CastRecipe::sex, 0.0, 1.0, "%.2f"},
+    {TrLater("Weight"), &CastRecipe::weight, 0.0, 1.0, "%.2f"},
+    {TrLater("Muscle"), &CastRecipe::muscle, 0.0, 1.0, "%.2f"},
+    {TrLater("Proportions"), &CastRecipe::proportions, 0.0, 1.0, "%.2f"}};
 constexpr RecipeSlider kWomanSliders[] = {
-    {"Breast size", &CastRecipe::breast_size, 0.0, 1.0, "%.2f"},
-    {"Breast firmness", &CastRecipe::breast_firmness, 0.0, 1.0, "%.2f"}};
-constexpr RecipeSlider kSkinSliders[] = {{"Stubble", &CastRecipe::stubble, 0.0, 1.0, "%.2f"},
-                                         {"Weathering", &CastRecipe::weathering, 0.0, 1.0, "%.2f"},
-                                         {"Sunburn", &CastRecipe::sunburn, 0.0, 1.0, "%.2f"},
-                                         {"Freckles", &CastRecipe::freckles, 0.0, 1.0, "%.2f"},
-                                         {"Asymmetry", &CastRecipe::asymmetry, 0.0, 1.0, "%.2f"}};
-
-std::string InSmallLetters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
+    {TrLater("Breast size"), &CastRecipe::breast_size, 0.0, 1.0, "%.2f"},
+    {TrLater("Breast firmness"), &CastRecipe::breast_firmness, 0.0, 1.0, "%.2f"}};
+constexpr RecipeSlider kSkinSliders[] = {
+    {TrLater("Stubble"), &CastRecipe::stubble, 0.0, 1.0, "%.2f"},
+    {TrLater("Weathering"), &CastRecipe::weathering, 0.0, 1.0, "%.2f"},
+    {TrLater("Sunburn"), &CastRecipe::sunburn, 0.0, 1.0, "%.2f"},
+    {TrLater("Freckles"), &CastRecipe::freckles, 0.0, 1.0, "%.2f"},
+    {TrLater("Asymmetry"), &CastRecipe::asymmetry, 0.0, 1.0, "%.2f"}};
 
 class RecipePanel {
  public:
@@ -57,19 +52,19 @@ class RecipePanel {
       : workspace_(workspace), state_(state), recipe_(recipe), catalogue_(workspace.catalogue()) {}
 
   RecipeChange Show() {
-    if (Fold("Body", true)) {
+    if (Fold(Label(Tr("Body"), "body"), true)) {
       ShowBody();
     }
-    if (Fold("Features", false)) {
+    if (Fold(Label(Tr("Features"), "features"), false)) {
       ShowFeatures();
     }
-    if (Fold("Skin and eyes", false)) {
+    if (Fold(Label(Tr("Skin and eyes"), "skin"), false)) {
       ShowSkin();
     }
-    if (Fold("Hair and beard", false)) {
+    if (Fold(Label(Tr("Hair and beard"), "hair"), false)) {
       ShowHair();
     }
-    if (Fold("Clothes", false)) {
+    if (Fold(Label(Tr("Clothes"), "clothes"), false)) {
       ShowWardrobe(workspace_, recipe_, change_);
     }
     return std::move(change_);
@@ -79,9 +74,10 @@ class RecipePanel {
   void ShowSliders(std::span<const RecipeSlider> sliders) {
     for (const RecipeSlider& slider : sliders) {
       double value = recipe_.*slider.value;
-      if (SliderProperty(workspace_, slider.label, value, slider.min, slider.max, slider.format)) {
+      if (SliderProperty(workspace_, Tr(slider.label), value, slider.min, slider.max,
+                         Tr(slider.format))) {
         recipe_.*slider.value = static_cast<float>(value);
-        change_.Drag(InSmallLetters(slider.label));
+        change_.Drag(InSmallLetters(Tr(slider.label)));
       }
     }
   }
@@ -95,21 +91,22 @@ class RecipePanel {
       ShowSliders(kWomanSliders);
     }
     double height = recipe_.height.value_or(1.7f);
-    if (SliderProperty(workspace_, "Height", height, app::kMinHeight, app::kMaxHeight, "%.2f m")) {
+    if (SliderProperty(workspace_, Tr("Height"), height, app::kMinHeight, app::kMaxHeight,
+                       "%.2f m")) {
       recipe_.height = static_cast<float>(height);
-      change_.Drag("height");
+      change_.Drag(Tr("height"));
     }
     ShowDescent();
     EndProperties();
   }
 
   void ShowDescent() {
-    constexpr std::array<const char*, 3> kLabels = {"European", "African", "Asian"};
+    const std::array<const char*, 3> labels = {Tr("European"), Tr("African"), Tr("Asian")};
     for (int i = 0; i < 3; ++i) {
       double share = recipe_.ethnicity[i];
-      if (SliderProperty(workspace_, kLabels[i], share, 0.0, 1.0, "%.2f")) {
+      if (SliderProperty(workspace_, labels[static_cast<size_t>(i)], share, 0.0, 1.0, "%.2f")) {
         recipe_.ethnicity[i] = static_cast<float>(share);
-        change_.Drag("descent");
+        change_.Drag(Tr("descent"));
       }
     }
     if (recipe_.ethnicity.x + recipe_.ethnicity.y + recipe_.ethnicity.z <= 0.0f) {
@@ -125,18 +122,18 @@ class RecipePanel {
     }
     std::string& search = state_.cast.search;
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##search", "Search: nose, lip, thigh\xe2\x80\xa6", &search);
+    ImGui::InputTextWithHint("##search", Tr("Search: nose, lip, thigh\xe2\x80\xa6"), &search);
     bool any = false;
     for (const app::CastSliderGroup& group : catalogue_->groups) {
       any |= ShowGroup(group);
     }
     if (!any) {
-      Hint("No feature is called so.");
+      Hint(Tr("No feature is called so."));
     }
     ImGui::BeginDisabled(recipe_.modifiers.empty());
-    if (ImGui::Button("Reset all features", ImVec2(-FLT_MIN, 0))) {
+    if (ImGui::Button(Tr("Reset all features"), ImVec2(-FLT_MIN, 0))) {
       recipe_.modifiers.clear();
-      change_.Choose("reset of all features");
+      change_.Choose(Tr("reset of all features"));
     }
     ImGui::EndDisabled();
   }
@@ -155,13 +152,14 @@ class RecipePanel {
     if (shown.empty()) {
       return false;
     }
-    const std::string title =
-        group.title + (set > 0 ? " (" + std::to_string(set) + ")" : "") + "###" + group.title;
+    const std::string title = Tr(group.title.c_str()) +
+                              (set > 0 ? " (" + std::to_string(set) + ")" : "") + "###" +
+                              group.title;
     if (!search.empty()) {
       ImGui::SetNextItemOpen(true);
     }
     ImGui::Indent(Px(8));
-    if (Fold(title.c_str(), false) && BeginProperties(group.title.c_str(), kFeatureLabel)) {
+    if (Fold(title, false) && BeginProperties(group.title.c_str(), kFeatureLabel)) {
       for (const app::CastSlider* slider : shown) {
         ShowFeature(group, *slider);
       }
@@ -175,7 +173,7 @@ class RecipePanel {
     const auto known = recipe_.modifiers.find(slider.modifier);
     const bool set = known != recipe_.modifiers.end();
     float value = set ? known->second : 0.0f;
-    const std::string what = InSmallLetters(group.title) + ": " + slider.label;
+    const std::string what = InSmallLetters(Tr(group.title.c_str())) + ": " + slider.label;
     PropertyLabel(slider.label.c_str());
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s", slider.modifier.c_str());
@@ -193,7 +191,7 @@ class RecipePanel {
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (set && ImGui::Button(kReset, ImVec2(reset, 0))) {
       recipe_.modifiers.erase(slider.modifier);
-      change_.Choose("reset of " + what);
+      change_.Choose(Text(Tr("reset of %s"), what.c_str()));
     }
     ImGui::PopID();
   }
@@ -203,11 +201,8 @@ class RecipePanel {
     if (value == 0.0f) {
       return "\xe2\x80\x93";
     }
-    char text[64];
-    std::snprintf(text, sizeof(text), "%s %.2f",
-                  (value < 0.0f ? slider.less : slider.more).substr(0, 40).c_str(),
-                  static_cast<double>(std::abs(value)));
-    return text;
+    const std::string& towards = value < 0.0f ? slider.less : slider.more;
+    return Text("%.40s %.2f", Tr(towards.c_str()), static_cast<double>(std::abs(value)));
   }
 
   // ---- Parts -----------------------------------------------------------------------
@@ -216,17 +211,17 @@ class RecipePanel {
     if (!HasCatalogue() || !BeginProperties("skin", 110.0f)) {
       return;
     }
-    PropertyLabel("Skin");
-    if (NameCombo("##skin", recipe_.skin, catalogue_->skins, "by age, sex and descent")) {
-      change_.Choose("skin");
+    PropertyLabel(Tr("Skin"));
+    if (NameCombo("##skin", recipe_.skin, catalogue_->skins, Tr("by age, sex and descent"))) {
+      change_.Choose(Tr("skin"));
     }
-    PropertyLabel("Tint");
-    ColourField("skin tint", recipe_.skin_tint, glm::vec3(0.7f, 0.52f, 0.4f));
+    PropertyLabel(Tr("Tint"));
+    ColourField(Tr("skin tint"), recipe_.skin_tint, glm::vec3(0.7f, 0.52f, 0.4f));
     ShowSliders(kSkinSliders);
-    PartField("Eyes", recipe_.eyes, catalogue_->eyes, nullptr);
-    PropertyLabel("Eyelashes");
-    if (NameCombo("##eyelashes", recipe_.eyelashes, catalogue_->eyelashes, "none")) {
-      change_.Choose("eyelashes");
+    PartField(Tr("Eyes"), recipe_.eyes, catalogue_->eyes, nullptr);
+    PropertyLabel(Tr("Eyelashes"));
+    if (NameCombo("##eyelashes", recipe_.eyelashes, catalogue_->eyelashes, Tr("none"))) {
+      change_.Choose(Tr("eyelashes"));
     }
     EndProperties();
   }
@@ -236,28 +231,29 @@ class RecipePanel {
       return;
     }
     import::CastDyed hair = recipe_.hair.value_or(import::CastDyed());
-    if (PartField("Hair", hair, catalogue_->hair, "none")) {
+    if (PartField(Tr("Hair"), hair, catalogue_->hair, Tr("none"))) {
       recipe_.hair = hair.name.empty() ? std::nullopt : std::optional(hair);
     }
     if (recipe_.hair) {
       double volume = recipe_.hair->volume;
-      if (SliderProperty(workspace_, "Volume", volume, 0.1, 2.0, "%.2f")) {
+      if (SliderProperty(workspace_, Tr("Volume"), volume, 0.1, 2.0, "%.2f")) {
         recipe_.hair->volume = static_cast<float>(volume);
-        change_.Drag("volume of the hair");
+        change_.Drag(Tr("volume of the hair"));
       }
     }
-    PartField("Brows", recipe_.eyebrows, catalogue_->eyebrows, "none");
+    PartField(Tr("Brows"), recipe_.eyebrows, catalogue_->eyebrows, Tr("none"));
     for (size_t i = 0; i < recipe_.beard.size(); ++i) {
-      const std::string label = i == 0 ? "Beard" : "Beard " + std::to_string(i + 1);
-      PartField(label.c_str(), recipe_.beard[i], catalogue_->beards, "none");
+      const std::string label =
+          i == 0 ? Tr("Beard") : Text(Tr("Beard %d"), static_cast<int>(i) + 1);
+      PartField(label.c_str(), recipe_.beard[i], catalogue_->beards, Tr("none"));
     }
     std::erase_if(recipe_.beard, [](const import::CastDyed& part) { return part.name.empty(); });
     EndProperties();
     ImGui::BeginDisabled(recipe_.beard.size() >= kMostBeards || catalogue_->beards.empty());
-    if (ImGui::Button("Add a beard", ImVec2(-FLT_MIN, 0))) {
+    if (ImGui::Button(Tr("Add a beard"), ImVec2(-FLT_MIN, 0))) {
       const auto colour = recipe_.hair ? recipe_.hair->colour : std::nullopt;
       recipe_.beard.push_back({catalogue_->beards.front(), colour});
-      change_.Choose("beard");
+      change_.Choose(Tr("beard"));
     }
     ImGui::EndDisabled();
   }
@@ -279,7 +275,8 @@ class RecipePanel {
       changed = true;
     }
     ImGui::SameLine(0, gap);
-    changed |= ColourField("colour of the " + what, part.colour, glm::vec3(0.2f, 0.14f, 0.1f));
+    changed |= ColourField(Text(Tr("colour of the %s"), what.c_str()), part.colour,
+                           glm::vec3(0.2f, 0.14f, 0.1f));
     ImGui::PopID();
     return changed;
   }
@@ -298,13 +295,13 @@ class RecipePanel {
     }
     ImGui::PopStyleVar();
     if (!colour && ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("As the part was made; click to dye it");
+      ImGui::SetTooltip("%s", Tr("As the part was made; click to dye it"));
     }
     if (colour) {
       ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
       if (ImGui::Button(kReset, ImVec2(ImGui::GetFrameHeight(), 0))) {
         colour.reset();
-        change_.Choose("reset of the " + what);
+        change_.Choose(Text(Tr("reset of the %s"), what.c_str()));
         changed = true;
       }
     }
@@ -313,7 +310,7 @@ class RecipePanel {
 
   bool HasCatalogue() {
     if (catalogue_ == nullptr) {
-      Hint(workspace_.catalogue_problem().empty() ? "Opening the cast library\xe2\x80\xa6"
+      Hint(workspace_.catalogue_problem().empty() ? Tr("Opening the cast library\xe2\x80\xa6")
                                                   : workspace_.catalogue_problem());
     }
     return catalogue_ != nullptr;
@@ -327,6 +324,12 @@ class RecipePanel {
 };
 
 }  // namespace
+
+std::string InSmallLetters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
 
 RecipeChange ShowRecipe(app::Workspace& workspace, EditorState& state, CastRecipe& recipe) {
   return RecipePanel(workspace, state, recipe).Show();

@@ -34,11 +34,15 @@ constexpr const char* kSuffix = ".lararium";
 std::string DateText(int64_t seconds) {
   const std::time_t time = static_cast<std::time_t>(seconds);
   std::tm parts = {};
-  char text[64] = "";
-  if (localtime_r(&time, &parts) != nullptr) {
-    std::strftime(text, sizeof(text), "%e %b %Y, %H:%M", &parts);
+  if (localtime_r(&time, &parts) == nullptr) {
+    return "";
   }
-  return text[0] == ' ' ? text + 1 : text;
+  static constexpr const char* kMonths[] = {TrLater("Jan"), TrLater("Feb"), TrLater("Mar"),
+                                            TrLater("Apr"), TrLater("May"), TrLater("Jun"),
+                                            TrLater("Jul"), TrLater("Aug"), TrLater("Sep"),
+                                            TrLater("Oct"), TrLater("Nov"), TrLater("Dec")};
+  return Text("%d %s %d, %02d:%02d", parts.tm_mday, Tr(kMonths[parts.tm_mon]), parts.tm_year + 1900,
+              parts.tm_hour, parts.tm_min);
 }
 
 // As people write it: "~" for their own folder.
@@ -351,7 +355,7 @@ void StartPage::ShowDialog(app::RecentProjects& recent,
                       : dialog_ == Open::kProject ? Tr("Open a project")
                                                   : Tr("Locate the project");
   bool open = true;
-  ShowModal(title, 560, open, [&] {
+  ShowModal(Label(title, "dialog").c_str(), 560, open, [&] {
     if (dialog_ == Open::kNew) {
       NewDialog(choice);
     } else {

@@ -303,6 +303,9 @@ void LineFields(Item& item) {
   for (const std::string& language : table->languages) {
     LineText(item, *table, language);
   }
+  if (table->languages.empty()) {  // the first: whoever writes begins in their own
+    LineText(item, *table, TrIn("the language's tag", "en"));
+  }
   NewLanguage(item, *table);
   PropertyLabel("");
   if (ImGui::Button(Tr("Another line"))) {

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <span>
@@ -977,7 +978,7 @@ void TimelinePanel::ShowContextMenu(app::Workspace& workspace, EditorState& stat
     if (ImGui::MenuItem(Tr("Duplicate"), "Ctrl+D", false, any)) {
       Duplicate(workspace);
     }
-    if (ImGui::MenuItem(Tr("Delete"), Tr("Del"), false, any)) {
+    if (ImGui::MenuItem(Tr("Delete"), TrIn("key", "Delete"), false, any)) {
       Delete(workspace);
     }
     ImGui::Separator();
@@ -1354,7 +1355,8 @@ void TimelinePanel::ShowTools(app::Workspace& workspace, EditorState& state) {
       ImGui::SetTooltip("%s", text.c_str());
     }
   };
-  if (ImGui::Button(workspace.playing() ? Tr("Pause") : Tr("Play"), ImVec2(Px(70), 0))) {
+  if (ImGui::Button(workspace.playing() ? Tr("Pause") : Tr("Play"),
+                    ImVec2(WidestButton(std::array{Tr("Pause"), Tr("Play")}, 70.0f), 0))) {
     workspace.SetPlaying(!workspace.playing());
   }
   tip(WithKey(Tr("Plays the drama"), KeyAction::kPlay));

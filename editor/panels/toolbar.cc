@@ -11,6 +11,7 @@
 #include "editor/panels/light_panel.h"
 #include "editor/panels/look.h"
 #include "editor/panels/pick_view.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -51,25 +52,29 @@ bool CanAddSession(app::Workspace& workspace) {
 }
 
 std::string UndoLabel(const app::Workspace& workspace) {
-  return workspace.commands().CanUndo() ? "Undo " + workspace.commands().undo_name() : "Undo";
+  return workspace.commands().CanUndo()
+             ? Text(Tr("Undo %s"), workspace.commands().undo_name().c_str())
+             : Tr("Undo");
 }
 
 std::string RedoLabel(const app::Workspace& workspace) {
-  return workspace.commands().CanRedo() ? "Redo " + workspace.commands().redo_name() : "Redo";
+  return workspace.commands().CanRedo()
+             ? Text(Tr("Redo %s"), workspace.commands().redo_name().c_str())
+             : Tr("Redo");
 }
 
 void FileMenu(app::Workspace& workspace, EditorState& state) {
-  if (MenuItem("New or open\xe2\x80\xa6", KeyAction::kLeave)) {
+  if (MenuItem(Tr("New or open\xe2\x80\xa6"), KeyAction::kLeave)) {
     state.leave = true;
   }
-  if (MenuItem("Save", KeyAction::kSave)) {
+  if (MenuItem(Tr("Save"), KeyAction::kSave)) {
     workspace.Save();
   }
-  if (ImGui::MenuItem("Export\xe2\x80\xa6")) {
+  if (ImGui::MenuItem(Tr("Export\xe2\x80\xa6"))) {
     OpenDialog(state, Dialog::kExport);
   }
   ImGui::Separator();
-  if (MenuItem("Quit", KeyAction::kQuit)) {
+  if (MenuItem(Tr("Quit"), KeyAction::kQuit)) {
     state.quit = true;
   }
 }
@@ -87,32 +92,32 @@ void EditMenu(app::Workspace& workspace) {
 
 void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   const bool training = workspace.tasks().Running(app::Workspace::kTraining);
-  if (ImGui::MenuItem("Train\xe2\x80\xa6", nullptr, false, !training)) {
+  if (ImGui::MenuItem(Tr("Train\xe2\x80\xa6"), nullptr, false, !training)) {
     OpenTrainDialog(workspace, state);
   }
-  if (ImGui::MenuItem("Add a session\xe2\x80\xa6", nullptr, false, CanAddSession(workspace))) {
+  if (ImGui::MenuItem(Tr("Add a session\xe2\x80\xa6"), nullptr, false, CanAddSession(workspace))) {
     OpenDialog(state, Dialog::kAddSession);
   }
-  if (ImGui::MenuItem("Bake")) {
+  if (ImGui::MenuItem(Tr("Bake"))) {
     workspace.Bake();
   }
-  if (MenuItem("Lay the stage on the floor", KeyAction::kLayOnFloor, false,
+  if (MenuItem(Tr("Lay the stage on the floor"), KeyAction::kLayOnFloor, false,
                workspace.loaded().measures.floor.has_value())) {
     workspace.LayStageOnFloor();
   }
   ImGui::Separator();
   const bool any = workspace.place() != nullptr;
-  if (ImGui::MenuItem("Add an occluder\xe2\x80\xa6", nullptr, false, any)) {
+  if (ImGui::MenuItem(Tr("Add an occluder\xe2\x80\xa6"), nullptr, false, any)) {
     OpenDialog(state, Dialog::kOccluder);
   }
-  if (ImGui::MenuItem("Draw an occluder", nullptr, false,
+  if (ImGui::MenuItem(Tr("Draw an occluder"), nullptr, false,
                       any && workspace.loaded().database != nullptr)) {
     DrawNewOccluder(workspace, state);
   }
-  if (ImGui::MenuItem("Add a light probe\xe2\x80\xa6", nullptr, false, any)) {
+  if (ImGui::MenuItem(Tr("Add a light probe\xe2\x80\xa6"), nullptr, false, any)) {
     OpenDialog(state, Dialog::kProbe);
   }
-  if (ImGui::MenuItem("Add a person\xe2\x80\xa6")) {
+  if (ImGui::MenuItem(Tr("Add a person\xe2\x80\xa6"))) {
     OpenDialog(state, Dialog::kCast);
   }
 }
@@ -124,9 +129,9 @@ void ShowTab(EditorState& state, BottomTab tab) {
 
 void ViewMenu(app::Workspace& workspace, EditorState& state) {
   const std::tuple<const char*, KeyAction, ViewKind> views[] = {
-      {"Through the camera", KeyAction::kCameraView, ViewKind::kCamera},
-      {"Around the place", KeyAction::kAroundView, ViewKind::kAround},
-      {"Picks", KeyAction::kPickView, ViewKind::kPicks}};
+      {Tr("Through the camera"), KeyAction::kCameraView, ViewKind::kCamera},
+      {Tr("Around the place"), KeyAction::kAroundView, ViewKind::kAround},
+      {Tr("Picks"), KeyAction::kPickView, ViewKind::kPicks}};
   for (const auto& [label, key, view] : views) {
     if (MenuItem(label, key, state.view == view)) {
       state.view = view;
@@ -134,26 +139,26 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   }
   ImGui::Separator();
   const std::tuple<const char*, KeyAction, BottomTab> tabs[] = {
-      {"Timeline", KeyAction::kTimelineTab, BottomTab::kTimeline},
-      {"Script", KeyAction::kScriptTab, BottomTab::kScript},
-      {"Checks", KeyAction::kChecksTab, BottomTab::kChecks},
-      {"Messages", KeyAction::kMessagesTab, BottomTab::kMessages}};
+      {Tr("Timeline"), KeyAction::kTimelineTab, BottomTab::kTimeline},
+      {Tr("Script"), KeyAction::kScriptTab, BottomTab::kScript},
+      {Tr("Checks"), KeyAction::kChecksTab, BottomTab::kChecks},
+      {Tr("Messages"), KeyAction::kMessagesTab, BottomTab::kMessages}};
   for (const auto& [label, key, tab] : tabs) {
     if (MenuItem(label, key, state.bottom == tab)) {
       ShowTab(state, tab);
     }
   }
   ImGui::Separator();
-  ImGui::MenuItem("Stage over the picture", nullptr, &state.show_stage);
-  ImGui::MenuItem("Points", nullptr, &state.show_points);
-  if (MenuItem("Matches over the picture", KeyAction::kMatches, state.show_matches)) {
+  ImGui::MenuItem(Tr("Stage over the picture"), nullptr, &state.show_stage);
+  ImGui::MenuItem(Tr("Points"), nullptr, &state.show_points);
+  if (MenuItem(Tr("Matches over the picture"), KeyAction::kMatches, state.show_matches)) {
     state.show_matches = !state.show_matches;
   }
   ImGui::Separator();
-  if (MenuItem("Evidence", KeyAction::kEvidence, workspace.shows_evidence())) {
+  if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.shows_evidence())) {
     workspace.SetEvidence(!workspace.shows_evidence());
   }
-  if (MenuItem("Sound", KeyAction::kSound, workspace.sound())) {
+  if (MenuItem(Tr("Sound"), KeyAction::kSound, workspace.sound())) {
     workspace.SetSound(!workspace.sound());
   }
   ImGui::Separator();
@@ -266,27 +271,27 @@ void ShowMenuBar(app::Workspace& workspace, EditorState& state) {
   if (!ImGui::BeginMenuBar()) {
     return;
   }
-  if (ImGui::BeginMenu("File")) {
+  if (ImGui::BeginMenu(Label(Tr("File"), "file").c_str())) {
     FileMenu(workspace, state);
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("Edit")) {
+  if (ImGui::BeginMenu(Label(Tr("Edit"), "edit").c_str())) {
     EditMenu(workspace);
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("Place")) {
+  if (ImGui::BeginMenu(Label(Tr("Place"), "place").c_str())) {
     PlaceMenu(workspace, state);
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("View")) {
+  if (ImGui::BeginMenu(Label(Tr("View"), "view").c_str())) {
     ViewMenu(workspace, state);
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("Help")) {
-    if (MenuItem("Keys", KeyAction::kKeyList)) {
+  if (ImGui::BeginMenu(Label(Tr("Help"), "help").c_str())) {
+    if (MenuItem(Tr("Keys"), KeyAction::kKeyList)) {
       OpenDialog(state, Dialog::kKeys);
     }
-    if (ImGui::MenuItem("Guided tour")) {
+    if (ImGui::MenuItem(Tr("Guided tour"))) {
       state.begin_tour = true;
     }
     ImGui::EndMenu();
@@ -297,51 +302,51 @@ void ShowMenuBar(app::Workspace& workspace, EditorState& state) {
 void ShowToolbar(app::Workspace& workspace, EditorState& state) {
   const float gap = Px(22);
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kTraining));
-  if (ImGui::Button("Train\xe2\x80\xa6")) {
+  if (ImGui::Button(Tr("Train\xe2\x80\xa6"))) {
     OpenTrainDialog(workspace, state);
   }
   ImGui::EndDisabled();
-  SameLineIfFits(std::array{"Add a session\xe2\x80\xa6"});
+  SameLineIfFits(std::array{Tr("Add a session\xe2\x80\xa6")});
   ImGui::BeginDisabled(!CanAddSession(workspace));
-  if (ImGui::Button("Add a session\xe2\x80\xa6")) {
+  if (ImGui::Button(Tr("Add a session\xe2\x80\xa6"))) {
     OpenDialog(state, Dialog::kAddSession);
   }
   ImGui::EndDisabled();
-  SameLineIfFits(std::array{"Bake"});
+  SameLineIfFits(std::array{Tr("Bake")});
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kBaking));
-  if (ImGui::Button("Bake")) {
+  if (ImGui::Button(Tr("Bake"))) {
     workspace.Bake();
   }
   ImGui::EndDisabled();
-  SameLineIfFits(std::array{"Export\xe2\x80\xa6"});
+  SameLineIfFits(std::array{Tr("Export\xe2\x80\xa6")});
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kExporting));
-  if (ImGui::Button("Export\xe2\x80\xa6")) {
+  if (ImGui::Button(Tr("Export\xe2\x80\xa6"))) {
     OpenDialog(state, Dialog::kExport);
   }
   ImGui::EndDisabled();
 
-  static constexpr const char* kViews[] = {"Through the camera", "Around the place", "Picks"};
-  SameLineIfFits(kViews, gap);
+  const char* const views[] = {Tr("Through the camera"), Tr("Around the place"), Tr("Picks")};
+  SameLineIfFits(views, gap);
   int view = static_cast<int>(state.view);
-  if (Segmented("view", kViews, view)) {
+  if (Segmented("view", views, view)) {
     state.view = static_cast<ViewKind>(view);
   }
-  static constexpr const char* kModes[] = {"Move", "Turn", "Scale"};
-  SameLineIfFits(kModes, gap);
+  const char* const modes[] = {Tr("Move"), Tr("Turn"), Tr("Scale")};
+  SameLineIfFits(modes, gap);
   int mode = static_cast<int>(state.gizmo);
-  if (Segmented("gizmo", kModes, mode)) {
+  if (Segmented("gizmo", modes, mode)) {
     SetGizmo(state, static_cast<GizmoMode>(mode));
   }
-  static constexpr const char* kUndo[] = {"Undo", "Redo"};
-  SameLineIfFits(kUndo, gap);
+  const char* const undo[] = {Tr("Undo"), Tr("Redo")};
+  SameLineIfFits(undo, gap);
   ImGui::BeginDisabled(!workspace.commands().CanUndo());
-  if (ImGui::Button("Undo")) {
+  if (ImGui::Button(Tr("Undo"))) {
     workspace.Undo();
   }
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(!workspace.commands().CanRedo());
-  if (ImGui::Button("Redo")) {
+  if (ImGui::Button(Tr("Redo"))) {
     workspace.Redo();
   }
   ImGui::EndDisabled();

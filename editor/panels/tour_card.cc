@@ -69,7 +69,7 @@ void ShowTourCard(const app::Workspace& workspace, const EditorState& state, Tou
       ImVec2(window.WorkPos.x + Px(250), window.WorkPos.y + 0.5f * window.WorkSize.y),
       ImGuiCond_Appearing, ImVec2(0.0f, 1.0f));
   ImGui::SetNextWindowSize(ImVec2(Px(kWidth), 0));
-  const std::string title = std::string(Tr("Tour")) + "##card";
+  const std::string title = Label(Tr("Tour"), "tour");
   bool open = true;
   ImGui::PushStyleColor(ImGuiCol_WindowBg, Colours().frame);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6));

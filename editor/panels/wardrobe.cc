@@ -11,6 +11,7 @@
 
 #include "editor/import/garment/garment_pattern.h"
 #include "editor/panels/recipe_panel.h"
+#include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
 
@@ -18,7 +19,6 @@ namespace lararium::panels {
 namespace {
 
 constexpr size_t kMostGarments = 16;  // that a recipe can hold
-constexpr const char* kUsual = "as usual";
 
 // Fields that are one of a few words, and the garments that have them (how-to-dress-the-cast.md).
 struct WordField {
@@ -26,10 +26,11 @@ struct WordField {
   const char* label;
   std::initializer_list<std::string_view> garments;
 };
-const WordField kWordFields[] = {{"length", "Length", {"tunic", "stola", "apron", "toga", "palla"}},
-                                 {"sleeve", "Sleeves", {"tunic", "stola"}},
-                                 {"belt", "Belt", {"tunic", "stola"}},
-                                 {"stripes", "Stripes", {"tunic"}}};
+const WordField kWordFields[] = {
+    {"length", TrLater("Length"), {"tunic", "stola", "apron", "toga", "palla"}},
+    {"sleeve", TrLater("Sleeves"), {"tunic", "stola"}},
+    {"belt", TrLater("Belt"), {"tunic", "stola"}},
+    {"stripes", TrLater("Stripes"), {"tunic"}}};
 
 bool Has(const WordField& field, const std::string& garment) {
   return std::find(field.garments.begin(), field.garments.end(), garment) != field.garments.end();
@@ -39,7 +40,7 @@ std::string TextOf(const Json& garment, const char* field) {
   const auto found = garment.find(field);
   return found == garment.end() ? ""
          : found->is_string()   ? found->get<std::string>()
-         : found->is_number()   ? "by number"
+         : found->is_number()   ? Tr("by number")
                                 : "";
 }
 
@@ -74,13 +75,13 @@ void Set(Json& garment, const char* field, const std::string& value) {
 }
 
 void ColourRow(app::Workspace& workspace, Json& garment, RecipeChange& change) {
-  const std::string what = "colour of the " + NameOf(garment);
-  PropertyLabel("Colour");
+  const std::string what = Text(Tr("colour of the %s"), NameOf(garment).c_str());
+  PropertyLabel(Tr("Colour"));
   std::string dye = TextOf(garment, "colour");
   const std::vector<std::string> dyes = import::GarmentWords("colour");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() -
                           ImGui::GetStyle().ItemInnerSpacing.x);
-  if (NameCombo("##dye", dye, dyes, kUsual)) {
+  if (NameCombo("##dye", dye, dyes, Tr("as usual"))) {
     Set(garment, "colour", dye);
     change.Choose(what);
   }
@@ -97,13 +98,14 @@ void WordRows(Json& garment, RecipeChange& change) {
     if (!Has(field, NameOf(garment))) {
       continue;
     }
-    PropertyLabel(field.label);
+    PropertyLabel(Tr(field.label));
     ImGui::PushID(field.field);
     std::string word = TextOf(garment, field.field);
     const std::vector<std::string> words = import::GarmentWords(field.field);
-    if (NameCombo("##word", word, words, kUsual)) {
+    if (NameCombo("##word", word, words, Tr("as usual"))) {
       Set(garment, field.field, word);
-      change.Choose(std::string(field.field) + " of the " + NameOf(garment));
+      change.Choose(Text(Tr("%s of the %s"), InSmallLetters(Tr(field.label)).c_str(),
+                         NameOf(garment).c_str()));
     }
     ImGui::PopID();
   }
@@ -115,15 +117,15 @@ void WearRow(app::Workspace& workspace, Json& garment, RecipeChange& change) {
   }
   const auto pattern = import::ParseGarmentPattern(JsonView(garment, "garment"));
   double wear = pattern.ok() ? pattern->wear : 0.3;
-  if (SliderProperty(workspace, "Wear", wear, 0.0, 1.0, "%.2f")) {
+  if (SliderProperty(workspace, Tr("Wear"), wear, 0.0, 1.0, "%.2f")) {
     garment["wear"] = std::round(wear * 100.0) / 100.0;
-    change.Drag("wear of the " + NameOf(garment));
+    change.Drag(Text(Tr("wear of the %s"), NameOf(garment).c_str()));
   }
   bool border = pattern.ok() && pattern->border;
-  PropertyLabel("Border");
+  PropertyLabel(Tr("Border"));
   if (ImGui::Checkbox("##border", &border)) {
     garment["border"] = border;
-    change.Choose("border of the " + NameOf(garment));
+    change.Choose(Text(Tr("border of the %s"), NameOf(garment).c_str()));
   }
 }
 
@@ -141,7 +143,7 @@ Order Header(Json& garment, bool first, RecipeChange& change) {
     if (garment.contains("colour")) {
       other["colour"] = garment["colour"];
     }
-    change.Choose(name + " for the " + NameOf(garment));
+    change.Choose(Text(Tr("%s for the %s"), name.c_str(), NameOf(garment).c_str()));
     garment = std::move(other);
   }
   ImGui::SameLine(0, gap);
@@ -149,7 +151,7 @@ Order Header(Json& garment, bool first, RecipeChange& change) {
   const bool up = ImGui::Button("\xe2\x86\x91", ImVec2(button, 0));
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("Put on earlier: below what comes before");
+    ImGui::SetTooltip("%s", Tr("Put on earlier: below what comes before"));
   }
   ImGui::SameLine(0, gap);
   const bool off = ImGui::Button("\xc3\x97", ImVec2(button, 0));
@@ -170,7 +172,7 @@ Order ShowGarment(app::Workspace& workspace, Json& garment, bool first, RecipeCh
 
 void AddGarment(import::CastRecipe& recipe, RecipeChange& change) {
   ImGui::BeginDisabled(recipe.garments.size() >= kMostGarments);
-  if (ImGui::Button("Put something on\xe2\x80\xa6", ImVec2(-FLT_MIN, 0))) {
+  if (ImGui::Button(Tr("Put something on\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
     ImGui::OpenPopup("garments");
   }
   ImGui::EndDisabled();
@@ -194,10 +196,10 @@ void ShowWardrobe(app::Workspace& workspace, import::CastRecipe& recipe, RecipeC
     ImGui::PopID();
     const auto at = recipe.garments.begin() + static_cast<std::ptrdiff_t>(i);
     if (order == Order::kUp) {
-      change.Choose("order of the " + NameOf(*at));
+      change.Choose(Text(Tr("order of the %s"), NameOf(*at).c_str()));
       std::iter_swap(at - 1, at);
     } else if (order == Order::kTakeOff) {
-      change.Choose("no " + NameOf(*at));
+      change.Choose(Text(Tr("no %s"), NameOf(*at).c_str()));
       recipe.garments.erase(at);
       break;
     }

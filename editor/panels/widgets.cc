@@ -3,6 +3,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -125,7 +126,7 @@ DialogAnswer DialogButtons(const char* action, const std::string& problem, const
   ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
   ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
   ImGui::PopStyleColor();
-  const float width = Px(110);
+  const float width = WidestButton(std::array{Tr("Cancel"), action}, 110.0f);
   const float spacing = ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
   DialogAnswer answer = DialogAnswer::kNone;
@@ -179,15 +180,25 @@ bool Segmented(const char* id, std::span<const char* const> labels, int& chosen)
     const bool active = i == chosen;
     ImGui::PushStyleColor(ImGuiCol_Button, active ? Colours().chosen : Colours().frame);
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, active ? Colours().chosen : Colours().hover);
+    ImGui::PushID(i);
     if (ImGui::Button(labels[static_cast<size_t>(i)]) && !active) {
       chosen = i;
       changed = true;
     }
+    ImGui::PopID();
     ImGui::PopStyleColor(2);
   }
   ImGui::PopStyleVar();
   ImGui::PopID();
   return changed;
+}
+
+float WidestButton(std::span<const char* const> labels, float least) {
+  float widest = 0.0f;
+  for (const char* label : labels) {
+    widest = std::max(widest, ImGui::CalcTextSize(label).x);
+  }
+  return std::max(Px(least), widest + 2.0f * ImGui::GetStyle().FramePadding.x);
 }
 
 void SameLineIfFits(std::span<const char* const> labels, float gap) {
@@ -203,13 +214,13 @@ void SameLineIfFits(std::span<const char* const> labels, float gap) {
   }
 }
 
-bool Fold(const char* title, bool open_at_first) {
+bool Fold(const std::string& title, bool open_at_first) {
   ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
   ImGui::PushStyleColor(ImGuiCol_HeaderActive, Colours().hover);
   const ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_SpanAvailWidth |
                                    ImGuiTreeNodeFlags_NoTreePushOnOpen |
                                    (open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-  const bool open = ImGui::TreeNodeEx(title, flags);
+  const bool open = ImGui::TreeNodeEx(title.c_str(), flags);
   ImGui::PopStyleColor(2);
   return open;
 }
@@ -336,7 +347,7 @@ bool NameCombo(const char* id,
   for (size_t i = 0; i < names.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     const bool selected = names[i] == before;
-    if (ImGui::Selectable(names[i].empty() ? "(no name)" : names[i].c_str(), selected)) {
+    if (ImGui::Selectable(names[i].empty() ? Tr("(no name)") : names[i].c_str(), selected)) {
       chosen = names[i];
     }
     if (selected && ImGui::IsWindowAppearing()) {

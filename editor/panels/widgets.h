@@ -38,12 +38,15 @@ std::string ElidedFront(const std::string& text, float width);
 // A row of buttons of which one is chosen; true when the choice changed.
 bool Segmented(const char* id, std::span<const char* const> labels, int& chosen);
 
+// As wide as a button must be for any of the labels, and at least so many logical pixels.
+float WidestButton(std::span<const char* const> labels, float least);
+
 // Where buttons with these labels fit beside what came before they go there, after a gap of
 // pixels (below 0: the usual one); otherwise onto the next line.
 void SameLineIfFits(std::span<const char* const> labels, float gap = -1.0f);
 
-// A heading that folds what follows away; true while it is open.
-bool Fold(const char* title, bool open_at_first);
+// A heading that folds what follows away; true while it is open. title: see Label().
+bool Fold(const std::string& title, bool open_at_first);
 
 // A grid of label and value; values fill the width that is left. label_width: logical pixels.
 bool BeginProperties(const char* id, float label_width = 92.0f);

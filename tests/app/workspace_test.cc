@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "editor/app/line_edits.h"
 #include "shared/core/file.h"
 #include "tests/support/test_files.h"
 
@@ -198,13 +199,45 @@ TEST_F(WorkspaceTest, PlaysTheDramaInALoopWithoutARecording) {
 TEST_F(WorkspaceTest, AFailedExportIsAMessageAndWritesNothing) {
   const auto workspace = Open();
   const std::filesystem::path out = folder_ / "show.larshow";
-  workspace->Export(out);
+  workspace->Export({.out = out});
   while (!workspace->tasks_empty()) {
     workspace->Update(0.01);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(workspace->messages().back().level, Message::Level::kError);
   EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(WorkspaceTest, LinesAreWrittenAMomentAfterTheyWereEditedAndUndoWritesThemBack) {
+  const auto workspace = Open();
+  ASSERT_NE(workspace->document().lines, nullptr);
+  const auto in_file = [&] { return bake::LoadLines(paths_.folder); };
+  workspace->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+  workspace->Update(0.1);
+  EXPECT_TRUE(in_file()->lines.empty()) << "whoever types goes on";
+  workspace->Update(2.0);
+  workspace->Update(0.0);
+  ASSERT_EQ(in_file()->lines.size(), 1u);
+  workspace->Undo();
+  workspace->Save();
+  EXPECT_TRUE(in_file()->lines.empty());
+  workspace->Redo();
+  workspace->Save();
+  EXPECT_EQ(in_file()->lines.size(), 1u);
+}
+
+TEST_F(WorkspaceTest, LinesThatATranslatorWritesAreTakenOverAsAnEdit) {
+  const auto workspace = Open();
+  ASSERT_TRUE(bake::SaveLines(paths_.folder, WithText({}, "hail", "keeper", "it", "Salve")).ok());
+  workspace->Save();
+  ASSERT_NE(workspace->document().lines->Find("hail"), nullptr);
+  workspace->Undo();
+  EXPECT_EQ(workspace->document().lines->Find("hail"), nullptr);
+}
+
+TEST_F(WorkspaceTest, EditedLinesOutliveTheWindow) {
+  Open()->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+  EXPECT_NE(Open()->document().lines->Find("hail"), nullptr);
 }
 
 }  // namespace

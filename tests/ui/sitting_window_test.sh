@@ -132,4 +132,62 @@ saved '"preset":"keeper"' "$json" "the person was not added"
 press 1
 click 54 745  # the timeline
 sleep 2
-press a
+click 512 545
+xdotool mousemove 575 586 sleep 1
+click 632 651
+type_into 1251 664 0.9
+type_into 1335 664 -1.95
+type_into 1310 696 180
+click 1231 727
+type_into 1251 727 -0.9
+type_into 1335 727 -1.95
+type_into 1310 759 -90
+saved 'to={heading=180,x=0.9,z=-1.95},from={heading=-90,x=-0.9,z=-1.95}' "$script" \
+  "the walk was not saved"
+wait_for 120 test -s "$project/cast/keeper.larhuman" || fail "the keeper was not baked"
+
+# A line, in a language that is named first; its voice is made.
+click 850 575
+click 520 545
+xdotool mousemove 570 586 sleep 1
+click 640 630
+click 1313 736
+xdotool type --delay 60 la
+hold Return
+click 1313 715
+xdotool type --delay 60 "Salvete, hospites! Quid bibitis?"
+wait_for 20 grep -q '^keeper1,keeper,,"Salvete, hospites! Quid bibitis?"' "$project/lines.csv" ||
+  fail "the line was not written"
+wait_for 60 test -s "$project/speech/la/keeper1.flac" || fail "no voice was made"
+sleep 8
+shot staged
+
+# The export, signed with keys made for it; what is not saved yet goes in too.
+click 288 44
+sleep 1
+shot export
+click 928 359
+click 912 655
+wait_for 300 test -s "$out/tavern.larshow" || fail "nothing was exported"
+sleep 5
+shot exported
+player=${editor%editor}player
+"$player" info "$out/tavern.larshow" > "$out/info.txt" || fail "the player cannot read it"
+grep -q "^lines *1, spoken: la" "$out/info.txt" || fail "the line is not in the show"
+"$player" "$out/tavern.larshow" --trust "$out/tavern.pub" --video "$video" --headless --audio none \
+  --pace fast --frames 20 --record "$out/played.mp4" >> "$out/editor.log" 2>&1 ||
+  fail "the player refuses the show"
+
+# In the player, which is a window of its own.
+click 912 545
+wait_for 60 titled "^tavern$" || fail "the player did not open"
+sleep 12
+shot played
+xdotool windowfocus "$(xdotool search --name "^tavern$" | tail -1)" sleep 0.5 key Escape
+gone() { ! titled "^tavern$"; }
+wait_for 20 gone || fail "the player stays"
+xdotool windowfocus "$(xdotool search --name Lararium | tail -1)" sleep 0.5
+click 794 545  # Close
+quit
+grep -qi "error" "$out/editor.log" && fail "errors in the log"
+echo "passed; screenshots: $out/staged.png $out/export.png $out/played.png"

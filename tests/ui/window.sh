@@ -21,7 +21,7 @@ on_a_display() {
 
 # Empties the output folder, which then holds the program's state too.
 start_clean() {
-  export LIBGL_ALWAYS_SOFTWARE=1
+  export LIBGL_ALWAYS_SOFTWARE=1 LANGUAGE=en LC_ALL=C.UTF-8
   export XDG_STATE_HOME=$out/state XDG_CONFIG_HOME=$out/config XDG_CACHE_HOME=$out/cache
   rm -rf "$out"
   mkdir -p "$out"

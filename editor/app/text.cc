@@ -1,0 +1,88 @@
+#include "editor/app/text.h"
+
+#include <libintl.h>
+
+#include <clocale>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <list>
+
+namespace lararium::app {
+
+namespace {
+
+constexpr const char* kDomain = "lararium";
+
+std::string Variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+// As gettext finds it, but also where the locale was never generated.
+std::string LanguagesOfEnvironment() {
+  std::string locale;
+  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
+    locale = locale.empty() ? Variable(name) : locale;
+  }
+  if (locale.empty() || locale == "C" || locale == "POSIX") {
+    return "en";
+  }
+  const std::string languages = Variable("LANGUAGE");
+  return languages.empty() ? locale : languages;
+}
+
+// Tells gettext by LANGUAGE, which holds in every locale but "C". Other threads may read the
+// environment meanwhile, so what was once put there stays as it is.
+void SetLanguages(const std::string& languages) {
+  static std::list<std::string> kept;
+  kept.push_back("LANGUAGE=" + languages);
+  putenv(kept.back().data());
+}
+
+}  // namespace
+
+std::filesystem::path TextFolder() {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  return program.parent_path().parent_path() / "share" / "locale";
+}
+
+void LoadTexts(const std::filesystem::path& folder, const std::string& language) {
+  static const std::string of_environment = LanguagesOfEnvironment();
+  SetLanguages(language.empty() ? of_environment : language);
+  std::setlocale(LC_MESSAGES, "C");  // by a change of locale gettext forgets what it looked up
+  std::setlocale(LC_MESSAGES, "C.UTF-8");
+  bindtextdomain(kDomain, folder.c_str());
+  bind_textdomain_codeset(kDomain, "UTF-8");
+}
+
+const char* Tr(const char* text) { return *text == '\0' ? text : dgettext(kDomain, text); }
+
+const char* TrIn(const char* context, const char* text) {
+  const std::string key = std::string(context) + '\004' + text;  // as msgfmt joins them
+  const char* translated = dgettext(kDomain, key.c_str());
+  return translated == key.c_str() ? text : translated;
+}
+
+std::string TrCount(const char* one, const char* many, int count) {
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                dngettext(kDomain, one, many, static_cast<unsigned long>(count)), count);
+  return text;
+}
+
+std::string Label(const char* translated, const char* id) {
+  return std::string(translated) + "###" + id;
+}
+
+std::string Text(const char* format, ...) {
+  char text[1024];
+  va_list values;
+  va_start(values, format);
+  std::vsnprintf(text, sizeof(text), format, values);
+  va_end(values);
+  return text;
+}
+
+}  // namespace lararium::app
