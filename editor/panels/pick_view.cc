@@ -287,11 +287,14 @@ void PickView::ShowImage(app::Workspace& workspace,
                  Tr("The map was made small and holds no image here."));
   }
   const app::OccluderDocument* drawn = OccluderInWork(workspace, state);
+  // What lies beside the image stays off the controls.
+  draw.PushClipRect(corner, ImVec2(corner.x + size.x, corner.y + size.y), true);
   if (drawn != nullptr) {
     DrawCorners(workspace, *drawn, keyframe, map, draw);
   } else {
     DrawAnchors(workspace, state, keyframe, map, draw);
   }
+  draw.PopClipRect();
   const Vector2d pixel = map.ToPixel(ToEigen(ImGui::GetMousePos()));
   if (hovered && camera.Contains(pixel)) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_None);

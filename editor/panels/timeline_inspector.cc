@@ -29,6 +29,7 @@ namespace {
 // One item while it is shown: its fields as they are now.
 struct Item {
   app::Workspace& workspace;
+  EditorState& state;
   TimelineItem at;
   LaneKind kind = LaneKind::kMarkers;
   std::string actor;
@@ -271,7 +272,7 @@ void LineText(Item& item, const bake::LineTable& table, const std::string& langu
 
 // The tag of a further language, taken with Enter.
 void NewLanguage(Item& item, const bake::LineTable& table) {
-  static std::string tag;
+  std::string& tag = item.state.new_language;
   PropertyLabel(Tr("Language"));
   ImGui::InputTextWithHint("##language", Tr("la, it, en: then Enter"), &tag);
   if (ImGui::IsItemDeactivatedAfterEdit() && stage::IsLanguageTag(tag)) {
@@ -375,7 +376,7 @@ void FieldsOfKind(Item& item) {
 void ShowItem(app::Workspace& workspace, EditorState& state, const TimelineItem& at) {
   const drama::TimelineText& text = *workspace.script().timeline();
   const drama::TimelineLane& lane = text.lanes()[at.lane];
-  Item item{workspace, at, lane.kind, lane.actor, text.Fields(at)};
+  Item item{workspace, state, at, lane.kind, lane.actor, text.Fields(at)};
   Heading(ItemTitle(lane.kind));
   if (!lane.actor.empty()) {
     ImGui::SameLine();
