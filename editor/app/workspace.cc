@@ -621,6 +621,10 @@ void Workspace::AdvancePlayback(double seconds) {
   time_ = time_ + seconds < end ? time_ + seconds : 0.0;
 }
 
+bool Workspace::StageIsOutdated() const {
+  return preview_stale_ || cast_pictures_.Working() || tasks_.Running(kOpening);
+}
+
 void Workspace::RequestPicture() {
   if (preview_ == nullptr || loaded_.staged == nullptr || place() == nullptr) {
     return;
@@ -629,7 +633,10 @@ void Workspace::RequestPicture() {
   request.frame = frame();
   request.sound = playing_ && sound_;
   request.time = time_;
-  request.script = script_.snapshot();
+  // The new script is for the new stage.
+  const bool wait = StageIsOutdated() && requested_text_ != nullptr;
+  const int64_t revision = wait ? requested_script_ : script_.revision();
+  request.script = wait ? requested_text_ : script_.snapshot();
   if (place_changed_) {
     auto staged = std::make_shared<stage::Place>(*loaded_.staged);
     const PlaceDocument& at = *place();
@@ -648,7 +655,7 @@ void Workspace::RequestPicture() {
     }
     loaded_.staged = staged;
   } else if (request.frame == requested_frame_ && request.time == requested_time_ &&
-             script_.revision() == requested_script_ && request.sound == requested_sound_) {
+             revision == requested_script_ && request.sound == requested_sound_) {
     return;
   }
   request.place = loaded_.staged;
@@ -658,7 +665,8 @@ void Workspace::RequestPicture() {
   requested_frame_ = request.frame;
   requested_sound_ = request.sound;
   requested_time_ = request.time;
-  requested_script_ = script_.revision();
+  requested_script_ = revision;
+  requested_text_ = request.script;
   awaiting_picture_ = true;
   preview_->Request(std::move(request));
 }
@@ -707,8 +715,8 @@ void Workspace::Update(double seconds) {
     awaiting_picture_ = picture_->frame != requested_frame_ || picture_->time != requested_time_;
   }
   const std::vector<Status> problems = preview_->TakeProblems();
-  if (preview_stale_ || cast_pictures_.Working() || tasks_.Running(kOpening)) {
-    return;  // of a stage that is about to be replaced: somebody was added whom the drama names
+  if (StageIsOutdated()) {
+    return;
   }
   for (const Status& problem : problems) {
     Tell(Message::Level::kError, problem.message());

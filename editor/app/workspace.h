@@ -233,6 +233,9 @@ class Workspace {
   void ReloadMap();
   void ReloadPreview();
   void RequestPicture();
+  // The preview shows a stage that is about to be replaced: somebody was added, say, whom the
+  // drama names already.
+  bool StageIsOutdated() const;
   void AdvancePlayback(double seconds);
   // The work of Train and AddSession. done: edits the document after success.
   void StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
@@ -268,8 +271,9 @@ class Workspace {
   int64_t requested_frame_ = -1;
   bool requested_sound_ = false;
   double requested_time_ = -1.0;
-  int64_t requested_script_ = -1;  // revision
-  int64_t previewed_script_ = -1;  // revision that the preview was opened with
+  int64_t requested_script_ = -1;                      // revision
+  std::shared_ptr<const std::string> requested_text_;  // and text
+  int64_t previewed_script_ = -1;                      // revision that the preview was opened with
   bool place_changed_ = true;
   bool camera_look_ = true;
   bool compare_ = false;
