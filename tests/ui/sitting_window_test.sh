@@ -74,7 +74,7 @@ fill 740 419 "$out"
 fill 740 481 "$video"
 click 933 578
 wait_for 20 titled "tavern" || fail "no project was made"
-wait_for 900 test -s "$project/places/tavern/scene.larscene" || fail "the place was not trained"
+wait_for 500 test -s "$project/places/tavern/scene.larscene" || fail "the place was not trained"
 sleep 8
 press F8  # the messages leave the most room above
 shot trained
