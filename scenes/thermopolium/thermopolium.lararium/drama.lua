@@ -25,8 +25,10 @@ track{
   captions = {{id = "title", at = 0.5, length = 5, line = "titulus"}},
   lights = {
     -- Embers of the night before, fanned, then left alone.
-    {id = "embers", at = 0, length = 30, light = "brazier", level = 0.4},
-    {id = "fanned", at = 44, length = 8, light = "brazier", level = 1.6, seconds = 6, ease = "smooth"},
+    -- By day they are a faint warmth on who stands beside them.
+    {id = "embers", at = 0, length = 44, light = "brazier", level = 0.1},
+    {id = "fanned", at = 44, length = 8, light = "brazier", level = 0.4, seconds = 6, ease = "smooth"},
+    {id = "ashes", at = 52, length = 600, light = "brazier", level = 0.1, seconds = 8, ease = "smooth"},
     {id = "lamp burns up", at = 22.6, length = 6, light = "lamp", level = 1.4, seconds = 2, ease = "out"},
     {id = "lamp of the prayer", at = 198, length = 20, light = "lamp", level = 1.6, seconds = 3, ease = "smooth"},
   },
