@@ -107,11 +107,11 @@ struct EditorState {
 
   Dialog dialog = Dialog::kNone;
   DialogFields fields;
-  app::Settings settings;   // of the window, which follows and keeps them
+  app::Settings settings;    // of the window, which follows and keeps them
   std::string new_language;  // of the lines, as far as it was typed
-  bool begin_tour = false;  // asked for
-  bool quit = false;        // asked for; the window decides
-  bool leave = false;       // the project, for the start page; likewise
+  bool begin_tour = false;   // asked for
+  bool quit = false;         // asked for; the window decides
+  bool leave = false;        // the project, for the start page; likewise
 };
 
 }  // namespace lararium::panels
