@@ -27,6 +27,7 @@
 #include "shared/bundle/sha256.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/program.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/object_use.h"
@@ -564,10 +565,8 @@ std::optional<std::filesystem::path> FindCastLibrary() {
     return std::filesystem::path(chosen);
   }
   // Builds keep it beside the folders that the programs lie in.
-  std::error_code error;
-  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error);
-  for (int up = 0; up < 4 && folder.has_relative_path(); ++up) {
-    folder = folder.parent_path();
+  std::filesystem::path folder = ProgramFolder();
+  for (int up = 0; up < 4 && folder.has_relative_path(); ++up, folder = folder.parent_path()) {
     if (Exists(folder / "cast-library")) {
       return folder / "cast-library";
     }

@@ -7,12 +7,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <optional>
-#include <string_view>
 #include <system_error>
+
+#include "shared/core/program.h"
 
 namespace lararium::app {
 
@@ -23,27 +22,6 @@ namespace fs = std::filesystem;
 constexpr const char* kPlayer = "lararium-player";
 constexpr int kLookEvery = 100;           // milliseconds
 constexpr size_t kKeptOutput = 64 << 10;  // bytes of what it says
-
-fs::path BesideThis(const char* name) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path beside = program.parent_path() / name;
-  return !error && ::access(beside.c_str(), X_OK) == 0 ? beside : fs::path();
-}
-
-fs::path OnPath(const char* name) {
-  const char* path = std::getenv("PATH");
-  std::string_view rest = path != nullptr ? path : "";
-  while (!rest.empty()) {
-    const std::string_view folder = rest.substr(0, rest.find(':'));
-    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-    const fs::path file = fs::path(folder) / name;
-    if (!folder.empty() && ::access(file.c_str(), X_OK) == 0) {
-      return file;
-    }
-  }
-  return {};
-}
 
 // A running program and the end of the pipe that it writes to.
 struct Running {
@@ -69,7 +47,7 @@ std::optional<Running> Start(const fs::path& program, const std::vector<std::str
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   Running running;
   const int error =
-      ::posix_spawn(&running.process, program.c_str(), &actions, nullptr, argv.data(), environ);
+      ::posix_spawnp(&running.process, program.c_str(), &actions, nullptr, argv.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
   if (error != 0) {
@@ -115,8 +93,8 @@ std::string LastLine(std::string text) {
 }  // namespace
 
 fs::path FindPlayer() {
-  const fs::path beside = BesideThis(kPlayer);
-  return !beside.empty() ? beside : OnPath(kPlayer);
+  const fs::path beside = ProgramFolder() / kPlayer;
+  return ::access(beside.c_str(), X_OK) == 0 ? beside : fs::path(kPlayer);
 }
 
 std::vector<std::string> TrialArguments(const ProjectPaths& paths,

@@ -12,7 +12,7 @@
 
 namespace lararium::app {
 
-// The player: beside this program, else where the shell would find it. Empty: nowhere.
+// The player: beside this program, else its name, which PATH is searched for.
 std::filesystem::path FindPlayer();
 
 // How it is called for a place: with the recording that the camera view plays, round and
@@ -21,8 +21,8 @@ std::vector<std::string> TrialArguments(const ProjectPaths& paths,
                                         const PlaceDocument& place,
                                         const std::filesystem::path& show);
 
-// Runs a program until it ends; cancelled, it is asked to end. Errors: it cannot be run, or
-// ended badly, with the last that it said.
+// Runs a program, a file or a name on PATH, until it ends; cancelled, it is asked to end. Errors:
+// it cannot be run, or ended badly, with the last that it said.
 Status RunProgram(const std::filesystem::path& program,
                   const std::vector<std::string>& arguments,
                   Progress& progress);

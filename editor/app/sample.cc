@@ -2,16 +2,18 @@
 
 #include <string>
 
+#include "shared/core/program.h"
+
 namespace lararium::app {
 
 namespace fs = std::filesystem;
 
 fs::path ShippedSample() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path root = program.parent_path() / ".." / ".." / "..";
+  const fs::path program = ProgramFolder();
+  const fs::path root = program / ".." / ".." / "..";
   const fs::path sample = (root / "scenes" / "maquette" / "maquette.lararium").lexically_normal();
-  return !error && fs::exists(sample, error) ? sample : fs::path();
+  return !program.empty() && fs::exists(sample, error) ? sample : fs::path();
 }
 
 Result<fs::path> OwnSample(const fs::path& shipped, const fs::path& folder) {

@@ -1,8 +1,9 @@
 #include "editor/app/show_contents.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "editor/app/baking.h"
@@ -40,12 +41,11 @@ void ForecastPlaces(const ProjectPaths& paths,
   row.count = static_cast<int>(document.places.size());
 }
 
-void ForecastSpeech(const ProjectPaths& paths, const ProjectDocument& document, ContentRow& row) {
-  const Result<ProjectLines> lines = LoadProjectLines(paths, document);
-  if (!lines.ok()) {
-    return;
-  }
-  const auto spoken = SpokenLines(paths, document, *lines);
+void ForecastSpeech(const ProjectPaths& paths,
+                    const ProjectDocument& document,
+                    const ProjectLines& lines,
+                    ContentRow& row) {
+  const auto spoken = SpokenLines(paths, document, lines);
   if (!spoken.ok()) {
     return;
   }
@@ -89,7 +89,6 @@ ShowContents ForecastShow(const ProjectPaths& paths,
     objects.unbaked += AddFile(paths.Prop(object.name), objects) ? 0 : 1;
   }
   objects.count = static_cast<int>(document.objects.size());
-  ForecastSpeech(paths, document, contents.row(ContentKind::kSpeech));
   ContentRow& sounds = contents.row(ContentKind::kSounds);
   for (const SoundFile& sound : FindSounds(paths)) {
     sounds.unbaked += AddFile(sound.file, sounds) ? 0 : 1;
@@ -97,8 +96,10 @@ ShowContents ForecastShow(const ProjectPaths& paths,
   }
   ContentRow& texts = contents.row(ContentKind::kTexts);
   AddFile(paths.Drama(), texts);
-  const Result<ProjectLines> lines = LoadProjectLines(paths, document);
-  texts.count = lines.ok() ? static_cast<int>(lines->captions.size()) : 0;
+  if (const Result<ProjectLines> lines = LoadProjectLines(paths, document); lines.ok()) {
+    ForecastSpeech(paths, document, *lines, contents.row(ContentKind::kSpeech));
+    texts.count = static_cast<int>(lines->captions.size());
+  }
   return contents;
 }
 
@@ -106,13 +107,14 @@ Result<ShowContents> ReadShowContents(const fs::path& show) {
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle opened, bundle::Bundle::Open(show));
   const bundle::ShowManifest& manifest = opened.manifest();
   ShowContents contents;
-  std::set<std::string> counted;  // members that several share count once
+  std::map<std::string_view, uint64_t> sizes;  // of members not counted yet: some are shared
+  for (const bundle::Member& member : manifest.members) {
+    sizes[member.name] = member.size;
+  }
   const auto add = [&](ContentKind kind, const std::string& name) {
-    if (name.empty() || !counted.insert(name).second) {
-      return;
-    }
-    for (const bundle::Member& member : manifest.members) {
-      contents.row(kind).bytes += member.name == name ? member.size : 0;
+    if (const auto found = sizes.find(name); found != sizes.end()) {
+      contents.row(kind).bytes += found->second;
+      sizes.erase(found);
     }
   };
   for (const bundle::PlaceEntry& place : manifest.places) {
@@ -141,8 +143,8 @@ Result<ShowContents> ReadShowContents(const fs::path& show) {
   for (const bundle::SoundEntry& sound : manifest.sounds) {
     add(ContentKind::kSounds, sound.file);
   }
-  for (const bundle::Member& member : manifest.members) {
-    add(ContentKind::kTexts, member.name);
+  for (const auto& [name, size] : sizes) {
+    contents.row(ContentKind::kTexts).bytes += size;
   }
   contents.row(ContentKind::kPlaces).count = static_cast<int>(manifest.places.size());
   contents.row(ContentKind::kPeople).count = static_cast<int>(manifest.cast.size());

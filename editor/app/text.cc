@@ -2,11 +2,14 @@
 
 #include <libintl.h>
 
+#include <algorithm>
 #include <clocale>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <list>
+
+#include "shared/core/program.h"
 
 namespace lararium::app {
 
@@ -42,11 +45,7 @@ void SetLanguages(const std::string& languages) {
 
 }  // namespace
 
-std::filesystem::path TextFolder() {
-  std::error_code ignored;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  return program.parent_path().parent_path() / "share" / "locale";
-}
+std::filesystem::path TextFolder() { return ProgramFolder().parent_path() / "share" / "locale"; }
 
 void LoadTexts(const std::filesystem::path& folder, const std::string& language) {
   static const std::string of_environment = LanguagesOfEnvironment();
@@ -77,10 +76,14 @@ std::string Label(const char* translated, const char* id) {
 }
 
 std::string Text(const char* format, ...) {
-  char text[1024];
   va_list values;
   va_start(values, format);
-  std::vsnprintf(text, sizeof(text), format, values);
+  va_list again;
+  va_copy(again, values);
+  std::string text(static_cast<size_t>(std::max(std::vsnprintf(nullptr, 0, format, values), 0)),
+                   '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
   va_end(values);
   return text;
 }

@@ -217,6 +217,7 @@ void Workspace::WriteLines() {
   }
   if (const Status status = bake::SaveLines(paths_.folder, *document().lines); !status.ok()) {
     Tell(Message::Level::kError, status.message());
+    since_lines_ = 0.0;  // not with every frame
     return;
   }
   written_lines_ = document().lines;
@@ -353,15 +354,13 @@ void Workspace::LookOutside() {
   }
   // What somebody else writes into the table is an edit like any other.
   if (LinesStamp() != lines_stamp_) {
-    written_lines_ = ReadLines();
-    if (written_lines_ != nullptr) {
-      const bool clean = !commands_.dirty();
-      Edit(Tr("take over the lines"),
-           [&](ProjectDocument& current) { current.lines = written_lines_; });
-      if (clean) {
-        commands_.MarkSaved();
-        journal_.Discard(document(), script_.snapshot());
-      }
+    written_lines_ = ReadLines();  // nullptr where it is damaged: then nothing is written over it
+    const bool clean = !commands_.dirty();
+    Edit(Tr("take over the lines"),
+         [&](ProjectDocument& current) { current.lines = written_lines_; });
+    if (clean) {
+      commands_.MarkSaved();
+      journal_.Discard(document(), script_.snapshot());
     }
     preview_stale_ = true;
   }
@@ -1048,19 +1047,13 @@ void Workspace::Export(const ExportRequest& request) {
 }
 
 void Workspace::TryShow() {
-  const std::filesystem::path player = FindPlayer();
   if (exported_ == nullptr || place() == nullptr) {
-    return;
-  }
-  if (player.empty()) {
-    Tell(Message::Level::kError,
-         Tr("lararium-player: is neither beside the editor nor on PATH; install it there"));
     return;
   }
   tasks_.Start(
       kTrying,
-      [player, arguments = TrialArguments(paths_, *place(), exported_->file)](Progress& progress) {
-        return RunProgram(player, arguments, progress);
+      [arguments = TrialArguments(paths_, *place(), exported_->file)](Progress& progress) {
+        return RunProgram(FindPlayer(), arguments, progress);
       },
       [this](const Status& status, bool cancelled) {
         if (!status.ok() && !cancelled) {

@@ -235,6 +235,18 @@ TEST_F(WorkspaceTest, LinesThatATranslatorWritesAreTakenOverAsAnEdit) {
   EXPECT_EQ(workspace->document().lines->Find("hail"), nullptr);
 }
 
+TEST_F(WorkspaceTest, LinesThatOthersLeftDamagedAreNotWrittenOver) {
+  const auto workspace = Open();
+  workspace->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+  workspace->Save();
+  const std::string damaged = "id,speaker,notes,la\nhail,keeper,,\"half a";
+  ASSERT_TRUE(WriteFileAtomically(paths_.folder / "lines.csv", damaged).ok());
+  workspace->Save();
+  workspace->Update(2.0);
+  EXPECT_EQ(*ReadText(paths_.folder / "lines.csv"), damaged);
+  EXPECT_THAT(workspace->messages().back().text, testing::Not(testing::IsEmpty()));
+}
+
 TEST_F(WorkspaceTest, EditedLinesOutliveTheWindow) {
   Open()->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
   EXPECT_NE(Open()->document().lines->Find("hail"), nullptr);

@@ -33,10 +33,7 @@ new_project_with_place
 
 # A number typed into the inspector: the X of the stage's position.
 start_editor
-xdotool mousemove 1241 134 sleep 0.3 keydown ctrl mousedown 1 sleep 0.4 mouseup 1 keyup ctrl
-sleep 0.5
-xdotool type --delay 80 "1.25"
-hold Return
+type_into 1241 134 1.25
 press ctrl+s
 wait_for 10 translation_is "1.25,0.0,0.0" || fail "the number was not saved: $(translation "$json")"
 press ctrl+z

@@ -20,23 +20,7 @@ project=$out/tavern.lararium
 json=$project/project.json
 script=$project/drama.lua
 
-titled() { xdotool search --name "$1" > /dev/null; }
 shot() { import -window root "$out/$1.png"; }
-# Types into the field of a dialog instead of what is there.
-fill() {
-  click "$1" "$2"
-  hold ctrl a
-  xdotool type --delay 40 "$3"
-  sleep 0.5
-}
-# type_into X Y TEXT: a number that is dragged or typed.
-type_into() {
-  xdotool mousemove "$1" "$2" sleep 0.3 keydown ctrl mousedown 1 sleep 0.4 mouseup 1 keyup ctrl
-  sleep 0.5
-  xdotool type --delay 80 -- "$3"
-  hold Return
-  sleep 0.4
-}
 # The training image of that number, and the place on the screen of one of its pixels.
 image() { type_into 620 690 "$1"; }
 pixel() {
@@ -180,11 +164,11 @@ grep -q "^lines *1, spoken: la" "$out/info.txt" || fail "the line is not in the 
 
 # In the player, which is a window of its own.
 click 912 548
-wait_for 60 titled "^tavern$" || fail "the player did not open"
+wait_for 60 titled "tavern$" || fail "the player did not open"
 sleep 12
 shot played
 xdotool windowfocus "$(xdotool search --name "^tavern$" | tail -1)" sleep 0.5 key Escape
-gone() { ! titled "^tavern$"; }
+gone() { ! titled "tavern$"; }
 wait_for 20 gone || fail "the player stays"
 xdotool windowfocus "$(xdotool search --name Lararium | tail -1)" sleep 0.5
 click 794 548  # Close

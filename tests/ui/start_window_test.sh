@@ -21,17 +21,9 @@ start_editor() {
   open_window 1300 860 "$@"
   sleep 2
 }
-titled() { xdotool search --name "^$1" > /dev/null; }
 # The folders of the list, newest first.
 listed() { tr -d ' \n' < "$recent" | grep -oE '"folder":"[^"]*"' | sed 's/.*\///; s/"//' | xargs; }
 lists() { [ "$(listed)" = "$1" ]; }
-# Types into the field of a dialog instead of what is there.
-fill() {
-  click "$1" "$2"
-  hold ctrl a
-  xdotool type --delay 40 "$3"
-  sleep 0.5
-}
 
 for name in first second third; do
   "$editor" new "$out/$name.lararium" --title "The $name" > /dev/null || fail "no project"

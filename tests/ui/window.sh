@@ -87,6 +87,26 @@ drag() {
   xdotool mousemove "$3" "$4" sleep 0.4 mouseup 1 sleep 0.5
 }
 
+# titled REGEX: there is a window whose title begins so.
+titled() { xdotool search --name "^$1" > /dev/null; }
+
+# fill X Y TEXT: types into the field of a dialog instead of what is there.
+fill() {
+  click "$1" "$2"
+  hold ctrl a
+  xdotool type --delay 40 "$3"
+  sleep 0.5
+}
+
+# type_into X Y TEXT: the same for a number that can be dragged too.
+type_into() {
+  xdotool mousemove "$1" "$2" sleep 0.3 keydown ctrl mousedown 1 sleep 0.4 mouseup 1 keyup ctrl
+  sleep 0.5
+  xdotool type --delay 80 -- "$3"
+  hold Return
+  sleep 0.4
+}
+
 # Waits long: people may be baking.
 quit() {
   press ctrl+q
