@@ -7,6 +7,7 @@
 
 #include "editor/app/lines.h"
 #include "shared/bundle/bundle_writer.h"
+#include "shared/core/check.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::app {
@@ -17,19 +18,24 @@ void WriteBytes(const std::filesystem::path& file, size_t bytes) {
   std::ofstream(file) << std::string(bytes, 'x');
 }
 
-TEST(ForecastShow, CountsWhatIsBakedAndWhatIsNot) {
-  const test::TemporaryFolder folder;
-  const ProjectPaths paths{folder / "show.lararium"};
-  ASSERT_TRUE(CreateProject(paths, "A show").ok());
-  ProjectDocument document;
-  document.places.resize(2);
-  document.places[0].name = "yard";
-  document.places[1].name = "hall";
-  document.objects.resize(1);
-  document.objects[0].name = "cup";
-  WriteBytes(paths.Scene("yard"), 5000);
-  WriteBytes(paths.Prop("cup"), 700);
-  const ShowContents contents = ForecastShow(paths, document, {});
+class ForecastShowTest : public testing::Test {
+ protected:
+  ForecastShowTest() { CHECK(CreateProject(paths_, "A show").ok()); }
+
+  test::TemporaryFolder folder_;
+  ProjectPaths paths_{folder_ / "show.lararium"};
+  ProjectDocument document_;
+};
+
+TEST_F(ForecastShowTest, CountsWhatIsBakedAndWhatIsNot) {
+  document_.places.resize(2);
+  document_.places[0].name = "yard";
+  document_.places[1].name = "hall";
+  document_.objects.resize(1);
+  document_.objects[0].name = "cup";
+  WriteBytes(paths_.Scene("yard"), 5000);
+  WriteBytes(paths_.Prop("cup"), 700);
+  const ShowContents contents = ForecastShow(paths_, document_, {});
   EXPECT_EQ(contents.row(ContentKind::kPlaces).count, 2);
   EXPECT_EQ(contents.row(ContentKind::kPlaces).unbaked, 1);
   EXPECT_EQ(contents.row(ContentKind::kPlaces).bytes, 5000u);
@@ -38,16 +44,12 @@ TEST(ForecastShow, CountsWhatIsBakedAndWhatIsNot) {
   EXPECT_GE(contents.bytes(), 5700u);
 }
 
-TEST(ForecastShow, AMapWeighsNoMoreThanItsPointsMay) {
-  const test::TemporaryFolder folder;
-  const ProjectPaths paths{folder / "show.lararium"};
-  ASSERT_TRUE(CreateProject(paths, "A show").ok());
-  ProjectDocument document;
-  document.places.resize(1);
-  document.places[0].name = "yard";
-  WriteBytes(paths.Scene("yard"), 3'000'000);
+TEST_F(ForecastShowTest, AMapWeighsNoMoreThanItsPointsMay) {
+  document_.places.resize(1);
+  document_.places[0].name = "yard";
+  WriteBytes(paths_.Scene("yard"), 3'000'000);
   const auto bytes = [&](int points) {
-    return ForecastShow(paths, document, {.max_points = points}).row(ContentKind::kPlaces).bytes;
+    return ForecastShow(paths_, document_, {.max_points = points}).row(ContentKind::kPlaces).bytes;
   };
   EXPECT_EQ(bytes(100'000), 3'000'000u);
   EXPECT_LT(bytes(500), 1'000'000u);
