@@ -142,7 +142,7 @@ click 1313 715
 xdotool type --delay 60 "Salvete, hospites! Quid bibitis?"
 wait_for 20 grep -q '^keeper1,keeper,,"Salvete, hospites! Quid bibitis?"' "$project/lines.csv" ||
   fail "the line was not written"
-wait_for 60 test -s "$project/speech/la/keeper1.flac" || fail "no voice was made"
+wait_for 240 test -s "$project/speech/la/keeper1.flac" || fail "no voice was made"
 sleep 8
 shot staged
 
