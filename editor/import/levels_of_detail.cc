@@ -20,6 +20,19 @@ void OrderIndices(std::vector<uint32_t>& indices, size_t vertex_count) {
   indices = std::move(ordered);
 }
 
+std::vector<uint32_t> Uncovered(const std::vector<uint32_t>& indices,
+                                const std::vector<bool>& covered) {
+  std::vector<uint32_t> left;
+  for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const auto corners = indices.begin() + static_cast<ptrdiff_t>(i);
+    if (covered.empty() ||
+        !std::all_of(corners, corners + 3, [&](uint32_t v) { return covered[v]; })) {
+      left.insert(left.end(), corners, corners + 3);
+    }
+  }
+  return left;
+}
+
 constexpr uint32_t kUnplaced = 0xffffffffu;
 
 // Of each vertex: its new number.
@@ -113,7 +126,7 @@ void OrderTriangles(human::SkinnedMesh& mesh) {
   }
 }
 
-void AddLevelsOfDetail(human::SkinnedMesh& mesh) {
+void AddLevelsOfDetail(human::SkinnedMesh& mesh, const std::vector<bool>& covered) {
   mesh.coarser.clear();
   if (mesh.indices.empty()) {
     return;
@@ -121,18 +134,19 @@ void AddLevelsOfDetail(human::SkinnedMesh& mesh) {
   const float* positions = &mesh.positions[0].x;
   const size_t count = mesh.positions.size();
   const float extent = meshopt_simplifyScale(positions, count, sizeof(glm::vec3));
+  const std::vector<uint32_t> seen = Uncovered(mesh.indices, covered);
   size_t previous = mesh.indices.size();
   for (const float share : kShares) {
-    const size_t wanted = static_cast<size_t>(share * mesh.indices.size()) / 3 * 3;
+    const size_t wanted =
+        std::min(static_cast<size_t>(share * mesh.indices.size()) / 3 * 3, seen.size());
     if (wanted < 3 * kLeastTriangles) {
       return;
     }
     human::LevelOfDetail level;
-    level.indices.resize(mesh.indices.size());
+    level.indices.resize(seen.size());
     float error = 0.0f;
-    const size_t left =
-        meshopt_simplify(level.indices.data(), mesh.indices.data(), mesh.indices.size(), positions,
-                         count, sizeof(glm::vec3), wanted, kMostError, 0, &error);
+    const size_t left = meshopt_simplify(level.indices.data(), seen.data(), seen.size(), positions,
+                                         count, sizeof(glm::vec3), wanted, kMostError, 0, &error);
     if (left == 0 || left > kMostOfThePrevious * previous) {
       continue;
     }
