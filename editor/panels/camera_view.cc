@@ -205,8 +205,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     }
     const Rect rect = Fit(origin, size, picture->bgr.cols, picture->bgr.rows);
     const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
-    draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture_.id())), rect.origin,
-                  corner);
+    draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
     if (picture->camera_from_stage && state.show_stage) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
