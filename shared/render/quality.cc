@@ -45,7 +45,7 @@ std::span<const Quality> QualityLadder() {
        .sun_taps = 4,
        .reflections = false,
        .camera_look = false,
-       .detail_px = 4.0f,
+       .detail_px = 2.0f,
        .triangles = 80'000},
   }};
   return kLadder;
