@@ -253,7 +253,8 @@ FigureSource PlainFigure(const CastDocument& member) {
 
 FigureSource FigureOfRecipe(const import::CastRecipe& recipe,
                             const std::filesystem::path& library) {
-  return {"recipe " + import::ToJson(recipe).dump() + " " + std::to_string(import::kLevelsOfDetail),
+  return {"recipe " + import::ToJson(recipe).dump() + " " +
+              std::to_string(import::kLevelsOfDetail) + ", bare of covered skin",
           {},
           [=](std::vector<std::string>&) -> Result<human::Human> {
             LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary opened,

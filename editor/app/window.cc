@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "editor/app/frame_painter.h"
 #include "editor/app/window_content.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/theme.h"
@@ -42,6 +43,7 @@ class Interface {
     if (has_look_) {  // the first time the back end makes it by itself
       ImGui_ImplOpenGL3_DestroyFontsTexture();
       ImGui_ImplOpenGL3_CreateFontsTexture();
+      painter_.Forget();
     }
     look_ = look;
     has_look_ = true;
@@ -60,17 +62,20 @@ class Interface {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
   }
-  void End(const render::Window::Size& size) {
+  // False where nothing is to be shown anew. lost: what the window showed is gone.
+  bool End(bool lost) {
     ImGui::Render();
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, size.width, size.height);
-    glClearColor(panels::Colours().window.x, panels::Colours().window.y, panels::Colours().window.z,
-                 1.0f);
-    glClear(GL_COLOR_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    const ImVec4& background = panels::Colours().window;
+    const bool painted =
+        painter_.Paint(*ImGui::GetDrawData(), {background.x, background.y, background.z});
+    if (painted || lost) {
+      painter_.CopyInto(0);
+    }
+    return painted || lost;
   }
 
  private:
+  FramePainter painter_;
   Settings look_;
   bool has_look_ = false;
 };
@@ -103,6 +108,8 @@ Status MainLoop(render::Window& window,
     }
   };
   callbacks.character = [&content](char32_t character) { content.AddCharacter(character); };
+  bool lost = false;
+  callbacks.refresh = [&lost] { lost = true; };
   window.SetCallbacks(std::move(callbacks));
   auto last = std::chrono::steady_clock::now();
   std::string title;
@@ -123,8 +130,9 @@ Status MainLoop(render::Window& window,
     interface.SetLook(content.settings(), window.content_scale());
     interface.Begin();
     status = content.Show();
-    interface.End(size);
-    window.SwapBuffers();
+    if (interface.End(std::exchange(lost, false))) {
+      window.SwapBuffers();
+    }
   }
   window.SetCallbacks({});
   return status;

@@ -50,17 +50,11 @@ void TransferPacker::AddKeyPose(const TransferSites& sites, const SolvedTransfer
 }
 
 void TransferPacker::Pack(std::vector<human::LightTransfer::Mesh>& meshes) const {
-  const auto count = static_cast<size_t>(count_);
   for (size_t m = 0; m < vectors_.size(); ++m) {
     light::Transfer packed = light::QuantiseTransfer(vectors_[m], count_, poses_);
     human::LightTransfer::Mesh& mesh = meshes[m];
-    // Without the padding that run time has.
-    mesh.coefficients.clear();
-    for (size_t begin = 0; begin < packed.values.size(); begin += packed.padded_count()) {
-      const auto first = packed.values.begin() + static_cast<ptrdiff_t>(begin);
-      mesh.coefficients.insert(mesh.coefficients.end(), first,
-                               first + static_cast<ptrdiff_t>(count));
-    }
+    mesh.coefficients = std::move(packed.values);
+    mesh.coefficients.resize(mesh.coefficients.size() - packed.tail());
     mesh.scale = std::move(packed.scale);
     mesh.backs.clear();
     for (const glm::vec3& sum : back_sums_[m]) {

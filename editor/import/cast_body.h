@@ -57,6 +57,9 @@ struct Garment {
   // Of each vertex of FittedBody::skin: never seen under this garment. Skin between
   // such vertices is left out.
   std::vector<bool> hidden;
+  // Likewise: seen at most from close by, through an opening. Coarser levels of detail go
+  // without that skin, for they may be further off than cloth lies above it.
+  std::vector<bool> covered;
   std::string credits;  // where it is not our own
 };
 

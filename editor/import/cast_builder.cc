@@ -143,7 +143,7 @@ class CastBuilder {
     ShadeMouth(pieces_, recipe_.teeth, recipe_.tongue);
     AddFace(library_, recipe_, body_.base, pieces_, human_);
     for (CastPiece& piece : pieces_) {
-      AddLevelsOfDetail(piece.mesh);
+      AddLevelsOfDetail(piece.mesh, piece.covered);
       human_.meshes.push_back(std::move(piece.mesh));
     }
     for (Garment& garment : garments) {
@@ -220,9 +220,11 @@ class CastBuilder {
     material.roughness = 0.55f;
     material.colour_texture = AddTexture(std::move(texture));
     std::vector<bool> hidden(piece.mesh.positions.size(), false);
+    piece.covered = hidden;
     for (const Garment& garment : garments) {
-      for (size_t v = 0; v < std::min(hidden.size(), garment.hidden.size()); ++v) {
+      for (size_t v = 0; v < hidden.size(); ++v) {
         hidden[v] = hidden[v] || garment.hidden[v];
+        piece.covered[v] = piece.covered[v] || garment.covered[v];
       }
     }
     RemoveHidden(piece, hidden);

@@ -131,6 +131,8 @@ CastPiece Assemble(MeshAssembler&& assembled) {
   return piece;
 }
 
+constexpr uint32_t kDropped = 0xffffffffu;
+
 template <typename T>
 void Compact(std::vector<T>& values, std::span<const uint32_t> kept) {
   if (values.empty()) {
@@ -263,6 +265,7 @@ void RemoveHidden(CastPiece& piece, const std::vector<bool>& hidden) {
   Compact(piece.source, kept);
   Compact(piece.base, kept);
   Compact(piece.base_weights, kept);
+  Compact(piece.covered, kept);
 }
 
 }  // namespace lararium::import

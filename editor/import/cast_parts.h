@@ -23,6 +23,8 @@ struct CastPiece {
   std::vector<uint32_t> source;
   std::vector<std::array<uint32_t, 3>> base;
   std::vector<glm::vec3> base_weights;
+  // Likewise, or empty: what coarser levels of detail leave out.
+  std::vector<bool> covered;
 };
 
 // The body as it is drawn: the faces of the group "body".
@@ -44,8 +46,6 @@ std::vector<glm::vec3> SmoothNormals(std::span<const glm::vec3> positions,
                                      std::span<const uint32_t> indices);
 
 // Without the triangles whose three corners are all hidden, nor vertices that none uses.
-// keep: by vertex, filled with the new index or kDropped.
-inline constexpr uint32_t kDropped = 0xffffffffu;
 void RemoveHidden(CastPiece& piece, const std::vector<bool>& hidden);
 
 }  // namespace lararium::import

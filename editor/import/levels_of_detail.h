@@ -13,10 +13,9 @@ void OrderTriangles(human::SkinnedMesh& mesh);
 // Coarser than the mesh itself; files that were made with another number are made anew.
 inline constexpr int kLevelsOfDetail = 4;
 
-// Fills mesh.coarser with up to four levels of about a half to a sixteenth of the triangles, by
-// edge collapses that keep texture seams and open borders together (quadric error; Garland &
-// Heckbert, SIGGRAPH 1997). A level that saves little over the one before is left out.
-void AddLevelsOfDetail(human::SkinnedMesh& mesh);
+// Fills mesh.coarser (human/simplify.h).
+// covered: of each vertex, or empty; levels go without the triangles whose corners all are.
+void AddLevelsOfDetail(human::SkinnedMesh& mesh, const std::vector<bool>& covered = {});
 
 // Renumbers the vertices of every mesh, and all that counts them: those that the coarsest
 // level takes come first, then those that the next finer one adds, and so on, each in the

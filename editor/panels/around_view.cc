@@ -3,9 +3,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <random>
 #include <utility>
 
+#include "editor/panels/frame_damage.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -120,6 +123,8 @@ void AroundView::UpdateMap(const app::LoadedPlace& loaded) {
   map_from_picked_ = loaded.picks.map_from_picked;
   points_.clear();
   cameras_.clear();
+  outdated_ = true;
+  moving_points_.reset();
   if (database_ == nullptr) {
     return;
   }
@@ -131,6 +136,7 @@ void AroundView::UpdateMap(const app::LoadedPlace& loaded) {
     const Vector3d at = picked_from_map * database_->points[i].cast<double>();
     points_.push_back({geometry::ToGlm(at), glm::u8vec4(shade, shade, shade, 255)});
   }
+  std::shuffle(points_.begin(), points_.end(), std::mt19937(1));
   constexpr double kFrustumDepth = 0.12;  // metres
   constexpr size_t kMaxFrusta = 60;
   const size_t step = database_->keyframes.size() / kMaxFrusta + 1;
@@ -196,7 +202,7 @@ void AroundView::UpdateActors(const app::Workspace& workspace) {
 }
 
 // A faint square on the floor that was found in the map, about its points.
-void AroundView::DrawFloor(const app::LoadedPlace& loaded) {
+void AroundView::AddFloor(const app::LoadedPlace& loaded) {
   if (!loaded.measures.floor) {
     return;
   }
@@ -212,18 +218,15 @@ void AroundView::DrawFloor(const app::LoadedPlace& loaded) {
       2.0 * floor.radius, Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), floor.normal),
       floor.center};
   const Similarity3 world_from_floor = loaded.picks.map_from_picked.Inverse() * map_from_floor;
-  const Status status =
-      overlay_->DrawMesh(*floor_, geometry::ToGlm(world_from_floor), kFloorColour);
-  CHECK(status.ok());  // the mesh is our own
+  scene_.meshes.push_back({*floor_, geometry::ToGlm(world_from_floor), kFloorColour});
 }
 
-void AroundView::DrawMeshes(const app::Workspace& workspace, const EditorState& state) {
+void AroundView::AddMeshes(const app::Workspace& workspace, const EditorState& state) {
   const app::PlaceDocument& place = *workspace.place();
   const glm::mat4 world_from_stage = geometry::ToGlm(place.picked_from_stage);
-  Status status;
   for (const auto& [mesh, stage_from_actor] : actors_) {
-    status = overlay_->DrawMesh(mesh, world_from_stage * stage_from_actor,
-                                glm::u8vec4(225, 214, 196, 255));
+    scene_.meshes.push_back(
+        {mesh, world_from_stage * stage_from_actor, glm::u8vec4(225, 214, 196, 255)});
   }
   for (const Ghost& ghost : occluders_) {
     const Selection selection{Selection::Kind::kOccluder, ghost.name};
@@ -231,11 +234,10 @@ void AroundView::DrawMeshes(const app::Workspace& workspace, const EditorState& 
     const Similarity3 transform = SelectedTransform(workspace, selection)
                                       .value_or(workspace.loaded().picks.map_from_picked.Inverse());
     const bool selected = state.selection == selection;
-    status = overlay_->DrawMesh(
-        ghost.mesh, geometry::ToGlm(transform),
-        selected ? glm::u8vec4(217, 107, 73, 60) : glm::u8vec4(120, 150, 190, 44));
+    scene_.meshes.push_back(
+        {ghost.mesh, geometry::ToGlm(transform),
+         selected ? glm::u8vec4(217, 107, 73, 60) : glm::u8vec4(120, 150, 190, 44)});
   }
-  CHECK(status.ok());  // the meshes are our own
 }
 
 Status AroundView::Draw(const app::Workspace& workspace,
@@ -245,8 +247,9 @@ Status AroundView::Draw(const app::Workspace& workspace,
                         int height) {
   if (!target_ || target_->width() != width || target_->height() != height) {
     LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(width, height));
+    outdated_ = true;
   }
-  render::OverlayView overlay_view;
+  render::OverlayView& overlay_view = scene_.view;
   overlay_view.display.width = width;
   overlay_view.display.height = height;
   overlay_view.display.fx = view.focal_x;
@@ -258,27 +261,71 @@ Status AroundView::Draw(const app::Workspace& workspace,
   overlay_view.far = static_cast<float>(1000.0 * state.orbit.distance);
   overlay_view.clear = glm::vec3(0.075f, 0.082f, 0.094f);
 
-  overlay_->Begin(overlay_view, *target_);
-  lines_.clear();
-  if (const app::PlaceDocument* place = workspace.place()) {
-    AddStage(lines_, place->picked_from_stage);
+  scene_.pixel = Px(1.0f);
+  scene_.lines.clear();
+  scene_.meshes.clear();
+  const app::PlaceDocument* place = workspace.place();
+  scene_.has_place = place != nullptr;
+  scene_.points = state.show_points;
+  if (place != nullptr) {
+    AddStage(scene_.lines, place->picked_from_stage);
     const auto& picture = workspace.picture();
     if (picture != nullptr && picture->camera_from_stage) {
       AddFrustum(
-          lines_, picture->display,
+          scene_.lines, picture->display,
           geometry::CameraFromB(*picture->camera_from_stage, place->picked_from_stage.Inverse()),
           0.35, kLiveColour);
     }
-    overlay_->DrawLines(lines_, Px(1.5f));
-    overlay_->DrawLines(cameras_, Px(1.0f));
-    if (state.show_points) {
-      overlay_->DrawPoints(points_, Px(2.5f));
+    AddFloor(workspace.loaded());
+    AddMeshes(workspace, state);
+  }
+  if (scene_.points && !points_.empty() && !moving_points_) {
+    MeasurePoints();
+  }
+  const bool moves = !outdated_ && scene_.view != drawn_.view;
+  if (outdated_ || scene_ != drawn_ || (thinned_ && !moves)) {
+    const size_t points =
+        moves ? std::min(moving_points_.value_or(0), points_.size()) : points_.size();
+    DrawScene(points);
+    drawn_ = scene_;
+    outdated_ = false;
+    thinned_ = points < points_.size();
+    ++version_;
+  }
+  return Status();
+}
+
+void AroundView::MeasurePoints() {
+  constexpr double kMovingBudget = 0.005;  // seconds
+  constexpr size_t kLeast = 2000;
+  const auto seconds_of = [&](size_t points) {
+    render::RenderTarget::Finish();
+    const auto begin = std::chrono::steady_clock::now();
+    DrawScene(points);
+    render::RenderTarget::Finish();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  seconds_of(0);  // what is compiled when it is first used
+  const double without = seconds_of(0);
+  const double per_point =
+      std::max(seconds_of(points_.size()) - without, 1e-6) / static_cast<double>(points_.size());
+  moving_points_ = std::max(static_cast<size_t>(kMovingBudget / per_point), kLeast);
+}
+
+void AroundView::DrawScene(size_t points) {
+  overlay_->Begin(scene_.view, *target_);
+  if (scene_.has_place) {
+    overlay_->DrawLines(scene_.lines, 1.5f * scene_.pixel);
+    overlay_->DrawLines(cameras_, scene_.pixel);
+    if (scene_.points) {
+      overlay_->DrawPoints(std::span(points_).first(points), 2.5f * scene_.pixel);
     }
-    DrawFloor(workspace.loaded());
-    DrawMeshes(workspace, state);
+    for (const MeshDraw& mesh : scene_.meshes) {
+      const Status status = overlay_->DrawMesh(mesh.mesh, mesh.world_from_mesh, mesh.colour);
+      CHECK(status.ok());  // the meshes are our own
+    }
   }
   overlay_->End();
-  return Status();
 }
 
 void AroundView::Interact(EditorState& state,
@@ -325,8 +372,7 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
     return;
   }
   const ImVec2 corner(origin.x + static_cast<float>(width), origin.y + static_cast<float>(height));
-  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(target_->texture())), origin,
-                corner);
+  draw.AddImage(TextureOf(target_->texture(), version_), origin, corner);
   draw.PushClipRect(origin, corner, true);
   const bool was_dragging = state.drag.has_value();
   const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&

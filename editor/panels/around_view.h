@@ -34,13 +34,18 @@ class AroundView {
   void UpdateOccluders(const app::Workspace& workspace);
   void UpdateActors(const app::Workspace& workspace);
 
+  // Brings what is in the target up to date with what is to be seen.
   Status Draw(const app::Workspace& workspace,
               const EditorState& state,
               const ViewCamera& view,
               int width,
               int height);
-  void DrawMeshes(const app::Workspace& workspace, const EditorState& state);
-  void DrawFloor(const app::LoadedPlace& loaded);
+  void AddMeshes(const app::Workspace& workspace, const EditorState& state);
+  void AddFloor(const app::LoadedPlace& loaded);
+  // points: so many of them.
+  void DrawScene(size_t points);
+  // How many points may be drawn while the view moves, by how long they take here.
+  void MeasurePoints();
   void Interact(EditorState& state, bool hovered, bool gizmo_busy, const Eigen::Vector2d& size);
 
   std::unique_ptr<render::Renderer> renderer_;
@@ -49,9 +54,33 @@ class AroundView {
 
   std::shared_ptr<const vision::SceneDatabase> database_;
   geometry::Similarity3 map_from_picked_;
-  std::vector<render::OverlayPoint> points_;
+  std::vector<render::OverlayPoint> points_;  // in random order: the first ones stand for all
   std::vector<render::OverlayLine> cameras_;
-  std::vector<render::OverlayLine> lines_;  // of the frame being drawn
+
+  struct MeshDraw {
+    render::MeshHandle mesh;
+    glm::mat4 world_from_mesh;
+    glm::u8vec4 colour;
+
+    friend bool operator==(const MeshDraw&, const MeshDraw&) = default;
+  };
+  // All that the picture depends on: it is drawn anew where this differs.
+  struct Scene {
+    render::OverlayView view;
+    float pixel = 1.0f;  // Px(1)
+    bool has_place = false;
+    bool points = false;
+    std::vector<render::OverlayLine> lines;
+    std::vector<MeshDraw> meshes;
+
+    friend bool operator==(const Scene&, const Scene&) = default;
+  };
+  Scene scene_;
+  Scene drawn_;
+  bool outdated_ = true;                 // other points or cameras came since
+  bool thinned_ = false;                 // not all points were drawn
+  std::optional<size_t> moving_points_;  // of the map at hand; nullopt: not measured yet
+  uint32_t version_ = 0;                 // of the target's picture
 
   struct Ghost {
     std::string name;

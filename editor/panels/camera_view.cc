@@ -171,7 +171,7 @@ void ShowTransport(app::Workspace& workspace) {
   ImGui::EndDisabled();
 }
 
-void ShowEmpty(const app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
+void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
   const char* text = Tr("Opening the recording\xe2\x80\xa6");
   if (workspace.place() == nullptr) {
     text = Tr("This project has no place yet. Train one from a recording.");
@@ -179,6 +179,9 @@ void ShowEmpty(const app::Workspace& workspace, const ImVec2& origin, const ImVe
     text = Tr("This place is not trained yet. Choose Train\xe2\x80\xa6 above.");
   } else if (workspace.tasks_empty() && !workspace.recording() && !workspace.messages().empty()) {
     text = Tr("No picture. The messages below say why.");
+  }
+  if (workspace.loaded().database != nullptr && workspace.cast_pictures().Working()) {
+    text = Tr("The picture comes when the people are built.");
   }
   const ImVec2 extent = ImGui::CalcTextSize(text);
   ImGui::GetWindowDrawList()->AddText(
@@ -205,8 +208,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     }
     const Rect rect = Fit(origin, size, picture->bgr.cols, picture->bgr.rows);
     const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
-    draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture_.id())), rect.origin,
-                  corner);
+    draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
     if (picture->camera_from_stage && state.show_stage) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);

@@ -222,8 +222,8 @@ void LightOverlay::ShowWipe(EditorState& state,
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   }
   const float x = origin.x + at * size.x;
-  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(plain_.id())), origin,
-                ImVec2(x, origin.y + size.y), ImVec2(0, 0), ImVec2(at, 1));
+  draw.AddImage(ShownTexture(plain_), origin, ImVec2(x, origin.y + size.y), ImVec2(0, 0),
+                ImVec2(at, 1));
   draw.AddLine(ImVec2(x, origin.y), ImVec2(x, origin.y + size.y), Packed(OverPicture().text),
                Px(2));
   const float y = origin.y + size.y - Px(30);

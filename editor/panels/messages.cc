@@ -2,7 +2,9 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -96,6 +98,16 @@ void ShowStatusBar(app::Workspace& workspace) {
   for (const app::TaskList::Entry& entry : workspace.tasks().entries()) {
     ShowTask(*entry.task);
   }
+  const std::vector<app::CastDocument>& cast = workspace.document().cast;
+  const auto unbuilt =
+      std::count_if(cast.begin(), cast.end(), [&](const app::CastDocument& member) {
+        return workspace.cast_pictures().Working(member.name);
+      });
+  if (unbuilt > 0) {
+    ImGui::AlignTextToFramePadding();
+    DimText(Text(Tr("Building people: %d left"), static_cast<int>(unbuilt)));
+    ImGui::SameLine();
+  }
   if (!workspace.messages().empty() && workspace.tasks_empty()) {
     // The newest message, wherever the messages are.
     const app::Message& newest = workspace.messages().back();
@@ -114,7 +126,7 @@ void ShowStatusBar(app::Workspace& workspace) {
   }
   const float width = ImGui::CalcTextSize(text.c_str()).x;
   const float right = ImGui::GetContentRegionMax().x - width;
-  if (workspace.tasks_empty() && workspace.messages().empty()) {
+  if (workspace.tasks_empty() && workspace.messages().empty() && unbuilt == 0) {
     ImGui::AlignTextToFramePadding();
     DimText(Tr("Ready"));
     ImGui::SameLine();

@@ -165,8 +165,7 @@ void DrawLoupe(const ImVec2& pointer,
   const float du = kSourceHalf / static_cast<float>(texture.width());
   const float dv = kSourceHalf / static_cast<float>(texture.height());
   draw.AddRectFilled(a, b, Packed(OverPicture().window));
-  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture.id())), a, b,
-                ImVec2(u - du, v - dv), ImVec2(u + du, v + dv));
+  draw.AddImage(ShownTexture(texture), a, b, ImVec2(u - du, v - dv), ImVec2(u + du, v + dv));
   draw.AddRect(a, b, Packed(OverPicture().line), 0, 0, Px(2));
   DrawCross(center, Packed(OverPicture().accent), draw);
 }
@@ -280,8 +279,7 @@ void PickView::ShowImage(app::Workspace& workspace,
   const Vector2d extent = scale * Vector2d(camera.width, camera.height);
   const ImageMap map{ToEigen(corner) + 0.5 * (ToEigen(size) - extent), scale};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture_.id())),
-                ToImGui(map.origin), ToImGui(map.origin + extent));
+  draw.AddImage(ShownTexture(texture_), ToImGui(map.origin), ToImGui(map.origin + extent));
   if (keyframe.grey.empty()) {
     draw.AddText(ToImGui(map.origin + Vector2d(Px(12), Px(12))), Packed(OverPicture().dim),
                  Tr("The map was made small and holds no image here."));

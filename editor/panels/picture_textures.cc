@@ -1,10 +1,13 @@
 #include "editor/panels/picture_textures.h"
 
-#include <cstdint>
-
+#include "editor/panels/frame_damage.h"
 #include "editor/panels/theme.h"
 
 namespace lararium::panels {
+
+ImTextureID ShownTexture(const render::Texture& texture) {
+  return TextureOf(texture.id(), texture.version());
+}
 
 ImTextureID PictureTextures::Show(const std::string& key,
                                   const std::shared_ptr<const cv::Mat>& picture) {
@@ -13,7 +16,7 @@ ImTextureID PictureTextures::Show(const std::string& key,
     entry.texture.Upload(*picture);
     entry.uploaded = picture;
   }
-  return reinterpret_cast<ImTextureID>(static_cast<intptr_t>(entry.texture.id()));
+  return ShownTexture(entry.texture);
 }
 
 void ShowThumbnail(PictureTextures& textures,

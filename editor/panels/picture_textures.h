@@ -13,6 +13,9 @@
 
 namespace lararium::panels {
 
+// For ImGui's images.
+ImTextureID ShownTexture(const render::Texture& texture);
+
 class PictureTextures {
  public:
   // The texture that shows the picture (bgr, not empty); uploads where it is another than

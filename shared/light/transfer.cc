@@ -56,7 +56,8 @@ template <size_t OfChannel>
 void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
   constexpr size_t kRegisters = 3 * OfChannel;
   const Transfer& transfer = *job.transfer;
-  const size_t pose_stride = transfer.vertices * kRegisters * kShortLanes;
+  const auto count = static_cast<size_t>(transfer.count);
+  const size_t pose_stride = transfer.vertices * 3 * count;
   const uint8_t* changed = job.changed.empty() ? nullptr : job.changed.data();
   for (size_t v = begin; v < end; ++v) {
     if (changed != nullptr && !AnyChanged(changed, job.receivers[v])) {
@@ -79,10 +80,11 @@ void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
 #pragma GCC unroll 3
         for (size_t channel = 0; channel < 3; ++channel) {
           const size_t first = channel * OfChannel;
-          IntLanes sum = DotPairs(light[first], LoadBytes(row + first * kShortLanes));
+          const int8_t* values = row + channel * count;
+          IntLanes sum = DotPairs(light[first], LoadBytes(values));
 #pragma GCC unroll 2
-          for (size_t i = first + 1; i < first + OfChannel; ++i) {
-            sum += DotPairs(light[i], LoadBytes(row + i * kShortLanes));
+          for (size_t i = 1; i < OfChannel; ++i) {
+            sum += DotPairs(light[first + i], LoadBytes(values + i * kShortLanes));
           }
           sums[channel] = MultiplyAdd(scale, __builtin_convertvector(sum, Lanes), sums[channel]);
         }
@@ -128,9 +130,11 @@ Status CheckTransfer(const Transfer& transfer, const std::string& place) {
                          "bake it again");
   }
   // In this order nothing overflows: each size bounds the next.
-  const bool sizes = transfer.vertices <= transfer.scale.size() &&
-                     transfer.scale.size() == transfer.poses * transfer.vertices &&
-                     transfer.values.size() == transfer.scale.size() * 3 * transfer.padded_count();
+  const bool sizes =
+      transfer.vertices <= transfer.scale.size() &&
+      transfer.scale.size() == transfer.poses * transfer.vertices &&
+      transfer.values.size() ==
+          transfer.scale.size() * 3 * static_cast<size_t>(transfer.count) + transfer.tail();
   if (!sizes) {
     return Status::Error(place, "light transfer of another size than it says", "bake it again");
   }
@@ -149,7 +153,7 @@ Transfer QuantiseTransfer(std::span<const float> vectors, int count, size_t pose
   transfer.poses = poses;
   transfer.vertices = vectors.size() / (poses * 3 * size);
   transfer.scale.resize(poses * transfer.vertices);
-  transfer.values.resize(transfer.scale.size() * 3 * transfer.padded_count());
+  transfer.values.resize(vectors.size() + transfer.tail());
   for (size_t row = 0; row < transfer.scale.size(); ++row) {
     const std::span<const float> vector = vectors.subspan(row * 3 * size, 3 * size);
     float largest = 0.0f;
@@ -159,7 +163,7 @@ Transfer QuantiseTransfer(std::span<const float> vectors, int count, size_t pose
     transfer.scale[row] = largest / kLargestByte;
     const float inverse = largest > 0.0f ? kLargestByte / largest : 0.0f;
     for (size_t i = 0; i < vector.size(); ++i) {
-      transfer.values[(row * 3 + i / size) * transfer.padded_count() + i % size] =
+      transfer.values[row * 3 * size + i] =
           static_cast<int8_t>(std::nearbyint(vector[i] * inverse));
     }
   }
@@ -174,7 +178,7 @@ void DecodeTransfer(const Transfer& transfer,
   CHECK(pose < transfer.poses && vertex < transfer.vertices && vectors.size() == 3 * size);
   const float scale = transfer.scale[pose * transfer.vertices + vertex];
   for (size_t channel = 0; channel < 3; ++channel) {
-    const int8_t* row = transfer.row(pose, vertex) + channel * transfer.padded_count();
+    const int8_t* row = transfer.row(pose, vertex) + channel * size;
     for (size_t k = 0; k < size; ++k) {
       vectors[channel * size + k] = row[k] * scale;
     }

@@ -29,12 +29,15 @@ struct Transfer {
   int count = 0;  // coefficients: 9, 16, 25 or 36
   size_t poses = 0;
   size_t vertices = 0;
-  std::vector<float> scale;    // [pose][vertex]
-  std::vector<int8_t> values;  // [pose][vertex][3][padded count], padding zero
+  std::vector<float> scale;  // [pose][vertex]
+  // [pose][vertex][3][count], as files have them, and tail() more: whole registers are read, of
+  // which light has nothing where they reach beyond a channel.
+  std::vector<int8_t> values;
 
   size_t padded_count() const { return PaddedToShortLanes(static_cast<size_t>(count)); }
+  size_t tail() const { return padded_count() - static_cast<size_t>(count); }
   const int8_t* row(size_t pose, size_t vertex) const {
-    return values.data() + (pose * vertices + vertex) * 3 * padded_count();
+    return values.data() + (pose * vertices + vertex) * 3 * static_cast<size_t>(count);
   }
 };
 

@@ -269,6 +269,15 @@ void ModelPass::BindTextures(const GpuModel& model, const GpuModel::Part& part) 
   glBindTexture(GL_TEXTURE_2D, texture(part.colour_texture));
 }
 
+// The shadow of a prop that stands still is kept, wherever it is seen from.
+float ModelPass::DetailOf(const ModelDraw& draw, Phase phase) {
+  if (phase != Phase::kCaster) {
+    return draw.detail;
+  }
+  return draw.model->skin == GpuModel::Skin::kRigid ? kCasterDetail
+                                                    : std::max(draw.detail, kCasterDetail);
+}
+
 void ModelPass::DrawPart(const ModelDraw& draw,
                          size_t index,
                          Phase phase,
@@ -311,8 +320,7 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   } else {
     glDisable(GL_CULL_FACE);
   }
-  const float coarsest = phase == Phase::kCaster ? kCasterDetail : 0.0f;
-  draw.model->Draw(index, std::max(draw.detail, coarsest), vertices != nullptr);
+  draw.model->Draw(index, DetailOf(draw, phase), vertices != nullptr);
 }
 
 bool ModelPass::IsOf(Phase phase, const GpuModel& model, const GpuModel::Part& part) {

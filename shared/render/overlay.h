@@ -27,6 +27,13 @@ struct OverlayView {
   float near = 0.01f;  // metres
   float far = 1000.0f;
   std::optional<glm::vec3> clear;  // fills the target first; nullopt: draws over it
+
+  friend bool operator==(const OverlayView& a, const OverlayView& b) {
+    return a.display == b.display &&
+           a.camera_from_stage.rotation.coeffs() == b.camera_from_stage.rotation.coeffs() &&
+           a.camera_from_stage.translation == b.camera_from_stage.translation && a.near == b.near &&
+           a.far == b.far && a.clear == b.clear;
+  }
 };
 
 struct OverlayPoint {
@@ -38,6 +45,8 @@ struct OverlayLine {
   glm::vec3 from;  // stage
   glm::vec3 to;
   glm::u8vec4 colour = glm::u8vec4(255);
+
+  friend bool operator==(const OverlayLine&, const OverlayLine&) = default;
 };
 
 enum class OverlayDepth {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "shared/geometry/glm_convert.h"
+#include "shared/render/detail.h"
 #include "shared/render/linear_target.h"
 #include "shared/render/renderer_state.h"
 #include "shared/render/shader_program.h"
@@ -18,6 +19,9 @@
 
 namespace lararium::render {
 namespace {
+
+// Nobody looks at things as closely as at faces.
+constexpr float kPropShare = 2.0f;
 
 // Nearly as fine is as fine: it would cost as much.
 constexpr double kLeastEnlarged = 0.9;
@@ -253,6 +257,18 @@ void Renderer::State::CollectDraw(const ModelDraw& draw,
   }
 }
 
+// Metres by which a prop may be off, as it is seen in the picture.
+float Renderer::State::PropDetail(const RenderScene& scene, const SceneProp& prop) const {
+  if (prop.stage_from_part.empty()) {
+    return 0.0f;
+  }
+  const geometry::CameraModel display =
+      scene.display.Resized(picture_size.width, picture_size.height);
+  return kPropShare * quality.detail_px /
+         PixelsPerMetre(display, *scene.camera_from_stage,
+                        glm::vec3(prop.stage_from_part.front()[3]));
+}
+
 PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const PictureView& view) {
   draws.clear();
   all_draws.clear();
@@ -263,7 +279,7 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
                  prop.stage_from_part,
                  {},
                  prop.irradiance,
-                 0.0f,
+                 PropDetail(scene, prop),
                  prop.shown,
                  prop.light,
                  prop.glow,
@@ -466,6 +482,7 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   linear.gain = glm::vec3(1.0f);
   linear.knee = 65504.0f;  // the largest that the target holds
   const ImageSize size = {scene.display.width, scene.display.height};
+  state.picture_size = size;
   const PictureView view = ViewOf(linear, size, size);
   const PixelBounds bounds = state.CollectDraws(linear, view);
   state.sun_pass.Draw(linear, state.quality, view, state.meshes, state.model_pass, state.all_draws,

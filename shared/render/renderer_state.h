@@ -52,6 +52,7 @@ struct Renderer::State {
   Status ValidateModels(const RenderScene& scene) const;
   Result<ModelHandle> AddModel(Result<GpuModel> model);
   // Fills draws, the nearest first, and all_draws. Says where they may be seen.
+  float PropDetail(const RenderScene& scene, const SceneProp& prop) const;
   PixelBounds CollectDraws(const RenderScene& scene, const PictureView& view);
   // Unless it lies outside the picture.
   void CollectDraw(const ModelDraw& draw, const PictureView& view, ScreenBounds& bounds);

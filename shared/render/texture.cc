@@ -2,11 +2,15 @@
 
 #include <epoxy/gl.h>
 
+#include <atomic>
+
 #include "shared/core/check.h"
 
 namespace lararium::render {
 
 void Texture::Upload(const cv::Mat& bgr) {
+  static std::atomic<uint32_t> uploads = 0;
+  version_ = ++uploads;
   CHECK(bgr.type() == CV_8UC3 && !bgr.empty() && bgr.step % 3 == 0);
   const bool fresh = texture_.id() == 0;
   if (fresh) {

@@ -16,11 +16,14 @@ class Texture {
 
   // 0 before the first upload. Coordinate (0, 0) is the top-left corner.
   uint32_t id() const { return texture_.id(); }
+  // Of what it shows: another after each upload of any texture.
+  uint32_t version() const { return version_; }
   int width() const { return width_; }
   int height() const { return height_; }
 
  private:
   GlTexture texture_;
+  uint32_t version_ = 0;
   int width_ = 0;
   int height_ = 0;
 };

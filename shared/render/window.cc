@@ -139,6 +139,11 @@ struct Window::State {
         Of(self).scroll(x, y);
       }
     });
+    glfwSetWindowRefreshCallback(w, [](GLFWwindow* self) {
+      if (Of(self).refresh) {
+        Of(self).refresh();
+      }
+    });
     glfwSetFramebufferSizeCallback(w, [](GLFWwindow* self, int width, int height) {
       if (Of(self).resize) {
         Of(self).resize(width, height);

@@ -32,6 +32,7 @@ struct WindowCallbacks {
   std::function<void(double x, double y)> cursor;
   std::function<void(double x, double y)> scroll;
   std::function<void(int width, int height)> resize;  // framebuffer, pixels
+  std::function<void()> refresh = {};  // what was shown is lost: after being covered, say
 };
 
 inline constexpr int kKeyPressed = 1;

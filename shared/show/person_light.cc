@@ -78,27 +78,26 @@ light::ShRowsRgb RowsRgb(int count, size_t slots) {
 
 glm::quat RotationOf(const glm::mat4& matrix) { return human::ToDualQuaternion(matrix).real; }
 
-// Values without padding, as the file has them, in rows with padding.
-light::Transfer Unpack(const LightTransfer& transfer, const LightTransfer::Mesh& mesh) {
+// Of one mesh.
+light::Transfer Unpack(const LightTransfer& transfer,
+                       std::vector<float> scale,
+                       std::vector<int8_t> coefficients,
+                       size_t vertices) {
   light::Transfer unpacked;
   unpacked.count = transfer.count;
   unpacked.poses = transfer.key_poses.size();
-  unpacked.vertices = mesh.receivers.size();
-  unpacked.scale = mesh.scale;
-  const auto count = static_cast<size_t>(transfer.count);
-  const size_t rows = mesh.coefficients.size() / count;
-  unpacked.values.assign(rows * unpacked.padded_count(), 0);
-  for (size_t row = 0; row < rows; ++row) {
-    std::copy_n(&mesh.coefficients[row * count], count,
-                &unpacked.values[row * unpacked.padded_count()]);
-  }
+  unpacked.vertices = vertices;
+  unpacked.scale = std::move(scale);
+  unpacked.values = std::move(coefficients);
+  unpacked.values.reserve(unpacked.values.size() + unpacked.tail());  // no more than that
+  unpacked.values.resize(unpacked.values.size() + unpacked.tail());
   return unpacked;
 }
 
 UnpackedLight UnpackAll(const LightTransfer& light) {
   UnpackedLight unpacked;
   for (const LightTransfer::Mesh& mesh : light.meshes) {
-    unpacked.push_back(Unpack(light, mesh));
+    unpacked.push_back(Unpack(light, mesh.scale, mesh.coefficients, mesh.receivers.size()));
   }
   return unpacked;
 }
@@ -108,10 +107,8 @@ UnpackedLight UnpackAll(const LightTransfer& light) {
 std::shared_ptr<const UnpackedLight> TakeLight(human::Human& human) {
   auto unpacked = std::make_shared<UnpackedLight>();
   for (LightTransfer::Mesh& mesh : human.light.meshes) {
-    unpacked->push_back(Unpack(human.light, mesh));
-    // Not "= {}", which keeps the memory.
-    std::vector<int8_t>().swap(mesh.coefficients);
-    std::vector<float>().swap(mesh.scale);
+    unpacked->push_back(Unpack(human.light, std::exchange(mesh.scale, {}),
+                               std::exchange(mesh.coefficients, {}), mesh.receivers.size()));
   }
   return unpacked;
 }

@@ -107,6 +107,33 @@ TEST(LevelsOfDetail, AreCoarserOneAfterTheOtherAndTheirErrorIsTrue) {
   EXPECT_LT(error, 0.1f);
 }
 
+TEST(LevelsOfDetail, GoWithoutWhatIsCovered) {
+  human::SkinnedMesh mesh = Sphere(48, 96).mesh;
+  std::vector<bool> covered;
+  for (const glm::vec3& p : mesh.positions) {
+    covered.push_back(p.y < 0.1f);
+  }
+  const std::vector<uint32_t> whole = mesh.indices;
+  AddLevelsOfDetail(mesh, covered);
+  EXPECT_EQ(mesh.indices, whole);
+  ASSERT_FALSE(mesh.coarser.empty());
+  for (const human::LevelOfDetail& level : mesh.coarser) {
+    float highest = -1.0f;
+    for (const uint32_t v : level.indices) {
+      // One ring of triangles crosses the border.
+      EXPECT_GT(mesh.positions[v].y, 0.0f);
+      highest = std::max(highest, mesh.positions[v].y);
+    }
+    EXPECT_GT(highest, 0.95f);
+  }
+}
+
+TEST(LevelsOfDetail, AreNoneWhereAllIsCovered) {
+  human::SkinnedMesh mesh = Sphere(48, 96).mesh;
+  AddLevelsOfDetail(mesh, std::vector<bool>(mesh.positions.size(), true));
+  EXPECT_TRUE(mesh.coarser.empty());
+}
+
 TEST(LevelsOfDetail, OfAFewTrianglesAreNone) {
   human::SkinnedMesh mesh = Sphere(3, 4).mesh;
   AddLevelsOfDetail(mesh);

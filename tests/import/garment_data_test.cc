@@ -147,7 +147,11 @@ TEST_F(Garments, AreWholePartsOfAHuman) {
   human::Human human;
   human.skeleton = body.skeleton;
   for (const Garment& garment : garments) {
-    EXPECT_EQ(garment.hidden.size(), body.skin.positions.size());
+    ASSERT_EQ(garment.hidden.size(), body.skin.positions.size());
+    ASSERT_EQ(garment.covered.size(), body.skin.positions.size());
+    for (size_t v = 0; v < garment.hidden.size(); ++v) {
+      EXPECT_TRUE(garment.covered[v] || !garment.hidden[v]) << garment.material.name << " " << v;
+    }
     EXPECT_TRUE(garment.material.two_sided);
     ASSERT_TRUE(garment.colour.has_value());
     EXPECT_TRUE(garment.colour->Validate(garment.mesh.name).ok());

@@ -19,6 +19,8 @@ namespace {
 // How far from its normal a place may be looked at, radians: cloth lies close on cloth.
 constexpr float kSkinView = 0.85f;
 constexpr float kClothView = 0.35f;
+// From afar an opening shows only what is next to its edge: of the margins in which skin stays.
+constexpr float kFarMargins = 0.35f;
 constexpr float kBulge = 0.03f;  // metres
 // So many margins from every edge of a garment is deep below it.
 constexpr float kDeep = 2.0f;
@@ -143,8 +145,13 @@ std::vector<bool> CoveredBy(const DrapedGarment& draped,
   return {covered.begin(), covered.end()};
 }
 
-// Of each vertex of FittedBody::skin.
-std::vector<bool> HiddenSkin(const DrapedGarment& draped, const FittedBody& body) {
+// The body in the pose that a garment was draped in.
+struct BodyBelow {
+  std::vector<glm::vec3> places;
+  std::vector<glm::vec3> normals;  // zero: not of the body, or nowhere
+};
+
+BodyBelow PoseBelow(const DrapedGarment& draped, const FittedBody& body) {
   std::vector<glm::vec3> places;
   for (size_t v = 0; v < body.base.positions.size(); ++v) {
     glm::vec3 sum(0.0f);
@@ -160,13 +167,30 @@ std::vector<bool> HiddenSkin(const DrapedGarment& draped, const FittedBody& body
   for (size_t v = 0; v < normals.size(); ++v) {
     normals[v] = is_body[v] ? normals[v] : glm::vec3(0.0f);
   }
-  const std::vector<bool> covered =
-      CoveredBy(draped, places, normals, kSkinView, draped.hide_margin, draped.loose_margin);
-  std::vector<bool> hidden;
+  return {std::move(places), std::move(normals)};
+}
+
+// Of each vertex of FittedBody::skin.
+std::vector<bool> SkinOf(const FittedBody& body, const std::vector<bool>& of_base) {
+  std::vector<bool> of_skin;
   for (const uint32_t base : body.base_of_skin) {
-    hidden.push_back(covered[base]);
+    of_skin.push_back(of_base[base]);
   }
-  return hidden;
+  return of_skin;
+}
+
+void FindHiddenSkin(const DrapedGarment& draped, const FittedBody& body, Garment& garment) {
+  if (!draped.covers) {
+    garment.hidden.assign(body.base_of_skin.size(), false);
+    garment.covered = garment.hidden;
+    return;
+  }
+  const auto [places, normals] = PoseBelow(draped, body);
+  garment.hidden = SkinOf(
+      body, CoveredBy(draped, places, normals, kSkinView, draped.hide_margin, draped.loose_margin));
+  garment.covered =
+      SkinOf(body, CoveredBy(draped, places, normals, kClothView, kFarMargins * draped.hide_margin,
+                             kFarMargins * draped.loose_margin));
 }
 
 Influences StrongestOf(std::span<const float> weights) {
@@ -368,8 +392,7 @@ Result<Garment> FinishGarment(const DrapedGarment& draped,
       garment.cloth->name = name;
     }
   }
-  garment.hidden =
-      whole.covers ? HiddenSkin(whole, body) : std::vector<bool>(body.base_of_skin.size(), false);
+  FindHiddenSkin(whole, body, garment);
   return garment;
 }
 
