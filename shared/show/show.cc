@@ -8,7 +8,6 @@
 #include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/light/probe_weights.h"
-#include "shared/show/picture_camera.h"
 
 namespace lararium::show {
 namespace {
@@ -246,7 +245,7 @@ void Show::ChooseDetails(const StagedFrame& staged) {
   const geometry::CameraModel& camera = staged.tracked.camera;
   geometry::CameraModel display = camera.DisplayPinhole();
   if (picture_width_ > 0 && picture_height_ > 0) {
-    display = PictureCamera(camera, picture_width_, picture_height_)
+    display = PictureCamera(camera, picture_width_, picture_height_, picture_part_)
                   .Resized(picture_width_, picture_height_);
   }
   for (size_t cast = 0; cast < requests_.size(); ++cast) {

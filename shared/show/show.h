@@ -28,6 +28,7 @@
 #include "shared/show/lamp_shade.h"
 #include "shared/show/lost_guide.h"
 #include "shared/show/lost_ladder.h"
+#include "shared/show/picture_camera.h"
 #include "shared/show/show_content.h"
 #include "shared/show/sound_director.h"
 #include "shared/show/stage_light.h"
@@ -167,11 +168,12 @@ class Show {
   // are gone with the pose. Not while a frame is being staged.
   void SetLostLadder(const LostLadderOptions& options) { ladder_.emplace(options); }
 
-  // How large pictures will be drawn, which decides on levels of detail; as large as the
-  // camera's images unless set. Not while a frame is being staged.
-  void SetPictureSize(int width, int height) {
+  // How large pictures will be drawn, and what of the view they show, which decides on levels of
+  // detail; as large as the camera's images unless set. Not while a frame is being staged.
+  void SetPictureSize(int width, int height, const ViewPart& part = {}) {
     picture_width_ = width;
     picture_height_ = height;
+    picture_part_ = part;
   }
 
   // Brings the drama to time (seconds, at least 0) and fills staged. The drama
@@ -229,8 +231,9 @@ class Show {
   std::vector<std::vector<render::DetailLevel>> levels_;  // likewise
   std::vector<render::DetailRequest> requests_;           // likewise
   render::DetailChooser detail_chooser_;
-  int picture_width_ = 0;                    // 0: the camera's
-  int picture_height_ = 0;                   // likewise
+  int picture_width_ = 0;   // 0: the camera's
+  int picture_height_ = 0;  // likewise
+  ViewPart picture_part_;
   std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
