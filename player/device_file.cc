@@ -95,8 +95,13 @@ Result<Device> ParseDevice(std::string_view text, const std::string& place) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView lost, view.Field("lost"));
     LARARIUM_ASSIGN_OR_RETURN(device.lost, ParseLost(lost));
   }
-  if (!view.Has("camera") && !view.Has("look") && !view.Has("capture") && !view.Has("lost")) {
-    return view.Problem("has none of \"camera\", \"look\", \"capture\", \"lost\"",
+  if (view.Has("headset")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView headset, view.Field("headset"));
+    LARARIUM_ASSIGN_OR_RETURN(device.headset, ParseHeadset(headset));
+  }
+  if (!view.Has("camera") && !view.Has("look") && !view.Has("capture") && !view.Has("lost") &&
+      !view.Has("headset")) {
+    return view.Problem("has none of \"camera\", \"look\", \"capture\", \"headset\", \"lost\"",
                         "docs/file-formats.md says what they hold");
   }
   return device;

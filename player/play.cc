@@ -22,6 +22,7 @@
 #include "player/recorder.h"
 #include "player/sandbox.h"
 #include "player/screen.h"
+#include "player/stereo_display.h"
 #include "shared/audio/sound_player.h"
 #include "shared/bundle/bundle.h"
 #include "shared/bundle/signature.h"
@@ -128,6 +129,8 @@ class Performance {
   void PressKeys();
   Status OpenSource();
   Result<show::ShowContent> LoadInChosenLanguages();
+  Status ChooseHeadset();
+  Status ChooseView(const show::ShowContent& content);
   Status CreateTracker(const show::ShowContent& content);
   Status CreateShow(show::ShowContent content);
   Status PrepareDrawing(const show::ShowContent& content);
@@ -136,6 +139,8 @@ class Performance {
   void OpenSound();
   Status RunLockStep();
   Status RunRealtime();
+  Status DrawPicture(const show::StagedFrame& staged);
+  const render::RenderTarget& shown() const { return stereo_ ? stereo_->panel() : *target_; }
   Status DrawFrame(const show::StagedFrame& staged);
   void AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn);
   void ChooseQuality(SteadyClock::time_point now, double work_ms);
@@ -150,6 +155,9 @@ class Performance {
   show::LanguageChoice languages_;
   bool languages_changed_ = false;
   Device device_;
+  std::optional<Headset> headset_;  // that is shown on
+  geometry::CameraModel camera_;
+  show::ViewPart part_;  // of the camera's view, that is drawn
   PictureSize size_;
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
@@ -157,6 +165,7 @@ class Performance {
   std::optional<Screen> screen_;  // before all that draws: destroyed after it
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
+  std::optional<StereoDisplay> stereo_;
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
@@ -238,22 +247,49 @@ Status Performance::CreateShow(show::ShowContent content) {
   drama.seed = options_.seed;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
   show_->SetLostLadder(device_.lost);
-  show_->SetPictureSize(size_.width, size_.height);
+  show_->SetPictureSize(size_.width, size_.height, part_);
   return Status();
 }
 
-Status Performance::CreateTracker(const show::ShowContent& content) {
+Status Performance::ChooseHeadset() {
+  const bool has_panel = device_.headset && device_.headset->panel;
+  const Display display =
+      options_.display.value_or(has_panel ? Display::kSideBySide : Display::kMono);
+  if (display == Display::kMono) {
+    return Status();
+  }
+  if (!has_panel) {
+    return Status::Error("--display side-by-side", "the headset's panel is not known",
+                         "give a device file (--device) whose \"headset\" has a \"panel\"");
+  }
+  headset_ = device_.headset;
+  part_ = headset_->SeenPart();
+  return Status();
+}
+
+// The camera, and what of its view is drawn how large.
+Status Performance::ChooseView(const show::ShowContent& content) {
+  LARARIUM_RETURN_IF_ERROR(ChooseHeadset());
   LARARIUM_ASSIGN_OR_RETURN(
       const CameraChoice choice,
       ChooseCamera(options_, TrainedCameras(content), source_->width(), source_->height()));
   log_.info("camera intrinsics from {}", choice.origin);
+  camera_ = choice.camera;
+  const geometry::CameraModel seen = show::PartOfView(camera_, part_);
+  // Videos have even sides.
+  size_ = options_.size.value_or(
+      PictureSize{std::max(seen.width & ~1, 16), std::max(seen.height & ~1, 16)});
+  return Status();
+}
+
+Status Performance::CreateTracker(const show::ShowContent& content) {
   vision::TrackerOptions tracking;
   tracking.seed = options_.seed;
   tracking.threads = options_.threads;
   tracking.background = options_.pace == Pace::kFast ? vision::BackgroundWork::kJoined
                                                      : vision::BackgroundWork::kFree;
-  LARARIUM_ASSIGN_OR_RETURN(
-      poses_, vision::CreateTracker(show::Maps(content.places), choice.camera, tracking));
+  LARARIUM_ASSIGN_OR_RETURN(poses_,
+                            vision::CreateTracker(show::Maps(content.places), camera_, tracking));
   show::SetOccluders(content.places, *poses_);
   poses_ = vision::Smooth(std::move(poses_), show::Maps(content.places), options_.smoothing);
   return Status();
@@ -283,9 +319,8 @@ Status Performance::Prepare() {
     LARARIUM_ASSIGN_OR_RETURN(device_, LoadDevice(options_.device));
   }
   LARARIUM_RETURN_IF_ERROR(OpenSource());
-  // Videos have even sides.
-  size_ = options_.size.value_or(PictureSize{source_->width() & ~1, source_->height() & ~1});
   LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content, LoadInChosenLanguages());
+  LARARIUM_RETURN_IF_ERROR(ChooseView(content));
   for (const show::ShowPlace& place : content.places) {
     statistics_.places.push_back(place.stage.name);
   }
@@ -306,7 +341,7 @@ Status Performance::Prepare() {
     show_->RestartAt(kiosk_->ResumeAt(content.title));
   }
   LARARIUM_RETURN_IF_ERROR(PrepareQuality());
-  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, *target_, *show_));
+  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, shown(), *show_));
   OpenSound();
   if (!options_.osc.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(const OscAddress address, ParseOscAddress(options_.osc));
@@ -320,6 +355,11 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
   LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(size_.width, size_.height));
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content));
   renderer_->SetEvidence(options_.evidence);
+  renderer_->SetPart(part_);
+  if (headset_) {
+    LARARIUM_ASSIGN_OR_RETURN(stereo_, StereoDisplay::Create(*headset_));
+    screen_->CheckSize(stereo_->panel(), log_);
+  }
   statistics_.gpu = render::GraphicsDeviceName();
   return Status();
 }
@@ -434,6 +474,10 @@ void Performance::AddTimes(const show::StagedFrame& staged, SteadyClock::time_po
   ++drawn_frames_;
 }
 
+Status Performance::DrawPicture(const show::StagedFrame& staged) {
+  return stereo_ ? stereo_->Draw(staged, *renderer_, *target_) : renderer_->Draw(staged, *target_);
+}
+
 Status Performance::DrawFrame(const show::StagedFrame& staged) {
   if (options_.staff) {
     ShowToStaff();
@@ -442,10 +486,10 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
   SteadyClock::time_point drawn;
   {
     const ScopedStageTimer timer(statistics_.render);
-    LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_));
+    LARARIUM_RETURN_IF_ERROR(DrawPicture(staged));
     target_->Finish();
     drawn = SteadyClock::now();
-    screen_->Present(*target_);
+    screen_->Present(shown());
   }
   if (sound_ != nullptr) {
     sound_->Show(staged.sound);
@@ -457,7 +501,7 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
   if (kiosk_) {
     kiosk_->AfterFrame(Seconds(last_shown_), staged, *show_);
   }
-  return recorder_->Add(staged, *target_);
+  return recorder_->Add(staged, shown());
 }
 
 Status Performance::RunLockStep() {
