@@ -155,21 +155,34 @@ void Show::RestartAt(double seconds) {
   restart_ = std::clamp(seconds, 0.0, drama::Drama::kMaxTime);
 }
 
+void Show::ForgetPose() {
+  const std::lock_guard lock(input_mutex_);
+  forget_pose_ = true;
+}
+
 void Show::TakeRestart(double time) {
   std::optional<double> restart;
+  bool forget_pose = false;
   {
     const std::lock_guard lock(input_mutex_);
     restart = std::exchange(restart_, std::nullopt);
+    forget_pose = std::exchange(forget_pose_, false);
   }
   if (restart) {
     start_ = time - *restart;
     last_time_ = time;
     held_seconds_ = 0.0;
-    gain_filter_.Reset();
-    camera_motion_.Reset();
-    if (ladder_) {
-      ladder_->Reset();
-    }
+  }
+  if (restart || forget_pose) {
+    ResetPose();
+  }
+}
+
+void Show::ResetPose() {
+  gain_filter_.Reset();
+  camera_motion_.Reset();
+  if (ladder_) {
+    ladder_->Reset();
   }
 }
 

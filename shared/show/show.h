@@ -155,6 +155,10 @@ class Show {
   // From any thread.
   void RestartAt(double seconds);
 
+  // The next frame's pose has nothing to do with those before and is taken as it is. The drama
+  // goes on. From any thread.
+  void ForgetPose();
+
   // For interactive staging: another transform, nudge, light or occluders of
   // places[index].
   void SetPlace(size_t index, stage::Place place) {
@@ -192,6 +196,7 @@ class Show {
   void TickOnce();
   void TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage);
   void TakeRestart(double time);
+  void ResetPose();
   // The drama's time at a time of the frames: since it began, less what it was held.
   double DramaTime(double time);
   // Fills what of staged depends on where the camera is.
@@ -241,6 +246,7 @@ class Show {
   std::string keys_;    // pressed since the last frame
   float hour_ = -1.0f;  // of the day; below 0: unknown
   std::optional<double> restart_;
+  bool forget_pose_ = false;
   double start_ = 0.0;  // of the drama, in the time of the frames
   render::DetailOptions detail_options_;
   float picture_hour_ = -1.0f;  // hour_ as of the frame

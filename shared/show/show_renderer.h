@@ -43,6 +43,9 @@ class ShowRenderer {
   // For staff, over the picture: how tracking is, and more; nullopt: nothing.
   void SetStaff(std::optional<std::string> more) { captions_->SetStaff(std::move(more)); }
 
+  // What a visitor chooses from, over the picture; nullopt: nothing.
+  void SetMenu(std::optional<render::Menu> menu) { captions_->SetMenu(std::move(menu)); }
+
   // Other texts, of the same show in another language.
   Status SetTexts(const ShowContent& content);
 

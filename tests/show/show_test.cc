@@ -298,6 +298,30 @@ TEST_F(ShowTest, TheNextVisitorSeesTheDramaFromItsBeginning) {
   EXPECT_NEAR(PositionX(At(*show, 21.2)), 0.7, 1e-4);
 }
 
+TEST_F(ShowTest, APoseThatIsFoundAnewIsTakenAsItIs) {
+  const auto at_once = [&](bool forget) {
+    const std::unique_ptr<Show> show = Make();
+    show->SetLostLadder({});
+    StagedFrame staged;
+    for (int i = 0; i < 10; ++i) {
+      vision::TrackedFrame frame = test::FakePoses().Track({});
+      frame.camera = geometry::CameraModel{64, 48, 50.0, 50.0, 31.5, 23.5};
+      frame.frame.capture_time = i / 30.0;
+      if (i == 9) {  // elsewhere
+        frame.camera_from_map->translation.x() += 1.5;
+        if (forget) {
+          show->ForgetPose();
+        }
+      }
+      show->StageFrame(frame, i / 30.0, staged);
+    }
+    EXPECT_NEAR(PositionX(staged), 0.3, 1e-4) << "the drama goes on";
+    return staged.opacity;
+  };
+  EXPECT_LT(at_once(false), 1.0f) << "people go before they come elsewhere";
+  EXPECT_EQ(at_once(true), 1.0f);
+}
+
 TEST_F(ShowTest, AKioskRunsForDays) {
   const std::unique_ptr<Show> show = Make();
   const double days = 5.0 * 24.0 * 3600.0;
