@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "player/headset.h"
+#include "player/visitor_actions.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
@@ -22,6 +23,7 @@ struct Device {
   std::optional<light::CameraTraits> look;      // how noisy and soft its images are
   capture::CameraSettings capture;              // how it is run
   std::optional<Headset> headset;               // through which visitors see
+  Buttons buttons;                              // that they press
   show::LostLadderOptions lost;                 // what happens while tracking is lost, and when
 };
 

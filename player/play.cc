@@ -23,6 +23,7 @@
 #include "player/sandbox.h"
 #include "player/screen.h"
 #include "player/stereo_display.h"
+#include "player/visitor_menu.h"
 #include "shared/audio/sound_player.h"
 #include "shared/bundle/bundle.h"
 #include "shared/bundle/signature.h"
@@ -107,14 +108,12 @@ class Performance {
               Log& log,
               const ChildStart& start,
               Heartbeat heartbeat)
-      : options_(options),
-        started_(started),
-        log_(log),
-        heartbeat_(heartbeat),
-        languages_{options.language, options.captions} {
+      : options_(options), started_(started), log_(log), heartbeat_(heartbeat) {
     if (options.kiosk) {
       kiosk_.emplace(options.state.empty() ? DefaultStateFolder() : options.state, start, log);
+      choices_ = kiosk_->state().choices;
     }
+    ApplyLanguageOptions();
   }
 
   Status Prepare();
@@ -127,7 +126,14 @@ class Performance {
   }
   bool KeepGoing();
   void PressKeys();
+  void PressKey(const std::string& key);
+  void Do(Action action);
+  void ChooseAnd(Action action);
+  void ToggleMenu();
+  void ShowMenu(const show::StagedFrame& staged);
   Status OpenSource();
+  void ApplyLanguageOptions();
+  show::LanguageChoice languages() const { return {choices_.language, choices_.captions}; }
   Result<show::ShowContent> LoadInChosenLanguages();
   Status ChooseHeadset();
   Status ChooseView(const show::ShowContent& content);
@@ -152,8 +158,10 @@ class Performance {
   Log& log_;
   Heartbeat heartbeat_;
   std::optional<Kiosk> kiosk_;
-  show::LanguageChoice languages_;
+  Choices choices_;
   bool languages_changed_ = false;
+  GazeMenu menu_;
+  double drama_time_ = 0.0;  // of the frame drawn last
   Device device_;
   std::optional<Headset> headset_;  // that is shown on
   geometry::CameraModel camera_;
@@ -199,21 +207,88 @@ void Performance::PressKeys() {
       renderer_->SetEvidence(!renderer_->shows_evidence());
       continue;
     }
-    show_->PressKey(key);
-    if (!kiosk_) {
-      if (key == kLeaveKey) {
-        g_end_requested = 1;
-      }
-      continue;
-    }
-    const Kiosk::Change change =
-        kiosk_->Press(key, Seconds(SteadyClock::now()), show_->content().spoken_languages,
-                      show_->content().caption_languages, *show_);
-    if (change.volume && sound_ != nullptr) {
-      sound_->SetVolume(static_cast<float>(kiosk_->state().volume));
-    }
-    languages_changed_ = languages_changed_ || change.languages;
+    PressKey(key);
   }
+}
+
+// What the menu does not take is the drama's too.
+void Performance::PressKey(const std::string& key) {
+  const double now = Seconds(SteadyClock::now());
+  if (kiosk_) {
+    kiosk_->Touch(now, *show_);
+  }
+  const GazeMenu::Pressed pressed = menu_.Press(key, now);
+  if (pressed.action) {
+    Do(*pressed.action);
+  }
+  if (pressed.taken) {
+    return;
+  }
+  show_->PressKey(key);
+  if (const std::optional<Action> action = device_.buttons.ActionOf(key)) {
+    Do(*action);
+  }
+  if (key == kLeaveKey && !kiosk_) {
+    g_end_requested = 1;
+  }
+}
+
+void Performance::Do(Action action) {
+  switch (action) {
+    case Action::kRestart:
+      show_->RestartAt(0.0);
+      break;
+    case Action::kFindAnew:
+      poses_->FindAnew();
+      show_->ForgetPose();
+      break;
+    case Action::kMenu:
+      ToggleMenu();
+      break;
+    default:
+      ChooseAnd(action);
+  }
+}
+
+// Chooses, and lets it be heard and read.
+void Performance::ChooseAnd(Action action) {
+  const Choices before = choices_;
+  Choose(action, {show_->content().spoken_languages, show_->content().caption_languages}, choices_);
+  if (choices_ == before) {
+    return;
+  }
+  if (choices_.volume != before.volume && sound_ != nullptr) {
+    sound_->SetVolume(static_cast<float>(choices_.volume));
+  }
+  languages_changed_ = languages_changed_ || choices_.language != before.language ||
+                       choices_.captions != before.captions;
+  menu_.SetItems(ItemsOf(show_->content(), choices_));
+  if (kiosk_) {
+    kiosk_->Keep(choices_, Seconds(SteadyClock::now()));
+  }
+}
+
+void Performance::ToggleMenu() {
+  std::vector<MenuItem> items = ItemsOf(show_->content(), choices_);
+  if (menu_.open() || items.empty()) {
+    menu_.Close();
+    return;
+  }
+  menu_.Open(std::move(items), Seconds(SteadyClock::now()),
+             ScaleFor(renderer_->PictureOf(camera_, size_.width, size_.height)));
+}
+
+// Where the menu is in the frame, and what is chosen by looking at it.
+void Performance::ShowMenu(const show::StagedFrame& staged) {
+  const bool tracked = staged.tracked.camera_from_map.has_value();
+  if (const std::optional<Action> action = menu_.Look(
+          Seconds(SteadyClock::now()), tracked ? staged.camera_from_stage : std::nullopt)) {
+    Do(*action);
+  }
+  const geometry::CameraModel picture =
+      renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
+          .Resized(size_.width, size_.height);
+  renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture)) : std::nullopt);
 }
 
 Status Performance::OpenSource() {
@@ -295,18 +370,24 @@ Status Performance::CreateTracker(const show::ShowContent& content) {
   return Status();
 }
 
+// They go before what the last visitor chose.
+void Performance::ApplyLanguageOptions() {
+  if (!options_.language.empty()) {
+    choices_.language = options_.language;
+  }
+  if (!options_.captions.empty()) {
+    choices_.captions = options_.captions;
+  }
+}
+
 // What the last visitor chose may be of another show.
 Result<show::ShowContent> Performance::LoadInChosenLanguages() {
-  if (kiosk_ && options_.language.empty()) {
-    languages_.spoken = kiosk_->state().language;
-  }
-  if (kiosk_ && options_.captions.empty()) {
-    languages_.captions = kiosk_->state().captions;
-  }
-  Result<show::ShowContent> loaded = LoadContent(options_, languages_);
+  Result<show::ShowContent> loaded = LoadContent(options_, languages());
   if (!loaded.ok() && kiosk_) {
-    languages_ = {options_.language, options_.captions};
-    loaded = LoadContent(options_, languages_);
+    choices_.language.clear();
+    choices_.captions.clear();
+    ApplyLanguageOptions();
+    loaded = LoadContent(options_, languages());
   }
   if (loaded.ok()) {
     SetLook(options_, device_, *loaded);
@@ -411,15 +492,14 @@ void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
 // Another language needs other texts and voices; the drama goes on where it is.
 Status Performance::ChangeLanguages() {
   languages_changed_ = false;
-  languages_ = {kiosk_->state().language, kiosk_->state().captions};
-  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_, languages_));
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_, languages()));
   SetLook(options_, device_, content);
   sound_.reset();
-  const double time = kiosk_->state().seconds;
   LARARIUM_RETURN_IF_ERROR(CreateShow(std::move(content)));
-  show_->RestartAt(time);
+  show_->RestartAt(drama_time_);
   OpenSound();
-  log_.info("language '{}', captions '{}'", languages_.spoken, languages_.captions);
+  log_.info("language '{}', captions '{}'", choices_.language, choices_.captions);
+  menu_.SetItems(ItemsOf(show_->content(), choices_));
   return renderer_->SetTexts(show_->content());
 }
 
@@ -440,9 +520,7 @@ void Performance::OpenSound() {
   }
   sound_ = std::make_unique<audio::SoundPlayer>(
       std::move(*mixer), [] { return audio::CreateAudioOut(audio::AudioOutKind::kDevice); }, log_);
-  if (kiosk_) {
-    sound_->SetVolume(static_cast<float>(kiosk_->state().volume));
-  }
+  sound_->SetVolume(static_cast<float>(choices_.volume));
 }
 
 void Performance::ShowToStaff() {
@@ -479,9 +557,11 @@ Status Performance::DrawPicture(const show::StagedFrame& staged) {
 }
 
 Status Performance::DrawFrame(const show::StagedFrame& staged) {
+  drama_time_ = staged.time;
   if (options_.staff) {
     ShowToStaff();
   }
+  ShowMenu(staged);
   const SteadyClock::time_point begin = SteadyClock::now();
   SteadyClock::time_point drawn;
   {
@@ -505,10 +585,14 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
 }
 
 Status Performance::RunLockStep() {
-  show::LockStep lock_step(stages());
+  std::optional<show::LockStep> lock_step(std::in_place, stages());
   show::StagedFrame staged;
   while (KeepGoing()) {
-    LARARIUM_ASSIGN_OR_RETURN(const bool more, lock_step.Next(staged));
+    if (languages_changed_) {
+      LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
+      lock_step.emplace(stages());
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, lock_step->Next(staged));
     if (!more) {
       break;
     }

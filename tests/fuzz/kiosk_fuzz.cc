@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
   }
   if (const auto state = player::ParseKioskState(text, "state.json"); state.ok()) {
-    CHECK(state->seconds >= 0.0 && state->volume >= 0.0 && state->volume <= 1.0);
+    CHECK(state->seconds >= 0.0 && state->choices.volume >= 0.0 && state->choices.volume <= 1.0);
   }
   if (const auto key = bundle::ParsePublicKey(text, "museum.pub"); key.ok()) {
     CHECK(!bundle::Verifies({}, {}, *key));
