@@ -12,6 +12,7 @@ namespace {
 using geometry::LensModel;
 using geometry::Rigid3;
 
+constexpr double kEyeDistance = 0.063;    // metres, as grown people have on average
 constexpr double kFarthestPart = 0.2;     // metres from the middle between the eyes
 constexpr double kNearestPicture = 0.3;   // metres
 constexpr double kFarthestPicture = 1e4;  // metres: further away is infinity
@@ -117,12 +118,11 @@ Result<Panel> ParsePanel(const JsonView& view) {
 }
 
 Status ParseEyes(const JsonView& view, Headset& headset) {
-  double apart = 0.063;  // as grown people have them on average
   if (view.Has("eye_distance")) {
-    LARARIUM_ASSIGN_OR_RETURN(apart, view.Number("eye_distance", 0.0, 0.1));
+    LARARIUM_ASSIGN_OR_RETURN(const double apart, view.Number("eye_distance", 0.0, 0.1));
+    headset.head_from_eye[kLeft].translation.x() = -0.5 * apart;
+    headset.head_from_eye[kRight].translation.x() = 0.5 * apart;
   }
-  headset.head_from_eye[kLeft].translation.x() = -0.5 * apart;
-  headset.head_from_eye[kRight].translation.x() = 0.5 * apart;
   for (const auto& [name, eye] : {std::pair("left_eye", kLeft), std::pair("right_eye", kRight)}) {
     if (view.Has(name)) {
       LARARIUM_ASSIGN_OR_RETURN(const JsonView pose, view.Field(name));
@@ -182,11 +182,19 @@ show::ViewPart Headset::SeenPart() const {
   return part;
 }
 
+Headset::Headset() {
+  head_from_eye[kLeft].translation.x() = -0.5 * kEyeDistance;
+  head_from_eye[kRight].translation.x() = 0.5 * kEyeDistance;
+}
+
 Result<Headset> ParseHeadset(const JsonView& view) {
   Headset headset;
   if (view.Has("camera")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView camera, view.Field("camera"));
     LARARIUM_RETURN_IF_ERROR(ParsePose(camera, headset.head_from_camera));
+    if (camera.Has("delay")) {
+      LARARIUM_ASSIGN_OR_RETURN(headset.camera_delay, camera.Number("delay", 0.0, 0.5));
+    }
   }
   LARARIUM_RETURN_IF_ERROR(ParseEyes(view, headset));
   if (view.Has("picture_distance")) {

@@ -27,7 +27,10 @@ struct Panel {
 };
 
 struct Headset {
+  Headset();  // of grown people, with the camera between the eyes
+
   geometry::Rigid3 head_from_camera;
+  double camera_delay = 0.0;                      // seconds from an image's taking to its arrival
   std::array<geometry::Rigid3, 2> head_from_eye;  // by Eye
   // How far from the camera the picture seems to be, metres; infinite: as the stars.
   double picture_distance = 3.0;

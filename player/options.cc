@@ -25,7 +25,9 @@ std::map<std::string, Listening> ListeningNames() {
 }
 
 std::map<std::string, Display> DisplayNames() {
-  return {{"mono", Display::kMono}, {"side-by-side", Display::kSideBySide}};
+  return {{"mono", Display::kMono},
+          {"side-by-side", Display::kSideBySide},
+          {"openxr", Display::kOpenXr}};
 }
 
 // nullopt: it is none.
@@ -75,7 +77,8 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option(
          "--display", play.display,
          "mono; side-by-side: for both eyes through the lenses of the device file's headset, "
-         "which is what happens where it has a panel")
+         "which is what happens where it has a panel; openxr: on a headset that an OpenXR "
+         "runtime drives")
       ->transform(CLI::Transformer(DisplayNames()));
   app.add_flag("--headless", play.headless, "Draw off screen");
   app.add_option("--monitor", play.monitor, "Full screen on this monitor")
@@ -204,6 +207,9 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     }
     if (play.loop && play.video.empty() && play.images.empty()) {
       throw CLI::ValidationError("--loop", "goes with --video or --images");
+    }
+    if (play.headless && play.display == Display::kOpenXr) {
+      throw CLI::ValidationError("--display openxr", "cannot go with --headless");
     }
     if (play.headless && play.monitor >= 0) {
       throw CLI::ValidationError("--monitor", "cannot go with --headless");

@@ -18,8 +18,9 @@ enum class Pace { kRealtime, kFast };
 // Where sound is heard. Headphones: mixed for two ears (HRTF).
 enum class Listening { kHeadphones, kSpeakers, kNone };
 
-// How pictures are shown: as they are, or for both eyes of a headset that appears as a monitor.
-enum class Display { kMono, kSideBySide };
+// How pictures are shown: as they are, for both eyes of a headset that appears as a monitor, or on
+// one that an OpenXR runtime drives.
+enum class Display { kMono, kSideBySide, kOpenXr };
 
 // Pixels.
 struct PictureSize {

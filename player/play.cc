@@ -17,6 +17,7 @@
 #include "player/camera_choice.h"
 #include "player/device_file.h"
 #include "player/kiosk.h"
+#include "player/openxr_headset.h"
 #include "player/osc.h"
 #include "player/power_sensors.h"
 #include "player/recorder.h"
@@ -146,6 +147,8 @@ class Performance {
   Status RunLockStep();
   Status RunRealtime();
   Status DrawPicture(const show::StagedFrame& staged);
+  Status DrawForOpenXr(const show::StagedFrame& staged);
+  Status ServeOpenXr();
   const render::RenderTarget& shown() const { return stereo_ ? stereo_->panel() : *target_; }
   Status DrawFrame(const show::StagedFrame& staged);
   void AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn);
@@ -174,6 +177,7 @@ class Performance {
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
   std::optional<StereoDisplay> stereo_;
+  std::unique_ptr<OpenXrHeadset> openxr_;  // nullptr: there is no such headset
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
@@ -333,6 +337,11 @@ Status Performance::ChooseHeadset() {
   if (display == Display::kMono) {
     return Status();
   }
+  if (display == Display::kOpenXr) {
+    headset_ = device_.headset.value_or(Headset());
+    headset_->panel.reset();  // its runtime's
+    return Status();
+  }
   if (!has_panel) {
     return Status::Error("--display side-by-side", "the headset's panel is not known",
                          "give a device file (--device) whose \"headset\" has a \"panel\"");
@@ -437,9 +446,11 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content));
   renderer_->SetEvidence(options_.evidence);
   renderer_->SetPart(part_);
-  if (headset_) {
+  if (headset_ && headset_->panel) {
     LARARIUM_ASSIGN_OR_RETURN(stereo_, StereoDisplay::Create(*headset_));
     screen_->CheckSize(stereo_->panel(), log_);
+  } else if (headset_) {
+    LARARIUM_ASSIGN_OR_RETURN(openxr_, OpenXrHeadset::Open(*headset_, content.title, log_));
   }
   statistics_.gpu = render::GraphicsDeviceName();
   return Status();
@@ -552,7 +563,36 @@ void Performance::AddTimes(const show::StagedFrame& staged, SteadyClock::time_po
   ++drawn_frames_;
 }
 
+Status Performance::DrawForOpenXr(const show::StagedFrame& staged) {
+  for (const Eye eye : {kLeft, kRight}) {
+    if (eye == kLeft || headset_->stereo) {
+      LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_, openxr_->PictureEyeOf(eye)));
+      LARARIUM_RETURN_IF_ERROR(openxr_->SetPicture(eye, *target_));
+    }
+  }
+  const auto delay = std::chrono::duration<double>(headset_->camera_delay);
+  openxr_->Place(renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
+                     .Resized(size_.width, size_.height),
+                 staged.arrival - std::chrono::duration_cast<SteadyClock::duration>(delay));
+  return Status();
+}
+
+// Also between two images of the camera.
+Status Performance::ServeOpenXr() {
+  if (openxr_ != nullptr) {
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, openxr_->Frame());
+    if (!more) {
+      log_.info("the headset's runtime ended the session");
+      g_end_requested = 1;
+    }
+  }
+  return Status();
+}
+
 Status Performance::DrawPicture(const show::StagedFrame& staged) {
+  if (openxr_ != nullptr) {
+    return DrawForOpenXr(staged);
+  }
   return stereo_ ? stereo_->Draw(staged, *renderer_, *target_) : renderer_->Draw(staged, *target_);
 }
 
@@ -597,6 +637,7 @@ Status Performance::RunLockStep() {
       break;
     }
     LARARIUM_RETURN_IF_ERROR(DrawFrame(staged));
+    LARARIUM_RETURN_IF_ERROR(ServeOpenXr());
   }
   return Status();
 }
@@ -609,7 +650,10 @@ Status Performance::RunRealtime() {
       LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
       pipeline.emplace(stages());
     }
-    if (std::unique_ptr<show::StagedFrame> staged = pipeline->Take(kInputInterval)) {
+    LARARIUM_RETURN_IF_ERROR(ServeOpenXr());
+    // A headset's own frames are waited for already.
+    const auto wait = openxr_ != nullptr ? std::chrono::milliseconds(0) : kInputInterval;
+    if (std::unique_ptr<show::StagedFrame> staged = pipeline->Take(wait)) {
       LARARIUM_RETURN_IF_ERROR(DrawFrame(*staged));
       pipeline->Recycle(std::move(staged));
     }
@@ -620,6 +664,9 @@ Status Performance::RunRealtime() {
 
 Status Performance::Run() {
   LARARIUM_RETURN_IF_ERROR(options_.pace == Pace::kFast ? RunLockStep() : RunRealtime());
+  if (openxr_ != nullptr) {
+    LARARIUM_RETURN_IF_ERROR(openxr_->End());
+  }
   LARARIUM_RETURN_IF_ERROR(recorder_->Finish());
   if (quality_) {
     statistics_.quality = quality_->ToJson();
@@ -663,7 +710,9 @@ Status Play(const PlayOptions& options,
   BeginLoading();
   LARARIUM_RETURN_IF_ERROR(performance.Prepare());
   EndLoading();
-  if (options.sandbox) {
+  if (options.sandbox && options.display == Display::kOpenXr) {
+    log.info("no sandbox: the headset's runtime needs the system");
+  } else if (options.sandbox) {
     if (const Status status = EnterSandbox(); !status.ok()) {
       log.warn("{}", status.message());
     }

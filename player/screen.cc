@@ -12,6 +12,7 @@ Result<Screen> Screen::Open(const PlayOptions& options, const std::string& title
   }
   render::WindowOptions window;
   window.title = title;
+  window.vsync = options.display != Display::kOpenXr;  // the headset has the pace
   if (options.monitor >= 0) {
     window.monitor = options.monitor;
     screen.full_screen_ = true;

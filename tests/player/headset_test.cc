@@ -30,6 +30,12 @@ TEST(Headset, WithoutMoreHasEyesAsPeopleHaveThem) {
   EXPECT_FALSE(headset.panel.has_value());
 }
 
+TEST(Headset, KnowsHowLateTheCameraIs) {
+  EXPECT_EQ(Parse(R"({"camera": {"delay": 0.04}})")->camera_delay, 0.04);
+  EXPECT_NE(Problem(R"({"camera": {"delay": 40}})").find("headset.camera.delay"),
+            std::string::npos);
+}
+
 TEST(Headset, TheRightLensMirrorsTheLeftUnlessItIsGiven) {
   const Headset headset = Parse(R"({"panel": {"width": 2000, "height": 1000,
                           "left": {"K": [600, 600, 520, 490], "k1_k2_k3": [0.2, 0.05, 0],
