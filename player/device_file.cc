@@ -1,5 +1,7 @@
 #include "player/device_file.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -95,9 +97,20 @@ Result<Device> ParseDevice(std::string_view text, const std::string& place) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView lost, view.Field("lost"));
     LARARIUM_ASSIGN_OR_RETURN(device.lost, ParseLost(lost));
   }
-  if (!view.Has("camera") && !view.Has("look") && !view.Has("capture") && !view.Has("lost")) {
-    return view.Problem("has none of \"camera\", \"look\", \"capture\", \"lost\"",
-                        "docs/file-formats.md says what they hold");
+  if (view.Has("headset")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView headset, view.Field("headset"));
+    LARARIUM_ASSIGN_OR_RETURN(device.headset, ParseHeadset(headset));
+  }
+  if (view.Has("buttons")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView buttons, view.Field("buttons"));
+    LARARIUM_ASSIGN_OR_RETURN(device.buttons, ParseButtons(buttons));
+  }
+  constexpr std::array<std::string_view, 6> kFields = {"buttons", "camera", "capture",
+                                                       "headset", "look",   "lost"};
+  if (std::none_of(kFields.begin(), kFields.end(), [&](auto field) { return view.Has(field); })) {
+    return view.Problem(
+        "has none of \"buttons\", \"camera\", \"capture\", \"headset\", \"look\", \"lost\"",
+        "docs/file-formats.md says what they hold");
   }
   return device;
 }

@@ -1,12 +1,14 @@
 #pragma once
 
-// What the player knows of the camera that it runs on (docs/file-formats.md).
+// What the player knows of the camera and the headset that it runs on (docs/file-formats.md).
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "player/headset.h"
+#include "player/visitor_actions.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
@@ -20,6 +22,8 @@ struct Device {
   std::optional<geometry::CameraModel> camera;  // its calibration
   std::optional<light::CameraTraits> look;      // how noisy and soft its images are
   capture::CameraSettings capture;              // how it is run
+  std::optional<Headset> headset;               // through which visitors see
+  Buttons buttons;                              // that they press
   show::LostLadderOptions lost;                 // what happens while tracking is lost, and when
 };
 

@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <system_error>
 #include <utility>
 
 #include "player/camera_choice.h"
-#include "player/device_file.h"
 #include "player/kiosk.h"
 #include "player/power_sensors.h"
 #include "shared/audio/audio_out.h"
@@ -85,20 +85,13 @@ Result<std::unique_ptr<vision::PoseSource>> TrackerOf(const PlayOptions& play,
   return vision::CreateTracker(show::Maps(content.places), choice.camera, {});
 }
 
-CameraProbe ProbeCamera(const DoctorOptions& options, const show::ShowContent* content) {
+CameraProbe ProbeCamera(const DoctorOptions& options,
+                        const Device& device,
+                        const show::ShowContent* content) {
   CameraProbe probe;
   probe.devices = CountCameras();
-  Device device;
   PlayOptions play;
   play.device = options.device;
-  if (!options.device.empty()) {
-    Result<Device> loaded = LoadDevice(options.device);
-    if (!loaded.ok()) {
-      probe.problem = loaded.status();
-      return probe;
-    }
-    device = *loaded;
-  }
   Result<std::unique_ptr<capture::FrameSource>> source =
       capture::OpenCamera(options.camera, device.capture);
   if (!source.ok()) {
@@ -126,7 +119,7 @@ Result<std::string> OpenGraphics() {
   return render::GraphicsDeviceName();
 }
 
-Result<std::string> OpenDisplay(int monitor) {
+Result<DisplayProbe> OpenDisplay(int monitor) {
   render::WindowOptions wanted;
   wanted.visible = false;
   if (monitor >= 0) {
@@ -134,8 +127,7 @@ Result<std::string> OpenDisplay(int monitor) {
   }
   LARARIUM_ASSIGN_OR_RETURN(const render::Window window, render::Window::Create(wanted));
   const render::Window::Size size = window.framebuffer_size();
-  return std::to_string(size.width) + "x" + std::to_string(size.height) + ", drawn by " +
-         render::GraphicsDeviceName();
+  return DisplayProbe{{size.width, size.height}, render::GraphicsDeviceName()};
 }
 
 Result<std::string> OpenSoundDevice() {
@@ -152,6 +144,19 @@ Result<show::ShowContent> OpenShow(const DoctorOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle,
                             bundle::Bundle::Open(options.show, opening));
   return show::LoadShowContent(bundle);
+}
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+// How wide and high a part of the plane z = 1 is seen.
+std::string AngleText(const Eigen::AlignedBox2d& box) {
+  const auto degrees = [](double from, double to) {
+    return Text("%.0f", (std::atan(to) - std::atan(from)) * 180.0 / std::numbers::pi);
+  };
+  return degrees(box.min().x(), box.max().x()) + " x " + degrees(box.min().y(), box.max().y()) +
+         " degrees";
 }
 
 // The show, and whether its drama begins.
@@ -213,8 +218,8 @@ Finding JudgeCamera(const CameraProbe& probe) {
     return bad("gives no images", "unplug it, wait a little, plug it in again");
   }
   const double rate = probe.images / std::max(probe.seconds, 1e-3);
-  const std::string found = std::to_string(probe.width) + "x" + std::to_string(probe.height) +
-                            ", " + Text("%.1f images a second", rate);
+  const std::string found =
+      SizeText(probe.width, probe.height) + ", " + Text("%.1f images a second", rate);
   if (probe.brightness < kDark) {
     return bad(found + ", all dark", "take off the lens cap, or turn on the light");
   }
@@ -242,6 +247,37 @@ Finding JudgeCamera(const CameraProbe& probe) {
   return {"camera", Verdict::kGood, found + tracked};
 }
 
+Finding JudgeHeadset(const Headset& headset,
+                     const std::optional<geometry::CameraModel>& camera,
+                     const std::optional<PictureSize>& monitor) {
+  const double apart =
+      (headset.head_from_eye[kRight].translation - headset.head_from_eye[kLeft].translation).norm();
+  std::string found = Text("eyes %.0f mm apart, ", 1000.0 * apart);
+  found += headset.stereo ? "a picture for each" : "one picture for both";
+  found += std::isinf(headset.picture_distance) ? " at infinity"
+                                                : Text(", %.1f m away", headset.picture_distance);
+  if (!headset.panel) {
+    return {"headset", Verdict::kGood, found + ", without a panel"};
+  }
+  const Panel& panel = *headset.panel;
+  found = "panel " + SizeText(panel.width(), panel.height()) + ", each eye sees " +
+          AngleText(panel.lenses[kLeft].SeenBox()) + ", " + found;
+  if (camera) {
+    const geometry::CameraModel pinhole = camera->DisplayPinhole();
+    const Eigen::AlignedBox2d box(
+        pinhole.PlaneFromPixel({-0.5, -0.5}),
+        pinhole.PlaneFromPixel({pinhole.width - 0.5, pinhole.height - 0.5}));
+    found += "; the camera sees " + AngleText(box);
+  }
+  if (monitor && (monitor->width != panel.width() || monitor->height != panel.height())) {
+    return {"headset", Verdict::kWarning,
+            found + "; the monitor has " + SizeText(monitor->width, monitor->height),
+            "set the monitor to the panel's own size, or choose another with --monitor: scaled, "
+            "the picture does not fit the lenses"};
+  }
+  return {"headset", Verdict::kGood, found};
+}
+
 Finding JudgeGraphics(const Result<std::string>& device) {
   if (!device.ok()) {
     return {"graphics", Verdict::kBad, device.message(),
@@ -254,9 +290,10 @@ Finding JudgeGraphics(const Result<std::string>& device) {
                    : ""};
 }
 
-Finding JudgeDisplay(const Result<std::string>& window, bool wanted) {
+Finding JudgeDisplay(const Result<DisplayProbe>& window, bool wanted) {
   if (window.ok()) {
-    return {"display", Verdict::kGood, *window};
+    return {"display", Verdict::kGood,
+            SizeText(window->size.width, window->size.height) + ", drawn by " + window->device};
   }
   return {"display", wanted ? Verdict::kBad : Verdict::kWarning, window.message(),
           "log in to the desktop, connect the headset or monitor, and choose it with --monitor"};
@@ -342,9 +379,25 @@ bool RunDoctor(const DoctorOptions& options, Log& log) {
       content = std::move(*opened);
     }
   }
-  findings.push_back(JudgeCamera(ProbeCamera(options, content ? &*content : nullptr)));
+  Device device;
+  if (!options.device.empty()) {
+    Result<Device> loaded = LoadDevice(options.device);
+    if (loaded.ok()) {
+      device = std::move(*loaded);
+    } else {
+      findings.push_back({"device", Verdict::kBad, loaded.message(),
+                          "mend the device file: the player will not start with it"});
+    }
+  }
+  findings.push_back(JudgeCamera(ProbeCamera(options, device, content ? &*content : nullptr)));
   findings.push_back(JudgeGraphics(OpenGraphics()));
-  findings.push_back(JudgeDisplay(OpenDisplay(options.monitor), true));
+  const Result<DisplayProbe> display = OpenDisplay(options.monitor);
+  findings.push_back(JudgeDisplay(display, true));
+  if (device.headset) {
+    const bool filled = options.monitor >= 0 && display.ok();
+    findings.push_back(JudgeHeadset(*device.headset, device.camera,
+                                    filled ? std::optional(display->size) : std::nullopt));
+  }
   findings.push_back(JudgeSound(OpenSoundDevice()));
   findings.push_back(LookAtDisk(options.state));
   findings.push_back(JudgePower(ReadPower()));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "player/device_file.h"
 #include "player/options.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
@@ -39,9 +40,19 @@ struct CameraProbe {
   std::optional<int> tracked = std::nullopt;
 };
 
+// A window, or a monitor filled.
+struct DisplayProbe {
+  PictureSize size;
+  std::string device;  // that draws
+};
+
 Finding JudgeCamera(const CameraProbe& probe);
+// monitor: that it is to be shown on; nullopt: not known, or a window.
+Finding JudgeHeadset(const Headset& headset,
+                     const std::optional<geometry::CameraModel>& camera,
+                     const std::optional<PictureSize>& monitor);
 Finding JudgeGraphics(const Result<std::string>& device);
-Finding JudgeDisplay(const Result<std::string>& window, bool wanted);
+Finding JudgeDisplay(const Result<DisplayProbe>& window, bool wanted);
 Finding JudgeSound(const Result<std::string>& out);
 // free_bytes: where the state is kept.
 Finding JudgeDisk(const Status& written, uint64_t free_bytes, const std::string& folder);

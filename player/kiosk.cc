@@ -1,6 +1,5 @@
 #include "player/kiosk.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -8,18 +7,7 @@ namespace lararium::player {
 namespace {
 
 constexpr double kRememberSeconds = 1.0;
-constexpr double kVolumeStep = 0.1;
 constexpr int kMostFailedStarts = 2;
-
-// The choice after one; "" is the first.
-std::string After(const std::string& chosen, const std::vector<std::string>& all) {
-  if (all.empty()) {
-    return chosen;
-  }
-  const auto found = std::find(all.begin(), all.end(), chosen);
-  const size_t index = found == all.end() ? 0 : static_cast<size_t>(found - all.begin());
-  return all[(index + 1) % all.size()];
-}
 
 }  // namespace
 
@@ -81,33 +69,15 @@ void Kiosk::AfterFrame(double now, const show::StagedFrame& staged, show::Show& 
   }
 }
 
-Kiosk::Change Kiosk::Press(std::string_view key,
-                           double now,
-                           const std::vector<std::string>& spoken,
-                           const std::vector<std::string>& captions,
-                           show::Show& show) {
-  Change change;
-  const bool came = watch_.Touch(now) == VisitorWatch::Event::kCame;
-  if (key == "home" || came) {
+void Kiosk::Touch(double now, show::Show& show) {
+  if (watch_.Touch(now) == VisitorWatch::Event::kCame) {
     show.RestartAt(0.0);
   }
-  const KioskState before = state_;
-  if (key == "page_up" || key == "page_down") {
-    const double step = key == "page_up" ? kVolumeStep : -kVolumeStep;
-    state_.volume = std::clamp(state_.volume + step, 0.0, 1.0);
-    change.volume = state_.volume != before.volume;
-  } else if (key == "l") {
-    state_.language = After(state_.language, spoken);
-  } else if (key == "c") {
-    std::vector<std::string> all = captions;
-    all.emplace_back(show::kNoCaptions);
-    state_.captions = captions.empty() ? state_.captions : After(state_.captions, all);
-  }
-  change.languages = state_.language != before.language || state_.captions != before.captions;
-  if (!(state_ == before)) {
-    Remember(now);
-  }
-  return change;
+}
+
+void Kiosk::Keep(const Choices& choices, double now) {
+  state_.choices = choices;
+  Remember(now);
 }
 
 }  // namespace lararium::player

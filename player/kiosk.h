@@ -7,9 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <thread>
-#include <vector>
 
 #include "player/kiosk_state.h"
 #include "player/visitor_watch.h"
@@ -38,18 +36,10 @@ class Kiosk {
   // and keeps where it is.
   void AfterFrame(double now, const show::StagedFrame& staged, show::Show& show);
 
-  // What was chosen by a key: volume ("page_up", "page_down"), language ("l"), captions ("c"),
-  // from the beginning ("home").
-  struct Change {
-    bool volume = false;
-    bool languages = false;  // the show has to be loaded anew
-  };
-  // spoken, captions: what the show has.
-  Change Press(std::string_view key,
-               double now,
-               const std::vector<std::string>& spoken,
-               const std::vector<std::string>& captions,
-               show::Show& show);
+  // A key was pressed: somebody is there. Who just came sees the show from its beginning.
+  void Touch(double now, show::Show& show);
+  // What a visitor chose.
+  void Keep(const Choices& choices, double now);
 
  private:
   void Remember(double now);

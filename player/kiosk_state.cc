@@ -39,9 +39,9 @@ Result<KioskState> ParseKioskState(std::string_view text, const std::string& pla
   }
   LARARIUM_ASSIGN_OR_RETURN(state.title, view.Text("title", kMaxText));
   LARARIUM_ASSIGN_OR_RETURN(state.seconds, view.Number("seconds", 0.0, kMaxSeconds));
-  LARARIUM_ASSIGN_OR_RETURN(state.language, view.Text("language", kMaxText));
-  LARARIUM_ASSIGN_OR_RETURN(state.captions, view.Text("captions", kMaxText));
-  LARARIUM_ASSIGN_OR_RETURN(state.volume, view.Number("volume", 0.0, 1.0));
+  LARARIUM_ASSIGN_OR_RETURN(state.choices.language, view.Text("language", kMaxText));
+  LARARIUM_ASSIGN_OR_RETURN(state.choices.captions, view.Text("captions", kMaxText));
+  LARARIUM_ASSIGN_OR_RETURN(state.choices.volume, view.Number("volume", 0.0, 1.0));
   return state;
 }
 
@@ -55,9 +55,9 @@ Status SaveKioskState(const std::filesystem::path& folder, const KioskState& sta
   return SaveJson(StateFile(folder), {{"schema", kSchema},
                                       {"title", state.title},
                                       {"seconds", state.seconds},
-                                      {"language", state.language},
-                                      {"captions", state.captions},
-                                      {"volume", state.volume}});
+                                      {"language", state.choices.language},
+                                      {"captions", state.choices.captions},
+                                      {"volume", state.choices.volume}});
 }
 
 }  // namespace lararium::player

@@ -10,12 +10,19 @@
 
 namespace lararium::player {
 
-struct KioskState {
-  std::string title;     // of the show that the time is of
-  double seconds = 0.0;  // of the drama
+// How a visitor wants a show.
+struct Choices {
   std::string language;  // spoken; empty: as the author chose
   std::string captions;  // likewise
   double volume = 1.0;   // 0..1
+
+  friend bool operator==(const Choices&, const Choices&) = default;
+};
+
+struct KioskState {
+  std::string title;     // of the show that the time is of
+  double seconds = 0.0;  // of the drama
+  Choices choices;
 
   friend bool operator==(const KioskState&, const KioskState&) = default;
 };

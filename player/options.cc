@@ -24,6 +24,12 @@ std::map<std::string, Listening> ListeningNames() {
           {"none", Listening::kNone}};
 }
 
+std::map<std::string, Display> DisplayNames() {
+  return {{"mono", Display::kMono},
+          {"side-by-side", Display::kSideBySide},
+          {"openxr", Display::kOpenXr}};
+}
+
 // nullopt: it is none.
 std::optional<PictureSize> ParseSize(const std::string& text) {
   PictureSize size;
@@ -55,7 +61,8 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
       ->delimiter(',')
       ->expected(4, 8)
       ->check(CLI::Number);
-  app.add_option("--device", play.device, "Device file: the camera's calibration and look")
+  app.add_option("--device", play.device,
+                 "Device file: the camera's calibration and look, the headset")
       ->check(CLI::ExistingFile);
   app.add_option_function<std::string>(
          "--look", [&play](const std::string& look) { play.camera_look = look == "camera"; },
@@ -67,12 +74,19 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
                  "INTERFACE:PORT on a network");
   app.add_flag("--evidence", play.evidence,
                "People and things in the colours of how certain they are; F2 switches");
+  app.add_option(
+         "--display", play.display,
+         "mono; side-by-side: for both eyes through the lenses of the device file's headset, "
+         "which is what happens where it has a panel; openxr: on a headset that an OpenXR "
+         "runtime drives")
+      ->transform(CLI::Transformer(DisplayNames()));
   app.add_flag("--headless", play.headless, "Draw off screen");
   app.add_option("--monitor", play.monitor, "Full screen on this monitor")
       ->check(CLI::Range(0, kLargestCount));
   app.add_option_function<std::string>(
          "--size", [&play](const std::string& size) { play.size = ParseSize(size); },
-         "Size of the pictures, as 1280x720; as the camera's images unless given")
+         "Size of the pictures, as 1280x720; as the camera's images unless given. A headset's "
+         "panel has the device file's")
       ->check(CLI::Validator(
           [](const std::string& size) {
             return ParseSize(size) ? "" : "takes WIDTHxHEIGHT, both even, of 16 to 8192";
@@ -193,6 +207,9 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     }
     if (play.loop && play.video.empty() && play.images.empty()) {
       throw CLI::ValidationError("--loop", "goes with --video or --images");
+    }
+    if (play.headless && play.display == Display::kOpenXr) {
+      throw CLI::ValidationError("--display openxr", "cannot go with --headless");
     }
     if (play.headless && play.monitor >= 0) {
       throw CLI::ValidationError("--monitor", "cannot go with --headless");

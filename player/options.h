@@ -18,6 +18,10 @@ enum class Pace { kRealtime, kFast };
 // Where sound is heard. Headphones: mixed for two ears (HRTF).
 enum class Listening { kHeadphones, kSpeakers, kNone };
 
+// How pictures are shown: as they are, for both eyes of a headset that appears as a monitor, or on
+// one that an OpenXR runtime drives.
+enum class Display { kMono, kSideBySide, kOpenXr };
+
 // Pixels.
 struct PictureSize {
   int width = 0;
@@ -45,6 +49,8 @@ struct PlayOptions {
 
   std::string osc;  // where to listen for messages; empty: nowhere
 
+  // None: side by side where the device file has a headset's panel.
+  std::optional<Display> display;
   bool headless = false;
   int monitor = -1;                 // full screen there; -1: a window
   std::optional<PictureSize> size;  // of the pictures; none: as the camera's images

@@ -17,11 +17,14 @@
 #include "player/camera_choice.h"
 #include "player/device_file.h"
 #include "player/kiosk.h"
+#include "player/openxr_headset.h"
 #include "player/osc.h"
 #include "player/power_sensors.h"
 #include "player/recorder.h"
 #include "player/sandbox.h"
 #include "player/screen.h"
+#include "player/stereo_display.h"
+#include "player/visitor_menu.h"
 #include "shared/audio/sound_player.h"
 #include "shared/bundle/bundle.h"
 #include "shared/bundle/signature.h"
@@ -106,14 +109,12 @@ class Performance {
               Log& log,
               const ChildStart& start,
               Heartbeat heartbeat)
-      : options_(options),
-        started_(started),
-        log_(log),
-        heartbeat_(heartbeat),
-        languages_{options.language, options.captions} {
+      : options_(options), started_(started), log_(log), heartbeat_(heartbeat) {
     if (options.kiosk) {
       kiosk_.emplace(options.state.empty() ? DefaultStateFolder() : options.state, start, log);
+      choices_ = kiosk_->state().choices;
     }
+    ApplyLanguageOptions();
   }
 
   Status Prepare();
@@ -126,8 +127,17 @@ class Performance {
   }
   bool KeepGoing();
   void PressKeys();
+  void PressKey(const std::string& key);
+  void Do(Action action);
+  void ChooseAnd(Action action);
+  void ToggleMenu();
+  void ShowMenu(const show::StagedFrame& staged);
   Status OpenSource();
+  void ApplyLanguageOptions();
+  show::LanguageChoice languages() const { return {choices_.language, choices_.captions}; }
   Result<show::ShowContent> LoadInChosenLanguages();
+  Status ChooseHeadset();
+  Status ChooseView(const show::ShowContent& content);
   Status CreateTracker(const show::ShowContent& content);
   Status CreateShow(show::ShowContent content);
   Status PrepareDrawing(const show::ShowContent& content);
@@ -136,6 +146,10 @@ class Performance {
   void OpenSound();
   Status RunLockStep();
   Status RunRealtime();
+  Status DrawPicture(const show::StagedFrame& staged);
+  Status DrawForOpenXr(const show::StagedFrame& staged);
+  Status ServeOpenXr();
+  const render::RenderTarget& shown() const { return stereo_ ? stereo_->panel() : *target_; }
   Status DrawFrame(const show::StagedFrame& staged);
   void AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn);
   void ChooseQuality(SteadyClock::time_point now, double work_ms);
@@ -147,9 +161,14 @@ class Performance {
   Log& log_;
   Heartbeat heartbeat_;
   std::optional<Kiosk> kiosk_;
-  show::LanguageChoice languages_;
+  Choices choices_;
   bool languages_changed_ = false;
+  GazeMenu menu_;
+  double drama_time_ = 0.0;  // of the frame drawn last
   Device device_;
+  std::optional<Headset> headset_;  // that is shown on
+  geometry::CameraModel camera_;
+  show::ViewPart part_;  // of the camera's view, that is drawn
   PictureSize size_;
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
@@ -157,6 +176,8 @@ class Performance {
   std::optional<Screen> screen_;  // before all that draws: destroyed after it
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
+  std::optional<StereoDisplay> stereo_;
+  std::unique_ptr<OpenXrHeadset> openxr_;  // nullptr: there is no such headset
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
@@ -190,21 +211,88 @@ void Performance::PressKeys() {
       renderer_->SetEvidence(!renderer_->shows_evidence());
       continue;
     }
-    show_->PressKey(key);
-    if (!kiosk_) {
-      if (key == kLeaveKey) {
-        g_end_requested = 1;
-      }
-      continue;
-    }
-    const Kiosk::Change change =
-        kiosk_->Press(key, Seconds(SteadyClock::now()), show_->content().spoken_languages,
-                      show_->content().caption_languages, *show_);
-    if (change.volume && sound_ != nullptr) {
-      sound_->SetVolume(static_cast<float>(kiosk_->state().volume));
-    }
-    languages_changed_ = languages_changed_ || change.languages;
+    PressKey(key);
   }
+}
+
+// What the menu does not take is the drama's too.
+void Performance::PressKey(const std::string& key) {
+  const double now = Seconds(SteadyClock::now());
+  if (kiosk_) {
+    kiosk_->Touch(now, *show_);
+  }
+  const GazeMenu::Pressed pressed = menu_.Press(key, now);
+  if (pressed.action) {
+    Do(*pressed.action);
+  }
+  if (pressed.taken) {
+    return;
+  }
+  show_->PressKey(key);
+  if (const std::optional<Action> action = device_.buttons.ActionOf(key)) {
+    Do(*action);
+  }
+  if (key == kLeaveKey && !kiosk_) {
+    g_end_requested = 1;
+  }
+}
+
+void Performance::Do(Action action) {
+  switch (action) {
+    case Action::kRestart:
+      show_->RestartAt(0.0);
+      break;
+    case Action::kFindAnew:
+      poses_->FindAnew();
+      show_->ForgetPose();
+      break;
+    case Action::kMenu:
+      ToggleMenu();
+      break;
+    default:
+      ChooseAnd(action);
+  }
+}
+
+// Chooses, and lets it be heard and read.
+void Performance::ChooseAnd(Action action) {
+  const Choices before = choices_;
+  Choose(action, {show_->content().spoken_languages, show_->content().caption_languages}, choices_);
+  if (choices_ == before) {
+    return;
+  }
+  if (choices_.volume != before.volume && sound_ != nullptr) {
+    sound_->SetVolume(static_cast<float>(choices_.volume));
+  }
+  languages_changed_ = languages_changed_ || choices_.language != before.language ||
+                       choices_.captions != before.captions;
+  menu_.SetItems(ItemsOf(show_->content(), choices_));
+  if (kiosk_) {
+    kiosk_->Keep(choices_, Seconds(SteadyClock::now()));
+  }
+}
+
+void Performance::ToggleMenu() {
+  std::vector<MenuItem> items = ItemsOf(show_->content(), choices_);
+  if (menu_.open() || items.empty()) {
+    menu_.Close();
+    return;
+  }
+  menu_.Open(std::move(items), Seconds(SteadyClock::now()),
+             ScaleFor(renderer_->PictureOf(camera_, size_.width, size_.height)));
+}
+
+// Where the menu is in the frame, and what is chosen by looking at it.
+void Performance::ShowMenu(const show::StagedFrame& staged) {
+  const bool tracked = staged.tracked.camera_from_map.has_value();
+  if (const std::optional<Action> action = menu_.Look(
+          Seconds(SteadyClock::now()), tracked ? staged.camera_from_stage : std::nullopt)) {
+    Do(*action);
+  }
+  const geometry::CameraModel picture =
+      renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
+          .Resized(size_.width, size_.height);
+  renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture)) : std::nullopt);
 }
 
 Status Performance::OpenSource() {
@@ -238,39 +326,77 @@ Status Performance::CreateShow(show::ShowContent content) {
   drama.seed = options_.seed;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
   show_->SetLostLadder(device_.lost);
-  show_->SetPictureSize(size_.width, size_.height);
+  show_->SetPictureSize(size_.width, size_.height, part_);
   return Status();
 }
 
-Status Performance::CreateTracker(const show::ShowContent& content) {
+Status Performance::ChooseHeadset() {
+  const bool has_panel = device_.headset && device_.headset->panel;
+  const Display display =
+      options_.display.value_or(has_panel ? Display::kSideBySide : Display::kMono);
+  if (display == Display::kMono) {
+    return Status();
+  }
+  if (display == Display::kOpenXr) {
+    headset_ = device_.headset.value_or(Headset());
+    headset_->panel.reset();  // its runtime's
+    return Status();
+  }
+  if (!has_panel) {
+    return Status::Error("--display side-by-side", "the headset's panel is not known",
+                         "give a device file (--device) whose \"headset\" has a \"panel\"");
+  }
+  headset_ = device_.headset;
+  part_ = headset_->SeenPart();
+  return Status();
+}
+
+// The camera, and what of its view is drawn how large.
+Status Performance::ChooseView(const show::ShowContent& content) {
+  LARARIUM_RETURN_IF_ERROR(ChooseHeadset());
   LARARIUM_ASSIGN_OR_RETURN(
       const CameraChoice choice,
       ChooseCamera(options_, TrainedCameras(content), source_->width(), source_->height()));
   log_.info("camera intrinsics from {}", choice.origin);
+  camera_ = choice.camera;
+  const geometry::CameraModel seen = show::PartOfView(camera_, part_);
+  // Videos have even sides.
+  size_ = options_.size.value_or(
+      PictureSize{std::max(seen.width & ~1, 16), std::max(seen.height & ~1, 16)});
+  return Status();
+}
+
+Status Performance::CreateTracker(const show::ShowContent& content) {
   vision::TrackerOptions tracking;
   tracking.seed = options_.seed;
   tracking.threads = options_.threads;
   tracking.background = options_.pace == Pace::kFast ? vision::BackgroundWork::kJoined
                                                      : vision::BackgroundWork::kFree;
-  LARARIUM_ASSIGN_OR_RETURN(
-      poses_, vision::CreateTracker(show::Maps(content.places), choice.camera, tracking));
+  LARARIUM_ASSIGN_OR_RETURN(poses_,
+                            vision::CreateTracker(show::Maps(content.places), camera_, tracking));
   show::SetOccluders(content.places, *poses_);
   poses_ = vision::Smooth(std::move(poses_), show::Maps(content.places), options_.smoothing);
   return Status();
 }
 
+// They go before what the last visitor chose.
+void Performance::ApplyLanguageOptions() {
+  if (!options_.language.empty()) {
+    choices_.language = options_.language;
+  }
+  if (!options_.captions.empty()) {
+    choices_.captions = options_.captions;
+  }
+}
+
 // What the last visitor chose may be of another show.
 Result<show::ShowContent> Performance::LoadInChosenLanguages() {
-  if (kiosk_ && options_.language.empty()) {
-    languages_.spoken = kiosk_->state().language;
-  }
-  if (kiosk_ && options_.captions.empty()) {
-    languages_.captions = kiosk_->state().captions;
-  }
-  Result<show::ShowContent> loaded = LoadContent(options_, languages_);
+  Result<show::ShowContent> loaded = LoadContent(options_, languages());
   if (!loaded.ok() && kiosk_) {
-    languages_ = {options_.language, options_.captions};
-    loaded = LoadContent(options_, languages_);
+    choices_.language.clear();
+    choices_.captions.clear();
+    ApplyLanguageOptions();
+    loaded = LoadContent(options_, languages());
   }
   if (loaded.ok()) {
     SetLook(options_, device_, *loaded);
@@ -283,9 +409,8 @@ Status Performance::Prepare() {
     LARARIUM_ASSIGN_OR_RETURN(device_, LoadDevice(options_.device));
   }
   LARARIUM_RETURN_IF_ERROR(OpenSource());
-  // Videos have even sides.
-  size_ = options_.size.value_or(PictureSize{source_->width() & ~1, source_->height() & ~1});
   LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content, LoadInChosenLanguages());
+  LARARIUM_RETURN_IF_ERROR(ChooseView(content));
   for (const show::ShowPlace& place : content.places) {
     statistics_.places.push_back(place.stage.name);
   }
@@ -306,7 +431,7 @@ Status Performance::Prepare() {
     show_->RestartAt(kiosk_->ResumeAt(content.title));
   }
   LARARIUM_RETURN_IF_ERROR(PrepareQuality());
-  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, *target_, *show_));
+  LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, shown(), *show_));
   OpenSound();
   if (!options_.osc.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(const OscAddress address, ParseOscAddress(options_.osc));
@@ -320,6 +445,13 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
   LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(size_.width, size_.height));
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content));
   renderer_->SetEvidence(options_.evidence);
+  renderer_->SetPart(part_);
+  if (headset_ && headset_->panel) {
+    LARARIUM_ASSIGN_OR_RETURN(stereo_, StereoDisplay::Create(*headset_));
+    screen_->CheckSize(stereo_->panel(), log_);
+  } else if (headset_) {
+    LARARIUM_ASSIGN_OR_RETURN(openxr_, OpenXrHeadset::Open(*headset_, content.title, log_));
+  }
   statistics_.gpu = render::GraphicsDeviceName();
   return Status();
 }
@@ -371,15 +503,14 @@ void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
 // Another language needs other texts and voices; the drama goes on where it is.
 Status Performance::ChangeLanguages() {
   languages_changed_ = false;
-  languages_ = {kiosk_->state().language, kiosk_->state().captions};
-  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_, languages_));
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_, languages()));
   SetLook(options_, device_, content);
   sound_.reset();
-  const double time = kiosk_->state().seconds;
   LARARIUM_RETURN_IF_ERROR(CreateShow(std::move(content)));
-  show_->RestartAt(time);
+  show_->RestartAt(drama_time_);
   OpenSound();
-  log_.info("language '{}', captions '{}'", languages_.spoken, languages_.captions);
+  log_.info("language '{}', captions '{}'", choices_.language, choices_.captions);
+  menu_.SetItems(ItemsOf(show_->content(), choices_));
   return renderer_->SetTexts(show_->content());
 }
 
@@ -400,9 +531,7 @@ void Performance::OpenSound() {
   }
   sound_ = std::make_unique<audio::SoundPlayer>(
       std::move(*mixer), [] { return audio::CreateAudioOut(audio::AudioOutKind::kDevice); }, log_);
-  if (kiosk_) {
-    sound_->SetVolume(static_cast<float>(kiosk_->state().volume));
-  }
+  sound_->SetVolume(static_cast<float>(choices_.volume));
 }
 
 void Performance::ShowToStaff() {
@@ -434,18 +563,53 @@ void Performance::AddTimes(const show::StagedFrame& staged, SteadyClock::time_po
   ++drawn_frames_;
 }
 
+Status Performance::DrawForOpenXr(const show::StagedFrame& staged) {
+  for (const Eye eye : {kLeft, kRight}) {
+    if (eye == kLeft || headset_->stereo) {
+      LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_, openxr_->PictureEyeOf(eye)));
+      LARARIUM_RETURN_IF_ERROR(openxr_->SetPicture(eye, *target_));
+    }
+  }
+  const auto delay = std::chrono::duration<double>(headset_->camera_delay);
+  openxr_->Place(renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
+                     .Resized(size_.width, size_.height),
+                 staged.arrival - std::chrono::duration_cast<SteadyClock::duration>(delay));
+  return Status();
+}
+
+// Also between two images of the camera.
+Status Performance::ServeOpenXr() {
+  if (openxr_ != nullptr) {
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, openxr_->Frame());
+    if (!more) {
+      log_.info("the headset's runtime ended the session");
+      g_end_requested = 1;
+    }
+  }
+  return Status();
+}
+
+Status Performance::DrawPicture(const show::StagedFrame& staged) {
+  if (openxr_ != nullptr) {
+    return DrawForOpenXr(staged);
+  }
+  return stereo_ ? stereo_->Draw(staged, *renderer_, *target_) : renderer_->Draw(staged, *target_);
+}
+
 Status Performance::DrawFrame(const show::StagedFrame& staged) {
+  drama_time_ = staged.time;
   if (options_.staff) {
     ShowToStaff();
   }
+  ShowMenu(staged);
   const SteadyClock::time_point begin = SteadyClock::now();
   SteadyClock::time_point drawn;
   {
     const ScopedStageTimer timer(statistics_.render);
-    LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_));
+    LARARIUM_RETURN_IF_ERROR(DrawPicture(staged));
     target_->Finish();
     drawn = SteadyClock::now();
-    screen_->Present(*target_);
+    screen_->Present(shown());
   }
   if (sound_ != nullptr) {
     sound_->Show(staged.sound);
@@ -457,18 +621,23 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
   if (kiosk_) {
     kiosk_->AfterFrame(Seconds(last_shown_), staged, *show_);
   }
-  return recorder_->Add(staged, *target_);
+  return recorder_->Add(staged, shown());
 }
 
 Status Performance::RunLockStep() {
-  show::LockStep lock_step(stages());
+  std::optional<show::LockStep> lock_step(std::in_place, stages());
   show::StagedFrame staged;
   while (KeepGoing()) {
-    LARARIUM_ASSIGN_OR_RETURN(const bool more, lock_step.Next(staged));
+    if (languages_changed_) {
+      LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
+      lock_step.emplace(stages());
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, lock_step->Next(staged));
     if (!more) {
       break;
     }
     LARARIUM_RETURN_IF_ERROR(DrawFrame(staged));
+    LARARIUM_RETURN_IF_ERROR(ServeOpenXr());
   }
   return Status();
 }
@@ -481,7 +650,10 @@ Status Performance::RunRealtime() {
       LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
       pipeline.emplace(stages());
     }
-    if (std::unique_ptr<show::StagedFrame> staged = pipeline->Take(kInputInterval)) {
+    LARARIUM_RETURN_IF_ERROR(ServeOpenXr());
+    // A headset's own frames are waited for already.
+    const auto wait = openxr_ != nullptr ? std::chrono::milliseconds(0) : kInputInterval;
+    if (std::unique_ptr<show::StagedFrame> staged = pipeline->Take(wait)) {
       LARARIUM_RETURN_IF_ERROR(DrawFrame(*staged));
       pipeline->Recycle(std::move(staged));
     }
@@ -492,6 +664,9 @@ Status Performance::RunRealtime() {
 
 Status Performance::Run() {
   LARARIUM_RETURN_IF_ERROR(options_.pace == Pace::kFast ? RunLockStep() : RunRealtime());
+  if (openxr_ != nullptr) {
+    LARARIUM_RETURN_IF_ERROR(openxr_->End());
+  }
   LARARIUM_RETURN_IF_ERROR(recorder_->Finish());
   if (quality_) {
     statistics_.quality = quality_->ToJson();
@@ -535,7 +710,9 @@ Status Play(const PlayOptions& options,
   BeginLoading();
   LARARIUM_RETURN_IF_ERROR(performance.Prepare());
   EndLoading();
-  if (options.sandbox) {
+  if (options.sandbox && options.display == Display::kOpenXr) {
+    log.info("no sandbox: the headset's runtime needs the system");
+  } else if (options.sandbox) {
     if (const Status status = EnterSandbox(); !status.ok()) {
       log.warn("{}", status.message());
     }

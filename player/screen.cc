@@ -12,8 +12,10 @@ Result<Screen> Screen::Open(const PlayOptions& options, const std::string& title
   }
   render::WindowOptions window;
   window.title = title;
+  window.vsync = options.display != Display::kOpenXr;  // the headset has the pace
   if (options.monitor >= 0) {
     window.monitor = options.monitor;
+    screen.full_screen_ = true;
   }
   LARARIUM_ASSIGN_OR_RETURN(screen.window_, render::Window::Create(window));
   render::WindowCallbacks callbacks;
@@ -32,6 +34,19 @@ void Screen::Present(const render::RenderTarget& target) {
     const render::Window::Size size = window_->framebuffer_size();
     target.Present(size.width, size.height);
     window_->SwapBuffers();
+  }
+}
+
+void Screen::CheckSize(const render::RenderTarget& panel, Log& log) const {
+  if (!full_screen_) {
+    return;
+  }
+  const render::Window::Size size = window_->framebuffer_size();
+  if (size.width != panel.width() || size.height != panel.height()) {
+    log.warn(
+        "the monitor has {}x{} pixels, the headset's panel {}x{}: the picture is scaled, and "
+        "does not fit the lenses",
+        size.width, size.height, panel.width(), panel.height());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "player/options.h"
+#include "shared/core/log.h"
 #include "shared/core/status.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/render_target.h"
@@ -21,6 +22,8 @@ class Screen {
   static Result<Screen> Open(const PlayOptions& options, const std::string& title);
 
   void Present(const render::RenderTarget& target);
+  // Warns where a headset's panel would not be shown pixel for pixel on the whole monitor.
+  void CheckSize(const render::RenderTarget& panel, Log& log) const;
 
   // Handles input; false once the visitor wants the end.
   bool KeepGoing();
@@ -28,6 +31,7 @@ class Screen {
   std::vector<std::string> TakeKeys() { return std::exchange(*keys_, {}); }
 
  private:
+  bool full_screen_ = false;
   std::optional<render::OffscreenContext> offscreen_;
   std::optional<render::Window> window_;
   // On the heap: the window keeps its address.

@@ -99,6 +99,8 @@ struct RenderScene {
 
   // The pinhole that everything is drawn with, scaled to the target's size.
   geometry::CameraModel display = {};
+  // With which the background is drawn, of an eye that is not where the camera is; none: display.
+  std::optional<geometry::CameraModel> background_display = std::nullopt;
   // Without a pose only the background is drawn: never people in a stale place.
   std::optional<geometry::Rigid3> camera_from_stage = std::nullopt;
   float near = 0.05f;  // metres

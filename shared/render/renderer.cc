@@ -390,7 +390,8 @@ void Renderer::State::Composite(const RenderScene& scene,
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_SCISSOR_TEST);
   const ImageSize size = {target.width(), target.height()};
-  const geometry::CameraModel display = scene.display.Resized(size.width, size.height);
+  const geometry::CameraModel display =
+      scene.background_display.value_or(scene.display).Resized(size.width, size.height);
   if (!scene.background.empty()) {
     background_image.Upload(scene.background);
   }

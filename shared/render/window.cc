@@ -4,6 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -99,6 +100,15 @@ constexpr std::array<const char*, GLFW_GAMEPAD_BUTTON_LAST + 1> kPadButtons = {
     "pad_right", "pad_down",  "pad_left"};
 
 }  // namespace
+
+bool IsButtonName(std::string_view name) {
+  for (int key = GLFW_KEY_SPACE; key <= GLFW_KEY_LAST; ++key) {
+    if (!name.empty() && KeyName(key) == name) {
+      return true;
+    }
+  }
+  return std::find(kPadButtons.begin(), kPadButtons.end(), name) != kPadButtons.end();
+}
 
 struct Window::State {
   std::shared_ptr<GlfwLibrary> library;

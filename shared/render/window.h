@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "shared/core/status.h"
@@ -38,6 +39,8 @@ struct WindowCallbacks {
 inline constexpr int kKeyPressed = 1;
 // "a", "1", "f1", "space", "enter", "left", "page_down", ...; empty: a key without a name.
 std::string KeyName(int key);
+// Whether there is a key or a controller's button of that name.
+bool IsButtonName(std::string_view name);
 
 // Move-only. Use it on the main thread only.
 class Window {

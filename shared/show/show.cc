@@ -8,7 +8,6 @@
 #include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/light/probe_weights.h"
-#include "shared/show/picture_camera.h"
 
 namespace lararium::show {
 namespace {
@@ -156,21 +155,34 @@ void Show::RestartAt(double seconds) {
   restart_ = std::clamp(seconds, 0.0, drama::Drama::kMaxTime);
 }
 
+void Show::ForgetPose() {
+  const std::lock_guard lock(input_mutex_);
+  forget_pose_ = true;
+}
+
 void Show::TakeRestart(double time) {
   std::optional<double> restart;
+  bool forget_pose = false;
   {
     const std::lock_guard lock(input_mutex_);
     restart = std::exchange(restart_, std::nullopt);
+    forget_pose = std::exchange(forget_pose_, false);
   }
   if (restart) {
     start_ = time - *restart;
     last_time_ = time;
     held_seconds_ = 0.0;
-    gain_filter_.Reset();
-    camera_motion_.Reset();
-    if (ladder_) {
-      ladder_->Reset();
-    }
+  }
+  if (restart || forget_pose) {
+    ResetPose();
+  }
+}
+
+void Show::ResetPose() {
+  gain_filter_.Reset();
+  camera_motion_.Reset();
+  if (ladder_) {
+    ladder_->Reset();
   }
 }
 
@@ -246,7 +258,7 @@ void Show::ChooseDetails(const StagedFrame& staged) {
   const geometry::CameraModel& camera = staged.tracked.camera;
   geometry::CameraModel display = camera.DisplayPinhole();
   if (picture_width_ > 0 && picture_height_ > 0) {
-    display = PictureCamera(camera, picture_width_, picture_height_)
+    display = PictureCamera(camera, picture_width_, picture_height_, picture_part_)
                   .Resized(picture_width_, picture_height_);
   }
   for (size_t cast = 0; cast < requests_.size(); ++cast) {

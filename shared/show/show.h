@@ -28,6 +28,7 @@
 #include "shared/show/lamp_shade.h"
 #include "shared/show/lost_guide.h"
 #include "shared/show/lost_ladder.h"
+#include "shared/show/picture_camera.h"
 #include "shared/show/show_content.h"
 #include "shared/show/sound_director.h"
 #include "shared/show/stage_light.h"
@@ -154,6 +155,10 @@ class Show {
   // From any thread.
   void RestartAt(double seconds);
 
+  // The next frame's pose has nothing to do with those before and is taken as it is. The drama
+  // goes on. From any thread.
+  void ForgetPose();
+
   // For interactive staging: another transform, nudge, light or occluders of
   // places[index].
   void SetPlace(size_t index, stage::Place place) {
@@ -167,11 +172,12 @@ class Show {
   // are gone with the pose. Not while a frame is being staged.
   void SetLostLadder(const LostLadderOptions& options) { ladder_.emplace(options); }
 
-  // How large pictures will be drawn, which decides on levels of detail; as large as the
-  // camera's images unless set. Not while a frame is being staged.
-  void SetPictureSize(int width, int height) {
+  // How large pictures will be drawn, and what of the view they show, which decides on levels of
+  // detail; as large as the camera's images unless set. Not while a frame is being staged.
+  void SetPictureSize(int width, int height, const ViewPart& part = {}) {
     picture_width_ = width;
     picture_height_ = height;
+    picture_part_ = part;
   }
 
   // Brings the drama to time (seconds, at least 0) and fills staged. The drama
@@ -190,6 +196,7 @@ class Show {
   void TickOnce();
   void TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage);
   void TakeRestart(double time);
+  void ResetPose();
   // The drama's time at a time of the frames: since it began, less what it was held.
   double DramaTime(double time);
   // Fills what of staged depends on where the camera is.
@@ -229,8 +236,9 @@ class Show {
   std::vector<std::vector<render::DetailLevel>> levels_;  // likewise
   std::vector<render::DetailRequest> requests_;           // likewise
   render::DetailChooser detail_chooser_;
-  int picture_width_ = 0;                    // 0: the camera's
-  int picture_height_ = 0;                   // likewise
+  int picture_width_ = 0;   // 0: the camera's
+  int picture_height_ = 0;  // likewise
+  ViewPart picture_part_;
   std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose
@@ -238,6 +246,7 @@ class Show {
   std::string keys_;    // pressed since the last frame
   float hour_ = -1.0f;  // of the day; below 0: unknown
   std::optional<double> restart_;
+  bool forget_pose_ = false;
   double start_ = 0.0;  // of the drama, in the time of the frames
   render::DetailOptions detail_options_;
   float picture_hour_ = -1.0f;  // hour_ as of the frame

@@ -174,6 +174,9 @@ void ShowCaptions::Draw(const StagedFrame& staged,
                                 : kPoor,
                        TrackingText(staged) + *staff_, target);
   }
+  if (menu_) {
+    render::DrawMenu(painter_->flat(), *menu_, target);
+  }
 }
 
 }  // namespace lararium::show

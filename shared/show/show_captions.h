@@ -12,6 +12,7 @@
 
 #include "shared/core/status.h"
 #include "shared/render/captions.h"
+#include "shared/render/menu.h"
 #include "shared/show/show.h"
 
 namespace lararium::show {
@@ -47,6 +48,9 @@ class ShowCaptions {
   // From now on the tracking's state is shown, with this behind it; nullopt: not.
   void SetStaff(std::optional<std::string> more) { staff_ = std::move(more); }
 
+  // From now on over all of it; nullopt: there is none.
+  void SetMenu(std::optional<render::Menu> menu) { menu_ = std::move(menu); }
+
   // evidence: whose legend is drawn too; nullptr: none.
   void Draw(const StagedFrame& staged, Evidence* evidence, const render::RenderTarget& target);
 
@@ -59,6 +63,7 @@ class ShowCaptions {
   std::vector<std::string> guides_;  // of each place
   std::string dark_guide_;
   std::optional<std::string> staff_;
+  std::optional<render::Menu> menu_;
   std::unique_ptr<render::CaptionPainter> painter_;
   std::vector<render::Caption> captions_;
 };

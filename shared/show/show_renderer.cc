@@ -8,7 +8,6 @@
 
 #include "shared/geometry/glm_convert.h"
 #include "shared/show/camera_look.h"
-#include "shared/show/picture_camera.h"
 
 namespace lararium::show {
 namespace {
@@ -136,14 +135,20 @@ void ShowRenderer::BlendReflections(const StagedFrame& staged) {
   }
 }
 
-Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget& target) {
+Status ShowRenderer::Draw(const StagedFrame& staged,
+                          const render::RenderTarget& target,
+                          const PictureEye& eye) {
   const vision::TrackedFrame& tracked = staged.tracked;
   const PlaceScene& place = places_[staged.place];
   render::RenderScene scene;
   scene.background = tracked.frame.bgr;
   scene.camera = tracked.camera;
-  scene.display = PictureCamera(tracked.camera, target.width(), target.height());
-  scene.camera_from_stage = staged.camera_from_stage;
+  scene.background_display = PictureOf(tracked.camera, target.width(), target.height());
+  scene.display = ForEye(*scene.background_display, eye);
+  const geometry::Rigid3 eye_from_camera{.translation = -eye.in_camera};
+  if (staged.camera_from_stage) {
+    scene.camera_from_stage = eye_from_camera * *staged.camera_from_stage;
+  }
   scene.people_opacity = staged.opacity;
   const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
   CollectHumans(staged);
@@ -167,6 +172,10 @@ Status ShowRenderer::Draw(const StagedFrame& staged, const render::RenderTarget&
   if (place.camera && !matte_) {
     scene.knee = place.camera->knee;
     scene.look = LookOf(*place.camera, staged, picture);
+    if (scene.look.previous_camera_from_stage) {
+      scene.look.previous_camera_from_stage =
+          eye_from_camera * *scene.look.previous_camera_from_stage;
+    }
   }
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
   captions_->Draw(staged, shows_evidence_ ? &*evidence_ : nullptr, target);

@@ -12,6 +12,7 @@
 #include "shared/core/status.h"
 #include "shared/render/renderer.h"
 #include "shared/show/evidence.h"
+#include "shared/show/picture_camera.h"
 #include "shared/show/show.h"
 #include "shared/show/show_captions.h"
 
@@ -42,12 +43,26 @@ class ShowRenderer {
   // For staff, over the picture: how tracking is, and more; nullopt: nothing.
   void SetStaff(std::optional<std::string> more) { captions_->SetStaff(std::move(more)); }
 
+  // What a visitor chooses from, over the picture; nullopt: nothing.
+  void SetMenu(std::optional<render::Menu> menu) { captions_->SetMenu(std::move(menu)); }
+
   // Other texts, of the same show in another language.
   Status SetTexts(const ShowContent& content);
 
+  // Only this part of the camera's view is drawn from now on.
+  void SetPart(const ViewPart& part) { part_ = part; }
+  // The pinhole of a picture of that size.
+  geometry::CameraModel PictureOf(const geometry::CameraModel& camera,
+                                  int width,
+                                  int height) const {
+    return PictureCamera(camera, width, height, part_);
+  }
+
   // Fills the target with the composite: image, the occluders of the frame's
-  // place, people in its light, captions.
-  Status Draw(const StagedFrame& staged, const render::RenderTarget& target);
+  // place, people in its light, captions. eye: who sees it; the camera unless told otherwise.
+  Status Draw(const StagedFrame& staged,
+              const render::RenderTarget& target,
+              const PictureEye& eye = {});
 
   // Of the frame drawn last: how much of each pixel people and props cover, CV_8UC1.
   void ReadCoverage(cv::Mat& coverage) const { renderer_->ReadCoverage(coverage); }
@@ -74,6 +89,7 @@ class ShowRenderer {
   std::vector<render::ModelHandle> objects_;  // of each object
   std::vector<PlaceScene> places_;
   bool matte_ = false;
+  ViewPart part_;
   std::optional<Evidence> evidence_;  // set when created
   bool shows_evidence_ = false;
   // Of the frame being drawn.

@@ -39,6 +39,8 @@ class SmoothedPoses final : public PoseSource {
     return tracked;
   }
 
+  void FindAnew() override { poses_->FindAnew(); }
+
   void Seen(std::vector<SeenPoint>& seen) const override { poses_->Seen(seen); }
 
   void SetOccluders(uint32_t map, std::span<const OccluderMesh> meshes) override {

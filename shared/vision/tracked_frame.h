@@ -68,6 +68,9 @@ class PoseSource {
  public:
   virtual ~PoseSource() = default;
   virtual TrackedFrame Track(const geometry::Frame& frame) = 0;
+  // The next frame is found without what is known of those before. From any thread. A source
+  // that follows nothing has no use for it.
+  virtual void FindAnew() {}
   // The points that the last pose stands on, of TrackedFrame::map; nothing without a pose, or
   // from a source that looks for no points.
   virtual void Seen(std::vector<SeenPoint>& seen) const { seen.clear(); }

@@ -1,6 +1,7 @@
 #include "shared/vision/tracker.h"
 
 #include <array>
+#include <atomic>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -67,6 +68,10 @@ class Tracker final : public PoseSource {
     tracked.gain = last_gain_;
     by_patches_ = false;
     found_in_.reset();
+    if (find_anew_.exchange(false)) {
+      motion_.Forget();
+      checked_pose_.reset();  // what the background finds is of what is not believed
+    }
     if (frame.grey.empty()) {
       tracked.reason = TrackReason::kTooFewFeatures;
     } else if (cv::mean(frame.grey)[0] < kDarkMean) {
@@ -85,6 +90,8 @@ class Tracker final : public PoseSource {
                                             : TrackState::kSearching;
     return tracked;
   }
+
+  void FindAnew() override { find_anew_ = true; }
 
   void Seen(std::vector<SeenPoint>& seen) const override {
     seen.clear();
@@ -328,6 +335,7 @@ class Tracker final : public PoseSource {
   double depth_ = 1.0;  // of what is visible
   double blur_px_ = 0.0;
   bool had_pose_ = false;
+  std::atomic<bool> find_anew_ = false;
   bool by_patches_ = false;           // the last pose is that of followers_[map_]
   std::optional<uint32_t> found_in_;  // the map that finder_ found the last frame in
 

@@ -15,9 +15,16 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (const auto device = player::ParseDevice(text, "device.json"); device.ok()) {
     CHECK(device->lost.Validate().ok());
     CHECK(!device->camera || device->camera->Validate().ok());
+    if (device->headset && device->headset->panel) {
+      const Eigen::AlignedBox2d part = device->headset->SeenPart();
+      CHECK(part.isEmpty() || part.sizes().allFinite());
+      for (const geometry::LensModel& lens : device->headset->panel->lenses) {
+        CHECK(lens.Validate().ok());
+      }
+    }
   }
   if (const auto state = player::ParseKioskState(text, "state.json"); state.ok()) {
-    CHECK(state->seconds >= 0.0 && state->volume >= 0.0 && state->volume <= 1.0);
+    CHECK(state->seconds >= 0.0 && state->choices.volume >= 0.0 && state->choices.volume <= 1.0);
   }
   if (const auto key = bundle::ParsePublicKey(text, "museum.pub"); key.ok()) {
     CHECK(!bundle::Verifies({}, {}, *key));

@@ -36,6 +36,14 @@ TEST_F(DeviceFileTest, HoldsCalibrationOrLookOrBoth) {
   EXPECT_FALSE(camera.look.has_value());
 }
 
+TEST_F(DeviceFileTest, HoldsAHeadset) {
+  const Device device = Load(R"({"schema": 1, "headset": {"eye_distance": 0.06}})").value();
+  EXPECT_EQ(device.headset->head_from_eye[kRight].translation.x(), 0.03);
+  const std::string wrong =
+      Load(R"({"schema": 1, "headset": {"eye_distance": 60}})").status().message();
+  EXPECT_NE(wrong.find("device.json: headset.eye_distance"), std::string::npos) << wrong;
+}
+
 TEST_F(DeviceFileTest, ErrorsNameTheFileAndTheField) {
   const std::string empty = Load(R"({"schema": 1})").status().message();
   EXPECT_NE(empty.find("device.json: has none of"), std::string::npos) << empty;

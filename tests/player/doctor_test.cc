@@ -58,7 +58,7 @@ TEST(Doctor, SaysWhatElseIsWrong) {
   EXPECT_EQ(JudgeGraphics(std::string("llvmpipe (LLVM 15)")).verdict, Verdict::kWarning);
   EXPECT_EQ(JudgeGraphics(lost).verdict, Verdict::kBad);
   EXPECT_EQ(JudgeDisplay(lost, true).verdict, Verdict::kBad);
-  EXPECT_EQ(JudgeDisplay(std::string("1920x1080"), true).verdict, Verdict::kGood);
+  EXPECT_EQ(JudgeDisplay(DisplayProbe{{1920, 1080}, "AMD"}, true).verdict, Verdict::kGood);
   EXPECT_EQ(JudgeSound(lost).verdict, Verdict::kWarning);
   EXPECT_EQ(JudgeDisk(Status(), uint64_t{1} << 34, "/x").verdict, Verdict::kGood);
   EXPECT_EQ(JudgeDisk(Status(), 1000, "/x").verdict, Verdict::kWarning);
@@ -66,6 +66,27 @@ TEST(Doctor, SaysWhatElseIsWrong) {
   EXPECT_EQ(JudgePower({90.0, std::nullopt}).verdict, Verdict::kWarning);
   EXPECT_EQ(JudgePower({40.0, 0.05}).verdict, Verdict::kWarning);
   EXPECT_EQ(JudgePower({40.0, 0.9}).verdict, Verdict::kGood);
+}
+
+TEST(Doctor, SaysHowTheHeadsetIsSetUpAndWhetherItsMonitorFits) {
+  Headset headset;
+  headset.head_from_eye[kLeft].translation.x() = -0.032;
+  headset.head_from_eye[kRight].translation.x() = 0.032;
+  EXPECT_EQ(JudgeHeadset(headset, std::nullopt, std::nullopt).found,
+            "eyes 64 mm apart, one picture for both, 3.0 m away, without a panel");
+  const geometry::LensModel lens{1000, 1000, 500.0, 500.0, 499.5, 499.5};
+  headset.panel = Panel{{lens, lens}};
+  headset.stereo = true;
+  const geometry::CameraModel camera{640, 480, 320.0, 320.0, 319.5, 239.5};
+  const Finding fits = JudgeHeadset(headset, camera, PictureSize{2000, 1000});
+  EXPECT_EQ(fits.verdict, Verdict::kGood);
+  EXPECT_EQ(fits.found,
+            "panel 2000x1000, each eye sees 90 x 90 degrees, eyes 64 mm apart, a picture for each, "
+            "3.0 m away; the camera sees 90 x 74 degrees");
+  const Finding scaled = JudgeHeadset(headset, camera, PictureSize{1920, 1080});
+  EXPECT_EQ(scaled.verdict, Verdict::kWarning);
+  EXPECT_THAT(scaled.found, HasSubstr("the monitor has 1920x1080"));
+  EXPECT_THAT(scaled.advice, HasSubstr("the panel's own size"));
 }
 
 TEST(Doctor, PrintsAdviceBelowWhatItIsFor) {

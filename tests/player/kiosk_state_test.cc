@@ -13,7 +13,7 @@ TEST(KioskState, ComesBackAsItWasSaved) {
   const test::TemporaryFolder folder;
   const std::filesystem::path place = folder / "new/state";
   EXPECT_EQ(*LoadKioskState(place), KioskState()) << "none yet";
-  const KioskState state = {"The thermopolium", 73.25, "la", "en", 0.4};
+  const KioskState state = {"The thermopolium", 73.25, {"la", "en", 0.4}};
   ASSERT_TRUE(SaveKioskState(place, state).ok());
   EXPECT_EQ(*LoadKioskState(place), state);
 }

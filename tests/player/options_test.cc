@@ -29,6 +29,17 @@ class OptionsTest : public ::testing::Test {
   std::string show_ = (folder_ / "a.larshow").string();
 };
 
+TEST_F(OptionsTest, TheDisplayIsTheDevicesUnlessItIsGiven) {
+  EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).display.has_value());
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "side-by-side"})).display,
+            Display::kSideBySide);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "mono"})).display, Display::kMono);
+  EXPECT_EQ(ExitCode({show_, "--display", "cinema"}), 2);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "openxr"})).display,
+            Display::kOpenXr);
+  EXPECT_EQ(ExitCode({show_, "--display", "openxr", "--headless"}), 2);
+}
+
 TEST_F(OptionsTest, ReadsWhatTheDesignNames) {
   const Command command = Parse({show_, "--headless", "--pace", "fast", "--frames", "9",
                                  "--intrinsics", "500,500,320,240", "--record", "out.mp4"});

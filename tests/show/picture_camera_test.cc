@@ -31,5 +31,49 @@ TEST(PictureCamera, StretchesNothing) {
   }
 }
 
+TEST(PictureCamera, LeavesOutWhatIsNotSeen) {
+  const ViewPart part(Eigen::Vector2d(-0.2, -0.1), Eigen::Vector2d(0.3, 0.1));
+  const geometry::CameraModel seen = PartOfView(kCamera, part);
+  // 0.5 and 0.2 of the plane, to whole pixels outwards, each ray at its pixel.
+  EXPECT_NEAR(seen.width, 0.5 * kCamera.fx, 2.0);
+  EXPECT_NEAR(seen.height, 0.2 * kCamera.fy, 2.0);
+  EXPECT_NEAR(seen.PixelFromPlane(part.min()).x(), 0.0, 1.0);
+  EXPECT_NEAR(seen.PixelFromPlane(part.max()).y(), seen.height - 1.0, 1.0);
+  EXPECT_TRUE(seen.Contains(seen.PixelFromPlane(part.min())));
+  EXPECT_TRUE(seen.Contains(seen.PixelFromPlane(part.max())));
+  const geometry::CameraModel picture = PictureCamera(kCamera, 640, 480, part);
+  EXPECT_LE(picture.width, seen.width);
+  EXPECT_NEAR(picture.width * 480.0, picture.height * 640.0, 640.0);
+}
+
+TEST(PictureCamera, IsWholeForWhoeverSeesMoreOrNothing) {
+  const Eigen::Vector2d wide(9.0, 9.0);
+  EXPECT_EQ(PartOfView(kCamera, ViewPart(-wide, wide)), kCamera);
+  EXPECT_EQ(PartOfView(kCamera, ViewPart(wide, 2.0 * wide)), kCamera);
+  EXPECT_EQ(PartOfView(kCamera, {}), kCamera);
+}
+
+TEST(PictureEye, SeesWhatIsAsFarAsThePictureWhereTheCameraDid) {
+  const PictureEye eye{{0.032, -0.01, -0.06}, 2.5};
+  const geometry::CameraModel display = ForEye(kCamera, eye);
+  for (const Eigen::Vector3d& point :
+       {Eigen::Vector3d(0.0, 0.0, 2.5), {1.0, -0.7, 2.5}, {-0.4, 0.9, 2.5}}) {
+    EXPECT_LT((*display.Project(point - eye.in_camera) - *kCamera.Project(point)).norm(), 1e-9);
+  }
+}
+
+TEST(PictureEye, SeesNearerPeopleWithTheDisparityOfBothEyes) {
+  const PictureEye left{{-0.032, 0.0, 0.0}, 3.0};
+  const PictureEye right{{0.032, 0.0, 0.0}, 3.0};
+  const Eigen::Vector3d near(0.1, 0.2, 1.5);
+  const double disparity = ForEye(kCamera, left).Project(near - left.in_camera)->x() -
+                           ForEye(kCamera, right).Project(near - right.in_camera)->x();
+  EXPECT_NEAR(disparity, kCamera.fx * 0.064 * (1.0 / 1.5 - 1.0 / 3.0), 1e-9);
+}
+
+TEST(PictureEye, OfAPictureAtInfinityLooksParallel) {
+  EXPECT_EQ(ForEye(kCamera, {{0.032, 0.0, -0.05}}), kCamera);
+}
+
 }  // namespace
 }  // namespace lararium::show

@@ -298,6 +298,37 @@ TEST_F(ShowTest, TheNextVisitorSeesTheDramaFromItsBeginning) {
   EXPECT_NEAR(PositionX(At(*show, 21.2)), 0.7, 1e-4);
 }
 
+TEST_F(ShowTest, APoseThatIsFoundAnewIsTakenAsItIs) {
+  // By how much the place moves that people are drawn at, when after a loss they are found
+  // elsewhere.
+  const auto moved = [&](bool forget) {
+    const std::unique_ptr<Show> show = Make();
+    show->SetLostLadder({});
+    StagedFrame staged;
+    Eigen::Vector3d before = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 10; ++i) {
+      vision::TrackedFrame frame = test::FakePoses().Track({});
+      frame.camera = geometry::CameraModel{64, 48, 50.0, 50.0, 31.5, 23.5};
+      frame.frame.capture_time = i / 30.0;
+      if (i >= 6 && i < 9) {
+        frame.camera_from_map.reset();
+      }
+      if (i == 9) {
+        before = staged.camera_from_stage->Center();
+        frame.camera_from_map->translation.x() += 1.5;
+        if (forget) {
+          show->ForgetPose();
+        }
+      }
+      show->StageFrame(frame, i / 30.0, staged);
+    }
+    EXPECT_NEAR(PositionX(staged), 0.3, 1e-4) << "the drama goes on";
+    return (staged.camera_from_stage->Center() - before).norm();
+  };
+  EXPECT_LT(moved(false), 0.1) << "first they go where they were";
+  EXPECT_GT(moved(true), 0.5);
+}
+
 TEST_F(ShowTest, AKioskRunsForDays) {
   const std::unique_ptr<Show> show = Make();
   const double days = 5.0 * 24.0 * 3600.0;

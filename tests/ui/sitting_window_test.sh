@@ -4,11 +4,12 @@
 # somebody who walks behind the counter and speaks, the export, and the show in the player.
 # Looks at the saved files and at screenshots.
 #
-#   sitting_window_test.sh EDITOR OUTPUT_FOLDER VIDEO
+#   sitting_window_test.sh EDITOR OUTPUT_FOLDER VIDEO [OPENXR_RUNTIME]
 set -u
 editor=$1
 out=$2
 video=$3
+openxr=${4:-}  # its manifest
 
 . "$(dirname "$0")/window.sh"
 need xvfb-run Xvfb xdotool import identify
@@ -161,6 +162,15 @@ grep -q "^lines *1, spoken: la" "$out/info.txt" || fail "the line is not in the 
 "$player" "$out/tavern.larshow" --trust "$out/tavern.pub" --video "$video" --headless --audio none \
   --pace fast --frames 20 --record "$out/played.mp4" >> "$out/editor.log" 2>&1 ||
   fail "the player refuses the show"
+
+# On a headset that is not there, where the runtime for it was built.
+if [ -n "$openxr" ]; then
+  XR_RUNTIME_JSON=$openxr LARARIUM_NULL_XR="log=$out/openxr.txt" "$player" "$out/tavern.larshow" \
+    --video "$video" --audio none --display openxr --frames 10 >> "$out/editor.log" 2>&1 ||
+    fail "the player does not play on a headset"
+  grep -q "^quad eye both space room" "$out/openxr.txt" || fail "the headset shows nothing"
+  grep -q "^end session" "$out/openxr.txt" || fail "the headset's session was not ended"
+fi
 
 # In the player, which is a window of its own.
 click 912 548

@@ -431,6 +431,19 @@ TEST_F(Tracker, FindsEveryFrameAnewWhereItIsToldTo) {
   }
 }
 
+TEST_F(Tracker, FindsOneFrameAnewWhereItIsAsked) {
+  const auto tracker = Create();
+  for (int i = 0; i < 6; ++i) {
+    if (i == 3) {
+      tracker->FindAnew();
+    }
+    const TrackedFrame tracked =
+        tracker->Track(PhotographPoster(poster_, PosterPose(0.01 * i, 0.0, 1.5), i));
+    EXPECT_TRUE(tracked.camera_from_map.has_value());
+    EXPECT_EQ(tracked.followed, i != 0 && i != 3) << i;
+  }
+}
+
 TEST_F(Tracker, RefusesWhatItCannotUse) {
   EXPECT_FALSE(CreateTracker({map_}, CameraModel(), {}).ok());
   EXPECT_FALSE(CreateTracker({std::make_shared<SceneDatabase>()}, kCamera, {}).ok());

@@ -1,0 +1,459 @@
+#include "player/openxr_headset.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "player/openxr_graphics.h"
+#include "player/pose_history.h"
+#include "shared/render/picture_copy.h"
+
+#define XR_USE_GRAPHICS_API_OPENGL
+#define XR_USE_TIMESPEC
+#include <openxr/openxr.h>
+#include <openxr/openxr_platform.h>
+
+namespace lararium::player {
+namespace {
+
+using geometry::Rigid3;
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::string_view kPlace = "OpenXR";
+constexpr auto kEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+constexpr double kFarthestLayer = 1000.0;  // metres: no eye can tell it from infinity
+constexpr auto kLongestEnd = std::chrono::seconds(1);
+constexpr auto kIdleStep = std::chrono::milliseconds(10);
+const XrPosef kNowhere = {{0.0f, 0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}};
+
+// OpenXR's axes are x right, y up, z backward; ours x right, y down, z forward.
+Rigid3 FromXr(const XrPosef& pose) {
+  const XrQuaternionf& q = pose.orientation;
+  const XrVector3f& p = pose.position;
+  return {Eigen::Quaterniond(q.w, q.x, -q.y, -q.z).normalized(), Eigen::Vector3d(p.x, -p.y, -p.z)};
+}
+
+XrPosef ToXr(const Rigid3& pose) {
+  const Eigen::Quaternionf q = pose.rotation.cast<float>();
+  const Eigen::Vector3f p = pose.translation.cast<float>();
+  return {{q.x(), -q.y(), -q.z(), q.w()}, {p.x(), -p.y(), -p.z()}};
+}
+
+// OpenXR's structures begin with their type.
+template <typename T>
+T Typed(XrStructureType type) {
+  T value = {};
+  value.type = type;
+  return value;
+}
+
+bool IsLoss(XrResult result) {
+  return result == XR_ERROR_SESSION_LOST || result == XR_ERROR_INSTANCE_LOST ||
+         result == XR_ERROR_RUNTIME_FAILURE || result == XR_SESSION_LOSS_PENDING;
+}
+
+// instance may be null: then results have numbers only.
+Status ToStatus(XrInstance instance, XrResult result, const char* what) {
+  if (XR_SUCCEEDED(result) && !IsLoss(result)) {
+    return Status();
+  }
+  char name[XR_MAX_RESULT_STRING_SIZE] = {};
+  if (instance == XR_NULL_HANDLE || XR_FAILED(xrResultToString(instance, result, name))) {
+    std::snprintf(name, sizeof(name), "error %d", static_cast<int>(result));
+  }
+  if (IsLoss(result)) {
+    return Status::Error(kPlace, std::string("the runtime was lost (") + name + ")",
+                         "start the headset's runtime again, then the player");
+  }
+  return Status::Error(kPlace, std::string(what) + " failed (" + name + ")",
+                       "look at what the headset's runtime says");
+}
+
+// A runtime's images of one eye.
+struct PictureImages {
+  XrSwapchain swapchain = XR_NULL_HANDLE;
+  std::vector<uint32_t> textures;
+  int width = 0;
+  int height = 0;
+  bool filled = false;
+};
+
+class Session final : public OpenXrHeadset {
+ public:
+  Session(const Headset& headset, Log& log) : headset_(headset), log_(log) {}
+  // A runtime that was lost forgets the rest by itself.
+  ~Session() override {
+    if (instance_ != XR_NULL_HANDLE) {
+      xrDestroyInstance(instance_);
+    }
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  Status Create(const std::string& title);
+
+  show::PictureEye PictureEyeOf(Eye eye) const override { return headset_.PictureEyeOf(eye); }
+  Status SetPicture(Eye eye, const render::RenderTarget& picture) override;
+  void Place(const geometry::CameraModel& pinhole, SteadyClock::time_point taken) override;
+  Result<bool> Frame() override;
+  Status End() override;
+
+ private:
+  Status CreateInstance(const std::string& title);
+  Status FindSystem();
+  Status CreateSession();
+  Status ChooseFormat();
+  Status CreateImages(PictureImages& images, int width, int height) const;
+  Status Poll();
+  Status ChangeState(XrSessionState state);
+  Status SubmitFrame();
+  Status LocateHead(XrTime shown);
+  XrTime TimeOf(SteadyClock::time_point time) const;
+  Status Check(XrResult result, const char* what) const {
+    return ToStatus(instance_, result, what);
+  }
+
+  Headset headset_;
+  Log& log_;
+  render::PictureCopy copy_;
+  XrInstance instance_ = XR_NULL_HANDLE;
+  XrSystemId system_ = XR_NULL_SYSTEM_ID;
+  XrSession session_ = XR_NULL_HANDLE;
+  XrSpace room_ = XR_NULL_HANDLE;
+  XrSpace head_ = XR_NULL_HANDLE;
+  PFN_xrConvertTimespecTimeToTimeKHR to_xr_time_ = nullptr;
+  int64_t format_ = 0;
+  bool running_ = false;
+  bool exited_ = false;
+  std::array<PictureImages, 2> images_;  // by Eye
+  PoseHistory heads_;                    // room_from_head
+  bool placed_ = false;
+  bool in_room_ = false;  // else before the head, as long as nobody knows where it is
+  XrPosef layer_pose_ = kNowhere;
+  XrExtent2Df layer_size_ = {1.0f, 1.0f};
+};
+
+Status Session::Create(const std::string& title) {
+  LARARIUM_RETURN_IF_ERROR(CreateInstance(title));
+  LARARIUM_RETURN_IF_ERROR(FindSystem());
+  LARARIUM_RETURN_IF_ERROR(CreateSession());
+  return ChooseFormat();
+}
+
+Status Session::CreateInstance(const std::string& title) {
+  ::setenv("XR_LOADER_DEBUG", "none", 0);  // one message is enough, and it is ours
+  const char* extensions[] = {XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
+                              XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
+  auto create = Typed<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
+  std::snprintf(create.applicationInfo.applicationName,
+                sizeof(create.applicationInfo.applicationName), "%s", title.c_str());
+  std::snprintf(create.applicationInfo.engineName, sizeof(create.applicationInfo.engineName), "%s",
+                "Lararium");
+  create.applicationInfo.apiVersion = XR_CURRENT_API_VERSION;
+  create.enabledExtensionCount = static_cast<uint32_t>(std::size(extensions));
+  create.enabledExtensionNames = extensions;
+  const XrResult result = xrCreateInstance(&create, &instance_);
+  if (result == XR_ERROR_EXTENSION_NOT_PRESENT) {
+    return Status::Error(kPlace,
+                         "the runtime lacks XR_KHR_opengl_enable or "
+                         "XR_KHR_convert_timespec_time",
+                         "use another runtime, as Monado or SteamVR");
+  }
+  if (XR_FAILED(result)) {
+    instance_ = XR_NULL_HANDLE;
+    return Status::Error(kPlace, "there is no runtime that can be used",
+                         "install and start the headset's runtime (as Monado or SteamVR); "
+                         "XR_RUNTIME_JSON names another than the system's");
+  }
+  auto properties = Typed<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
+  xrGetInstanceProperties(instance_, &properties);
+  log_.info("OpenXR runtime {}", properties.runtimeName);
+  return Status();
+}
+
+Status Session::FindSystem() {
+  auto get = Typed<XrSystemGetInfo>(XR_TYPE_SYSTEM_GET_INFO);
+  get.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
+  const XrResult result = xrGetSystem(instance_, &get, &system_);
+  if (result == XR_ERROR_FORM_FACTOR_UNAVAILABLE) {
+    return Status::Error(kPlace, "no headset is connected", "connect it, and start its runtime");
+  }
+  LARARIUM_RETURN_IF_ERROR(Check(result, "finding the headset"));
+  const auto function = [&](const char* name) {
+    PFN_xrVoidFunction found = nullptr;
+    xrGetInstanceProcAddr(instance_, name, &found);
+    return found;
+  };
+  to_xr_time_ = reinterpret_cast<PFN_xrConvertTimespecTimeToTimeKHR>(
+      function("xrConvertTimespecTimeToTimeKHR"));
+  const auto requirements = reinterpret_cast<PFN_xrGetOpenGLGraphicsRequirementsKHR>(
+      function("xrGetOpenGLGraphicsRequirementsKHR"));
+  if (to_xr_time_ == nullptr || requirements == nullptr) {
+    return Status::Error(kPlace, "the runtime lacks a function of its own extensions",
+                         "update the runtime");
+  }
+  // To be asked before there is a session; every driver that we run on has more than is asked for.
+  auto asked = Typed<XrGraphicsRequirementsOpenGLKHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_OPENGL_KHR);
+  return Check(requirements(instance_, system_, &asked), "asking for what it needs of OpenGL");
+}
+
+Status Session::CreateSession() {
+  const std::shared_ptr<const void> binding = CurrentGraphicsBinding();
+  if (binding == nullptr) {
+    return Status::Error(kPlace, "the window has no OpenGL context of X11",
+                         "start the player in an X11 session or with XWayland");
+  }
+  auto create = Typed<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
+  create.next = binding.get();
+  create.systemId = system_;
+  LARARIUM_RETURN_IF_ERROR(Check(xrCreateSession(instance_, &create, &session_), "a session"));
+  for (const auto& [type, space] : {std::pair(XR_REFERENCE_SPACE_TYPE_LOCAL, &room_),
+                                    std::pair(XR_REFERENCE_SPACE_TYPE_VIEW, &head_)}) {
+    auto reference = Typed<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
+    reference.referenceSpaceType = type;
+    reference.poseInReferenceSpace = kNowhere;
+    LARARIUM_RETURN_IF_ERROR(
+        Check(xrCreateReferenceSpace(session_, &reference, space), "a reference space"));
+  }
+  return Status();
+}
+
+Status Session::ChooseFormat() {
+  uint32_t count = 0;
+  LARARIUM_RETURN_IF_ERROR(
+      Check(xrEnumerateSwapchainFormats(session_, 0, &count, nullptr), "asking for formats"));
+  std::vector<int64_t> formats(count);
+  LARARIUM_RETURN_IF_ERROR(Check(
+      xrEnumerateSwapchainFormats(session_, count, &count, formats.data()), "asking for formats"));
+  for (const int64_t wanted :
+       {render::PictureCopy::kEncodedFormat, render::PictureCopy::kPlainFormat}) {
+    if (std::find(formats.begin(), formats.end(), wanted) != formats.end()) {
+      format_ = wanted;
+      return Status();
+    }
+  }
+  return Status::Error(kPlace, "the runtime takes no pictures of 8 bits", "update the runtime");
+}
+
+Status Session::CreateImages(PictureImages& images, int width, int height) const {
+  if (images.swapchain != XR_NULL_HANDLE) {
+    xrDestroySwapchain(images.swapchain);
+  }
+  images = {};
+  auto create = Typed<XrSwapchainCreateInfo>(XR_TYPE_SWAPCHAIN_CREATE_INFO);
+  create.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT;
+  create.format = format_;
+  create.sampleCount = create.faceCount = create.arraySize = create.mipCount = 1;
+  create.width = static_cast<uint32_t>(width);
+  create.height = static_cast<uint32_t>(height);
+  LARARIUM_RETURN_IF_ERROR(
+      Check(xrCreateSwapchain(session_, &create, &images.swapchain), "making images"));
+  uint32_t count = 0;
+  LARARIUM_RETURN_IF_ERROR(
+      Check(xrEnumerateSwapchainImages(images.swapchain, 0, &count, nullptr), "asking for images"));
+  std::vector<XrSwapchainImageOpenGLKHR> list(
+      count, Typed<XrSwapchainImageOpenGLKHR>(XR_TYPE_SWAPCHAIN_IMAGE_OPENGL_KHR));
+  LARARIUM_RETURN_IF_ERROR(
+      Check(xrEnumerateSwapchainImages(images.swapchain, count, &count,
+                                       reinterpret_cast<XrSwapchainImageBaseHeader*>(list.data())),
+            "asking for images"));
+  for (const XrSwapchainImageOpenGLKHR& image : list) {
+    images.textures.push_back(image.image);
+  }
+  images.width = width;
+  images.height = height;
+  return Status();
+}
+
+Status Session::SetPicture(Eye eye, const render::RenderTarget& picture) {
+  if (!running_) {
+    return Status();
+  }
+  PictureImages& images = images_[eye];
+  if (images.width != picture.width() || images.height != picture.height()) {
+    LARARIUM_RETURN_IF_ERROR(CreateImages(images, picture.width(), picture.height()));
+  }
+  uint32_t index = 0;
+  LARARIUM_RETURN_IF_ERROR(
+      Check(xrAcquireSwapchainImage(images.swapchain, nullptr, &index), "taking an image"));
+  auto wait = Typed<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
+  wait.timeout = XR_INFINITE_DURATION;
+  LARARIUM_RETURN_IF_ERROR(
+      Check(xrWaitSwapchainImage(images.swapchain, &wait), "waiting for an image"));
+  copy_.Into(images.textures[std::min<size_t>(index, images.textures.size() - 1)], picture);
+  images.filled = true;
+  return Check(xrReleaseSwapchainImage(images.swapchain, nullptr), "handing over an image");
+}
+
+XrTime Session::TimeOf(SteadyClock::time_point time) const {
+  const auto since = std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch());
+  const timespec monotonic = {since.count() / 1'000'000'000, since.count() % 1'000'000'000};
+  XrTime converted = 0;
+  to_xr_time_(instance_, &monotonic, &converted);
+  return converted;
+}
+
+void Session::Place(const geometry::CameraModel& pinhole, SteadyClock::time_point taken) {
+  const double distance = std::min(headset_.picture_distance, kFarthestLayer);
+  const double across = distance / pinhole.fx;
+  const double along = distance / pinhole.fy;
+  layer_size_ = {static_cast<float>(across * pinhole.width),
+                 static_cast<float>(along * pinhole.height)};
+  const Rigid3 camera_from_layer{
+      .translation = Eigen::Vector3d(across * (0.5 * (pinhole.width - 1) - pinhole.cx),
+                                     along * (0.5 * (pinhole.height - 1) - pinhole.cy), distance)};
+  const Rigid3 head_from_layer = headset_.head_from_camera * camera_from_layer;
+  const std::optional<Rigid3> room_from_head = heads_.At(TimeOf(taken));
+  in_room_ = room_from_head.has_value();
+  layer_pose_ = ToXr(in_room_ ? *room_from_head * head_from_layer : head_from_layer);
+  placed_ = true;
+}
+
+Status Session::ChangeState(XrSessionState state) {
+  switch (state) {
+    case XR_SESSION_STATE_READY: {
+      auto begin = Typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
+      begin.primaryViewConfigurationType = kEyes;
+      running_ = true;
+      return Check(xrBeginSession(session_, &begin), "beginning the session");
+    }
+    case XR_SESSION_STATE_STOPPING:
+      running_ = false;
+      return Check(xrEndSession(session_), "ending the session");
+    case XR_SESSION_STATE_EXITING:
+      exited_ = true;
+      return Status();
+    case XR_SESSION_STATE_LOSS_PENDING:
+      return Check(XR_SESSION_LOSS_PENDING, "");
+    default:
+      return Status();
+  }
+}
+
+Status Session::Poll() {
+  while (true) {
+    auto event = Typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
+    const XrResult result = xrPollEvent(instance_, &event);
+    LARARIUM_RETURN_IF_ERROR(Check(result, "asking for events"));
+    if (result == XR_EVENT_UNAVAILABLE) {
+      return Status();
+    }
+    if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
+      return Check(XR_ERROR_INSTANCE_LOST, "");
+    }
+    if (event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
+      XrEventDataSessionStateChanged changed = {};
+      std::memcpy(&changed, &event, sizeof(changed));
+      LARARIUM_RETURN_IF_ERROR(ChangeState(changed.state));
+    }
+  }
+}
+
+// Remembers where the head is now, and where the eyes are in it.
+Status Session::LocateHead(XrTime shown) {
+  const XrTime now = TimeOf(SteadyClock::now());
+  auto location = Typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
+  LARARIUM_RETURN_IF_ERROR(Check(xrLocateSpace(head_, room_, now, &location), "locating the head"));
+  if ((location.locationFlags & XR_SPACE_LOCATION_ORIENTATION_VALID_BIT) != 0) {
+    Rigid3 room_from_head = FromXr(location.pose);
+    if ((location.locationFlags & XR_SPACE_LOCATION_POSITION_VALID_BIT) == 0) {
+      room_from_head.translation.setZero();  // a headset that only knows how it is turned
+    }
+    heads_.Add(now, room_from_head);
+  }
+  auto locate = Typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
+  locate.viewConfigurationType = kEyes;
+  locate.displayTime = shown;
+  locate.space = head_;
+  auto state = Typed<XrViewState>(XR_TYPE_VIEW_STATE);
+  std::array<XrView, 2> views;
+  views.fill(Typed<XrView>(XR_TYPE_VIEW));
+  uint32_t count = 0;
+  LARARIUM_RETURN_IF_ERROR(
+      Check(xrLocateViews(session_, &locate, &state, 2, &count, views.data()), "locating eyes"));
+  for (const Eye eye : {kLeft, kRight}) {
+    headset_.head_from_eye[eye] = FromXr(views[eye].pose);
+  }
+  return Status();
+}
+
+Status Session::SubmitFrame() {
+  auto wait = Typed<XrFrameWaitInfo>(XR_TYPE_FRAME_WAIT_INFO);
+  auto frame = Typed<XrFrameState>(XR_TYPE_FRAME_STATE);
+  LARARIUM_RETURN_IF_ERROR(Check(xrWaitFrame(session_, &wait, &frame), "waiting for a frame"));
+  auto begin = Typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
+  LARARIUM_RETURN_IF_ERROR(Check(xrBeginFrame(session_, &begin), "beginning a frame"));
+  LARARIUM_RETURN_IF_ERROR(LocateHead(frame.predictedDisplayTime));
+  std::array<XrCompositionLayerQuad, 2> quads;
+  std::vector<const XrCompositionLayerBaseHeader*> layers;
+  for (const Eye eye : {kLeft, kRight}) {
+    const PictureImages& images = images_[eye];
+    if (frame.shouldRender != XR_TRUE || !placed_ || !images.filled) {
+      continue;
+    }
+    XrCompositionLayerQuad& quad = quads[eye];
+    quad = Typed<XrCompositionLayerQuad>(XR_TYPE_COMPOSITION_LAYER_QUAD);
+    quad.space = in_room_ ? room_ : head_;
+    quad.eyeVisibility = !headset_.stereo ? XR_EYE_VISIBILITY_BOTH
+                         : eye == kLeft   ? XR_EYE_VISIBILITY_LEFT
+                                          : XR_EYE_VISIBILITY_RIGHT;
+    quad.subImage.swapchain = images.swapchain;
+    quad.subImage.imageRect = {{0, 0}, {images.width, images.height}};
+    quad.pose = layer_pose_;
+    quad.size = layer_size_;
+    layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&quad));
+  }
+  auto end = Typed<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
+  end.displayTime = frame.predictedDisplayTime;
+  end.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+  end.layerCount = static_cast<uint32_t>(layers.size());
+  end.layers = layers.data();
+  return Check(xrEndFrame(session_, &end), "handing over a frame");
+}
+
+Result<bool> Session::Frame() {
+  LARARIUM_RETURN_IF_ERROR(Poll());
+  if (exited_) {
+    return false;
+  }
+  if (running_) {
+    LARARIUM_RETURN_IF_ERROR(SubmitFrame());
+  } else {
+    std::this_thread::sleep_for(kIdleStep);
+  }
+  return true;
+}
+
+Status Session::End() {
+  if (!running_) {
+    return Status();
+  }
+  LARARIUM_RETURN_IF_ERROR(Check(xrRequestExitSession(session_), "asking for the end"));
+  const SteadyClock::time_point begin = SteadyClock::now();
+  while (SteadyClock::now() - begin < kLongestEnd) {
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, Frame());
+    if (!more) {
+      return Status();
+    }
+  }
+  log_.warn("{}: the runtime did not end the session in time", kPlace);
+  return Status();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<OpenXrHeadset>> OpenXrHeadset::Open(const Headset& headset,
+                                                           const std::string& title,
+                                                           Log& log) {
+  auto session = std::make_unique<Session>(headset, log);
+  LARARIUM_RETURN_IF_ERROR(session->Create(title));
+  return std::unique_ptr<OpenXrHeadset>(std::move(session));
+}
+
+}  // namespace lararium::player

@@ -1,0 +1,14 @@
+// Where the player is built without OpenXR.
+
+#include "player/openxr_headset.h"
+
+namespace lararium::player {
+
+Result<std::unique_ptr<OpenXrHeadset>> OpenXrHeadset::Open(const Headset& /*headset*/,
+                                                           const std::string& /*title*/,
+                                                           Log& /*log*/) {
+  return Status::Error("OpenXR", "this player was built without it",
+                       "install libopenxr-dev and build the player again");
+}
+
+}  // namespace lararium::player

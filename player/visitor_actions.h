@@ -1,0 +1,54 @@
+#pragma once
+
+// What a visitor may choose, and with which keys and buttons.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "player/kiosk_state.h"
+#include "shared/core/json.h"
+#include "shared/core/status.h"
+
+namespace lararium::player {
+
+enum class Action {
+  kLouder,
+  kQuieter,
+  kLanguage,  // the next that people speak
+  kCaptions,  // the next language of the captions; after the last, none
+  kRestart,   // the show from its beginning
+  kFindAnew,  // the place, from scratch
+  kMenu       // opens it, or closes it
+};
+
+// Keys of the keyboard and buttons of game controllers (render::KeyName, Window::TakePadButtons).
+class Buttons {
+ public:
+  Buttons();  // as docs/player.md has them
+
+  std::optional<Action> ActionOf(std::string_view button) const;
+  // In place of those that an action had.
+  void Set(Action action, const std::vector<std::string>& buttons);
+
+  friend bool operator==(const Buttons&, const Buttons&) = default;
+
+ private:
+  std::vector<std::pair<std::string, Action>> actions_;
+};
+
+// The field "buttons" of a device file: for each action that is named, its buttons.
+Result<Buttons> ParseButtons(const JsonView& view);
+
+// The languages that a show has.
+struct LanguageOffer {
+  const std::vector<std::string>& spoken;
+  const std::vector<std::string>& captions;
+};
+
+// Changes what an action is about; others leave everything as it is.
+void Choose(Action action, const LanguageOffer& offer, Choices& choices);
+
+}  // namespace lararium::player

@@ -1,0 +1,62 @@
+#include "shared/render/menu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lararium::render {
+namespace {
+
+constexpr float kLetterShare = 0.42f;    // of a cell's height
+constexpr float kPadding = 0.25f;        // of a cell's height, at each end of a text
+constexpr float kRadius = 0.25f;         // likewise
+constexpr float kCapitals = 0.72f;       // em
+constexpr float kReticleShare = 0.008f;  // of the picture's height
+const glm::vec4 kGround(0.05f, 0.05f, 0.06f, 0.72f);
+const glm::vec4 kSelected(0.22f, 0.22f, 0.25f, 0.85f);
+const glm::vec4 kProgress(0.86f, 0.62f, 0.24f, 0.85f);
+const glm::vec4 kLetters(1.0f);
+
+// The largest letters that fit each cell: all are alike.
+float EmOf(const CaptionFont& font, const Menu& menu) {
+  float em = std::numeric_limits<float>::max();
+  for (const MenuCell& cell : menu.cells) {
+    const glm::vec2 size = cell.to - cell.from;
+    const float room = size.x - 2.0f * kPadding * size.y;
+    em = std::min({em, kLetterShare * size.y, room / std::max(TextWidth(font, cell.text), 1e-3f)});
+  }
+  return em;
+}
+
+void DrawCell(FlatPainter& painter, const MenuCell& cell, float em) {
+  const glm::vec2 size = cell.to - cell.from;
+  const float radius = kRadius * size.y;
+  painter.Rectangle(cell.from, cell.to, radius, cell.selected ? kSelected : kGround);
+  if (cell.progress > 0.0f) {
+    const float wide = std::max(cell.progress * size.x, 2.0f * radius);
+    painter.Rectangle(cell.from, {cell.from.x + wide, cell.to.y}, radius, kProgress);
+  }
+  const float width = TextWidth(painter.font(), cell.text);
+  painter.Text(cell.text,
+               {std::round(0.5f * (cell.from.x + cell.to.x - em * width)),
+                std::round(0.5f * (cell.from.y + cell.to.y + kCapitals * em))},
+               em, kLetters);
+}
+
+}  // namespace
+
+void DrawMenu(FlatPainter& painter, const Menu& menu, const RenderTarget& target) {
+  const float em = EmOf(painter.font(), menu);
+  painter.Begin(target);
+  for (const MenuCell& cell : menu.cells) {
+    DrawCell(painter, cell, em);
+  }
+  const float radius = std::max(kReticleShare * static_cast<float>(target.height()), 3.0f);
+  const glm::vec2 half(radius);
+  painter.Rectangle(menu.gaze - 1.5f * half, menu.gaze + 1.5f * half, 1.5f * radius,
+                    {0.0f, 0.0f, 0.0f, 0.6f});
+  painter.Rectangle(menu.gaze - half, menu.gaze + half, radius, kLetters);
+  painter.End();
+}
+
+}  // namespace lararium::render

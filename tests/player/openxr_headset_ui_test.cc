@@ -1,0 +1,252 @@
+// Against a runtime without a headset: tests/player/null_openxr_runtime.cc.
+
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "player/openxr_headset.h"
+#include "shared/render/window.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::player {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr geometry::CameraModel kPinhole{64, 48, 50.0, 50.0, 31.5, 23.5};
+
+// A layer as the runtime was given it.
+struct Quad {
+  std::string eye;
+  std::string space;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double yaw = 0.0;  // to the left, radians
+  double width = 0.0;
+  double height = 0.0;
+  std::string upper;
+  std::string lower;
+};
+
+std::optional<Quad> ParseQuad(const std::string& line) {
+  Quad quad;
+  double w = 0.0, x = 0.0, y = 0.0, z = 0.0;
+  std::string word;
+  int columns = 0, rows = 0;
+  std::istringstream in(line);
+  in >> word >> word >> quad.eye >> word >> quad.space >> word >> quad.position.x() >>
+      quad.position.y() >> quad.position.z() >> word >> w >> x >> y >> z >> word >> quad.width >>
+      quad.height >> word >> columns >> rows >> word >> quad.upper >> word >> quad.lower;
+  quad.yaw = 2.0 * std::atan2(y, w);
+  return line.rfind("quad ", 0) == 0 && in ? std::optional(quad) : std::nullopt;
+}
+
+class OpenXrTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::getenv("DISPLAY") == nullptr) {
+      GTEST_SKIP() << "needs a display (xvfb-run)";
+    }
+    auto window = render::Window::Create({.vsync = false, .visible = false});
+    ASSERT_TRUE(window.ok()) << window.message();
+    window_.emplace(std::move(window).value());
+    headset_.picture_distance = 2.0;
+    log_ = MakeLog("").value();
+  }
+  void TearDown() override {
+    xr_.reset();
+    ::unsetenv("XR_RUNTIME_JSON");
+    ::unsetenv("LARARIUM_NULL_XR");
+  }
+
+  Status Open(const std::string& script, const char* runtime = LARARIUM_NULL_RUNTIME) {
+    ::setenv("XR_RUNTIME_JSON", runtime, 1);
+    ::setenv("LARARIUM_NULL_XR", ("log=" + file_.string() + " " + script).c_str(), 1);
+    Result<std::unique_ptr<OpenXrHeadset>> opened = OpenXrHeadset::Open(headset_, "test", *log_);
+    if (opened.ok()) {
+      xr_ = std::move(opened).value();
+    }
+    return opened.status();
+  }
+
+  // So many frames, or until the end; whether there is more.
+  bool Run(int frames) {
+    bool more = true;
+    for (int i = 0; more && i < frames; ++i) {
+      const Result<bool> frame = xr_->Frame();
+      EXPECT_TRUE(frame.ok()) << frame.message();
+      more = frame.ok() && *frame;
+    }
+    return more;
+  }
+
+  void Show(SteadyClock::time_point taken) {
+    const auto target = render::RenderTarget::Create(kPinhole.width, kPinhole.height);
+    ASSERT_TRUE(target.ok());
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(1.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, kPinhole.height / 2, kPinhole.width, kPinhole.height / 2);  // the lower half
+    glClearColor(0.0f, 0.0f, 0.5f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    for (const Eye eye : {kLeft, kRight}) {
+      if (eye == kLeft || headset_.stereo) {
+        const Status set = xr_->SetPicture(eye, *target);
+        ASSERT_TRUE(set.ok()) << set.message();
+      }
+    }
+    xr_->Place(kPinhole, taken);
+  }
+
+  std::vector<std::string> Lines(const std::string& beginning = "") const {
+    std::vector<std::string> lines;
+    std::ifstream in(file_);
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind(beginning, 0) == 0) {
+        lines.push_back(line);
+      }
+    }
+    return lines;
+  }
+  Quad LastQuad() const {
+    const std::vector<std::string> lines = Lines("quad ");
+    const std::optional<Quad> quad = lines.empty() ? std::nullopt : ParseQuad(lines.back());
+    EXPECT_TRUE(quad.has_value());
+    return quad.value_or(Quad());
+  }
+
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_ / "calls.txt";
+  std::optional<render::Window> window_;
+  Headset headset_;
+  std::shared_ptr<Log> log_;
+  std::unique_ptr<OpenXrHeadset> xr_;  // ends before its context
+};
+
+TEST_F(OpenXrTest, FollowsTheSessionThroughItsStates) {
+  ASSERT_TRUE(Open("exit=6").ok());
+  EXPECT_FALSE(Run(100)) << "the runtime ends the session";
+  EXPECT_EQ(Lines("frame ").size(), 6u);
+  // IDLE, READY, ..., STOPPING, IDLE, EXITING, with what the program does in between.
+  std::vector<std::string> calls;
+  for (const std::string& line : Lines()) {
+    if (line.rfind("state", 0) == 0 || line.rfind("begin", 0) == 0 || line.rfind("end", 0) == 0) {
+      calls.push_back(line);
+    }
+  }
+  EXPECT_THAT(calls, ElementsAre("state 1", "state 2", "begin session", "state 3", "state 4",
+                                 "state 5", "state 6", "end session", "state 1", "state 8"));
+}
+
+TEST_F(OpenXrTest, EndsASessionByAskingForIt) {
+  ASSERT_TRUE(Open("").ok());
+  EXPECT_TRUE(Run(3));
+  EXPECT_TRUE(xr_->End().ok());
+  const Result<bool> after = xr_->Frame();
+  ASSERT_TRUE(after.ok());
+  EXPECT_FALSE(*after);
+  EXPECT_EQ(Lines("exit requested").size(), 1u);
+  EXPECT_EQ(Lines("end session").size(), 1u);
+  xr_.reset();
+  EXPECT_EQ(Lines("instance destroyed").size(), 1u);
+}
+
+TEST_F(OpenXrTest, ShowsNothingBeforeThereIsAPicture) {
+  ASSERT_TRUE(Open("").ok());
+  Run(4);
+  for (const std::string& frame : Lines("frame ")) {
+    EXPECT_THAT(frame, HasSubstr("layers 0"));
+  }
+  EXPECT_FALSE(Lines("frame ").empty());
+}
+
+TEST_F(OpenXrTest, HangsThePictureAsFarAwayAndAsLargeAsTheCameraSawIt) {
+  headset_.head_from_camera.translation = Eigen::Vector3d(0.0, -0.05, 0.1);
+  ASSERT_TRUE(Open("").ok());
+  Run(3);
+  Show(SteadyClock::now());
+  Run(2);
+  const Quad quad = LastQuad();
+  EXPECT_EQ(quad.eye, "both");
+  EXPECT_EQ(quad.space, "room");
+  // The head is 1.6 m high, the camera 0.05 above and 0.1 before it; upwards and backwards count.
+  EXPECT_LT((quad.position - Eigen::Vector3d(0.0, 1.65, -2.1)).norm(), 1e-4);
+  EXPECT_NEAR(quad.width, 2.0 * 64 / 50, 1e-4);
+  EXPECT_NEAR(quad.height, 2.0 * 48 / 50, 1e-4);
+}
+
+TEST_F(OpenXrTest, ThePictureIsUprightAndItsColoursAreKept) {
+  ASSERT_TRUE(Open("").ok());
+  Run(3);
+  Show(SteadyClock::now());
+  Run(2);
+  EXPECT_EQ(LastQuad().upper, "255,0,0");
+  EXPECT_THAT(LastQuad().lower, ::testing::AnyOf("0,0,127", "0,0,128"));
+}
+
+TEST_F(OpenXrTest, ThePictureStaysInTheRoomWhileTheHeadTurns) {
+  ASSERT_TRUE(Open("turn=1").ok());
+  Run(12);
+  const SteadyClock::time_point first = SteadyClock::now() - std::chrono::milliseconds(60);
+  Show(first);
+  Run(2);
+  const Quad before = LastQuad();
+  EXPECT_NEAR(before.position.x(), -2.0 * std::sin(before.yaw), 1e-3);
+  EXPECT_NEAR(before.position.z(), -2.0 * std::cos(before.yaw), 1e-3);
+  Run(12);
+  EXPECT_EQ(LastQuad().yaw, before.yaw) << "no newer picture came";
+  const SteadyClock::time_point second = SteadyClock::now() - std::chrono::milliseconds(60);
+  Show(second);
+  Run(2);
+  // It hangs where the head was when the image was taken, not where it is.
+  const double passed = std::chrono::duration<double>(second - first).count();
+  EXPECT_NEAR(LastQuad().yaw - before.yaw, passed, 2e-3);
+}
+
+TEST_F(OpenXrTest, InStereoEachEyeHasItsPictureAndTheRuntimesEyes) {
+  headset_.stereo = true;
+  ASSERT_TRUE(Open("").ok());
+  Run(3);
+  EXPECT_NEAR(xr_->PictureEyeOf(kRight).in_camera.x(), 0.032, 1e-6);
+  EXPECT_NEAR(xr_->PictureEyeOf(kLeft).in_camera.x(), -0.032, 1e-6);
+  Show(SteadyClock::now());
+  Run(1);
+  const std::vector<std::string> quads = Lines("quad ");
+  ASSERT_EQ(quads.size(), 2u);
+  EXPECT_EQ(ParseQuad(quads[0])->eye, "left");
+  EXPECT_EQ(ParseQuad(quads[1])->eye, "right");
+}
+
+TEST_F(OpenXrTest, ALostRuntimeIsOneErrorThatSaysWhatToDo) {
+  ASSERT_TRUE(Open("lose=3").ok());
+  Status status;
+  for (int i = 0; i < 20 && status.ok(); ++i) {
+    status = xr_->Frame().status();
+  }
+  EXPECT_EQ(status.message(),
+            "OpenXR: the runtime was lost (XR_ERROR_SESSION_LOST); start the headset's runtime "
+            "again, then the player");
+}
+
+TEST_F(OpenXrTest, SaysThatThereIsNoRuntime) {
+  const Status status = Open("", "/nowhere/runtime.json");
+  EXPECT_THAT(status.message(), HasSubstr("OpenXR: there is no runtime that can be used; install"));
+}
+
+TEST_F(OpenXrTest, SaysThatNoHeadsetIsConnected) {
+  EXPECT_THAT(Open("away").message(), HasSubstr("no headset is connected; connect it"));
+}
+
+}  // namespace
+}  // namespace lararium::player

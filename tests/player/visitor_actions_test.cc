@@ -1,0 +1,84 @@
+#include "player/visitor_actions.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+
+#include "shared/show/show_content.h"
+
+namespace lararium::player {
+namespace {
+
+Result<Buttons> Parse(std::string_view text) {
+  const Json json = ParseJson(text, "device.json").value();
+  return ParseButtons(JsonView(json, "device.json: buttons"));
+}
+
+TEST(Buttons, OfKeyboardsAndControllersDoTheSame) {
+  const Buttons buttons;
+  EXPECT_EQ(buttons.ActionOf("page_up"), Action::kLouder);
+  EXPECT_EQ(buttons.ActionOf("pad_up"), Action::kLouder);
+  EXPECT_EQ(buttons.ActionOf("m"), Action::kMenu);
+  EXPECT_EQ(buttons.ActionOf("pad_start"), Action::kMenu);
+  EXPECT_EQ(buttons.ActionOf("pad_a"), std::nullopt) << "the drama's";
+}
+
+TEST(Buttons, OfADeviceFileReplaceThoseOfTheirActionOnly) {
+  const Buttons buttons = Parse(R"({"menu": ["pad_a", "l"], "restart": []})").value();
+  EXPECT_EQ(buttons.ActionOf("pad_a"), Action::kMenu);
+  EXPECT_EQ(buttons.ActionOf("l"), Action::kMenu) << "no longer the language's";
+  EXPECT_EQ(buttons.ActionOf("pad_start"), std::nullopt);
+  EXPECT_EQ(buttons.ActionOf("home"), std::nullopt);
+  EXPECT_EQ(buttons.ActionOf("pad_left"), Action::kLanguage);
+  EXPECT_EQ(Parse("{}").value(), Buttons());
+}
+
+TEST(Buttons, MistakesAreOneErrorThatNamesThem) {
+  const auto problem = [](std::string_view text) { return Parse(text).status().message(); };
+  EXPECT_NE(problem(R"({"jump": ["a"]})").find("no action \"jump\""), std::string::npos);
+  EXPECT_NE(problem(R"({"menu": ["pad_z"]})").find("no button \"pad_z\""), std::string::npos);
+  EXPECT_NE(problem(R"({"menu": [""]})").find("no button \"\""), std::string::npos);
+  EXPECT_NE(problem(R"({"menu": ["m"], "louder": ["m"]})").find("another action's"),
+            std::string::npos);
+  EXPECT_FALSE(Parse(R"({"menu": "m"})").ok());
+  EXPECT_FALSE(Parse("[1]").ok());
+}
+
+TEST(Choices, VolumeStaysWithinItsRange) {
+  Choices choices;
+  const std::vector<std::string> none;
+  Choose(Action::kLouder, {none, none}, choices);
+  EXPECT_EQ(choices.volume, 1.0);
+  for (int i = 0; i < 20; ++i) {
+    Choose(Action::kQuieter, {none, none}, choices);
+  }
+  EXPECT_EQ(choices.volume, 0.0);
+}
+
+TEST(Choices, LanguagesComeRoundAndCaptionsCanBeOff) {
+  Choices choices;
+  const std::vector<std::string> spoken = {"la", "en"};
+  const std::vector<std::string> captions = {"la", "en", "it"};
+  Choose(Action::kLanguage, {spoken, captions}, choices);
+  EXPECT_EQ(choices.language, "en") << "the first is the author's";
+  Choose(Action::kLanguage, {spoken, captions}, choices);
+  EXPECT_EQ(choices.language, "la");
+  for (const std::string& expected :
+       {std::string("en"), std::string("it"), std::string(show::kNoCaptions), std::string("la")}) {
+    Choose(Action::kCaptions, {spoken, captions}, choices);
+    EXPECT_EQ(choices.captions, expected);
+  }
+}
+
+TEST(Choices, WhatAShowLacksCannotBeChosen) {
+  Choices choices;
+  const std::vector<std::string> none;
+  Choose(Action::kLanguage, {none, none}, choices);
+  Choose(Action::kCaptions, {none, none}, choices);
+  Choose(Action::kRestart, {none, none}, choices);
+  EXPECT_EQ(choices, Choices());
+}
+
+}  // namespace
+}  // namespace lararium::player

@@ -1,0 +1,96 @@
+#include "player/visitor_menu.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+namespace lararium::player {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+
+// Writes what every show can: ASCII.
+render::CaptionFont Ascii() {
+  render::CaptionFont font;
+  for (uint32_t c = 32; c < 127; ++c) {
+    font.glyphs.push_back({.character = c, .advance = 0.5f});
+  }
+  return font;
+}
+
+show::ShowContent Content() {
+  show::ShowContent content;
+  content.caption_font = Ascii();
+  content.language = "la";
+  content.spoken_languages = {"la", "en"};
+  content.caption_languages = {"la", "en", "de"};
+  return content;
+}
+
+std::vector<std::string> TextsOf(const std::vector<MenuItem>& items) {
+  std::vector<std::string> texts;
+  for (const MenuItem& item : items) {
+    texts.push_back(item.text);
+  }
+  return texts;
+}
+
+TEST(VisitorMenu, SpeaksTheVisitorsLanguageAndSaysWhatIsChosen) {
+  show::ShowContent content = Content();
+  EXPECT_THAT(TextsOf(ItemsOf(content, {})),
+              ElementsAre("Clarius", "Lenius", "Voces: Latina", "Inscriptiones: Latina",
+                          "Ab initio", "Locum denuo quaere", "Claude"));
+  content.language = "en-GB";
+  Choices choices;
+  choices.language = "en";
+  choices.captions = show::kNoCaptions;
+  EXPECT_THAT(TextsOf(ItemsOf(content, choices)),
+              ElementsAre("Louder", "Quieter", "Voices: English", "Captions: off",
+                          "From the beginning", "Find the place again", "Close"));
+}
+
+TEST(VisitorMenu, IsInEnglishWhereTheFontLacksLetters) {
+  show::ShowContent content = Content();
+  content.language = "de";  // "Schließen"
+  EXPECT_THAT(TextsOf(ItemsOf(content, {})), Contains("Close"));
+  content.language = "sux";
+  EXPECT_THAT(TextsOf(ItemsOf(content, {})), Contains("Close"));
+}
+
+TEST(VisitorMenu, OffersNoChoiceWhereThereIsOne) {
+  show::ShowContent content = Content();
+  content.spoken_languages = {"la"};
+  content.caption_languages.clear();
+  const std::vector<MenuItem> items = ItemsOf(content, {});
+  EXPECT_EQ(items.size(), 5u);
+  for (const MenuItem& item : items) {
+    EXPECT_NE(item.action, Action::kLanguage);
+    EXPECT_NE(item.action, Action::kCaptions);
+  }
+  content.caption_font.reset();
+  EXPECT_TRUE(ItemsOf(content, {}).empty()) << "nothing can be written";
+}
+
+TEST(VisitorMenu, LiesWithinThePictureAboutWhereTheVisitorLooks) {
+  for (const geometry::CameraModel& picture :
+       {geometry::CameraModel{640, 480, 525.0, 525.0, 310.0, 250.0},
+        geometry::CameraModel{400, 300, 700.0, 700.0, 199.5, 149.5}}) {
+    GazeMenu menu;
+    menu.Open(ItemsOf(Content(), {}), 0.0, ScaleFor(picture));
+    const render::Menu drawn = PictureOf(menu, picture);
+    EXPECT_EQ(drawn.cells.size(), 7u);
+    EXPECT_NEAR(drawn.gaze.x, picture.cx + 0.5, 1e-3);
+    for (const render::MenuCell& cell : drawn.cells) {
+      EXPECT_GE(cell.from.x, 0.0f);
+      EXPECT_GE(cell.from.y, 0.0f);
+      EXPECT_LE(cell.to.x, static_cast<float>(picture.width));
+      EXPECT_LE(cell.to.y, static_cast<float>(picture.height));
+      const bool hides_gaze = cell.from.x < drawn.gaze.x && cell.to.x > drawn.gaze.x;
+      EXPECT_FALSE(hides_gaze);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lararium::player
