@@ -229,7 +229,7 @@ Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, 
     LARARIUM_RETURN_IF_ERROR(vision::SavePoses(options.poses_out, PosesOf(report)));
   }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, *place));
-  const StageReport stage = ReportStage(*place, map);
+  const StageReport stage = ReportStage(document, *place, map);
   CommandResult result{TrainSummary(place->name, report) + stage.text, ReportJson(report)};
   result.json["place"] = place->name;
   result.json["stage"] = stage.json;

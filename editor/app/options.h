@@ -86,6 +86,22 @@ struct CheckOptions {
   std::vector<std::filesystem::path> visitors = {};  // recorded ones, besides those of the project
 };
 
+// Without a work: only the report.
+struct CheckPointsOptions {
+  std::filesystem::path project = {};
+  std::string place = {};       // empty: the only one; of a report: all
+  std::string set = {};         // adds or moves a point
+  std::vector<double> at = {};  // its position, x, y, z in metres; empty: here
+  bool here = false;            // its position is where the place's staging puts it
+  std::string pick = {};        // sets where a point is seen in a training image
+  std::string frame = {};       // name of the image
+  std::vector<double> pixel = {};
+  int session = 0;
+  std::string clear = {};   // forgets where a point was picked at the place
+  std::string remove = {};  // a point, everywhere
+  bool lay = false;         // lays the stage of the place by the points
+};
+
 struct LinesOptions {
   std::filesystem::path project;
   std::filesystem::path import;  // .po, .csv or .json
@@ -220,6 +236,7 @@ using Subcommand = std::variant<WindowOptions,
                                 CastOptions,
                                 BakeOptions,
                                 CheckOptions,
+                                CheckPointsOptions,
                                 LinesOptions,
                                 CaptionsOptions,
                                 TimelineOptions,

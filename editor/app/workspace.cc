@@ -148,7 +148,7 @@ void Workspace::ShowPlace(const std::string& name) {
   loaded_ = {};
   picture_ = nullptr;
   preview_ = nullptr;
-  time_ = 0.0;
+  preview_key_.clear();
   playing_ = false;
   map_stale_ = true;
 }
@@ -318,8 +318,9 @@ void Workspace::OnDocumentChanged() {
   }
   cast_pictures_.SetCast(document().cast);
   stage_changed_ = true;
-  if (place() == nullptr && !document().places.empty()) {
-    ShowPlace(document().places.front().name);  // undo took the place away
+  if (place() == nullptr && (!place_name_.empty() || !document().places.empty())) {
+    // It was taken away, or is the first.
+    ShowPlace(document().places.empty() ? "" : document().places.front().name);
     return;
   }
   ResolvePicksAgain();

@@ -82,6 +82,7 @@ class Workspace {
 
   // The place that the views show; nullptr where the project has none.
   const PlaceDocument* place() const { return document().FindPlace(place_name_); }
+  // The drama stays at its moment.
   void ShowPlace(const std::string& name);
   const LoadedPlace& loaded() const { return loaded_; }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -328,6 +329,7 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(target_->texture())), origin,
                 corner);
   draw.PushClipRect(origin, corner, true);
+  DrawCheckPoints(workspace, state, view, draw);
   const bool was_dragging = state.drag.has_value();
   const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
                     (state.drag.has_value() || was_dragging || !active);
