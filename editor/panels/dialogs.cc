@@ -379,6 +379,8 @@ std::span<const char* const> ExtensionsOf(app::FileKind kind) {
       return kClips;
     case app::FileKind::kBones:
       return kBones;
+    case app::FileKind::kSound:
+      return app::SoundExtensions();
   }
   return {};
 }
