@@ -64,8 +64,11 @@ void AddTrain(CLI::App& app, TrainOptions& train) {
   video->check(CLI::ExistingFile);
   CLI::Option* images = source->add_option("--images", train.images, "Folder of images");
   images->check(CLI::ExistingDirectory)->excludes(video);
-  source->add_option("--camera", train.camera, "Record this camera first")
-      ->check(CLI::NonNegativeNumber)
+  source
+      ->add_option("--camera", train.camera,
+                   "Record the camera of this number first, and say meanwhile what is missing; a "
+                   "video file is played as one")
+      ->check(CLI::NonNegativeNumber | CLI::ExistingFile)
       ->excludes(video)
       ->excludes(images);
   command->add_option("--seconds", train.seconds, "How long to record the camera")
@@ -516,7 +519,7 @@ void ParseSize(const std::string& text, PortraitOptions& portrait) {
 }
 
 void CheckSession(const TrainOptions& train) {
-  if (train.add && train.video.empty() && train.images.empty() && !train.camera) {
+  if (train.add && train.video.empty() && train.images.empty() && train.camera.empty()) {
     throw CLI::ValidationError("--add",
                                "needs the recording to add: --video, --images or --camera");
   }

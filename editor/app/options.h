@@ -27,7 +27,7 @@ struct TrainOptions {
   // At most one; none: the recording that the place was trained from before.
   std::filesystem::path video;
   std::filesystem::path images;
-  std::optional<int> camera;
+  std::string camera;     // a number, or a recording that is played as one
   double seconds = 60.0;  // how long the camera records
 
   std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty

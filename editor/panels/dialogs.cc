@@ -110,6 +110,10 @@ void TrainDialog(app::Workspace& workspace, EditorState& state) {
                   : Tr("%s will be another place of the drama."),
               fields.place.c_str()));
   }
+  if (ImGui::Button(Tr("Film it with a camera instead\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
+    state.dialog = Dialog::kFilm;
+    return;
+  }
   if (DialogDone(state, Tr("Train"), TrainProblem(workspace, fields))) {
     TrainRecording(workspace, fields);
   }

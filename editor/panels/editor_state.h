@@ -52,6 +52,7 @@ enum class Dialog {
   kCast,
   kObject,
   kCheckPoint,
+  kFilm,
   kKeys
 };
 

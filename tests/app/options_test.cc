@@ -80,7 +80,7 @@ TEST(EditorOptions, TrainTakesOneRecordingThatIsThere) {
 
 TEST(EditorOptions, TrainWithoutARecordingTakesTheOneBefore) {
   const auto train = Parsed<TrainOptions>({"train", "p"});
-  EXPECT_TRUE(train.video.empty() && train.images.empty() && !train.camera);
+  EXPECT_TRUE(train.video.empty() && train.images.empty() && train.camera.empty());
   EXPECT_FALSE(train.points.has_value());
   EXPECT_FALSE(train.tag_size.has_value());
 }
