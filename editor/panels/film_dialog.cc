@@ -151,7 +151,7 @@ void FilmDialog::ShowStart(app::Workspace& workspace, EditorState& state) {
     const std::filesystem::path file = workspace.paths().Resolve(camera_);
     auto camera = app::OpenFilmCamera(
         std::filesystem::is_regular_file(file, ignored) ? file.string() : camera_);
-    problem_ = camera.message();
+    problem_ = camera.ok() ? "" : camera.message();
     if (camera.ok()) {
       const std::filesystem::path folder = workspace.paths().Place(state.fields.place);
       film_ = std::make_unique<app::FilmTask>(*std::move(camera), app::NewFilmFile(folder));
