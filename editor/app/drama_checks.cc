@@ -311,13 +311,14 @@ StepListener::StepListener(const stage::Stage& stage, std::span<const stage::Pla
   names_.reserve(count);  // triangles borrow them
   for (const stage::Place& place : places) {
     for (const stage::Occluder& occluder : place.occluders) {
-      AddOccluder(occluder);
+      AddOccluder(occluder,
+                  "'" + occluder.name + "'" + (places.size() > 1 ? " of " + place.name : ""));
     }
   }
 }
 
-void StepListener::AddOccluder(const stage::Occluder& occluder) {
-  names_.push_back(occluder.name);
+void StepListener::AddOccluder(const stage::Occluder& occluder, std::string name) {
+  names_.push_back(std::move(name));
   const geometry::TriangleMesh& mesh = occluder.mesh;
   for (size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
     Triangle triangle;
@@ -400,7 +401,7 @@ void StepListener::Listen(double time) {
     }
     if (before == last_.end()) {
       if (const std::string_view inside = Around(state.position); !inside.empty()) {
-        Tell(name, time, "stands in '" + std::string(inside) + "'");
+        Tell(name, time, "stands in " + std::string(inside));
       }
       last_[name] = state.position;
       continue;
@@ -412,7 +413,7 @@ void StepListener::Listen(double time) {
     if (glm::distance(from, state.position) > kLeap) {
       Tell(name, time, "leaps while it is seen");
     } else if (const std::string_view crossed = Crossed(from, state.position); !crossed.empty()) {
-      Tell(name, time, "walks through '" + std::string(crossed) + "'");
+      Tell(name, time, "walks through " + std::string(crossed));
     }
   }
 }

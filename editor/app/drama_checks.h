@@ -70,14 +70,14 @@ class StepListener {
   };
   using Cell = std::pair<int, int>;  // of a grid on the floor
 
-  void AddOccluder(const stage::Occluder& occluder);
+  void AddOccluder(const stage::Occluder& occluder, std::string name);
   // The occluder that a way on the floor goes through; "": none.
   std::string_view Crossed(const glm::vec3& from, const glm::vec3& to) const;
   std::string_view Around(const glm::vec3& point) const;
   void Tell(const std::string& actor, double time, std::string what);
 
   const stage::Stage& stage_;
-  std::vector<std::string> names_;  // of occluders
+  std::vector<std::string> names_;  // of occluders, with their places where there are several
   std::vector<Triangle> triangles_;
   std::map<Cell, std::vector<uint32_t>> cells_;
   stage::StageSnapshot snapshot_;

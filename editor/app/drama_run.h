@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "editor/app/project.h"
+#include "editor/app/sounds.h"
 #include "shared/core/log.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
@@ -64,6 +65,7 @@ struct DramaRun {
   double seconds = 0.0;                  // that were played
   double last = 0.0;                     // when the last task ended
   StageWords words;
+  std::vector<MissingSound> missing_sounds;  // also where the drama could not be run
 };
 
 // A script at its beginning on the stage of a project.

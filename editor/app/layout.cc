@@ -174,6 +174,7 @@ void Layout::Show(Workspace& workspace, Settings& settings) {
   panels::ShowToolbar(workspace, state_);
   ShowPanels(workspace);
   panels::ShowDialogs(workspace, state_);
+  film_.Show(workspace, state_);
   if (std::exchange(state_.begin_tour, false)) {
     tour_.Begin(panels::FactsOf(workspace, state_));
   }

@@ -9,6 +9,7 @@
 #include "editor/panels/around_view.h"
 #include "editor/panels/camera_view.h"
 #include "editor/panels/editor_state.h"
+#include "editor/panels/film_dialog.h"
 #include "editor/panels/missing_panel.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/script_panel.h"
@@ -45,6 +46,7 @@ class Layout {
   panels::TimelinePanel timeline_;
   panels::ScriptPanel script_;
   panels::MissingPanel missing_;
+  panels::FilmDialog film_;
   panels::Tour tour_;
   bool opened_ = false;  // a frame was shown
   // Logical pixels.

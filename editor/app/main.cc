@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "editor/app/camera_measure.h"
+#include "editor/app/check_commands.h"
 #include "editor/app/line_commands.h"
 #include "editor/app/options.h"
 #include "editor/app/portrait.h"
@@ -56,6 +57,9 @@ struct Runner {
   }
   Result<CommandResult> operator()(const CheckOptions& options) {
     return RunCheck(options, progress);
+  }
+  Result<CommandResult> operator()(const CheckPointsOptions& options) {
+    return RunCheckPoints(options);
   }
   Result<CommandResult> operator()(const LinesOptions& options) { return RunLines(options); }
   Result<CommandResult> operator()(const CaptionsOptions& options) {

@@ -7,6 +7,7 @@
 
 #include "editor/app/camera_measure.h"
 #include "editor/app/document_fields.h"
+#include "editor/app/filming.h"
 #include "editor/app/project.h"
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
@@ -52,6 +53,27 @@ Status CanBeWritten(const std::filesystem::path& file) {
   return Status();
 }
 
+// Films with a camera for so long, telling what is still missing.
+Status FilmWith(const std::string& camera,
+                double seconds,
+                const std::filesystem::path& file,
+                Progress& progress) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenFilmCamera(camera));
+  const auto next = [&](const FilmMoment& moment) {
+    const std::string fault = FaultText(moment.coverage.fault, false);
+    const std::string say = fault.empty() ? AdviceText(moment.coverage.advice, false) : fault;
+    // Lines where it is piped: not one for each percent.
+    const int tenths = static_cast<int>(10.0 * moment.coverage.shares.all());
+    const std::string step = "recording, " + std::to_string(10 * tenths) + " % covered: " + say;
+    progress.Report(step, moment.seconds / seconds);
+    if (progress.Cancelled()) {
+      return FilmStep::kDiscard;
+    }
+    return moment.seconds >= seconds ? FilmStep::kFinish : FilmStep::kGoOn;
+  };
+  return Film(*source, file, next).status();
+}
+
 // The recording that the options name; records a camera for it. file: where to.
 Result<SourceDocument> ChooseRecording(const TrainOptions& options,
                                        const ProjectPaths& paths,
@@ -63,14 +85,10 @@ Result<SourceDocument> ChooseRecording(const TrainOptions& options,
   if (!options.images.empty()) {
     return SourceDocument{SourceDocument::Kind::kImages, paths.Shorten(options.images)};
   }
-  if (!options.camera) {
+  if (options.camera.empty()) {
     return SourceDocument{};
   }
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t frames,
-                            RecordCamera(*options.camera, file, options.seconds, progress));
-  if (frames == 0) {
-    return Status::Error("camera " + std::to_string(*options.camera), "gave no image");
-  }
+  LARARIUM_RETURN_IF_ERROR(FilmWith(options.camera, options.seconds, file, progress));
   return SourceDocument{SourceDocument::Kind::kVideo, paths.Shorten(file)};
 }
 
@@ -229,7 +247,7 @@ Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, 
     LARARIUM_RETURN_IF_ERROR(vision::SavePoses(options.poses_out, PosesOf(report)));
   }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, *place));
-  const StageReport stage = ReportStage(*place, map);
+  const StageReport stage = ReportStage(document, *place, map);
   CommandResult result{TrainSummary(place->name, report) + stage.text, ReportJson(report)};
   result.json["place"] = place->name;
   result.json["stage"] = stage.json;

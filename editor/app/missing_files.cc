@@ -84,9 +84,19 @@ std::pair<fs::path, fs::path> MovedFolders(fs::path from, fs::path to) {
   return {from, to};
 }
 
+// Where a file that moved along is now; empty: nowhere.
+fs::path MovedTo(const fs::path& moved, FileKind kind) {
+  if (kind == FileKind::kSound) {
+    return SoundFileIn(moved.parent_path(), moved.filename().string());
+  }
+  return IsThere(moved) ? moved : fs::path();
+}
+
 }  // namespace
 
-std::vector<MissingFile> MissingFiles(const ProjectPaths& paths, const ProjectDocument& document) {
+std::vector<MissingFile> MissingFiles(const ProjectPaths& paths,
+                                      const ProjectDocument& document,
+                                      std::span<const MissingSound> sounds) {
   std::vector<MissingFile> missing;
   ForEachFile(document, [&](const std::string& path, FileKind kind, const Role& role,
                             const std::string& remedy) {
@@ -96,6 +106,14 @@ std::vector<MissingFile> MissingFiles(const ProjectPaths& paths, const ProjectDo
       missing.push_back({path, kind, role.role, role.shown, remedy});
     }
   });
+  for (const MissingSound& sound : sounds) {
+    const std::string path = "audio/" + sound.name;
+    if (SoundFileIn(paths.folder / "audio", sound.name).empty()) {
+      const Role role = RoleOf(TrLater("the sound \"%s\" (%s)"), sound.name, sound.who);
+      missing.push_back(
+          {path, FileKind::kSound, role.role, role.shown, "put " + path + ".wav there"});
+    }
+  }
   return missing;
 }
 
@@ -111,7 +129,7 @@ std::vector<Relocation> SameMove(const ProjectPaths& paths,
     if (file.path == located.from || below.empty() || *below.begin() == "..") {
       continue;
     }
-    if (const fs::path moved = new_folder / below; IsThere(moved)) {
+    if (const fs::path moved = MovedTo(new_folder / below, file.kind); !moved.empty()) {
       moves.push_back({file.path, paths.Shorten(moved)});
     }
   }

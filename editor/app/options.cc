@@ -24,6 +24,7 @@ struct AllOptions {
   CastOptions cast;
   BakeOptions bake;
   CheckOptions check;
+  CheckPointsOptions check_points;
   LinesOptions lines;
   CaptionsOptions captions;
   TimelineOptions timeline;
@@ -63,8 +64,11 @@ void AddTrain(CLI::App& app, TrainOptions& train) {
   video->check(CLI::ExistingFile);
   CLI::Option* images = source->add_option("--images", train.images, "Folder of images");
   images->check(CLI::ExistingDirectory)->excludes(video);
-  source->add_option("--camera", train.camera, "Record this camera first")
-      ->check(CLI::NonNegativeNumber)
+  source
+      ->add_option("--camera", train.camera,
+                   "Record the camera of this number first, and say meanwhile what is missing; a "
+                   "video file is played as one")
+      ->check(CLI::NonNegativeNumber | CLI::ExistingFile)
       ->excludes(video)
       ->excludes(images);
   command->add_option("--seconds", train.seconds, "How long to record the camera")
@@ -142,6 +146,35 @@ void AddPrune(CLI::App& app, PruneOptions& prune) {
   command->add_option("--points", prune.points, "Points that stay; only the table otherwise")
       ->check(CLI::Range(100, 10'000'000));
   command->add_option("--place", prune.place, "Name of the place");
+}
+
+void AddCheckPoints(CLI::App& app, CheckPointsOptions& options) {
+  CLI::App* command = AddSubcommand(
+      app, "check-points", "Say how the stage lies at each place, by points of it that are known",
+      options.project);
+  command->add_option("--place", options.place, "The place; all of them otherwise");
+  CLI::Option_group* work = command->add_option_group("work", "Before the report");
+  CLI::Option* set = work->add_option("--set", options.set, "Add the point NAME, or move it");
+  CLI::Option* pick = work->add_option("--pick", options.pick, "Pick NAME in a training image");
+  work->add_option("--clear", options.clear, "Forget where NAME was picked at the place");
+  work->add_option("--remove", options.remove, "Remove the point NAME, everywhere");
+  work->add_flag("--lay", options.lay, "Lay the stage of the place by the points");
+  work->require_option(0, 1);
+  CLI::Option* at = command->add_option("--at", options.at, "x,y,z of the point, stage metres")
+                        ->delimiter(',')
+                        ->expected(3)
+                        ->needs(set);
+  command->add_flag("--here", options.here, "It is where it was picked at the place")
+      ->needs(set)
+      ->excludes(at);
+  command->add_option("--frame", options.frame, "The image, as in the recording")->needs(pick);
+  command->add_option("--pixel", options.pixel, "x,y in it")
+      ->delimiter(',')
+      ->expected(2)
+      ->needs(pick);
+  command->add_option("--session", options.session, "Of the image; 0: the training")
+      ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
+      ->needs(pick);
 }
 
 void AddLines(CLI::App& app, AllOptions& options) {
@@ -419,6 +452,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
                    "Run it for this visitor too, as lararium-player --visitor-log recorded them")
       ->check(CLI::ExistingFile);
 
+  AddCheckPoints(app, options.check_points);
   AddLines(app, options);
   AddInterchange(app, options);
   AddCredits(app, options.credits);
@@ -449,6 +483,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("cast")) return options.cast;
   if (app.got_subcommand("bake")) return options.bake;
   if (app.got_subcommand("check")) return options.check;
+  if (app.got_subcommand("check-points")) return options.check_points;
   if (app.got_subcommand("lines")) return options.lines;
   if (app.got_subcommand("captions")) return options.captions;
   if (app.got_subcommand("timeline")) return options.timeline;
@@ -484,9 +519,18 @@ void ParseSize(const std::string& text, PortraitOptions& portrait) {
 }
 
 void CheckSession(const TrainOptions& train) {
-  if (train.add && train.video.empty() && train.images.empty() && !train.camera) {
+  if (train.add && train.video.empty() && train.images.empty() && train.camera.empty()) {
     throw CLI::ValidationError("--add",
                                "needs the recording to add: --video, --images or --camera");
+  }
+}
+
+void CheckPointWork(const CheckPointsOptions& points) {
+  if (!points.set.empty() && points.at.empty() && !points.here) {
+    throw CLI::ValidationError("--set", "needs the point's position: --at, or --here");
+  }
+  if (!points.pick.empty() && (points.frame.empty() || points.pixel.empty())) {
+    throw CLI::ValidationError("--pick", "needs --frame and --pixel");
   }
 }
 
@@ -506,6 +550,7 @@ std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* arg
     CheckIntrinsics(options.train.intrinsics);
     CheckIntrinsics(options.render.intrinsics);
     CheckSession(options.train);
+    CheckPointWork(options.check_points);
     ParseSize(options.portrait_size, options.portrait);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;

@@ -27,7 +27,7 @@ struct TrainOptions {
   // At most one; none: the recording that the place was trained from before.
   std::filesystem::path video;
   std::filesystem::path images;
-  std::optional<int> camera;
+  std::string camera;     // a number, or a recording that is played as one
   double seconds = 60.0;  // how long the camera records
 
   std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
@@ -84,6 +84,22 @@ struct CheckOptions {
   double seconds = 300.0;  // of the drama that are run
   int seeks = 0;           // to random times of them afterwards, compared with what was there
   std::vector<std::filesystem::path> visitors = {};  // recorded ones, besides those of the project
+};
+
+// Without a work: only the report.
+struct CheckPointsOptions {
+  std::filesystem::path project = {};
+  std::string place = {};       // empty: the only one; of a report: all
+  std::string set = {};         // adds or moves a point
+  std::vector<double> at = {};  // its position, x, y, z in metres; empty: here
+  bool here = false;            // its position is where the place's staging puts it
+  std::string pick = {};        // sets where a point is seen in a training image
+  std::string frame = {};       // name of the image
+  std::vector<double> pixel = {};
+  int session = 0;
+  std::string clear = {};   // forgets where a point was picked at the place
+  std::string remove = {};  // a point, everywhere
+  bool lay = false;         // lays the stage of the place by the points
 };
 
 struct LinesOptions {
@@ -220,6 +236,7 @@ using Subcommand = std::variant<WindowOptions,
                                 CastOptions,
                                 BakeOptions,
                                 CheckOptions,
+                                CheckPointsOptions,
                                 LinesOptions,
                                 CaptionsOptions,
                                 TimelineOptions,

@@ -108,6 +108,29 @@ Result<stage::StagePicks> ParsePicks(const JsonView& view) {
   return picks;
 }
 
+template <typename Entry>
+Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& place) {
+  std::set<std::string_view> names;
+  for (const Entry& entry : entries) {
+    if (!names.insert(entry.name).second) {
+      return Status::Error(place, "the name \"" + entry.name + "\" is there twice", "rename one");
+    }
+  }
+  return Status();
+}
+
+Status ParseCheckPicks(const JsonView& view, std::vector<stage::Anchor>& anchors) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, view.Array(kMaxCheckPoints));
+  for (const JsonView& entry : list) {
+    LARARIUM_RETURN_IF_ERROR(CheckFields(entry, {"name", "picks"}));
+    stage::Anchor& anchor = anchors.emplace_back();
+    LARARIUM_ASSIGN_OR_RETURN(anchor.name, entry.Text("name", kMaxCheckPointName));
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView picks, entry.Field("picks"));
+    LARARIUM_RETURN_IF_ERROR(ParsePickList(picks, anchor));
+  }
+  return CheckUniqueNames(anchors, view.place());
+}
+
 Result<SessionDocument> ParseSession(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"source", "intrinsics"}));
   SessionDocument session;
@@ -166,17 +189,6 @@ Result<OccluderDocument> ParseOccluder(const JsonView& view) {
     LARARIUM_ASSIGN_OR_RETURN(occluder.blocks_sound, blocks.Boolean());
   }
   return occluder;
-}
-
-template <typename Entry>
-Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& place) {
-  std::set<std::string_view> names;
-  for (const Entry& entry : entries) {
-    if (!names.insert(entry.name).second) {
-      return Status::Error(place, "the name \"" + entry.name + "\" is there twice", "rename one");
-    }
-  }
-  return Status();
 }
 
 Status ParseProbeImage(const JsonView& view, ProbeDocument& probe) {
@@ -267,13 +279,17 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("acoustics"));
     LARARIUM_ASSIGN_OR_RETURN(place.acoustics, stage::ParseAcoustics(field));
   }
+  if (view.Has("check_picks")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("check_picks"));
+    LARARIUM_RETURN_IF_ERROR(ParseCheckPicks(field, place.check_picks));
+  }
   return ParseProbes(view, place.probes);
 }
 
 Result<PlaceDocument> ParsePlace(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(CheckFields(
       view, {"name", "training", "preview", "intrinsics", "camera", "added", "tags", "picks",
-             "adjust", "camera_nudge", "occluders", "probe", "probes", "acoustics"}));
+             "adjust", "camera_nudge", "occluders", "probe", "probes", "acoustics", "check_picks"}));
   PlaceDocument place;
   LARARIUM_ASSIGN_OR_RETURN(place.name, ParsePlainName(view, "name"));
   LARARIUM_RETURN_IF_ERROR(ParseOptionalFields(view, place));
@@ -359,6 +375,9 @@ Json FormatPlace(const PlaceDocument& place) {
   }
   if (place.acoustics != stage::Acoustics()) {
     json["acoustics"] = stage::FormatAcoustics(place.acoustics);
+  }
+  for (const stage::Anchor& anchor : place.check_picks) {
+    json["check_picks"].push_back({{"name", anchor.name}, {"picks", FormatPickList(anchor)}});
   }
   return json;
 }
@@ -460,6 +479,20 @@ Result<SpeechDocument> ParseSpeech(const JsonView& view) {
   return speech;
 }
 
+Status ParseCheckPoints(const JsonView& view, std::vector<CheckPointDocument>& points) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, view.Array(kMaxCheckPoints));
+  for (const JsonView& entry : list) {
+    LARARIUM_RETURN_IF_ERROR(CheckFields(entry, {"name", "position"}));
+    CheckPointDocument& point = points.emplace_back();
+    LARARIUM_ASSIGN_OR_RETURN(point.name, entry.Text("name", kMaxCheckPointName));
+    LARARIUM_ASSIGN_OR_RETURN(point.position, ParseVector(entry, "position"));
+    if (point.name.empty()) {
+      return entry.Problem("\"name\" is empty");
+    }
+  }
+  return CheckUniqueNames(points, view.place());
+}
+
 }  // namespace
 
 Result<ProjectDocument> ParseProject(const Json& json, const std::string& place) {
@@ -472,7 +505,8 @@ Result<ProjectDocument> ParseProject(const Json& json, const std::string& place)
                          "open it with that version");
   }
   LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"schema", "title", "credits", "places", "cast", "objects", "speech"}));
+      CheckFields(view, {"schema", "title", "credits", "places", "cast", "objects", "speech",
+                         "check_points"}));
   ProjectDocument document;
   LARARIUM_ASSIGN_OR_RETURN(document.title, view.Text("title"));
   LARARIUM_ASSIGN_OR_RETURN(document.credits, view.Text("credits"));
@@ -502,6 +536,10 @@ Result<ProjectDocument> ParseProject(const Json& json, const std::string& place)
     LARARIUM_ASSIGN_OR_RETURN(const JsonView speech, view.Field("speech"));
     LARARIUM_ASSIGN_OR_RETURN(document.speech, ParseSpeech(speech));
   }
+  if (view.Has("check_points")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView points, view.Field("check_points"));
+    LARARIUM_RETURN_IF_ERROR(ParseCheckPoints(points, document.check_points));
+  }
   LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.places, places.place()));
   LARARIUM_RETURN_IF_ERROR(CheckUniqueNames(document.cast, cast.place()));
   return document;
@@ -521,6 +559,10 @@ Json FormatProject(const ProjectDocument& document) {
   }
   for (const ObjectDocument& object : document.objects) {
     json["objects"].push_back(FormatObject(object));
+  }
+  for (const CheckPointDocument& point : document.check_points) {
+    json["check_points"].push_back(
+        {{"name", point.name}, {"position", FormatVector(point.position)}});
   }
   if (!document.speech.empty()) {
     json["speech"] = {{"spoken", document.speech.spoken}, {"captions", document.speech.captions}};

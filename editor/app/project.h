@@ -86,6 +86,15 @@ struct ProbeDocument {
 // Picks with the names of their anchors set and nothing picked.
 stage::StagePicks EmptyPicks();
 
+// A point of the stage that is looked for at each place, to see whether the stage lies there as it
+// should (check_points.h): what surveyors call a check point. No picks tie the stage to it.
+struct CheckPointDocument {
+  std::string name;                                    // unique; any text
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // metres, stage axes
+};
+inline constexpr size_t kMaxCheckPoints = 256;
+inline constexpr size_t kMaxCheckPointName = 200;  // bytes
+
 // A map holds at most 32 sessions.
 inline constexpr size_t kMaxAddedSessions = 31;
 
@@ -107,6 +116,8 @@ struct PlaceDocument {
   std::vector<OccluderDocument> occluders;
   std::vector<ProbeDocument> probes;  // none: even light
   stage::Acoustics acoustics;
+  // Where the project's check points were picked here; the anchors have their names.
+  std::vector<stage::Anchor> check_picks;
 };
 
 // The languages of the drama, of those of its lines. The first of each is what visitors hear
@@ -125,6 +136,7 @@ struct ProjectDocument {
   std::vector<PlaceDocument> places;
   std::vector<CastDocument> cast;
   std::vector<ObjectDocument> objects;
+  std::vector<CheckPointDocument> check_points;
   SpeechDocument speech;
   // The table of lines while a window has the project open: a file of its own, which
   // project.json knows nothing of. nullptr: not read, or it cannot be.

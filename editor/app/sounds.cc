@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "editor/app/baking.h"
+#include "editor/app/document_fields.h"
 #include "editor/bake/sound_synthesis.h"
 #include "shared/core/file.h"
 #include "shared/stage/object_use.h"
@@ -15,9 +17,80 @@
 namespace lararium::app {
 namespace {
 
-constexpr std::array<std::string_view, 5> kExtensions = {".wav", ".flac", ".ogg", ".oga", ".opus"};
+constexpr std::array<const char*, 5> kExtensions = {".wav", ".flac", ".ogg", ".oga", ".opus"};
+
+bool IsWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+// The name in a call such as sound("bell"), whose brackets Lua lets people leave out, from after
+// its first word; empty: it is none.
+std::string NameInCall(std::string_view rest) {
+  const auto skip = [&](std::string_view these) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(these), rest.size()));
+  };
+  skip(" \t");
+  rest.remove_prefix(rest.starts_with('(') ? 1 : 0);
+  skip(" \t");
+  if (!rest.starts_with('"') && !rest.starts_with('\'')) {
+    return "";
+  }
+  const size_t end = rest.find(rest.front(), 1);
+  return end == std::string_view::npos ? "" : std::string(rest.substr(1, end - 1));
+}
+
+// Calls see(name, line) for sounds that a script names outright. Comments to the end of a line
+// are passed over.
+template <typename See>
+void ForEachNamedSound(std::string_view script, const See& see) {
+  constexpr std::string_view kWord = "sound";
+  int number = 1;
+  for (size_t begin = 0; begin < script.size(); ++number) {
+    const size_t end = std::min(script.find('\n', begin), script.size());
+    std::string_view line = script.substr(begin, end - begin);
+    line = line.substr(0, line.find("--"));
+    begin = end + 1;
+    for (size_t at = line.find(kWord); at != std::string_view::npos;
+         at = line.find(kWord, at + 1)) {
+      const std::string name = NameInCall(line.substr(at + kWord.size()));
+      if (!name.empty() && (at == 0 || !IsWordLetter(line[at - 1]))) {
+        see(name, number);
+      }
+    }
+  }
+}
 
 }  // namespace
+
+std::span<const char* const> SoundExtensions() { return kExtensions; }
+
+std::filesystem::path SoundFileIn(const std::filesystem::path& folder, const std::string& name) {
+  for (const char* extension : kExtensions) {
+    std::error_code ignored;
+    const std::filesystem::path file = folder / (name + extension);
+    if (std::filesystem::is_regular_file(file, ignored)) {
+      return file;
+    }
+  }
+  return {};
+}
+
+Status BringInSound(const ProjectPaths& paths,
+                    const std::string& name,
+                    const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  if (!IsPlainName(name)) {
+    return Status::Error("the sound '" + name + "'", "cannot be the name of a file",
+                         "use letters, digits, '_' and '-'");
+  }
+  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) {
+    return Status::Error(file.string(), "is no recording of a sound",
+                         "use .wav, .flac, .ogg or .opus");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto bytes, ReadBytes(file, audio::SoundReader::kMaxBytes));
+  LARARIUM_RETURN_IF_ERROR(audio::SoundReader::Open(bytes, file.string()).status());
+  std::error_code error;
+  std::filesystem::create_directories(paths.folder / "audio", error);
+  return WriteFileAtomically(paths.folder / "audio" / (name + extension), bytes);
+}
 
 std::vector<SoundFile> FindSounds(const ProjectPaths& paths) {
   std::vector<std::filesystem::path> files;
@@ -60,16 +133,17 @@ Result<std::vector<audio::SoundData>> LoadSounds(const ProjectPaths& paths) {
   return sounds;
 }
 
-std::vector<Status> FindSilences(const ProjectPaths& paths, const ProjectDocument& document) {
+std::vector<MissingSound> FindMissingSounds(const ProjectPaths& paths,
+                                            const ProjectDocument& document,
+                                            std::string_view script) {
   std::set<std::string> known;
   for (const SoundFile& sound : FindSounds(paths)) {
     known.insert(sound.name);
   }
-  std::vector<Status> problems;
+  std::vector<MissingSound> missing;
   const auto expect = [&](const std::string& who, const std::string& sound) {
-    if (!sound.empty() && !known.contains(sound)) {
-      problems.push_back(Status::Error(who, "there is no sound '" + sound + "'",
-                                       "add audio/" + sound + ".wav to the project"));
+    if (!sound.empty() && known.insert(sound).second) {
+      missing.push_back({sound, who});
     }
   };
   for (const PlaceDocument& place : document.places) {
@@ -93,6 +167,20 @@ std::vector<Status> FindSilences(const ProjectPaths& paths, const ProjectDocumen
     for (const stage::StateSound& sound : (*model)->use().sounds) {
       expect(who, sound.name);
     }
+  }
+  ForEachNamedSound(script, [&](const std::string& sound, int line) {
+    expect(paths.Drama().filename().string() + ":" + std::to_string(line), sound);
+  });
+  return missing;
+}
+
+std::vector<Status> FindSilences(const ProjectPaths& paths, const ProjectDocument& document) {
+  std::vector<Status> problems;
+  for (const MissingSound& sound : FindMissingSounds(paths, document, "")) {
+    problems.push_back(Status::Error(sound.who, "there is no sound '" + sound.name + "'",
+                                     "add audio/" + sound.name +
+                                         ".wav to the project, or locate it in the "
+                                         "editor"));
   }
   return problems;
 }

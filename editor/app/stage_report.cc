@@ -147,8 +147,17 @@ std::string StageText(const PlaceDocument& place,
   return text;
 }
 
-StageReport ReportStage(const PlaceDocument& place, const StagedMap& map) {
-  return {StageText(place, map.measures, map.picks), StageJson(place, map.measures, map.picks)};
+StageReport ReportStage(const ProjectDocument& document,
+                        const PlaceDocument& place,
+                        const StagedMap& map) {
+  StageReport report{StageText(place, map.measures, map.picks),
+                     StageJson(place, map.measures, map.picks),
+                     CheckStaging(document, place, *map.database, map.picks.map_from_picked)};
+  if (!document.check_points.empty()) {
+    report.text += CheckText(report.points);
+    report.json["check_points"] = CheckJson(report.points);
+  }
+  return report;
 }
 
 }  // namespace lararium::app

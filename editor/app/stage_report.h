@@ -1,10 +1,11 @@
 #pragma once
 
 // How well the stage of a place is known, for people and for scripts: where its
-// metres come from and how far off they may be, the picks, the floor.
+// metres come from and how far off they may be, the picks, the floor, the check points.
 
 #include <string>
 
+#include "editor/app/check_points.h"
 #include "editor/app/project.h"
 #include "editor/app/staging.h"
 #include "shared/core/json.h"
@@ -25,8 +26,12 @@ std::string StageText(const PlaceDocument& place,
 struct StageReport {
   std::string text;
   Json json;
+  CheckReport points;
 };
 
-StageReport ReportStage(const PlaceDocument& place, const StagedMap& map);
+// The same with the check points of the project, if it has any.
+StageReport ReportStage(const ProjectDocument& document,
+                        const PlaceDocument& place,
+                        const StagedMap& map);
 
 }  // namespace lararium::app

@@ -169,7 +169,9 @@ Result<stage::Place> StageObstacles(const ProjectPaths& paths, const PlaceDocume
     return StagePlace(paths, place, {}, {});
   }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
-  return StagePlace(paths, place, *map.database, map.picks.map_from_picked);
+  // Whoever is drawing an occluder still has a stage.
+  return StagePlace(paths, WithoutDrafts(place, *map.database), *map.database,
+                    map.picks.map_from_picked);
 }
 
 std::vector<light::PlacedProbe> RelitProbes(std::span<const light::PlacedProbe> baked_light,
@@ -224,6 +226,11 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
   LARARIUM_ASSIGN_OR_RETURN(std::vector<light::GlossyMap> glossy,
                             LoadBakedReflections(paths, place));
   content.places.push_back({std::move(staged), std::move(database), std::move(glossy)});
+  for (const PlaceDocument& other : document.places) {
+    if (other.name != place.name) {
+      LARARIUM_ASSIGN_OR_RETURN(content.elsewhere.emplace_back(), StageObstacles(paths, other));
+    }
+  }
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
     content.cast.push_back(

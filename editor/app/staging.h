@@ -71,7 +71,8 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
                                 const geometry::Similarity3& map_from_picked);
 
 // The same of what does not depend on the map: what is in the way, in stage metres. The map is
-// read only where occluders were drawn, and missed where the place is not trained.
+// read only where occluders were drawn, and missed where the place is not trained. Occluders that
+// are not drawn to their end are not in the way.
 Result<stage::Place> StageObstacles(const ProjectPaths& paths, const PlaceDocument& place);
 
 // The light of probes that were baked, turned, brightened and moved as they are now: exact,

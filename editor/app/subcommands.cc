@@ -106,17 +106,32 @@ std::vector<std::string> CheckProbes(const ProjectPaths& paths,
   return problems;
 }
 
-// What keeps a place from being shown; adds how well its stage is known to stages
-// where it is trained.
+// What CheckPlace() gathers of all places.
+struct PlacesChecked {
+  std::string text;  // how well their stages are known
+  Json stages = Json::object();
+  std::vector<std::string> problems;
+  std::vector<std::string> warnings;
+};
+
+// What keeps a place from being shown, and whether the stage lies there as it should.
 Status CheckPlace(const ProjectPaths& paths,
                   const ProjectDocument& document,
                   const PlaceDocument& place,
-                  StageReport& stages) {
+                  PlacesChecked& checked) {
+  for (std::string& problem : CheckProbes(paths, place, checked.warnings)) {
+    checked.problems.push_back(std::move(problem));
+  }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
-  const StageReport stage = ReportStage(place, map);
-  stages.text += place.name + ":\n" + stage.text;
-  stages.json[place.name] = stage.json;
+  const StageReport stage = ReportStage(document, place, map);
+  checked.text += place.name + ":\n" + stage.text;
+  checked.stages[place.name] = stage.json;
   LARARIUM_RETURN_IF_ERROR(map.picks.problem);
+  if (!document.check_points.empty() && stage.points.verdict != CheckReport::Verdict::kGood) {
+    const bool poor = stage.points.verdict == CheckReport::Verdict::kPoor;
+    (poor ? checked.problems : checked.warnings)
+        .push_back("check points of " + place.name + ": " + CheckAdvice(stage.points, false));
+  }
   return AssembleShow(paths, document, place, map.database, map.picks.map_from_picked).status();
 }
 
@@ -247,17 +262,15 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   if (document.places.empty()) {
     problems.push_back(paths.Project().string() + ": has no place; train one");
   }
-  StageReport stages;
-  stages.json = Json::object();
-  std::vector<std::string> warnings;
+  PlacesChecked places;
   for (const PlaceDocument& place : document.places) {
-    const std::vector<std::string> of_probes = CheckProbes(paths, place, warnings);
-    problems.insert(problems.end(), of_probes.begin(), of_probes.end());
-    const Status problem = CheckPlace(paths, document, place, stages);
+    const Status problem = CheckPlace(paths, document, place, places);
     if (!problem.ok()) {
       problems.push_back(problem.message());
     }
   }
+  problems.insert(problems.end(), places.problems.begin(), places.problems.end());
+  std::vector<std::string>& warnings = places.warnings;
   for (const Status& problem : FindSilences(paths, document)) {
     problems.push_back(problem.message());
   }
@@ -274,7 +287,7 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   std::sort(problems.begin(), problems.end());
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
   CommandResult result;
-  result.text = stages.text;
+  result.text = places.text;
   for (const std::string& warning : warnings) {
     result.text += "warning: " + warning + "\n";
   }
@@ -284,7 +297,7 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) 
   if (problems.empty()) {
     result.text += "no problems\n";
   }
-  result.json = {{"problems", problems},      {"warnings", warnings}, {"stages", stages.json},
+  result.json = {{"problems", problems},      {"warnings", warnings}, {"stages", places.stages},
                  {"paradata", paradata.json}, {"tasks", run.tasks},   {"seeks", run.seeks},
                  {"runs", run.runs}};
   if (options.seeks > 0) {

@@ -7,7 +7,6 @@
 #include "editor/app/staging.h"
 #include "editor/train/capture_report.h"
 #include "editor/train/session_merge.h"
-#include "shared/capture/video_writer.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::app {
@@ -135,44 +134,6 @@ Status SaveMap(const ProjectPaths& paths,
                          "cannot make the folder: " + error.message());
   }
   return vision::SaveSceneDatabase(paths.Scene(place.name), database);
-}
-
-Result<int64_t> RecordCamera(int number,
-                             const std::filesystem::path& file,
-                             double max_seconds,
-                             Progress& progress) {
-  LARARIUM_ASSIGN_OR_RETURN(const auto camera, capture::OpenCamera(number));
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
-  if (error) {
-    return Status::Error(file.parent_path().string(), "cannot make the folder: " + error.message());
-  }
-  // The encoder takes even sizes only: at most one row and column are lost.
-  const cv::Rect even(0, 0, camera->width() & ~1, camera->height() & ~1);
-  LARARIUM_ASSIGN_OR_RETURN(
-      const auto writer,
-      capture::VideoWriter::Create(file, even.width, even.height, camera->frames_per_second()));
-  int64_t frames = 0;
-  std::optional<double> first_time;
-  while (!progress.Cancelled()) {
-    LARARIUM_ASSIGN_OR_RETURN(const auto frame, camera->Next());
-    if (!frame) {
-      break;
-    }
-    LARARIUM_RETURN_IF_ERROR(writer->Write(frame->bgr(even)));
-    ++frames;
-    first_time = first_time.value_or(frame->capture_time);
-    const double seconds = frame->capture_time - *first_time;
-    progress.Report("recording", seconds / max_seconds);
-    if (seconds >= max_seconds) {
-      break;
-    }
-  }
-  if (progress.Cancelled()) {
-    return Status::Error(file.string(), "recording was cancelled");
-  }
-  LARARIUM_RETURN_IF_ERROR(writer->Finish());
-  return frames;
 }
 
 std::vector<vision::PoseRecord> PosesOf(const train::TrainReport& report) {

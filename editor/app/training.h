@@ -45,13 +45,6 @@ Status SaveMap(const ProjectPaths& paths,
                const PlaceDocument& place,
                const vision::SceneDatabase& database);
 
-// Records a camera into a video file until stop says so; returns the frames.
-// Training needs a recording: it looks at frames more than once.
-Result<int64_t> RecordCamera(int number,
-                             const std::filesystem::path& file,
-                             double max_seconds,
-                             Progress& progress);
-
 // One record for each frame of the source, in its order.
 std::vector<vision::PoseRecord> PosesOf(const train::TrainReport& report);
 

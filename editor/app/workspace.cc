@@ -148,7 +148,7 @@ void Workspace::ShowPlace(const std::string& name) {
   loaded_ = {};
   picture_ = nullptr;
   preview_ = nullptr;
-  time_ = 0.0;
+  preview_key_.clear();
   playing_ = false;
   map_stale_ = true;
 }
@@ -318,8 +318,9 @@ void Workspace::OnDocumentChanged() {
   }
   cast_pictures_.SetCast(document().cast);
   stage_changed_ = true;
-  if (place() == nullptr && !document().places.empty()) {
-    ShowPlace(document().places.front().name);  // undo took the place away
+  if (place() == nullptr && (!place_name_.empty() || !document().places.empty())) {
+    // It was taken away, or is the first.
+    ShowPlace(document().places.empty() ? "" : document().places.front().name);
     return;
   }
   ResolvePicksAgain();
@@ -741,7 +742,11 @@ void Workspace::RunDramaAgain() {
       std::min(std::max(script_.duration() + kBehind, kShortest), drama::Drama::kMaxTime);
   const auto work = [run, paths = paths_, document = commands_.snapshot(),
                      script = script_.snapshot(), seconds](Progress& progress) {
-    LARARIUM_ASSIGN_OR_RETURN(*run, RunDrama(paths, *document, "", *script, seconds, progress));
+    run->missing_sounds = FindMissingSounds(paths, *document, *script);
+    LARARIUM_ASSIGN_OR_RETURN(DramaRun played,
+                              RunDrama(paths, *document, "", *script, seconds, progress));
+    played.missing_sounds = std::move(run->missing_sounds);
+    *run = std::move(played);
     return Status();
   };
   const auto done = [this, run](const Status& status, bool cancelled) {
@@ -791,6 +796,18 @@ void Workspace::Check() {
           }
         }
       });
+}
+
+bool Workspace::BringInSound(const std::string& name, const std::filesystem::path& file) {
+  if (const Status status = app::BringInSound(paths_, name, file); !status.ok()) {
+    Tell(Message::Level::kError, status.message());
+    return false;
+  }
+  Tell(Message::Level::kInfo,
+       Text(Tr("Copied %s into the project's audio folder"), file.filename().c_str()));
+  stage_changed_ = true;
+  preview_stale_ = true;
+  return true;
 }
 
 void Workspace::TellOfPictures() {

@@ -82,6 +82,7 @@ class Workspace {
 
   // The place that the views show; nullptr where the project has none.
   const PlaceDocument* place() const { return document().FindPlace(place_name_); }
+  // The drama stays at its moment.
   void ShowPlace(const std::string& name);
   const LoadedPlace& loaded() const { return loaded_; }
 
@@ -151,6 +152,9 @@ class Workspace {
   // How the bones of an imported figure were taken, read when first asked for and again
   // when its map changes; the last one stays until then. nullptr: not yet, or it failed.
   const BoneReview* bone_review(const CastDocument& member);
+  // Copies a recording into the project as one of the sounds that it lacks. False, and a message,
+  // where it is none.
+  bool BringInSound(const std::string& name, const std::filesystem::path& file);
   // Writes what is in use into a file, which the member names from then on.
   void SaveBones(const CastDocument& member);
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "editor/panels/check_point_panel.h"
 #include "editor/panels/frame_damage.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
@@ -374,6 +375,7 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   const ImVec2 corner(origin.x + static_cast<float>(width), origin.y + static_cast<float>(height));
   draw.AddImage(TextureOf(target_->texture(), version_), origin, corner);
   draw.PushClipRect(origin, corner, true);
+  DrawCheckPoints(workspace, state, view, draw);
   const bool was_dragging = state.drag.has_value();
   const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
                     (state.drag.has_value() || was_dragging || !active);

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string>
 
+#include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -213,6 +214,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     if (picture->camera_from_stage && state.show_stage) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
       DrawStage(workspace, view, draw);
+      DrawCheckPoints(workspace, state, view, draw);
       ShowGizmo(workspace, state, view, hovered, draw);
     }
     if (state.show_matches) {

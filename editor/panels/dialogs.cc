@@ -14,6 +14,7 @@
 #include "editor/app/training.h"
 #include "editor/import/cast_presets.h"
 #include "editor/import/objects/object_models.h"
+#include "editor/panels/check_point_panel.h"
 #include "editor/panels/export_panel.h"
 #include "editor/panels/key_list.h"
 #include "editor/panels/pick_view.h"
@@ -102,6 +103,16 @@ void TrainDialog(app::Workspace& workspace, EditorState& state) {
     RecordingFields(workspace.paths().folder, fields,
                     Tr("estimated; or fx, fy, cx, cy, k1, k2, p1, p2"));
     EndProperties();
+  }
+  if (app::IsPlainName(fields.place)) {
+    Hint(Text(workspace.document().FindPlace(fields.place) != nullptr
+                  ? Tr("%s is trained anew; its picks keep the stage where it is.")
+                  : Tr("%s will be another place of the drama."),
+              fields.place.c_str()));
+  }
+  if (ImGui::Button(Tr("Film it with a camera instead\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
+    state.dialog = Dialog::kFilm;
+    return;
   }
   if (DialogDone(state, Tr("Train"), TrainProblem(workspace, fields))) {
     TrainRecording(workspace, fields);
@@ -353,7 +364,8 @@ constexpr DialogEntry kDialogs[] = {
     {Dialog::kOccluder, TrLater("Add an occluder"), OccluderDialog},
     {Dialog::kProbe, TrLater("Light probe"), ProbeDialog},
     {Dialog::kCast, TrLater("Add a person"), CastDialog},
-    {Dialog::kObject, TrLater("Add an object"), ObjectDialog}};
+    {Dialog::kObject, TrLater("Add an object"), ObjectDialog},
+    {Dialog::kCheckPoint, TrLater("Add a check point"), CheckPointDialog}};
 
 }  // namespace
 
@@ -371,6 +383,8 @@ std::span<const char* const> ExtensionsOf(app::FileKind kind) {
       return kClips;
     case app::FileKind::kBones:
       return kBones;
+    case app::FileKind::kSound:
+      return app::SoundExtensions();
   }
   return {};
 }
@@ -443,7 +457,7 @@ void ShowDialogs(app::Workspace& workspace, EditorState& state) {
       entry.show(workspace, state);
       open = state.dialog == entry.dialog;
     });
-    if (!open) {
+    if (!open && state.dialog == entry.dialog) {  // one may lead on to another
       state.dialog = Dialog::kNone;
     }
     return;

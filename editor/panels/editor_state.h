@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "editor/app/cast_pictures.h"
+#include "editor/app/check_points.h"
+#include "editor/app/project.h"
 #include "editor/app/settings.h"
 #include "editor/app/show_contents.h"
 #include "editor/bake/probe_match.h"
@@ -22,14 +24,37 @@ namespace lararium::panels {
 enum class ViewKind { kCamera, kAround, kPicks };
 
 struct Selection {
-  enum class Kind { kProject, kPlace, kStage, kPicks, kNudge, kOccluder, kProbe, kActor, kObject };
+  enum class Kind {
+    kProject,
+    kPlace,
+    kStage,
+    kPicks,
+    kNudge,
+    kOccluder,
+    kProbe,
+    kActor,
+    kObject,
+    kCheckPoint
+  };
   Kind kind = Kind::kStage;
-  std::string name;  // of a probe, occluder, actor or object
+  std::string name;  // of a probe, occluder, check point, actor or object
 
   friend bool operator==(const Selection&, const Selection&) = default;
 };
 
-enum class Dialog { kNone, kTrain, kAddSession, kExport, kOccluder, kProbe, kCast, kObject, kKeys };
+enum class Dialog {
+  kNone,
+  kTrain,
+  kAddSession,
+  kExport,
+  kOccluder,
+  kProbe,
+  kCast,
+  kObject,
+  kCheckPoint,
+  kFilm,
+  kKeys
+};
 
 // What has been typed into the open dialog.
 struct DialogFields {
@@ -54,6 +79,15 @@ struct CastView {
   std::string search;    // among the features
   std::string joint;     // of an imported figure, lit in its portrait
   bool all_joints = false;
+};
+
+// The check points as they were worked out last, and from what.
+struct CheckView {
+  std::shared_ptr<const app::ProjectDocument> document;
+  std::shared_ptr<const vision::SceneDatabase> database;
+  std::string place;
+  geometry::Similarity3 map_from_picked;
+  app::CheckReport report;
 };
 
 // How the light of a probe is looked at and matched.
@@ -100,6 +134,7 @@ struct EditorState {
   int anchor = 0;
   int keyframe = 0;
 
+  CheckView check;
   LightView light;
   CastView cast;
   std::shared_ptr<const app::CastPortrait> portrait;  // the one shown in this frame

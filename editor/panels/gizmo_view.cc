@@ -193,4 +193,26 @@ void DrawStage(const app::Workspace& workspace, const ViewCamera& view, ImDrawLi
   }
 }
 
+void DrawCross(const ImVec2& at, ImU32 packed, ImDrawList& draw) {
+  const float arm = Px(9);
+  const float gap = Px(3);
+  for (const auto& [dx, dy] : {std::pair{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) {
+    draw.AddLine(ImVec2(at.x + dx * gap, at.y + dy * gap), ImVec2(at.x + dx * arm, at.y + dy * arm),
+                 packed, Px(2));
+  }
+}
+
+void DrawLabel(const ImVec2& at, const std::string& text, ImU32 packed, ImDrawList& draw) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  draw.AddRectFilled(ImVec2(at.x - Px(5), at.y - Px(2)),
+                     ImVec2(at.x + size.x + Px(5), at.y + size.y + Px(2)),
+                     Packed(OverPicture().window, 0.8f), Px(3));
+  draw.AddText(at, packed, text.c_str());
+}
+
+void LabelMark(const ImVec2& mark, const std::string& text, ImU32 packed, ImDrawList& draw) {
+  DrawLabel(ImVec2(mark.x + Px(13), mark.y - 0.5f * ImGui::GetTextLineHeight()), text, packed,
+            draw);
+}
+
 }  // namespace lararium::panels

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <optional>
+#include <string>
 
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
@@ -41,6 +42,12 @@ void DrawWorldLine(const ViewCamera& view,
                    ImU32 colour,
                    float width,
                    ImDrawList& draw);
+
+// Marks over a picture.
+void DrawCross(const ImVec2& at, ImU32 packed, ImDrawList& draw);
+// at: its top left corner; or beside a mark.
+void DrawLabel(const ImVec2& at, const std::string& text, ImU32 packed, ImDrawList& draw);
+void LabelMark(const ImVec2& mark, const std::string& text, ImU32 packed, ImDrawList& draw);
 
 inline ImVec2 ToImGui(const Eigen::Vector2d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y())};

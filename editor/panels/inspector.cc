@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "editor/app/drawn_occluder.h"
 #include "editor/panels/cast_inspector.h"
+#include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/light_panel.h"
 #include "editor/panels/object_inspector.h"
@@ -203,6 +205,41 @@ void ShowFloor(app::Workspace& workspace, const app::PlaceDocument& place) {
   LayOnFloorButton(workspace);
 }
 
+// Models lie in stage metres: what is built at one place is often there at the other too.
+void TakeOverOccluders(app::Workspace& workspace, const app::PlaceDocument& from) {
+  workspace.EditPlace(
+      Text(Tr("take over the occluders of %s"), from.name.c_str()), [&](app::PlaceDocument& place) {
+        for (const app::OccluderDocument& occluder : from.occluders) {
+          const bool taken = std::any_of(place.occluders.begin(), place.occluders.end(),
+                                         [&](const auto& o) { return o.name == occluder.name; });
+          if (!occluder.drawn() && !taken) {
+            place.occluders.push_back(occluder);
+          }
+        }
+      });
+}
+
+// Among several places.
+void ShowOtherPlaces(app::Workspace& workspace, const app::PlaceDocument& place) {
+  const std::shared_ptr<const app::ProjectDocument> document = workspace.commands().snapshot();
+  const ImVec2 wide(-FLT_MIN, 0);
+  for (const app::PlaceDocument& other : document->places) {
+    const bool has_models = std::any_of(other.occluders.begin(), other.occluders.end(),
+                                        [](const auto& occluder) { return !occluder.drawn(); });
+    const std::string label = Text(Tr("Take over the occluders of %s"), other.name.c_str());
+    if (other.name != place.name && has_models && ImGui::Button(label.c_str(), wide)) {
+      TakeOverOccluders(workspace, other);
+    }
+  }
+  const std::string remove = Text(Tr("Remove %s from the project"), place.name.c_str());
+  if (ImGui::Button(remove.c_str(), wide)) {
+    workspace.Edit(Text(Tr("remove %s"), place.name.c_str()), [&](app::ProjectDocument& edited) {
+      std::erase_if(edited.places, [&](const auto& p) { return p.name == place.name; });
+    });
+  }
+  Hint(Tr("Its files stay on the disk, and undo brings it back."));
+}
+
 void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
   Heading(place.name.c_str());
   const auto database = workspace.loaded().database;
@@ -223,6 +260,8 @@ void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
     ShowScale(workspace, place);
     ShowFloor(workspace, place);
   }
+  ImGui::Dummy(ImVec2(0, Px(6)));
+  ShowOtherPlaces(workspace, place);
 }
 
 void ShowStage(app::Workspace& workspace, EditorState& state, const app::PlaceDocument& place) {
@@ -576,6 +615,11 @@ void ShowInspector(app::Workspace& workspace, EditorState& state) {
     case Kind::kOccluder:
       if (const auto* occluder = FindByName(place->occluders, name)) {
         ShowOccluder(workspace, state, *occluder);
+      }
+      break;
+    case Kind::kCheckPoint:
+      if (const auto* point = FindByName(document->check_points, name)) {
+        ShowCheckPoint(workspace, state, *point);
       }
       break;
     case Kind::kProject:

@@ -141,14 +141,6 @@ void PickOnStage(app::Workspace& workspace,
   AddGreyPatch(workspace, state, probe, patch);
 }
 
-void DrawLabel(const ImVec2& at, const std::string& text, ImU32 packed, ImDrawList& draw) {
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  draw.AddRectFilled(ImVec2(at.x - Px(5), at.y - Px(2)),
-                     ImVec2(at.x + size.x + Px(5), at.y + size.y + Px(2)),
-                     Packed(OverPicture().window, 0.8f), Px(3));
-  draw.AddText(at, packed, text.c_str());
-}
-
 void DrawCurve(const BrightnessHistogram& histogram,
                const ImVec2& low,
                const ImVec2& size,

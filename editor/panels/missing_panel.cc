@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "editor/panels/dialogs.h"
@@ -36,7 +37,11 @@ std::string LocateProblem(const app::ProjectPaths& paths,
 void MissingPanel::Look(const app::Workspace& workspace) {
   if (looked_ < 0.0 || ImGui::GetTime() > looked_ + kLookAgain) {
     looked_ = ImGui::GetTime();
-    missing_ = app::MissingFiles(workspace.paths(), workspace.document());
+    const app::DramaRun* run = workspace.drama_run();
+    missing_ =
+        app::MissingFiles(workspace.paths(), workspace.document(),
+                          run != nullptr ? std::span<const app::MissingSound>(run->missing_sounds)
+                                         : std::span<const app::MissingSound>());
   }
 }
 
@@ -70,8 +75,13 @@ void MissingPanel::ShowRow(const app::Workspace& workspace, const app::MissingFi
 
 void MissingPanel::ShowDialog(app::Workspace& workspace) {
   const app::ProjectPaths& paths = workspace.paths();
-  Hint(Text(Tr("Where is %s now? It was in %s."), locating_->shown.c_str(),
-            paths.Resolve(locating_->path).c_str()));
+  if (locating_->kind == app::FileKind::kSound) {
+    Hint(Text(Tr("Which recording is %s? It is copied into the project's audio folder."),
+              locating_->shown.c_str()));
+  } else {
+    Hint(Text(Tr("Where is %s now? It was in %s."), locating_->shown.c_str(),
+              paths.Resolve(locating_->path).c_str()));
+  }
   if (BeginProperties("locate")) {
     PropertyLabel(locating_->kind == app::FileKind::kImages ? Tr("Folder") : Tr("File"));
     PathField("file", typed_, paths.folder, ExtensionsOf(locating_->kind));
@@ -95,18 +105,40 @@ void MissingPanel::ShowDialog(app::Workspace& workspace) {
   }
   const DialogAnswer answer = DialogButtons(Tr("Locate"), problem);
   if (answer == DialogAnswer::kAct) {
-    const std::string name = std::filesystem::path(located.to).filename().string();
-    workspace.Edit(Text(Tr("locate %s"), name.c_str()), [&](app::ProjectDocument& document) {
-      app::Relocate(located, document);
-      for (const app::Relocation& offer : take_offers_ ? offers_ : decltype(offers_)()) {
-        app::Relocate(offer, document);
-      }
-    });
-    looked_ = -1.0;
+    std::vector<app::Relocation> moves = {located};
+    if (take_offers_) {
+      moves.insert(moves.end(), offers_.begin(), offers_.end());
+    }
+    Take(workspace, moves);
   }
   if (answer != DialogAnswer::kNone) {
     locating_.reset();
   }
+}
+
+// Sounds are copied; what the document names is named anew, as one edit.
+void MissingPanel::Take(app::Workspace& workspace, std::span<const app::Relocation> moves) {
+  std::vector<app::Relocation> renamed;
+  for (const app::Relocation& move : moves) {
+    const bool sound = std::any_of(missing_.begin(), missing_.end(), [&](const auto& file) {
+      return file.kind == app::FileKind::kSound && file.path == move.from;
+    });
+    if (sound) {
+      workspace.BringInSound(std::filesystem::path(move.from).filename().string(),
+                             workspace.paths().Resolve(move.to));
+    } else {
+      renamed.push_back(move);
+    }
+  }
+  if (!renamed.empty()) {
+    const std::string name = std::filesystem::path(renamed.front().to).filename().string();
+    workspace.Edit(Text(Tr("locate %s"), name.c_str()), [&](app::ProjectDocument& document) {
+      for (const app::Relocation& move : renamed) {
+        app::Relocate(move, document);
+      }
+    });
+  }
+  looked_ = -1.0;
 }
 
 void MissingPanel::Show(app::Workspace& workspace) {

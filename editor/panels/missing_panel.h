@@ -3,6 +3,7 @@
 // Files that the project names and that are not there, each with a way to locate it.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ class MissingPanel {
  private:
   void ShowRow(const app::Workspace& workspace, const app::MissingFile& file);
   void ShowDialog(app::Workspace& workspace);
+  void Take(app::Workspace& workspace, std::span<const app::Relocation> moves);
   void FillOffers(const app::Workspace& workspace, const app::Relocation& located);
 
   std::vector<app::MissingFile> missing_;

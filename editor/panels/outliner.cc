@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include "editor/panels/check_point_panel.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -20,6 +21,16 @@ void Row(EditorState& state, const char* label, const Selection& selection) {
   ImGui::Unindent(Px(6));
   ImGui::PopID();
   ImGui::PopID();
+}
+
+// A check point with a dot at the right: how it is at this place.
+void CheckPointRow(EditorState& state, const app::CheckPointReport& point) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  Row(state, point.name.c_str(), {Selection::Kind::kCheckPoint, point.name});
+  ImGui::GetWindowDrawList()->AddCircleFilled(
+      ImVec2(right - Px(10), from.y + 0.5f * ImGui::GetTextLineHeight()), Px(4.5f),
+      Packed(VerdictColour(point.verdict)));
 }
 
 // A person with their thumbnail before the name.
@@ -98,6 +109,12 @@ void ShowOutliner(app::Workspace& workspace, EditorState& state) {
   Section(Tr("Objects"), &state, Dialog::kObject);
   for (const app::ObjectDocument& object : workspace.document().objects) {
     Row(state, object.name.c_str(), {Kind::kObject, object.name});
+  }
+  if (workspace.place() != nullptr) {
+    Section(Tr("Check points"), &state, Dialog::kCheckPoint);
+    for (const app::CheckPointReport& point : CheckedPoints(workspace, state).points) {
+      CheckPointRow(state, point);
+    }
   }
 }
 

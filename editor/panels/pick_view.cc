@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "editor/app/check_points.h"
 #include "editor/app/drawn_occluder.h"
+#include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -57,22 +59,14 @@ void SetPick(app::Workspace& workspace,
   });
 }
 
-void DrawCross(const ImVec2& at, ImU32 packed, ImDrawList& draw) {
-  const float arm = Px(9);
-  const float gap = Px(3);
-  for (const auto& [dx, dy] : {std::pair{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) {
-    draw.AddLine(ImVec2(at.x + dx * gap, at.y + dy * gap), ImVec2(at.x + dx * arm, at.y + dy * arm),
-                 packed, Px(2));
-  }
-}
-
-void DrawLabel(const ImVec2& at, const char* text, ImU32 packed, ImDrawList& draw) {
-  const ImVec2 size = ImGui::CalcTextSize(text);
-  const ImVec2 from(at.x + Px(12), at.y - 0.5f * size.y);
-  draw.AddRectFilled(ImVec2(from.x - Px(4), from.y - Px(2)),
-                     ImVec2(from.x + size.x + Px(4), from.y + size.y + Px(2)),
-                     Packed(OverPicture().window, 0.75f), Px(3));
-  draw.AddText(from, packed, text);
+void PickCheckPoint(app::Workspace& workspace,
+                    const std::string& name,
+                    const vision::Keyframe& keyframe,
+                    const Vector2d& pixel) {
+  const stage::Pick pick{keyframe.frame_index, keyframe.name, pixel, keyframe.session};
+  workspace.EditPlace(Text(Tr("pick %s"), name.c_str()), [&, name](app::PlaceDocument& place) {
+    app::SetCheckPick(place, name, pick);
+  });
 }
 
 // Crosses where anchors were picked in this image, rings where their points in
@@ -92,7 +86,7 @@ void DrawAnchors(const app::Workspace& workspace,
       if (stage::LiesIn(pick, keyframe)) {
         const ImVec2 at = ToImGui(map.ToScreen(pick.pixel));
         DrawCross(at, packed, draw);
-        DrawLabel(at, Tr(kAnchors[i].label), packed, draw);
+        LabelMark(at, Tr(kAnchors[i].label), packed, draw);
       }
     }
     if (!solution) {
@@ -120,7 +114,7 @@ void DrawCorners(const app::Workspace& workspace,
     if (const stage::Pick* pick = app::PickIn(occluder.corners[i], keyframe)) {
       outline.push_back(ToImGui(map.ToScreen(pick->pixel)));
       DrawCross(outline.back(), Packed(OverPicture().accent), draw);
-      DrawLabel(outline.back(), std::to_string(i + 1).c_str(), Packed(OverPicture().text), draw);
+      LabelMark(outline.back(), std::to_string(i + 1), Packed(OverPicture().text), draw);
     }
   }
   const bool all = outline.size() == occluder.corners.size();
@@ -140,6 +134,34 @@ void DrawCorners(const app::Workspace& workspace,
             database.camera.Project(keyframe.camera_from_map * report->point_in_map)) {
       draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), Packed(OverPicture().warning), 0,
                      Px(1.5f));
+    }
+  }
+}
+
+// Where check points were picked in this image, and rings where the stage says that they are: the
+// gap between the two is what visitors would see.
+void DrawCheckPicks(const app::Workspace& workspace,
+                    EditorState& state,
+                    const vision::Keyframe& keyframe,
+                    const ImageMap& map,
+                    ImDrawList& draw) {
+  const app::PlaceDocument& place = *workspace.place();
+  const geometry::Similarity3 map_from_stage =
+      workspace.loaded().picks.map_from_picked * place.picked_from_stage;
+  for (const app::CheckPointDocument& point : workspace.document().check_points) {
+    const bool active = point.name == state.selection.name;
+    const ImU32 packed = Packed(active ? OverPicture().accent : OverPicture().warning);
+    const stage::Anchor* anchor = app::FindCheckPicks(place, point.name);
+    const stage::Pick* pick = anchor != nullptr ? app::PickIn(*anchor, keyframe) : nullptr;
+    if (pick != nullptr) {
+      const ImVec2 at = ToImGui(map.ToScreen(pick->pixel));
+      DrawCross(at, packed, draw);
+      LabelMark(at, point.name, packed, draw);
+    }
+    const auto pixel = workspace.loaded().database->camera.Project(
+        keyframe.camera_from_map * (map_from_stage * point.position));
+    if (pixel && (active || pick != nullptr)) {
+      draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), packed, 0, Px(1.5f));
     }
   }
 }
@@ -193,6 +215,20 @@ void ShowCornerHint(const app::Workspace& workspace, const app::OccluderDocument
                             static_cast<int>(occluder.corners.size()), drawn->error_px)
                      : Tr("Click the corners of a face in turn, then the same ones in another "
                           "image."));
+}
+
+void ShowCheckHint(const app::Workspace& workspace, EditorState& state, const std::string& name) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name.c_str());
+  ImGui::SameLine(0.0f, Px(14));
+  for (const app::CheckPointReport& point : CheckedPoints(workspace, state).points) {
+    if (point.name == name) {
+      DimText(point.located()
+                  ? Text(Tr("%d picks agree to %.2f px; the ring is where the stage says it is"),
+                         point.anchor.picks, point.anchor.error_px)
+                  : Tr("Click it in this image, then in one taken from elsewhere."));
+    }
+  }
 }
 
 }  // namespace
@@ -287,8 +323,11 @@ void PickView::ShowImage(app::Workspace& workspace,
   const app::OccluderDocument* drawn = OccluderInWork(workspace, state);
   // What lies beside the image stays off the controls.
   draw.PushClipRect(corner, ImVec2(corner.x + size.x, corner.y + size.y), true);
+  const app::CheckPointDocument* checked = SelectedCheckPoint(workspace, state);
   if (drawn != nullptr) {
     DrawCorners(workspace, *drawn, keyframe, map, draw);
+  } else if (checked != nullptr) {
+    DrawCheckPicks(workspace, state, keyframe, map, draw);
   } else {
     DrawAnchors(workspace, state, keyframe, map, draw);
   }
@@ -300,11 +339,15 @@ void PickView::ShowImage(app::Workspace& workspace,
     DrawLoupe(ImGui::GetMousePos(), pixel, texture_, draw);
     if (drawn != nullptr) {
       if (const std::string text = ClickText(*drawn, keyframe); !text.empty()) {
-        DrawLabel(ImGui::GetMousePos(), text.c_str(), Packed(OverPicture().text), draw);
+        LabelMark(ImGui::GetMousePos(), text, Packed(OverPicture().text), draw);
       }
       DragCorner(workspace, *drawn, keyframe, pixel, 8.0 / map.scale);
     } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-      SetPick(workspace, state.anchor, keyframe, pixel);
+      if (checked != nullptr) {
+        PickCheckPoint(workspace, checked->name, keyframe, pixel);
+      } else {
+        SetPick(workspace, state.anchor, keyframe, pixel);
+      }
     }
   }
   if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && dragged_corner_) {
@@ -323,6 +366,8 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
   }
   if (const app::OccluderDocument* drawn = OccluderInWork(workspace, state)) {
     ShowCornerHint(workspace, *drawn);
+  } else if (const app::CheckPointDocument* checked = SelectedCheckPoint(workspace, state)) {
+    ShowCheckHint(workspace, state, checked->name);
   } else {
     ShowAnchorButtons(workspace, state);
   }

@@ -117,6 +117,9 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   if (ImGui::MenuItem(Tr("Add a light probe\xe2\x80\xa6"), nullptr, false, any)) {
     OpenDialog(state, Dialog::kProbe);
   }
+  if (ImGui::MenuItem(Tr("Add a check point\xe2\x80\xa6"), nullptr, false, any)) {
+    OpenDialog(state, Dialog::kCheckPoint);
+  }
   if (ImGui::MenuItem(Tr("Add a person\xe2\x80\xa6"))) {
     OpenDialog(state, Dialog::kCast);
   }

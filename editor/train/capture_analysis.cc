@@ -225,8 +225,6 @@ void FillPlaces(const vision::SceneDatabase& database,
 
 constexpr int kFewFeatures = 150;     // an image with fewer is rarely located
 constexpr int kFewObservations = 60;  // a located frame with fewer hangs loosely
-constexpr double kBlurred = 0.35;     // of the sharpness of the frames around
-constexpr double kFastMotion = 0.06;  // of the image diagonal from frame to frame
 
 // Median sharpness of the frames around each.
 std::vector<double> SharpnessAround(std::span<const FrameReport> frames) {
@@ -245,7 +243,7 @@ std::vector<double> SharpnessAround(std::span<const FrameReport> frames) {
 }
 
 std::optional<WeakReason> WhyWeak(const FrameReport& frame, double sharpness_around) {
-  const bool blurred = frame.motion.sharpness < kBlurred * sharpness_around;
+  const bool blurred = frame.motion.sharpness < kBlurredShare * sharpness_around;
   const bool few = frame.features < kFewFeatures;
   if (frame.camera_from_map) {
     if (frame.observations >= kFewObservations) {
@@ -259,7 +257,7 @@ std::optional<WeakReason> WhyWeak(const FrameReport& frame, double sharpness_aro
   if (few) {
     return WeakReason::kFewFeatures;
   }
-  return frame.motion.shift > kFastMotion ? WeakReason::kFastMotion : WeakReason::kNotLocated;
+  return frame.motion.shift > kFastShift ? WeakReason::kFastMotion : WeakReason::kNotLocated;
 }
 
 std::vector<WeakFrames> FindWeakFrames(std::span<const FrameReport> frames) {

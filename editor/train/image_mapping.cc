@@ -29,7 +29,7 @@ double ParallaxPx(std::span<const TrainingImage> images,
     points.a.push_back(camera.PlaneFromPixel({a.x, a.y}));
     points.b.push_back(camera.PlaneFromPixel({b.x, b.y}));
   }
-  return AngleBesidesTurning(points) * camera.Focal();
+  return EstimateTurning(points).median_angle * camera.Focal();
 }
 
 Status WhyNoMap(std::span<const TrainingImage> images, const VerifiedPairs& verified) {

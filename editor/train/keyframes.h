@@ -27,6 +27,10 @@ class MotionMeter {
 
 // What counts as the shift between frames that flow does not connect.
 inline constexpr double kLostShift = 0.25;
+// More from frame to frame is too fast for training to follow.
+inline constexpr double kFastShift = 0.06;
+// A frame of less than this share of the sharpness of those around it is blurred.
+inline constexpr double kBlurredShare = 0.35;
 
 // Up to max_count frames at even distances along the accumulated shift, each the
 // sharpest of its stretch; all frames when there are no more than max_count.

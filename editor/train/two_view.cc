@@ -164,7 +164,7 @@ std::optional<Fundamental> EstimateFundamental(const PointPairs& pixels, double 
   return fundamental;
 }
 
-double AngleBesidesTurning(const PointPairs& plane_points) {
+Turning EstimateTurning(const PointPairs& plane_points) {
   CHECK(plane_points.size() > 0);
   Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
   std::vector<uint32_t> all;
@@ -178,7 +178,7 @@ double AngleBesidesTurning(const PointPairs& plane_points) {
   Eigen::Vector3d signs(1.0, 1.0, 1.0);
   signs.z() = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
   const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  return MedianAngle(plane_points, all, rotation);
+  return {Eigen::Quaterniond(rotation), MedianAngle(plane_points, all, rotation)};
 }
 
 PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double threshold) {

@@ -3,6 +3,7 @@
 // Two-view geometry that separates true matches from false ones.
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,10 +43,13 @@ struct Fundamental {
 // From pixels, without intrinsics, within RANSAC.
 std::optional<Fundamental> EstimateFundamental(const PointPairs& pixels, double threshold_px);
 
-// How far the points lie from where a mere turn of the camera would put them:
-// the median angle in radians after the best rotation of all rays (Kabsch).
-// Near zero without parallax. At least one pair.
-double AngleBesidesTurning(const PointPairs& plane_points);
+// What a mere turn of the camera explains: the best rotation of all rays (Kabsch).
+struct Turning {
+  Eigen::Quaterniond b_from_a = Eigen::Quaterniond::Identity();
+  double median_angle = 0.0;  // radians that points are off besides; near zero without parallax
+};
+// At least one pair.
+Turning EstimateTurning(const PointPairs& plane_points);
 
 struct PlanarGeometry {
   double share = 0.0;  // 0..1, of the point pairs that one homography explains

@@ -79,7 +79,7 @@ Status Show::FillStage() {
 
 // The show goes on where nobody can walk, but for the walks.
 void Show::PrepareFloor(Log& log) {
-  std::vector<stage::Place> places;
+  std::vector<stage::Place> places = content_.elsewhere;
   for (const ShowPlace& place : content_.places) {
     places.push_back(place.stage);
   }

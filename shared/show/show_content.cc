@@ -313,6 +313,11 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
   ShowContent content;
   content.title = manifest.title;
   LARARIUM_ASSIGN_OR_RETURN(content.places, LoadShowPlaces(bundle, place));
+  for (const bundle::PlaceEntry& entry : manifest.places) {
+    if (!place.empty() && entry.name != place) {
+      LARARIUM_ASSIGN_OR_RETURN(content.elsewhere.emplace_back(), LoadStage(bundle, entry));
+    }
+  }
 
   for (const bundle::CastEntry& member : manifest.cast) {
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.human));

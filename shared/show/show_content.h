@@ -77,6 +77,9 @@ struct ShowPlace {
 struct ShowContent {
   std::string title;
   std::vector<ShowPlace> places;  // at least one
+  // Further places of the drama that this show is not at: what is in the way there is in the way
+  // here too, so that the drama is the same everywhere. Only their occluders count.
+  std::vector<stage::Place> elsewhere = {};
   std::vector<CastMember> cast;
   std::vector<StageObject> objects;
   std::vector<Speech> speech;

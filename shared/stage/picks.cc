@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -278,28 +279,38 @@ double ReprojectionError(std::span<const Sight> sights,
   return std::sqrt(sum / static_cast<double>(sights.size()));
 }
 
-// Sum of squared changes of the anchor's distance from other when each
-// coordinate of each pick moves by one pixel: central differences over half
-// pixels, through the whole solution.
-double DistanceVariance(const Anchor& anchor,
-                        const Eigen::Vector3d& other,
-                        const SceneDatabase& database) {
+// Sum of squared changes of something that depends on the anchor's point when each coordinate of
+// each pick moves by one pixel: central differences over half pixels, through the whole solution.
+// squared_change(a, b): of it from a point to another.
+template <typename SquaredChange>
+double Variance(const Anchor& anchor,
+                const SceneDatabase& database,
+                const SquaredChange& squared_change) {
   double variance = 0.0;
   std::vector<Sight> sights = FindSights(anchor, database);
   for (Sight& sight : sights) {
     for (int axis = 0; axis < 2; ++axis) {
-      std::array<double, 2> distance = {0.0, 0.0};
       const double exact = sight.pixel[axis];
-      for (int side = 0; side < 2; ++side) {
-        sight.pixel[axis] = exact + side - 0.5;
-        const Result<Eigen::Vector3d> moved = LocateAnchor(anchor, sights, database);
-        distance[static_cast<size_t>(side)] = moved.ok() ? (*moved - other).norm() : 0.0;
-      }
+      sight.pixel[axis] = exact - 0.5;
+      const Result<Eigen::Vector3d> before = LocateAnchor(anchor, sights, database);
+      sight.pixel[axis] = exact + 0.5;
+      const Result<Eigen::Vector3d> after = LocateAnchor(anchor, sights, database);
       sight.pixel[axis] = exact;
-      variance += (distance[1] - distance[0]) * (distance[1] - distance[0]);
+      variance += before.ok() && after.ok() ? squared_change(*before, *after)
+                                            : std::numeric_limits<double>::infinity();
     }
   }
   return variance;
+}
+
+// Of the anchor's distance from other.
+double DistanceVariance(const Anchor& anchor,
+                        const Eigen::Vector3d& other,
+                        const SceneDatabase& database) {
+  return Variance(anchor, database, [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    const double change = (b - other).norm() - (a - other).norm();
+    return change * change;
+  });
 }
 
 // +Y of the stage, in the map.
@@ -343,6 +354,13 @@ Result<AnchorReport> SolveAnchor(const Anchor& anchor, const SceneDatabase& data
                       angle,
                       point,
                       FramesLeftOut(anchor, database)};
+}
+
+double AnchorSpread(const Anchor& anchor, const SceneDatabase& database) {
+  return std::sqrt(Variance(anchor, database,
+                            [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+                              return (b - a).squaredNorm();
+                            }));
 }
 
 Result<StageSolution> SolveStage(const StagePicks& picks,

@@ -60,6 +60,11 @@ struct AnchorReport {
 // Where the anchor lies in the map. Errors name it, and what to pick instead.
 Result<AnchorReport> SolveAnchor(const Anchor& anchor, const vision::SceneDatabase& database);
 
+// Standard deviation of the anchor's point, were every pick off by one pixel (first order);
+// map units. Infinite where it could then not be located any more. The anchor has to be one that
+// SolveAnchor() locates.
+double AnchorSpread(const Anchor& anchor, const vision::SceneDatabase& database);
+
 struct StageSolution {
   geometry::Similarity3 map_from_stage;
   std::vector<AnchorReport> anchors;

@@ -5,9 +5,11 @@
 
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "editor/app/workspace.h"
 #include "shared/core/file.h"
+#include "tests/audio/test_sounds.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::app {
@@ -132,6 +134,66 @@ TEST_F(MissingFilesTest, LocatingOneNamesItWhereverItIsUsedAndCanBeUndone) {
   (*workspace)->Undo();
   EXPECT_EQ((*workspace)->document().places[0].training.path, old_ + "/film/walk.mp4");
   EXPECT_EQ((*workspace)->document().cast[0].clips[0].file, old_ + "/clips/wave.bvh");
+}
+
+// A quarter of a second of silence.
+std::vector<std::byte> Silence() { return test::Encode(std::vector<float>(12'000), 1); }
+
+TEST_F(MissingFilesTest, SoundsThatAPlaceAnObjectOrTheDramaNamesAreMissed) {
+  ASSERT_TRUE(CreateProject(paths_, "Show").ok());
+  document_ = {};
+  document_.places.emplace_back().name = "bar";
+  document_.places[0].acoustics.ambience.emplace_back().sound = "crowd";
+  document_.places[0].acoustics.ambience.emplace_back().sound = "room";  // is built in
+  const std::vector<MissingSound> sounds = FindMissingSounds(paths_, document_, R"(
+    function main()
+      sound("bell"):play{}   -- sound("not this one")
+      sound 'gong':play{}
+      mysound("nor this")
+      sound(name):play{}
+      sound("crowd"):stop()
+      sound("brazier"):play{}
+    end)");
+  ASSERT_EQ(sounds.size(), 3u);
+  EXPECT_EQ(sounds[0].name, "crowd");
+  EXPECT_EQ(sounds[0].who, "place 'bar'");
+  EXPECT_EQ(sounds[1].name, "bell");
+  EXPECT_EQ(sounds[1].who, "drama.lua:3");
+  EXPECT_EQ(sounds[2].name, "gong");
+  const std::vector<MissingFile> missing = MissingFiles(paths_, document_, sounds);
+  ASSERT_EQ(missing.size(), 3u);
+  EXPECT_EQ(missing[1].path, "audio/bell");
+  EXPECT_EQ(missing[1].kind, FileKind::kSound);
+  EXPECT_EQ(missing[1].role, "the sound \"bell\" (drama.lua:3)");
+}
+
+TEST_F(MissingFilesTest, ALocatedSoundIsCopiedAndOthersOfItsFolderAreOffered) {
+  ASSERT_TRUE(CreateProject(paths_, "Show").ok());
+  document_ = {};
+  fs::create_directories(folder_ / "recordings");
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "recordings/big bell.wav", Silence()).ok());
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "recordings/gong.wav", Silence()).ok());
+  const std::vector<MissingSound> sounds = {{"bell", "drama.lua:3"}, {"gong", "drama.lua:4"}};
+  const std::vector<MissingFile> missing = MissingFiles(paths_, document_, sounds);
+  const Relocation located{"audio/bell", (folder_ / "recordings/big bell.wav").string()};
+  EXPECT_THAT(SameMove(paths_, missing, located),
+              ElementsAre(Relocation{"audio/gong", (folder_ / "recordings/gong.wav").string()}));
+  ASSERT_TRUE(BringInSound(paths_, "bell", located.to).ok());
+  EXPECT_TRUE(fs::exists(paths_.folder / "audio/bell.wav"));
+  EXPECT_EQ(MissingFiles(paths_, document_, sounds).size(), 1u);
+  EXPECT_TRUE(FindMissingSounds(paths_, document_, "sound('bell'):play{}").empty());
+}
+
+TEST_F(MissingFilesTest, WhatIsNoRecordingIsNotBroughtIn) {
+  ASSERT_TRUE(CreateProject(paths_, "Show").ok());
+  Put(folder_ / "noise.wav");
+  EXPECT_THAT(BringInSound(paths_, "bell", folder_ / "noise.wav").message(),
+              testing::HasSubstr("noise.wav"));
+  EXPECT_THAT(BringInSound(paths_, "bell", folder_ / "noise.txt").message(),
+              testing::HasSubstr("is no recording"));
+  EXPECT_THAT(BringInSound(paths_, "../bell", folder_ / "noise.wav").message(),
+              testing::HasSubstr("cannot be the name"));
+  EXPECT_FALSE(fs::exists(paths_.folder / "audio/bell.wav"));
 }
 
 }  // namespace

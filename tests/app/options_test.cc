@@ -80,9 +80,26 @@ TEST(EditorOptions, TrainTakesOneRecordingThatIsThere) {
 
 TEST(EditorOptions, TrainWithoutARecordingTakesTheOneBefore) {
   const auto train = Parsed<TrainOptions>({"train", "p"});
-  EXPECT_TRUE(train.video.empty() && train.images.empty() && !train.camera);
+  EXPECT_TRUE(train.video.empty() && train.images.empty() && train.camera.empty());
   EXPECT_FALSE(train.points.has_value());
   EXPECT_FALSE(train.tag_size.has_value());
+}
+
+TEST(EditorOptions, CheckPointsDoesOneWorkWithAllThatItNeeds) {
+  const auto set = Parsed<CheckPointsOptions>(
+      {"check-points", "p", "--set", "counter, left", "--at", "-1.2,0.9,-0.4"});
+  EXPECT_EQ(set.set, "counter, left");
+  EXPECT_THAT(set.at, ElementsAre(-1.2, 0.9, -0.4));
+  const auto pick =
+      Parsed<CheckPointsOptions>({"check-points", "p", "--place", "site", "--pick", "counter",
+                                  "--frame", "000012.png", "--pixel", "10.5,20"});
+  EXPECT_EQ(pick.frame, "000012.png");
+  EXPECT_THAT(pick.pixel, ElementsAre(10.5, 20));
+  EXPECT_TRUE(Parsed<CheckPointsOptions>({"check-points", "p", "--lay"}).lay);
+  EXPECT_THAT(Refusal({"check-points", "p", "--set", "a"}), HasSubstr("--at"));
+  EXPECT_THAT(Refusal({"check-points", "p", "--pick", "a"}), HasSubstr("--frame"));
+  EXPECT_THAT(Refusal({"check-points", "p", "--at", "1,2,3"}), HasSubstr("--set"));
+  EXPECT_THAT(Refusal({"check-points", "p", "--lay", "--remove", "a"}), HasSubstr("--lay"));
 }
 
 TEST(EditorOptions, PointsLieBetweenAHundredAndTenMillion) {

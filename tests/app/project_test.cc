@@ -42,11 +42,14 @@ ProjectDocument FullDocument() {
     drawn.corners.push_back({CornerName(i), {{3, "a.png", {x, 1}}, {9, "b.png", {x, 2}, 1}}});
   }
   place.occluders.push_back(drawn);
+  place.check_picks = {
+      {"counter, left", {{12, "000012.png", {1.5, 2.5}}, {40, "b.png", {3, 4}, 1}}}};
   PlaceDocument untouched;
   untouched.name = "maquette";
   ProjectDocument document;
   document.title = "Vetutius";
   document.credits = "by hand";
+  document.check_points = {{"counter, left", {-1.25, 0.9, 0.5}}, {"door", {0, 2, -3}}};
   document.places = {place, untouched};
   document.cast.resize(4);
   document.cast[0].name = "Publia";
@@ -96,6 +99,25 @@ TEST(Project, SurvivesWritingAndReading) {
   EXPECT_EQ(wall.corners[2].picks[1].session, 1u);
   EXPECT_EQ(wall.corners[2].picks[1].pixel, Eigen::Vector2d(20, 2));
   EXPECT_EQ(wall.depth, 0.25);
+  ASSERT_EQ(loaded->check_points.size(), 2u);
+  EXPECT_EQ(loaded->check_points[0].name, "counter, left");
+  EXPECT_EQ(loaded->check_points[0].position, Eigen::Vector3d(-1.25, 0.9, 0.5));
+  ASSERT_EQ(loaded->places[0].check_picks.size(), 1u);
+  EXPECT_EQ(loaded->places[0].check_picks[0].name, "counter, left");
+  EXPECT_EQ(loaded->places[0].check_picks[0].picks[1].session, 1u);
+}
+
+TEST(Project, CheckPointsHaveNamesOfTheirOwn) {
+  Json json = FormatProject(FullDocument());
+  json["check_points"][1]["name"] = "counter, left";
+  EXPECT_THAT(ParseError(json).message(), HasSubstr("there twice"));
+  json["check_points"][1]["name"] = "";
+  EXPECT_THAT(ParseError(json).message(), HasSubstr("check_points[1]"));
+  json["check_points"][1]["name"] = "door";
+  json["check_points"][1]["position"] = {0, 1};
+  EXPECT_THAT(ParseError(json).message(), HasSubstr("position"));
+  json["check_points"] = Json::array();
+  EXPECT_TRUE(ParseProject(json, "project.json").ok()) << "picks of none are kept";
 }
 
 TEST(Project, ANewOneLoadsAndLacksNothing) {

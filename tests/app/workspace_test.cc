@@ -196,6 +196,34 @@ TEST_F(WorkspaceTest, PlaysTheDramaInALoopWithoutARecording) {
   EXPECT_EQ(workspace->time(), 0.0);
 }
 
+TEST_F(WorkspaceTest, AnotherPlaceIsShownAtTheSameMomentAndARemovedOneGivesWay) {
+  ProjectDocument document = *LoadProject(paths_);
+  document.places.resize(2);
+  document.places[0].name = "maquette";
+  document.places[1].name = "site";
+  ASSERT_TRUE(SaveProject(paths_, document).ok());
+  const auto workspace = Open();
+  ASSERT_EQ(workspace->place()->name, "maquette");
+  workspace->SetTime(3.0);
+  workspace->ShowPlace("site");
+  EXPECT_EQ(workspace->place()->name, "site");
+  EXPECT_EQ(workspace->time(), 3.0);
+  const auto remove = [&](const std::string& name) {
+    workspace->Edit("remove", [&](ProjectDocument& edited) {
+      std::erase_if(edited.places, [&](const auto& place) { return place.name == name; });
+    });
+  };
+  remove("site");
+  ASSERT_NE(workspace->place(), nullptr);
+  EXPECT_EQ(workspace->place()->name, "maquette");
+  remove("maquette");
+  EXPECT_EQ(workspace->place(), nullptr);
+  EXPECT_EQ(workspace->loaded().database, nullptr);
+  workspace->Undo();
+  ASSERT_NE(workspace->place(), nullptr);
+  EXPECT_EQ(workspace->place()->name, "maquette");
+}
+
 TEST_F(WorkspaceTest, AFailedExportIsAMessageAndWritesNothing) {
   const auto workspace = Open();
   const std::filesystem::path out = folder_ / "show.larshow";

@@ -203,6 +203,27 @@ TEST(StagePicks, TheSpreadPredictsWhatWrongPicksDo) {
   EXPECT_NEAR(std::sqrt(sum / kRounds) / solution->length_spread, 1.0, 0.15);
 }
 
+TEST(StagePicks, TheSpreadOfAPointPredictsWhatWrongPicksDoToIt) {
+  const World world;
+  const vision::SceneDatabase map = world.Map(SomeGauge());
+  const Anchor exact = world.See("corner", {0.4, 0.7, 0.9}, {0, 3, 6});
+  const auto located = SolveAnchor(exact, map);
+  ASSERT_TRUE(located.ok());
+  Random random(12);
+  double sum = 0.0;
+  constexpr int kRounds = 400;
+  for (int i = 0; i < kRounds; ++i) {
+    Anchor noisy = exact;
+    for (Pick& pick : noisy.picks) {
+      pick.pixel += Eigen::Vector2d(random.Normal(), random.Normal());
+    }
+    const auto moved = SolveAnchor(noisy, map);
+    ASSERT_TRUE(moved.ok());
+    sum += (moved->point_in_map - located->point_in_map).squaredNorm();
+  }
+  EXPECT_NEAR(std::sqrt(sum / kRounds) / AnchorSpread(exact, map), 1.0, 0.1);
+}
+
 TEST(StagePicks, ReportHowFarPicksDisagree) {
   const World world;
   StagePicks picks = Picks(world, {0, 3, 6});

@@ -178,7 +178,7 @@ TEST(SelectPairs, CopesWithImagesWithoutFeatures) {
   EXPECT_LE(SelectPairs(std::vector<vision::Features>(30), Choosing()).size(), 30u * 29u / 2u);
 }
 
-TEST(AngleBesidesTurning, IsNoughtForATurnAndNotForASidestep) {
+TEST(EstimateTurning, LeavesNothingForATurnAndNotForASidestep) {
   Random random(5);
   PointPairs turned;
   PointPairs moved;
@@ -191,8 +191,8 @@ TEST(AngleBesidesTurning, IsNoughtForATurnAndNotForASidestep) {
     moved.a.push_back(point.hnormalized());
     moved.b.push_back((rotation * (point + Eigen::Vector3d(0.5, 0.0, 0.0))).hnormalized());
   }
-  EXPECT_LT(AngleBesidesTurning(turned), 1e-9);
-  EXPECT_GT(AngleBesidesTurning(moved), 0.005);
+  EXPECT_LT(EstimateTurning(turned).median_angle, 1e-9);
+  EXPECT_GT(EstimateTurning(moved).median_angle, 0.005);
 }
 
 }  // namespace

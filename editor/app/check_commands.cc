@@ -1,0 +1,193 @@
+#include "editor/app/check_commands.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/app/check_points.h"
+#include "editor/app/document_fields.h"
+#include "editor/app/staging.h"
+
+namespace lararium::app {
+
+namespace {
+
+class CheckPointWorker {
+ public:
+  CheckPointWorker(ProjectPaths paths, ProjectDocument document, CheckPointsOptions options)
+      : paths_(std::move(paths)), document_(std::move(document)), options_(std::move(options)) {}
+
+  Result<CommandResult> Run() {
+    LARARIUM_ASSIGN_OR_RETURN(const bool changed, Work());
+    if (changed) {
+      LARARIUM_RETURN_IF_ERROR(SaveProject(paths_, document_));
+    }
+    CommandResult result;
+    if (document_.check_points.empty()) {
+      result.text = "no check points; add one with --set NAME --at x,y,z\n";
+    }
+    for (const PlaceDocument& place : document_.places) {
+      if (!document_.check_points.empty() &&
+          (options_.place.empty() || place.name == options_.place)) {
+        LARARIUM_RETURN_IF_ERROR(Report(place, result));
+      }
+    }
+    return result;
+  }
+
+ private:
+  Result<bool> Work() {
+    if (!options_.set.empty()) {
+      return Done(Set());
+    }
+    if (!options_.pick.empty()) {
+      return Done(Pick());
+    }
+    if (!options_.clear.empty()) {
+      return Done(Clear());
+    }
+    if (!options_.remove.empty()) {
+      LARARIUM_RETURN_IF_ERROR(FindPoint(options_.remove).status());
+      RemoveCheckPoint(document_, options_.remove);
+      return true;
+    }
+    if (options_.lay) {
+      return Done(Lay());
+    }
+    return false;
+  }
+
+  static Result<bool> Done(const Status& status) {
+    LARARIUM_RETURN_IF_ERROR(status);
+    return true;
+  }
+
+  Result<CheckPointDocument*> FindPoint(const std::string& name) {
+    std::string known;
+    for (CheckPointDocument& point : document_.check_points) {
+      if (point.name == name) {
+        return &point;
+      }
+      known += (known.empty() ? "" : ", ") + point.name;
+    }
+    return Status::Error(paths_.Project().string(), "has no check point \"" + name + "\"",
+                         known.empty() ? "add it with --set" : "it has " + known);
+  }
+
+  Result<PlaceDocument*> Place() {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string name,
+                              ChoosePlace(paths_, document_, options_.place));
+    return document_.FindPlace(name);
+  }
+
+  Status Set() {
+    if (options_.set.size() > kMaxCheckPointName) {
+      return Status::Error("--set", "the name is too long", "use 200 bytes or less");
+    }
+    CheckPointDocument point{options_.set, {}};
+    if (options_.here) {
+      LARARIUM_ASSIGN_OR_RETURN(point.position, FoundHere());
+    } else {
+      point.position = {options_.at[0], options_.at[1], options_.at[2]};
+    }
+    if (!point.position.allFinite() || point.position.cwiseAbs().maxCoeff() > kMaxLength) {
+      return Status::Error("--at", "is no position on a stage", "give three numbers, in metres");
+    }
+    const auto known = std::find_if(document_.check_points.begin(), document_.check_points.end(),
+                                    [&](const auto& p) { return p.name == point.name; });
+    if (known != document_.check_points.end()) {
+      *known = point;
+    } else if (document_.check_points.size() < kMaxCheckPoints) {
+      document_.check_points.push_back(point);
+    } else {
+      return Status::Error("--set", "there are too many check points already", "remove one");
+    }
+    return Status();
+  }
+
+  // Where the place's staging puts the point; it may be new, with picks that were made before.
+  Result<Eigen::Vector3d> FoundHere() {
+    LARARIUM_ASSIGN_OR_RETURN(const PlaceDocument* place, Place());
+    LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths_, *place));
+    const stage::Anchor* picks = FindCheckPicks(*place, options_.set);
+    if (picks == nullptr) {
+      return Status::Error("--here", "\"" + options_.set + "\" was not picked at " + place->name,
+                           "pick it first, or give --at");
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const stage::AnchorReport report,
+                              stage::SolveAnchor(*picks, *map.database));
+    const geometry::Similarity3 map_from_stage =
+        map.picks.map_from_picked * place->picked_from_stage;
+    return Eigen::Vector3d(map_from_stage.Inverse() * report.point_in_map);
+  }
+
+  Status Pick() {
+    LARARIUM_RETURN_IF_ERROR(FindPoint(options_.pick).status());
+    LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, Place());
+    LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase map, LoadMap(paths_, place->name));
+    const Eigen::Vector2d pixel(options_.pixel[0], options_.pixel[1]);
+    const auto session = static_cast<uint32_t>(options_.session);
+    const auto image = std::find_if(
+        map.keyframes.begin(), map.keyframes.end(), [&](const vision::Keyframe& keyframe) {
+          return keyframe.name == options_.frame && keyframe.session == session;
+        });
+    if (image == map.keyframes.end()) {
+      return Status::Error(
+          "--frame " + options_.frame, "is no training image of the map of " + place->name,
+          map.keyframes.empty() ? "train the place" : "they begin with " + map.keyframes[0].name);
+    }
+    if (!map.camera.Contains(pixel)) {
+      return Status::Error("--pixel", "lies outside of the image",
+                           "it has " + std::to_string(map.camera.width) + " x " +
+                               std::to_string(map.camera.height) + " pixels");
+    }
+    SetCheckPick(*place, options_.pick, {image->frame_index, image->name, pixel, session});
+    return Status();
+  }
+
+  Status Clear() {
+    LARARIUM_RETURN_IF_ERROR(FindPoint(options_.clear).status());
+    LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, Place());
+    ClearCheckPicks(*place, options_.clear);
+    return Status();
+  }
+
+  Status Lay() {
+    LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, Place());
+    LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths_, *place));
+    const CheckReport report =
+        CheckStaging(document_, *place, *map.database, map.picks.map_from_picked);
+    if (!report.map_from_stage || !report.fit_good) {
+      return Status::Error("check points of " + place->name, "do not say how the stage lies",
+                           CheckAdvice(report, false));
+    }
+    place->picked_from_stage = map.picks.map_from_picked.Inverse() * *report.map_from_stage;
+    return Status();
+  }
+
+  Status Report(const PlaceDocument& place, CommandResult& result) {
+    LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths_, place));
+    const CheckReport report =
+        CheckStaging(document_, place, *map.database, map.picks.map_from_picked);
+    result.text += place.name + ":\n" + CheckText(report);
+    result.json[place.name] = CheckJson(report);
+    result.failed |= report.verdict == CheckReport::Verdict::kPoor;
+    return Status();
+  }
+
+  ProjectPaths paths_;
+  ProjectDocument document_;
+  CheckPointsOptions options_;
+};
+
+}  // namespace
+
+Result<CommandResult> RunCheckPoints(const CheckPointsOptions& options) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  if (!options.place.empty() && document.FindPlace(options.place) == nullptr) {
+    return ChoosePlace(paths, document, options.place).status();
+  }
+  return CheckPointWorker(paths, std::move(document), options).Run();
+}
+
+}  // namespace lararium::app

@@ -1,0 +1,82 @@
+#pragma once
+
+// Filming a place with a camera, told meanwhile what is still missing (coverage_guide.h).
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "editor/train/coverage_guide.h"
+#include "shared/capture/frame_source.h"
+#include "shared/core/json.h"
+#include "shared/core/status.h"
+
+namespace lararium::app {
+
+// The camera of a number; or a recording, which comes at its own pace as if it were one.
+Result<std::unique_ptr<capture::FrameSource>> OpenFilmCamera(const std::string& camera);
+
+// Of the newest frame.
+struct FilmMoment {
+  std::shared_ptr<const cv::Mat> bgr;
+  train::CoverageState coverage;
+  train::CoverageGuide::Cells cells = {};
+  double seconds = 0.0;  // since the first frame
+  int64_t frames = 0;
+};
+
+enum class FilmStep { kGoOn, kFinish, kDiscard };
+
+// Records until the camera ends or next, which is told of each frame, says so. Training needs a
+// recording: it looks at frames more than once. Returns the last moment. On an error, as one that
+// was discarded is, a file that was there before stays as it was.
+Result<FilmMoment> Film(capture::FrameSource& camera,
+                        const std::filesystem::path& file,
+                        const std::function<FilmStep(const FilmMoment&)>& next);
+
+// The first of film-1.mp4, film-2.mp4, ... that is not in a folder yet.
+std::filesystem::path NewFilmFile(const std::filesystem::path& folder);
+
+// What is wrong now, if anything is; and what to do next. In the language of the interface, or
+// untranslated.
+std::string FaultText(train::CoverageFault fault, bool translated);
+std::string AdviceText(train::CoverageAdvice advice, bool translated);
+// {"covered", "ahead", "floor", "sideways", "depth", "advice"}
+Json CoverageJson(const train::CoverageState& coverage);
+
+// The same on a thread of its own, for a window.
+class FilmTask {
+ public:
+  FilmTask(std::unique_ptr<capture::FrameSource> camera, std::filesystem::path file);
+  // Discards what was not finished.
+  ~FilmTask();
+  FilmTask(const FilmTask&) = delete;
+  FilmTask& operator=(const FilmTask&) = delete;
+
+  // The newest; without a picture before the first.
+  FilmMoment moment() const;
+  // Ends the recording and completes the file.
+  void Finish() { finish_ = true; }
+  bool finishing() const { return finish_; }
+  // Once it has ended, by itself or not.
+  std::optional<Status> outcome() const;
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  std::atomic<bool> finish_ = false;
+  std::atomic<bool> discard_ = false;
+  mutable std::mutex mutex_;
+  FilmMoment moment_;
+  std::optional<Status> outcome_;
+  std::jthread thread_;  // last: joined before the rest goes
+};
+
+}  // namespace lararium::app

@@ -1,0 +1,320 @@
+#include "editor/panels/check_point_panel.h"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <string>
+
+#include "editor/app/check_points.h"
+#include "editor/panels/gizmo_view.h"
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+using app::CheckPointReport;
+using app::CheckReport;
+using Verdict = CheckPointReport::Verdict;
+
+constexpr double kCentimetres = 100.0;
+
+bool SameTransform(const geometry::Similarity3& a, const geometry::Similarity3& b) {
+  return a.scale == b.scale && a.translation == b.translation &&
+         a.rotation.coeffs() == b.rotation.coeffs();
+}
+
+const char* VerdictText(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNotPicked:
+      return Tr("not picked here");
+    case Verdict::kNotLocated:
+      return Tr("cannot be located");
+    case Verdict::kPicksDisagree:
+      return Tr("picks disagree");
+    case Verdict::kWeak:
+      return Tr("from one direction");
+    case Verdict::kGood:
+      return Tr("good");
+    case Verdict::kOff:
+      return Tr("off");
+  }
+  return "";
+}
+
+void Dot(const ImVec4& colour) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetTextLineHeight();
+  ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + Px(6), at.y + 0.5f * height), Px(4.5f),
+                                              Packed(colour));
+  ImGui::Dummy(ImVec2(Px(14), height));
+  ImGui::SameLine(0.0f, Px(4));
+}
+
+void EditPoint(app::Workspace& workspace,
+               const std::string& name,
+               const std::string& command,
+               const Eigen::Vector3d& position,
+               std::string_view gesture) {
+  workspace.Edit(
+      command,
+      [&](app::ProjectDocument& document) {
+        for (app::CheckPointDocument& point : document.check_points) {
+          if (point.name == name) {
+            point.position = position;
+          }
+        }
+      },
+      gesture);
+}
+
+// What is known of the point at this place.
+void ShowHere(const CheckPointReport& here) {
+  PropertyText(Tr("Here"), VerdictText(here.verdict));
+  if (!here.located()) {
+    return;
+  }
+  PropertyText(TrIn("column", "Picks"),
+               Text(Tr("%d, agree to %.2f px"), here.anchor.picks, here.anchor.error_px));
+  PropertyText(Tr("Off by"), Text(Tr("%.1f cm of the stage, %.2f px"),
+                                  kCentimetres * here.distance_m, here.distance_px));
+  PropertyText(Tr("for each px"), Text("\xc2\xb1 %.1f cm", kCentimetres * here.deviation_m));
+}
+
+void ShowPointButtons(app::Workspace& workspace,
+                      EditorState& state,
+                      const std::string& name,
+                      const CheckPointReport& here) {
+  const ImVec2 wide(-FLT_MIN, 0);
+  if (state.view != ViewKind::kPicks && ImGui::Button(Tr("Pick in the training images"), wide)) {
+    state.view = ViewKind::kPicks;
+  }
+  ImGui::BeginDisabled(!here.located());
+  if (ImGui::Button(Tr("Its position is where it was picked here"), wide)) {
+    EditPoint(workspace, name, Text(Tr("move %s"), name.c_str()), here.found, "");
+  }
+  ImGui::EndDisabled();
+  ImGui::BeginDisabled(here.verdict == Verdict::kNotPicked);
+  if (ImGui::Button(Tr("Clear its picks here"), wide)) {
+    workspace.EditPlace(Tr("clear picks"),
+                        [&](app::PlaceDocument& place) { app::ClearCheckPicks(place, name); });
+  }
+  ImGui::EndDisabled();
+  if (ImGui::Button(Tr("Remove"), wide)) {
+    workspace.Edit(Text(Tr("remove %s"), name.c_str()),
+                   [&](app::ProjectDocument& document) { app::RemoveCheckPoint(document, name); });
+    state.selection = {};
+  }
+}
+
+// Point, centimetres, pixels.
+void ShowTable(EditorState& state, const CheckReport& report) {
+  if (!ImGui::BeginTable("points", 3, ImGuiTableFlags_SizingStretchProp)) {
+    return;
+  }
+  ImGui::TableSetupColumn(Tr("Point"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("cm", ImGuiTableColumnFlags_WidthFixed, Px(60));
+  ImGui::TableSetupColumn("px", ImGuiTableColumnFlags_WidthFixed, Px(56));
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
+  ImGui::TableHeadersRow();
+  ImGui::PopStyleColor();
+  for (const CheckPointReport& point : report.points) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    Dot(VerdictColour(point.verdict));
+    const Selection selection{Selection::Kind::kCheckPoint, point.name};
+    if (ImGui::Selectable(point.name.c_str(), state.selection == selection,
+                          ImGuiSelectableFlags_SpanAllColumns)) {
+      state.selection = selection;
+    }
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(point.located() ? Text("%.1f", kCentimetres * point.distance_m).c_str()
+                                           : "-");
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(point.located() ? Text("%.1f", point.distance_px).c_str() : "-");
+  }
+  ImGui::EndTable();
+}
+
+void ShowOutcome(app::Workspace& workspace, const CheckReport& report) {
+  const bool good = report.verdict == CheckReport::Verdict::kGood;
+  const bool poor = report.verdict == CheckReport::Verdict::kPoor;
+  Dot(good   ? VerdictColour(Verdict::kGood)
+      : poor ? VerdictColour(Verdict::kOff)
+             : VerdictColour(Verdict::kNotPicked));
+  Heading(good ? Tr("Good") : poor ? Tr("Poor") : Tr("Not known yet"));
+  ImGui::TextWrapped("%s", app::CheckAdvice(report, true).c_str());
+  const bool can_lay = report.map_from_stage && report.fit_good;
+  ImGui::BeginDisabled(!can_lay);
+  if (ImGui::Button(Tr("Lay the stage by the points"), ImVec2(-FLT_MIN, 0))) {
+    const geometry::Similarity3 laid =
+        workspace.loaded().picks.map_from_picked.Inverse() * *report.map_from_stage;
+    workspace.EditPlace(Tr("lay the stage by the points"),
+                        [&](app::PlaceDocument& place) { place.picked_from_stage = laid; });
+  }
+  ImGui::EndDisabled();
+}
+
+void ShowName(app::Workspace& workspace, EditorState& state, const std::string& name) {
+  std::string typed = name;
+  PropertyLabel(Tr("Name"));
+  if (!ImGui::InputText("##name", &typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    return;
+  }
+  const auto& points = workspace.document().check_points;
+  const bool taken =
+      std::any_of(points.begin(), points.end(), [&](const auto& p) { return p.name == typed; });
+  if (typed.empty() || typed.size() > app::kMaxCheckPointName || taken) {
+    return;
+  }
+  workspace.Edit(Text(Tr("name %s"), typed.c_str()), [&](app::ProjectDocument& document) {
+    app::RenameCheckPoint(document, name, typed);
+  });
+  state.selection.name = typed;
+}
+
+}  // namespace
+
+const CheckReport& CheckedPoints(const app::Workspace& workspace, EditorState& state) {
+  CheckView& check = state.check;
+  const auto document = workspace.commands().snapshot();
+  const app::LoadedPlace& loaded = workspace.loaded();
+  const app::PlaceDocument* place = workspace.place();
+  if (place == nullptr || loaded.database == nullptr) {
+    check = {};
+    for (const app::CheckPointDocument& point : document->check_points) {
+      app::CheckPointReport& unknown = check.report.points.emplace_back();
+      unknown.name = point.name;
+      unknown.on_stage = point.position;
+    }
+    return check.report;
+  }
+  if (check.document != document || check.database != loaded.database ||
+      check.place != place->name ||
+      !SameTransform(check.map_from_picked, loaded.picks.map_from_picked)) {
+    check.document = document;
+    check.database = loaded.database;
+    check.place = place->name;
+    check.map_from_picked = loaded.picks.map_from_picked;
+    check.report = app::CheckStaging(*document, *place, *loaded.database, check.map_from_picked);
+  }
+  return check.report;
+}
+
+const app::CheckPointDocument* SelectedCheckPoint(const app::Workspace& workspace,
+                                                  const EditorState& state) {
+  const auto& points = workspace.document().check_points;
+  const auto found = std::find_if(points.begin(), points.end(),
+                                  [&](const auto& p) { return p.name == state.selection.name; });
+  const bool selected = state.selection.kind == Selection::Kind::kCheckPoint;
+  return selected && found != points.end() ? &*found : nullptr;
+}
+
+ImVec4 VerdictColour(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return kAxisColours[1];
+    case Verdict::kNotPicked:
+      return Colours().line;
+    default:
+      return Colours().warning;
+  }
+}
+
+void ShowCheckPoint(app::Workspace& workspace,
+                    EditorState& state,
+                    const app::CheckPointDocument& point) {
+  const CheckReport report = CheckedPoints(workspace, state);  // edits below change it
+  const auto found = std::find_if(report.points.begin(), report.points.end(),
+                                  [&](const auto& p) { return p.name == point.name; });
+  const CheckPointReport here = found == report.points.end() ? CheckPointReport() : *found;
+  const std::string name = point.name;
+  Heading(name.c_str());
+  Hint(
+      Tr("A point of the stage that is looked for at every place: by three of them it shows "
+         "whether the stage lies at each place as it should."));
+  if (BeginProperties("check point")) {
+    ShowName(workspace, state, name);
+    Eigen::Vector3d position = point.position;
+    if (VectorProperty(workspace, Tr("Position"), position, 0.005, "%.3f")) {
+      EditPoint(workspace, name, Text(Tr("move %s"), name.c_str()), position, "check point");
+    }
+    ShowHere(here);
+    EndProperties();
+  }
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  Heading(Text(Tr("All of them at %s"), workspace.place()->name.c_str()).c_str());
+  ShowTable(state, report);
+  ShowOutcome(workspace, report);
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  ShowPointButtons(workspace, state, name, here);
+}
+
+void DrawCheckPoints(const app::Workspace& workspace,
+                     EditorState& state,
+                     const ViewCamera& view,
+                     ImDrawList& draw) {
+  if (workspace.place() == nullptr || SelectedCheckPoint(workspace, state) == nullptr) {
+    return;
+  }
+  const geometry::Similarity3& world_from_stage = workspace.place()->picked_from_stage;
+  for (const CheckPointReport& point : CheckedPoints(workspace, state).points) {
+    const bool selected = point.name == state.selection.name;
+    const ImU32 packed = Packed(selected ? OverPicture().accent : OverPicture().warning);
+    const auto expected = view.Project(world_from_stage * point.on_stage);
+    if (point.located()) {
+      DrawWorldLine(view, world_from_stage * point.on_stage, world_from_stage * point.found, packed,
+                    Px(1.5f), draw);
+      if (const auto pixel = view.Project(world_from_stage * point.found)) {
+        draw.AddCircle(ToImGui(*pixel), Px(6), packed, 0, Px(1.5f));
+      }
+    }
+    if (expected) {
+      DrawCross(ToImGui(*expected), packed, draw);
+      LabelMark(ToImGui(*expected), point.name, Packed(OverPicture().text), draw);
+    }
+  }
+}
+
+void CheckPointDialog(app::Workspace& workspace, EditorState& state) {
+  Hint(
+      Tr("Something that you will find at every place, such as a corner of the counter. Click it "
+         "in two training images of each place; its position on the stage is typed, or taken "
+         "from the first place."));
+  std::string& name = state.fields.name;
+  if (BeginProperties("check point")) {
+    PropertyLabel(Tr("Name"));
+    if (ImGui::IsWindowAppearing()) {
+      ImGui::SetKeyboardFocusHere();
+    }
+    ImGui::InputText("##name", &name);
+    EndProperties();
+  }
+  const auto& points = workspace.document().check_points;
+  std::string problem;
+  if (name.empty()) {
+    problem = Tr("It needs a name.");
+  } else if (name.size() > app::kMaxCheckPointName) {
+    problem = Tr("The name is too long.");
+  } else if (std::any_of(points.begin(), points.end(),
+                         [&](const auto& p) { return p.name == name; })) {
+    problem = Tr("That name is taken.");
+  } else if (points.size() >= app::kMaxCheckPoints) {
+    problem = Tr("There are too many already.");
+  }
+  const DialogAnswer answer = DialogButtons(Tr("Add"), problem);
+  if (answer != DialogAnswer::kNone) {
+    state.dialog = Dialog::kNone;
+  }
+  if (answer == DialogAnswer::kAct) {
+    workspace.Edit(Text(Tr("add %s"), name.c_str()), [&](app::ProjectDocument& document) {
+      document.check_points.push_back({name, {}});
+    });
+    state.selection = {Selection::Kind::kCheckPoint, name};
+    state.view = ViewKind::kPicks;
+  }
+}
+
+}  // namespace lararium::panels

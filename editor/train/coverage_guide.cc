@@ -1,0 +1,356 @@
+#include "editor/train/coverage_guide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "editor/train/keyframes.h"
+#include "shared/core/median.h"
+
+namespace lararium::train {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+// Seen from places as far apart as the capture report asks for.
+constexpr double kParallax = 5.0 * kDegree;
+constexpr size_t kTracksOfCell = 6;  // that have to be seen so, or at all
+constexpr int kLook = 30;            // frames after which a cell without corners is bare
+
+// What is needed.
+constexpr double kAhead = 45.0 * kDegree;
+constexpr double kFloor = 30.0 * kDegree;
+constexpr double kSideways = 0.5;  // of the median distance
+constexpr double kDepth = 0.3;
+
+constexpr size_t kFewestPairs = 15;  // that connect two frames
+constexpr double kSampson = 0.004;   // on the plane z = 1: about a pixel of 320
+// What besides turning is noise, and what a wrong focal length makes of the turn.
+constexpr double kNoise = 0.004;
+constexpr double kShareOfTurn = 0.05;
+
+double AngleBetween(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+double Wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+// Of the world's axes: those of the first camera.
+double YawOf(const Vector3d& ray) { return std::atan2(ray.x(), ray.z()); }
+double PitchOf(const Vector3d& ray) { return std::atan2(-ray.y(), std::hypot(ray.x(), ray.z())); }
+
+struct CellIndex {
+  size_t row = 0;
+  size_t column = 0;
+};
+
+double YawOfColumn(size_t column) {
+  return (2.0 * (static_cast<double>(column) + 0.5) / CoverageGuide::kColumns - 1.0) *
+         std::numbers::pi;
+}
+
+double PitchOfRow(size_t row) { return (30.0 * static_cast<double>(row) - 30.0) * kDegree; }
+
+std::optional<CellIndex> CellOf(const Vector3d& ray) {
+  const double row = std::floor((PitchOf(ray) / kDegree + 45.0) / 30.0);
+  const double column =
+      std::floor((YawOf(ray) / std::numbers::pi + 1.0) * 0.5 * CoverageGuide::kColumns);
+  if (row < 0.0 || row >= CoverageGuide::kRows) {
+    return std::nullopt;
+  }
+  return CellIndex{static_cast<size_t>(row),
+                   static_cast<size_t>(std::clamp(column, 0.0, CoverageGuide::kColumns - 1.0))};
+}
+
+double ShareOfRow(const CoverageGuide::Cells& cells, size_t row, double reach) {
+  int wanted = 0;
+  int covered = 0;
+  for (size_t column = 0; column < cells[row].size(); ++column) {
+    if (std::abs(YawOfColumn(column)) < reach && cells[row][column] != CoverageGuide::Cell::kBare) {
+      ++wanted;
+      covered += cells[row][column] == CoverageGuide::Cell::kCovered ? 1 : 0;
+    }
+  }
+  return wanted == 0 ? 0.0 : static_cast<double>(covered) / wanted;
+}
+
+// The direction of a row that is missing yet and nearest to a heading.
+std::optional<double> NearestMissing(const CoverageGuide::Cells& cells,
+                                     size_t row,
+                                     double reach,
+                                     double heading) {
+  std::optional<double> nearest;
+  for (size_t column = 0; column < cells[row].size(); ++column) {
+    const double yaw = YawOfColumn(column);
+    const bool missing = cells[row][column] == CoverageGuide::Cell::kUnseen ||
+                         cells[row][column] == CoverageGuide::Cell::kSeen;
+    if (std::abs(yaw) < reach && missing &&
+        (!nearest || std::abs(Wrapped(yaw - heading)) < std::abs(Wrapped(*nearest - heading)))) {
+      nearest = yaw;
+    }
+  }
+  return nearest;
+}
+
+// Of a short way the essential matrix is mostly noise, and may turn the camera by degrees that it
+// did not turn: the parallax that it claims has to show in what turning alone leaves.
+bool Explains(const RelativePose& pose, const Turning& turning, const PointPairs& pairs) {
+  constexpr double kMostTimes = 8.0;  // a wall seen straight on shows an eighth
+  constexpr double kLeastShare = 0.6;
+  return pose.median_angle<kMostTimes *
+                           turning.median_angle&& static_cast<double>(pose.inliers.size())>
+             kLeastShare *
+         static_cast<double>(pairs.size());
+}
+
+}  // namespace
+
+CoverageState CoverageGuide::Add(const CoverageFrame& frame) {
+  const Quaterniond before = world_from_camera_;
+  if (frames_ == 0) {
+    BeginView(frame);
+  }
+  const Vector2d was_at = at_;
+  const Way way = Follow(frame);
+  moved_ = way.moved;
+  NoteSights(frame, way.moved);
+  if (!way.known || way.far) {
+    BeginView(frame);
+  }
+  steps_.push_back({frame.time, frame.shift, before.angularDistance(world_from_camera_), was_at});
+  ++frames_;
+  JudgeCells();
+
+  CoverageState state;
+  state.fault = FindFault(frame);
+  state.shares = Shares();
+  state.advice = Advise(state.shares);
+  state.heading = Heading();
+  state.pitch = Pitch();
+  state.moved = at_;
+  return state;
+}
+
+CoverageFault CoverageGuide::FindFault(const CoverageFrame& frame) {
+  constexpr double kDarkest = 0.12;
+  constexpr double kMostClipped = 0.3;
+  constexpr size_t kFewCorners = 40;
+  constexpr size_t kRemembered = 60;  // frames
+  constexpr size_t kEnoughToCompare = 10;
+  constexpr double kStill = 2.0;        // seconds
+  constexpr double kStillShift = 0.01;  // of the diagonal, in all
+  constexpr double kTurnFor = 3.0;      // seconds
+  constexpr double kTurned = 12.0 * kDegree;
+  constexpr double kNoMove = 0.02;
+  const double sharpness_around =
+      sharpness_.empty() ? 0.0 : Median(std::vector<double>(sharpness_.begin(), sharpness_.end()));
+  const bool compares = sharpness_.size() >= kEnoughToCompare;
+  sharpness_.push_back(frame.sharpness);
+  if (sharpness_.size() > kRemembered) {
+    sharpness_.pop_front();
+  }
+  while (steps_.front().time < frame.time - kTurnFor) {
+    steps_.pop_front();
+  }
+  if (frame.brightness < kDarkest) {
+    return CoverageFault::kDark;
+  }
+  if (frame.clipped > kMostClipped) {
+    return CoverageFault::kBright;
+  }
+  if (compares && frame.sharpness < kBlurredShare * sharpness_around) {
+    return CoverageFault::kBlurred;
+  }
+  if (frame.shift > kFastShift) {
+    return CoverageFault::kFast;
+  }
+  if (frame.tracks.size() < kFewCorners) {
+    return CoverageFault::kBare;
+  }
+  double shift = 0.0;
+  double turn = 0.0;
+  for (const Step& step : steps_) {
+    shift += step.time > frame.time - kStill ? step.shift : 0.0;
+    turn += step.turn;
+  }
+  const double known = frame.time - steps_.front().time;
+  if (known >= 0.9 * kStill && shift < kStillShift) {
+    return CoverageFault::kStanding;
+  }
+  const bool on_the_spot = (at_ - steps_.front().at).norm() < kNoMove;
+  return turn > kTurned && on_the_spot ? CoverageFault::kTurning : CoverageFault::kNone;
+}
+
+CoverageGuide::Way CoverageGuide::Follow(const CoverageFrame& frame) {
+  constexpr double kFarTurn = 15.0 * kDegree;
+  constexpr double kKeptShare = 0.6;  // of the view's tracks
+  PointPairs pairs;
+  for (const CoverageTrack& track : frame.tracks) {
+    if (const auto known = view_.find(track.id); known != view_.end()) {
+      pairs.a.push_back(known->second);
+      pairs.b.push_back(track.on_plane);
+    }
+  }
+  Way way;
+  way.known = pairs.size() >= kFewestPairs;
+  if (!way.known) {
+    return way;
+  }
+  const Turning turning = EstimateTurning(pairs);
+  Quaterniond camera_from_view = turning.b_from_a;
+  const double turn = Quaterniond::Identity().angularDistance(camera_from_view);
+  at_ = view_at_;
+  double parallax = 0.0;
+  if (turning.median_angle > kNoise + kShareOfTurn * turn) {
+    const auto pose = EstimateRelativePose(pairs, kSampson);
+    if (pose && Explains(*pose, turning, pairs) && !Leaps(pose->b_from_a.rotation, frame.shift)) {
+      camera_from_view = pose->b_from_a.rotation;
+      parallax = pose->median_angle;
+      way.moved = true;
+      Move(pairs, *pose);
+    }
+  }
+  world_from_camera_ = (world_from_view_ * camera_from_view.conjugate()).normalized();
+  const bool few =
+      static_cast<double>(pairs.size()) < kKeptShare * static_cast<double>(view_.size());
+  way.far = few || turn > kFarTurn || parallax > kParallax;
+  return way;
+}
+
+// Whether a turn from the view is further from the frame before than corners moved in between: of
+// a flat scene there are two poses, and noise chooses.
+bool CoverageGuide::Leaps(const Quaterniond& camera_from_view, double shift) const {
+  constexpr double kSteady = 2.0 * kDegree;
+  constexpr double kBegin =
+      6.0 * kDegree;  // what was taken for turning before may have been a step
+  constexpr double kTimes = 3.0;
+  const double diagonal = 2.0 * half_view_.norm();  // about an angle
+  const Quaterniond world_from_camera = world_from_view_ * camera_from_view.conjugate();
+  return world_from_camera.angularDistance(world_from_camera_) >
+         (moved_ ? kSteady : kBegin) + kTimes * shift * diagonal;
+}
+
+// The baseline follows from the angle under which it is seen (law of sines, of small angles).
+void CoverageGuide::Move(const PointPairs& pairs, const RelativePose& pose) {
+  constexpr double kLeastSine = 0.1;
+  const Vector3d centre = pose.b_from_a.Center();  // of the camera, in the view; length 1
+  std::vector<double> sines;
+  for (const uint32_t i : pose.inliers) {
+    const Vector3d ray = pairs.a[i].homogeneous();
+    sines.push_back(std::sin(AngleBetween(ray, centre)));
+  }
+  const double sine = std::max(Median(std::move(sines)), kLeastSine);
+  const Vector3d moved = world_from_view_ * centre * (std::sin(pose.median_angle) / sine);
+  at_ = view_at_ + Vector2d(moved.x(), moved.z());
+}
+
+void CoverageGuide::BeginView(const CoverageFrame& frame) {
+  view_.clear();
+  for (const CoverageTrack& track : frame.tracks) {
+    view_[track.id] = track.on_plane;
+  }
+  world_from_view_ = world_from_camera_;
+  view_at_ = at_;
+  // Only here is the way known well: the parallax is wide.
+  lowest_ = lowest_.cwiseMin(at_);
+  highest_ = highest_.cwiseMax(at_);
+}
+
+void CoverageGuide::NoteSights(const CoverageFrame& frame, bool moved) {
+  std::map<uint32_t, Sight> sights;  // of what is still seen
+  for (const CoverageTrack& track : frame.tracks) {
+    const Vector3d ray = (world_from_camera_ * track.on_plane.homogeneous()).normalized();
+    const auto known = sights_.find(track.id);
+    Sight sight = known == sights_.end() ? Sight{ray, 0.0} : known->second;
+    if (moved) {  // what turning leaves is an error of the focal length
+      sight.parallax = std::max(sight.parallax, AngleBetween(sight.first, ray));
+    }
+    sights[track.id] = sight;
+    if (const std::optional<CellIndex> cell = CellOf(ray)) {
+      CellCount& count = counts_[cell->row][cell->column];
+      count.seen.insert(track.id);
+      if (sight.parallax > kParallax) {
+        count.parallax.insert(track.id);
+      }
+    }
+  }
+  sights_ = std::move(sights);
+}
+
+void CoverageGuide::JudgeCells() {
+  for (size_t row = 0; row < cells_.size(); ++row) {
+    for (size_t column = 0; column < cells_[row].size(); ++column) {
+      CellCount& count = counts_[row][column];
+      const double pitch = PitchOfRow(row);
+      const double yaw = YawOfColumn(column);
+      const Vector3d centre = world_from_camera_.conjugate() *
+                              Vector3d(std::cos(pitch) * std::sin(yaw), -std::sin(pitch),
+                                       std::cos(pitch) * std::cos(yaw));
+      const bool in_view = centre.z() > 0.0 && std::abs(centre.x()) < half_view_.x() * centre.z() &&
+                           std::abs(centre.y()) < half_view_.y() * centre.z();
+      count.frames += in_view ? 1 : 0;
+      if (count.parallax.size() >= kTracksOfCell) {
+        cells_[row][column] = Cell::kCovered;
+      } else if (count.frames > kLook && count.seen.size() < kTracksOfCell) {
+        cells_[row][column] = Cell::kBare;
+      } else if (count.frames > 0) {
+        cells_[row][column] = Cell::kSeen;
+      }
+    }
+  }
+}
+
+CoverageShares CoverageGuide::Shares() const {
+  const Vector2d range = highest_ - lowest_;
+  return {ShareOfRow(cells_, 1, kAhead), ShareOfRow(cells_, 0, kFloor),
+          std::min(range.x() / kSideways, 1.0), std::min(range.y() / kDepth, 1.0)};
+}
+
+// To the side that is asked for, until that is done.
+CoverageAdvice CoverageGuide::StepAside() {
+  const double right = highest_.x();
+  const double left = -lowest_.x();
+  if (side_ > 0.0 ? right > 0.5 * kSideways && right > left
+                  : left > 0.5 * kSideways && left > right) {
+    side_ = -side_;
+  }
+  return side_ > 0.0 ? CoverageAdvice::kStepRight : CoverageAdvice::kStepLeft;
+}
+
+CoverageAdvice CoverageGuide::Advise(const CoverageShares& shares) {
+  constexpr double kInView = 20.0 * kDegree;
+  constexpr double kLookingDown = -8.0 * kDegree;
+  const auto look = [&](size_t row, double reach) {
+    const std::optional<double> missing = NearestMissing(cells_, row, reach, Heading());
+    const double aside = missing ? Wrapped(*missing - Heading()) : 0.0;
+    if (std::abs(aside) < kInView) {
+      return StepAside();
+    }
+    return aside > 0.0 ? CoverageAdvice::kLookRight : CoverageAdvice::kLookLeft;
+  };
+  if (shares.ahead < 1.0) {
+    return look(1, kAhead);
+  }
+  if (shares.sideways < 1.0) {
+    return StepAside();
+  }
+  if (shares.floor < 1.0) {
+    return Pitch() > kLookingDown ? CoverageAdvice::kLookDown : look(0, kFloor);
+  }
+  if (shares.depth < 1.0) {
+    return highest_.y() < 0.5 * kDepth ? CoverageAdvice::kGoNearer : CoverageAdvice::kStepBack;
+  }
+  return CoverageAdvice::kEnough;
+}
+
+double CoverageGuide::Heading() const { return YawOf(world_from_camera_ * Vector3d::UnitZ()); }
+double CoverageGuide::Pitch() const { return PitchOf(world_from_camera_ * Vector3d::UnitZ()); }
+
+}  // namespace lararium::train

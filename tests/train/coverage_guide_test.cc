@@ -1,0 +1,226 @@
+// A camera in a room with corners all around it, and what it is told to do.
+
+#include "editor/train/coverage_guide.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "shared/core/random.h"
+#include "shared/geometry/transform.h"
+
+namespace lararium::train {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRate = 10.0;  // frames a second
+constexpr double kFocal = 280.0;
+constexpr double kHalfWidth = 160.0;
+constexpr double kHalfHeight = 120.0;
+
+// Where the camera is (metres; x right, z ahead of the beginning) and looks.
+struct Stand {
+  double x = 0.0;
+  double z = 0.0;
+  double yaw = 0.0;    // radians to the right
+  double pitch = 0.0;  // upwards
+};
+
+class CoverageGuideTest : public testing::Test {
+ protected:
+  CoverageGuideTest() {
+    Random random(6);
+    for (int i = 0; i < 6000; ++i) {
+      // Walls at about three metres, the floor, and furniture before them.
+      const double yaw = random.Uniform(-std::numbers::pi, std::numbers::pi);
+      const double distance = random.Uniform(1.8, 4.5);
+      points_.push_back(
+          {distance * std::sin(yaw), random.Uniform(-1.2, 1.6), distance * std::cos(yaw)});
+    }
+    seen_.assign(points_.size(), -2);
+    ids_.assign(points_.size(), 0);
+  }
+
+  CoverageFrame Look(const Stand& stand) {
+    const Eigen::Quaterniond world_from_camera = Eigen::AngleAxisd(stand.yaw, Vector3d::UnitY()) *
+                                                 Eigen::AngleAxisd(stand.pitch, Vector3d::UnitX());
+    CoverageFrame frame;
+    frame.time = number_ / kRate;
+    frame.shift = 0.01;
+    frame.sharpness = 100.0;
+    for (size_t i = 0; i < points_.size(); ++i) {
+      const Vector3d in_camera =
+          world_from_camera.conjugate() * (points_[i] - Vector3d(stand.x, 0.0, stand.z));
+      const Eigen::Vector2d pixel = kFocal * in_camera.hnormalized() +
+                                    0.2 * Eigen::Vector2d(noise_.Normal(), noise_.Normal());
+      const bool inside = in_camera.z() > 0.2 && std::abs(pixel.x()) < kHalfWidth &&
+                          std::abs(pixel.y()) < kHalfHeight;
+      if (!inside) {
+        continue;
+      }
+      if (seen_[i] != number_ - 1) {
+        ids_[i] = next_id_++;  // a tracker knows nothing that it lost
+      }
+      seen_[i] = number_;
+      frame.tracks.push_back({ids_[i], pixel / assumed_focal_});
+    }
+    ++number_;
+    return frame;
+  }
+
+  // Walks to a stand in so many frames.
+  CoverageState Go(const Stand& to, int frames) {
+    CoverageState state;
+    for (int i = 1; i <= frames; ++i) {
+      const double share = static_cast<double>(i) / frames;
+      const auto between = [&](double a, double b) { return a + share * (b - a); };
+      state = guide_.Add(Look({between(at_.x, to.x), between(at_.z, to.z), between(at_.yaw, to.yaw),
+                               between(at_.pitch, to.pitch)}));
+    }
+    at_ = to;
+    return state;
+  }
+
+  std::vector<Vector3d> points_;
+  std::vector<int> seen_;
+  std::vector<uint32_t> ids_;
+  Random noise_{9};
+  uint32_t next_id_ = 0;
+  int number_ = 0;
+  double assumed_focal_ = kFocal;
+  Stand at_;
+  CoverageGuide guide_{Eigen::Vector2d(kHalfWidth, kHalfHeight) / kFocal};
+};
+
+TEST_F(CoverageGuideTest, StandingStillCoversNothingAndIsTold) {
+  CoverageState state;
+  for (int i = 0; i < 40; ++i) {
+    CoverageFrame frame = Look({});
+    frame.shift = 0.0002;
+    state = guide_.Add(frame);
+  }
+  EXPECT_EQ(state.fault, CoverageFault::kStanding);
+  EXPECT_EQ(state.shares.all(), 0.0);
+  EXPECT_LT(state.moved.norm(), 0.02);
+}
+
+TEST_F(CoverageGuideTest, TurningOnTheSpotSeesButDoesNotCoverAndIsTold) {
+  for (const double focal : {kFocal, 1.2 * kFocal}) {
+    assumed_focal_ = focal;
+    guide_ = CoverageGuide(Eigen::Vector2d(kHalfWidth, kHalfHeight) / focal);
+    Go({.yaw = 35.0 * kDegree}, 40);
+    const CoverageState state = Go({.yaw = -5.0 * kDegree}, 40);
+    EXPECT_EQ(state.fault, CoverageFault::kTurning) << focal;
+    EXPECT_EQ(state.shares.ahead, 0.0) << focal;
+    EXPECT_LT(state.shares.sideways, 0.1) << focal;
+    const auto& level = guide_.cells()[1];
+    EXPECT_EQ(level[12], CoverageGuide::Cell::kSeen) << "just right of the beginning";
+    EXPECT_EQ(level[2], CoverageGuide::Cell::kUnseen) << "behind it";
+  }
+}
+
+TEST_F(CoverageGuideTest, MeasuresHeadingAndSteps) {
+  Go({.x = 0.9, .yaw = 20.0 * kDegree}, 60);
+  const CoverageState state = Go({.x = 0.9, .z = 0.6, .yaw = 20.0 * kDegree}, 40);
+  // Well within a column.
+  EXPECT_NEAR(state.heading, 20.0 * kDegree, 4.0 * kDegree);
+  EXPECT_NEAR(state.pitch, 0.0, 4.0 * kDegree);
+  // The corners are about three metres away.
+  EXPECT_NEAR(state.moved.x(), 0.3, 0.1);
+  EXPECT_NEAR(state.moved.y(), 0.2, 0.1);
+}
+
+TEST_F(CoverageGuideTest, SteppingAsideCoversWhatIsAhead) {
+  const CoverageState state = Go({.x = 0.9}, 50);
+  EXPECT_EQ(state.fault, CoverageFault::kNone);
+  EXPECT_EQ(guide_.cells()[1][12], CoverageGuide::Cell::kCovered);
+  EXPECT_GT(state.shares.ahead, 0.3);
+  EXPECT_LT(state.shares.ahead, 1.0) << "the sides were not looked at";
+}
+
+TEST_F(CoverageGuideTest, ASideThatIsMissingIsAskedFor) {
+  Go({.x = 0.9}, 50);
+  Go({.x = 0.9, .yaw = 40.0 * kDegree}, 30);
+  Go({.x = -0.5, .yaw = 40.0 * kDegree}, 60);
+  const CoverageState state = Go({.x = -0.5}, 30);
+  EXPECT_TRUE(state.advice == CoverageAdvice::kLookLeft ||
+              state.advice == CoverageAdvice::kStepLeft)
+      << static_cast<int>(state.advice);
+  EXPECT_EQ(guide_.cells()[1][14], CoverageGuide::Cell::kCovered);
+}
+
+TEST_F(CoverageGuideTest, AWalkThatDoesWhatIsAskedComesToItsEnd) {
+  double covered = 0.0;
+  CoverageState state = Go({}, 2);
+  int steps = 0;
+  for (; steps < 120 && state.advice != CoverageAdvice::kEnough; ++steps) {
+    Stand to = at_;
+    switch (state.advice) {
+      case CoverageAdvice::kStepLeft:
+        to.x -= 0.2;
+        break;
+      case CoverageAdvice::kStepRight:
+        to.x += 0.2;
+        break;
+      case CoverageAdvice::kLookLeft:
+        to.yaw -= 10.0 * kDegree;
+        break;
+      case CoverageAdvice::kLookRight:
+        to.yaw += 10.0 * kDegree;
+        break;
+      case CoverageAdvice::kLookDown:
+        to.pitch -= 10.0 * kDegree;
+        break;
+      case CoverageAdvice::kGoNearer:
+        to.z += 0.2;
+        break;
+      case CoverageAdvice::kStepBack:
+        to.z -= 0.2;
+        break;
+      case CoverageAdvice::kEnough:
+        break;
+    }
+    to.x = std::clamp(to.x, -1.2, 1.2);
+    to.z = std::clamp(to.z, -0.8, 0.8);
+    state = Go(to, 10);
+    EXPECT_GE(state.shares.all(), covered - 1e-9) << "what is covered stays so";
+    covered = state.shares.all();
+  }
+  EXPECT_EQ(state.advice, CoverageAdvice::kEnough);
+  EXPECT_EQ(state.shares.all(), 1.0);
+  EXPECT_GT(steps, 10) << "a glance is not enough";
+}
+
+TEST_F(CoverageGuideTest, BlurHasteDarknessAndBareWallsAreToldFirst) {
+  Go({.x = 0.3}, 20);
+  const auto fault = [&](const std::function<void(CoverageFrame&)>& spoil) {
+    CoverageFrame frame = Look(at_);
+    spoil(frame);
+    return guide_.Add(frame).fault;
+  };
+  EXPECT_EQ(fault([](CoverageFrame&) {}), CoverageFault::kNone);
+  EXPECT_EQ(fault([](CoverageFrame& f) { f.sharpness = 20.0; }), CoverageFault::kBlurred);
+  EXPECT_EQ(fault([](CoverageFrame& f) { f.shift = 0.1; }), CoverageFault::kFast);
+  EXPECT_EQ(fault([](CoverageFrame& f) { f.brightness = 0.05; }), CoverageFault::kDark);
+  EXPECT_EQ(fault([](CoverageFrame& f) { f.clipped = 0.5; }), CoverageFault::kBright);
+  EXPECT_EQ(fault([](CoverageFrame& f) { f.tracks.resize(8); }), CoverageFault::kBare);
+}
+
+TEST_F(CoverageGuideTest, GoesOnAfterAllCornersWereLost) {
+  Go({.x = 0.5}, 30);
+  CoverageFrame lost = Look(at_);
+  lost.tracks.clear();
+  EXPECT_EQ(guide_.Add(lost).fault, CoverageFault::kBare);
+  number_ += 2;  // all corners are new afterwards
+  const CoverageState before = guide_.Add(Look(at_));
+  const CoverageState after = Go({.x = 1.1}, 30);
+  EXPECT_EQ(after.fault, CoverageFault::kNone);
+  EXPECT_GT(after.moved.x(), before.moved.x() + 0.1);
+}
+
+}  // namespace
+}  // namespace lararium::train
