@@ -288,8 +288,9 @@ Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
 
 Result<PlaceDocument> ParsePlace(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(CheckFields(
-      view, {"name", "training", "preview", "intrinsics", "camera", "added", "tags", "picks",
-             "adjust", "camera_nudge", "occluders", "probe", "probes", "acoustics", "check_picks"}));
+      view,
+      {"name", "training", "preview", "intrinsics", "camera", "added", "tags", "picks", "adjust",
+       "camera_nudge", "occluders", "probe", "probes", "acoustics", "check_picks"}));
   PlaceDocument place;
   LARARIUM_ASSIGN_OR_RETURN(place.name, ParsePlainName(view, "name"));
   LARARIUM_RETURN_IF_ERROR(ParseOptionalFields(view, place));
@@ -504,9 +505,8 @@ Result<ProjectDocument> ParseProject(const Json& json, const std::string& place)
                              ", this one reads up to " + std::to_string(kProjectSchema) + ")",
                          "open it with that version");
   }
-  LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"schema", "title", "credits", "places", "cast", "objects", "speech",
-                         "check_points"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(
+      view, {"schema", "title", "credits", "places", "cast", "objects", "speech", "check_points"}));
   ProjectDocument document;
   LARARIUM_ASSIGN_OR_RETURN(document.title, view.Text("title"));
   LARARIUM_ASSIGN_OR_RETURN(document.credits, view.Text("credits"));

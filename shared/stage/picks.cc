@@ -357,10 +357,9 @@ Result<AnchorReport> SolveAnchor(const Anchor& anchor, const SceneDatabase& data
 }
 
 double AnchorSpread(const Anchor& anchor, const SceneDatabase& database) {
-  return std::sqrt(Variance(anchor, database,
-                            [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-                              return (b - a).squaredNorm();
-                            }));
+  return std::sqrt(Variance(
+      anchor, database,
+      [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (b - a).squaredNorm(); }));
 }
 
 Result<StageSolution> SolveStage(const StagePicks& picks,

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Makes the pictures of the editor's window in the docs anew, by real input events under Xvfb, from
+# Makes editor.jpg, timeline.jpg and film.jpg of the docs anew, by real input events under Xvfb, from
 # the sample that ./demo leaves trained and baked:
 #
 #   tests/ui/doc_pictures.sh build/release/bin/lararium-editor \
@@ -31,32 +31,24 @@ shot() {
 }
 
 open_window 700 300 "$project"
-sleep 60        # people are read, the drama is run dry
+sleep 45        # people are read, the drama is run dry
 click 581 574   # the ruler of the timeline
 xdotool mousemove 1250 700
-sleep 12
-shot editor 1440x900+0+0 1200
+sleep 25
+shot editor 1440x866+0+0 1200  # without the line that names the folder
 click 510 640   # a line of the keeper
 xdotool mousemove 1250 800
 sleep 2
 shot timeline 1424x338+8+522 1424
-click 50 343    # the light probe
-xdotool mousemove 1250 800
-sleep 8
-shot light-panel 1194x456+238+62 1100
 
 # The recording, filmed as if it were a camera.
 click 37 44     # Train
 click 720 527   # Film it with a camera instead
-fill 720 449 "$root/scenes/maquette/maquette.lararium/places/maquette/training.mp4"
+fill 720 463 "$root/scenes/maquette/maquette.lararium/places/maquette/training.mp4"
 sleep 1
-click 912 547   # Film
+click 912 551   # Film
 sleep 2.2
 shot film 1100x620+170+140 1000
-click 940 740   # Discard
-quit
-open_window 700 300
-sleep 3
-shot start-page 1440x900+0+0 1000
+click 1033 723  # Discard
 quit
 ls -l "$images"
