@@ -35,8 +35,7 @@ TEST_F(OptionsTest, TheDisplayIsTheDevicesUnlessItIsGiven) {
             Display::kSideBySide);
   EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "mono"})).display, Display::kMono);
   EXPECT_EQ(ExitCode({show_, "--display", "cinema"}), 2);
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "openxr"})).display,
-            Display::kOpenXr);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "openxr"})).display, Display::kOpenXr);
   EXPECT_EQ(ExitCode({show_, "--display", "openxr", "--headless"}), 2);
 }
 
