@@ -392,13 +392,15 @@ std::string PropTransferSettings() {
   std::ostringstream settings;
   settings << ", light transfer " << options.count << " " << options.rays << " " << options.bounces
            << " " << options.longest_edge << " " << options.most_vertices << " "
-           << options.receiver_area << " " << options.most_receivers;
+           << options.receiver_area << " " << options.most_receivers << ", "
+           << import::kLevelsOfDetail << " levels of detail";
   return settings.str();
 }
 
 Result<std::vector<std::byte>> LitProp(const stage::Prop& prop, const std::string& place) {
   LARARIUM_ASSIGN_OR_RETURN(const auto model, stage::ObjectModel::Create(prop, place));
-  LARARIUM_ASSIGN_OR_RETURN(const stage::Prop lit, bake::BakePropTransfer(*model, {}));
+  LARARIUM_ASSIGN_OR_RETURN(stage::Prop lit, bake::BakePropTransfer(*model, {}));
+  import::AddLevelsOfDetail(lit);
   return stage::SerializeProp(lit);
 }
 

@@ -4,8 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "shared/human/simplify.h"
-
 namespace lararium::import {
 namespace {
 
@@ -21,6 +19,9 @@ std::vector<uint32_t> Uncovered(const std::vector<uint32_t>& indices,
   }
   return left;
 }
+
+// Light between vertices is as far off as so much of an edge.
+constexpr float kLightError = 0.05f;
 
 constexpr uint32_t kUnplaced = 0xffffffffu;
 
@@ -110,12 +111,26 @@ void Renumber(const std::vector<uint32_t>& numbers, int count, human::LightTrans
 }  // namespace
 
 void OrderTriangles(human::SkinnedMesh& mesh) {
-  human::OrderForCache(mesh.positions.size(), mesh.indices);
+  OrderForCache(mesh.positions.size(), mesh.indices);
 }
 
 void AddLevelsOfDetail(human::SkinnedMesh& mesh, const std::vector<bool>& covered) {
   mesh.coarser =
-      human::CoarserLevels(mesh.positions, Uncovered(mesh.indices, covered), mesh.indices.size());
+      CoarserLevels(mesh.positions, Uncovered(mesh.indices, covered), mesh.indices.size());
+}
+
+void AddLevelsOfDetail(stage::Prop& prop) {
+  for (stage::PropPart& part : prop.parts) {
+    for (stage::PropMesh& mesh : part.meshes) {
+      mesh.coarser = CoarserLevels(mesh.positions, mesh.indices, mesh.indices.size());
+      float error = 0.0f;
+      for (human::LevelOfDetail& level : mesh.coarser) {
+        error =
+            std::max({error, level.error, kLightError * MeanEdge(mesh.positions, level.indices)});
+        level.error = error;
+      }
+    }
+  }
 }
 
 void OrderVertices(human::Human& human) {

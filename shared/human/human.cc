@@ -20,12 +20,6 @@ bool AreWeights(const glm::vec4& w) {
          std::abs(w.x + w.y + w.z + w.w - 1.0f) < 1e-3f;
 }
 
-bool AreTriangles(const std::vector<uint32_t>& indices, size_t vertex_count) {
-  return indices.size() % 3 == 0 &&
-         std::all_of(indices.begin(), indices.end(),
-                     [vertex_count](uint32_t i) { return i < vertex_count; });
-}
-
 // At most one cloth moves a part.
 bool EachHasItsMesh(const std::vector<Cloth>& cloths) {
   for (size_t i = 0; i < cloths.size(); ++i) {
@@ -49,18 +43,7 @@ Status SkinnedMesh::Validate(size_t joint_count,
       weights.size() != count || (!uvs.empty() && uvs.size() != count)) {
     return Status::Error(part, "its vertex arrays differ in length");
   }
-  const auto can_be_detail = [](const LevelOfDetail& level) {
-    return std::isfinite(level.error) && level.error >= 0.0f;
-  };
-  if (!AreTriangles(indices, count) ||
-      std::any_of(coarser.begin(), coarser.end(), [count](const LevelOfDetail& level) {
-        return !AreTriangles(level.indices, count);
-      })) {
-    return Status::Error(part, "its triangles name vertices that do not exist");
-  }
-  if (!std::all_of(coarser.begin(), coarser.end(), can_be_detail)) {
-    return Status::Error(part, "a level of detail has no possible error");
-  }
+  LARARIUM_RETURN_IF_ERROR(ValidateTriangles(indices, coarser, count, part));
   if (material != Material::kNone && (material < 0 || size_t(material) >= material_count)) {
     return Status::Error(part, "names a material that does not exist");
   }

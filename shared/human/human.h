@@ -16,18 +16,13 @@
 #include "shared/core/status.h"
 #include "shared/human/clip.h"
 #include "shared/human/face_shape.h"
+#include "shared/human/level_of_detail.h"
 #include "shared/human/light_transfer.h"
 #include "shared/human/material.h"
 #include "shared/human/skeleton.h"
 #include "shared/human/soft_parts.h"
 
 namespace lararium::human {
-
-// Fewer triangles over the same vertices.
-struct LevelOfDetail {
-  float error = 0.0f;  // metres, from the full detail
-  std::vector<uint32_t> indices;
-};
 
 // A skinned part with one material. Arrays are parallel over its vertices.
 struct SkinnedMesh {

@@ -12,7 +12,6 @@
 
 #include "shared/core/check.h"
 #include "shared/core/parallel.h"
-#include "shared/human/simplify.h"
 #include "shared/render/closed_surface.h"
 #include "shared/render/detail.h"
 #include "shared/render/surface_texture.h"
@@ -46,7 +45,6 @@ struct PartSource {
   };
   std::vector<Level> levels;
   int16_t material = human::Material::kNone;
-  std::vector<human::LevelOfDetail> made = {};  // levels that did not come with it
 };
 
 void DefineFloats(GLuint location, int count, size_t stride, size_t offset) {
@@ -174,9 +172,6 @@ PartSource Source(const human::SkinnedMesh& mesh) {
   return source;
 }
 
-// Light is known at vertices and wrong in between: as far off as so much of an edge.
-constexpr float kLightError = 0.05f;
-
 PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
   PartSource source{mesh.positions,
                     mesh.normals,
@@ -191,12 +186,8 @@ PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
                             {1.0f, 0.0f, 0.0f, 0.0f},
                             kBack};
   }
-  float error = 0.0f;
-  source.made = human::CoarserLevels(mesh.positions, mesh.indices, mesh.indices.size());
-  for (const human::LevelOfDetail& level : source.made) {
-    error = std::max(
-        {error, level.error, kLightError * human::MeanEdge(mesh.positions, level.indices)});
-    source.levels.push_back({level.indices, error, mesh.positions.size()});
+  for (const human::LevelOfDetail& level : mesh.coarser) {
+    source.levels.push_back({level.indices, level.error, mesh.positions.size()});
   }
   return source;
 }

@@ -61,10 +61,7 @@ Status PropMesh::Validate(size_t material_count, const std::string& place) const
   if (normals.size() != count || albedo.size() != count || (!uvs.empty() && uvs.size() != count)) {
     return Status::Error(place, "its vertex arrays differ in length");
   }
-  if (indices.size() % 3 != 0 ||
-      std::any_of(indices.begin(), indices.end(), [count](uint32_t i) { return i >= count; })) {
-    return Status::Error(place, "its triangles name vertices that do not exist");
-  }
+  LARARIUM_RETURN_IF_ERROR(human::ValidateTriangles(indices, coarser, count, place));
   if (!std::all_of(positions.begin(), positions.end(),
                    [](const glm::vec3& p) { return human::Finite(p); }) ||
       !std::all_of(normals.begin(), normals.end(), IsUnit) ||

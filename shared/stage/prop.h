@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/human/level_of_detail.h"
 #include "shared/human/light_transfer.h"
 #include "shared/human/material.h"
 
@@ -42,6 +43,7 @@ struct PropMesh {
   std::vector<glm::vec3> albedo;              // linear RGB, 0..1
   std::vector<glm::vec2> uvs;                 // (0, 0) is the image's top left; may be empty
   std::vector<uint32_t> indices;              // three for each triangle, counter-clockwise outside
+  std::vector<human::LevelOfDetail> coarser;  // ascending error; may be empty
   int16_t material = human::Material::kNone;  // index into Prop::materials; none: plain albedo
   // Light that it gives off by itself, linear RGB radiance: 1 is white in an image
   // of gain 1.

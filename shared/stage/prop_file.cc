@@ -12,12 +12,18 @@ constexpr uint32_t kVersion = 1;
 constexpr char kRemedy[] = "import the object again";
 constexpr FlatbufferKind kKind = {".larprop", kVersion, kRemedy};
 
+void ReadLevel(const prop_fb::LevelOfDetail& from, BlockReader& reader, human::LevelOfDetail& to) {
+  to.error = from.error();
+  reader.Read(from.indices(), to.indices);
+}
+
 void ReadMesh(const prop_fb::Mesh& from, BlockReader& reader, PropMesh& to) {
   reader.Read(from.positions(), to.positions);
   reader.Read(from.normals(), to.normals);
   reader.Read(from.albedo(), to.albedo);
   reader.Read(from.uvs(), to.uvs);
   reader.Read(from.indices(), to.indices);
+  reader.ReadTables(from.coarser(), to.coarser, ReadLevel);
   to.material = from.material();
   to.emission = human::ReadVec3(from.emission());
 }
@@ -100,6 +106,11 @@ Result<Prop> ReadProp(const prop_fb::Prop& from, size_t file_size, const std::st
 
 prop_fb::Vec3 Write(const glm::vec3& v) { return prop_fb::Vec3(v.x, v.y, v.z); }
 
+auto WriteLevel(flatbuffers::FlatBufferBuilder& builder, const human::LevelOfDetail& level) {
+  const auto indices = builder.CreateVector(level.indices);
+  return prop_fb::CreateLevelOfDetail(builder, level.error, indices);
+}
+
 auto WriteMesh(flatbuffers::FlatBufferBuilder& builder, const PropMesh& mesh) {
   const auto positions = WriteBlock<prop_fb::Vec3>(builder, mesh.positions);
   const auto normals = WriteBlock<prop_fb::Vec3>(builder, mesh.normals);
@@ -107,8 +118,9 @@ auto WriteMesh(flatbuffers::FlatBufferBuilder& builder, const PropMesh& mesh) {
   const auto uvs = WriteBlock<prop_fb::Vec2>(builder, mesh.uvs);
   const auto indices = builder.CreateVector(mesh.indices);
   const prop_fb::Vec3 emission = Write(mesh.emission);
+  const auto coarser = WriteTables(builder, mesh.coarser, WriteLevel);
   return prop_fb::CreateMesh(builder, positions, normals, albedo, uvs, indices, mesh.material,
-                             &emission);
+                             &emission, coarser);
 }
 
 auto WritePart(flatbuffers::FlatBufferBuilder& builder, const PropPart& part) {

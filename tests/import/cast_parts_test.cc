@@ -128,6 +128,26 @@ TEST(LevelsOfDetail, GoWithoutWhatIsCovered) {
   }
 }
 
+TEST(LevelsOfDetail, OfAThingAreOffByAShareOfTheirEdgesAtLeast) {
+  const human::SkinnedMesh sphere = Sphere(48, 96).mesh;
+  stage::Prop prop;
+  stage::PropMesh& mesh = prop.parts.emplace_back().meshes.emplace_back();
+  mesh.positions = sphere.positions;
+  // Flat: only light between vertices is wrong.
+  for (glm::vec3& p : mesh.positions) {
+    p.y = 0.0f;
+  }
+  mesh.indices = sphere.indices;
+  AddLevelsOfDetail(prop);
+  ASSERT_FALSE(mesh.coarser.empty());
+  float before = 0.0f;
+  for (const human::LevelOfDetail& level : mesh.coarser) {
+    EXPECT_GE(level.error, 0.01f * MeanEdge(mesh.positions, level.indices));
+    EXPECT_GE(level.error, before);
+    before = level.error;
+  }
+}
+
 TEST(LevelsOfDetail, AreNoneWhereAllIsCovered) {
   human::SkinnedMesh mesh = Sphere(48, 96).mesh;
   AddLevelsOfDetail(mesh, std::vector<bool>(mesh.positions.size(), true));

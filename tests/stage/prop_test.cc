@@ -45,6 +45,7 @@ Prop MakeRich() {
   prop.parts[0].meshes[0].material = 0;
   prop.parts[0].meshes[0].uvs.resize(8, {0.25f, 0.75f});
   prop.parts[1].meshes[0].emission = {3.0f, 2.0f, 1.0f};
+  prop.parts[1].meshes[0].coarser = {{0.01f, {0, 1, 2, 0, 2, 3}}, {0.05f, {0, 1, 2}}};
   AddLight(prop);
   return prop;
 }
@@ -56,6 +57,9 @@ TEST(Prop, RoundTrips) {
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   EXPECT_EQ(SerializeProp(*parsed), bytes);
   EXPECT_EQ(parsed->use, prop.use);
+  ASSERT_EQ(parsed->parts[1].meshes[0].coarser.size(), 2u);
+  EXPECT_EQ(parsed->parts[1].meshes[0].coarser[0].error, 0.01f);
+  EXPECT_EQ(parsed->parts[1].meshes[0].coarser[1].indices, (std::vector<uint32_t>{0, 1, 2}));
   EXPECT_EQ(parsed->parts[1].parent, 0);
   EXPECT_EQ(parsed->parts[1].parent_from_part, prop.parts[1].parent_from_part);
   EXPECT_EQ(parsed->parts[0].meshes[0].positions, prop.parts[0].meshes[0].positions);
@@ -127,6 +131,13 @@ TEST(Prop, SaysWhatIsWrong) {
             std::string::npos);
   EXPECT_NE(error([](Prop& p) { p.parts[1].name = "body"; }).find("two parts"), std::string::npos);
   EXPECT_NE(error([](Prop& p) { p.parts[0].meshes[0].indices[2] = 8; }).find("do not exist"),
+            std::string::npos);
+  EXPECT_NE(
+      error([](Prop& p) { p.parts[1].meshes[0].coarser[1].indices[2] = 8; }).find("do not exist"),
+      std::string::npos);
+  EXPECT_NE(error([](Prop& p) {
+              p.parts[1].meshes[0].coarser[0].error = -1.0f;
+            }).find("no possible error"),
             std::string::npos);
   EXPECT_NE(error([](Prop& p) { p.parts[0].meshes[0].material = 1; }).find("material"),
             std::string::npos);

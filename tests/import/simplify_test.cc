@@ -1,11 +1,11 @@
-#include "shared/human/simplify.h"
+#include "editor/import/simplify.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-namespace lararium::human {
+namespace lararium::import {
 namespace {
 
 struct Triangles {
@@ -49,10 +49,10 @@ float Area(const Triangles& grid, const std::vector<uint32_t>& indices) {
 
 TEST(CoarserLevels, OfAPlaneKeepItAndAreOffByNothing) {
   const Triangles grid = Grid(32, 1.0f, 0.0f);
-  const std::vector<LevelOfDetail> levels =
+  const std::vector<human::LevelOfDetail> levels =
       CoarserLevels(grid.positions, grid.indices, grid.indices.size());
   ASSERT_FALSE(levels.empty());
-  for (const LevelOfDetail& level : levels) {
+  for (const human::LevelOfDetail& level : levels) {
     EXPECT_NEAR(level.error, 0.0f, 1e-4f);
     EXPECT_NEAR(Area(grid, level.indices), 1.0f, 1e-3f);
   }
@@ -60,12 +60,12 @@ TEST(CoarserLevels, OfAPlaneKeepItAndAreOffByNothing) {
 
 TEST(CoarserLevels, OfAHillAreOffByMoreAndMore) {
   const Triangles grid = Grid(64, 1.0f, 0.3f);
-  const std::vector<LevelOfDetail> levels =
+  const std::vector<human::LevelOfDetail> levels =
       CoarserLevels(grid.positions, grid.indices, grid.indices.size());
-  ASSERT_EQ(levels.size(), static_cast<size_t>(kMostLevels));
+  ASSERT_EQ(levels.size(), static_cast<size_t>(kLevelsOfDetail));
   size_t before = grid.indices.size();
   float error = 0.0f;
-  for (const LevelOfDetail& level : levels) {
+  for (const human::LevelOfDetail& level : levels) {
     EXPECT_LT(level.indices.size(), before);
     EXPECT_GT(level.error, error);
     EXPECT_LT(level.error, 0.05f);
@@ -76,7 +76,7 @@ TEST(CoarserLevels, OfAHillAreOffByMoreAndMore) {
 
 TEST(CoarserLevels, TakeSharesOfTheWhole) {
   const Triangles grid = Grid(32, 1.0f, 0.3f);
-  const std::vector<LevelOfDetail> levels =
+  const std::vector<human::LevelOfDetail> levels =
       CoarserLevels(grid.positions, grid.indices, 8 * grid.indices.size());
   ASSERT_FALSE(levels.empty());
   // An eighth of the whole is all that there is: it is a level by itself.
@@ -97,4 +97,4 @@ TEST(MeanEdge, OfARightAngledTriangle) {
 }
 
 }  // namespace
-}  // namespace lararium::human
+}  // namespace lararium::import

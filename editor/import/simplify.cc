@@ -1,4 +1,4 @@
-#include "shared/human/simplify.h"
+#include "editor/import/simplify.h"
 
 #include <meshoptimizer.h>
 
@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-namespace lararium::human {
+namespace lararium::import {
 namespace {
 
-constexpr float kShares[kMostLevels] = {0.5f, 0.25f, 0.125f, 0.0625f};
+constexpr float kShares[kLevelsOfDetail] = {0.5f, 0.25f, 0.125f, 0.0625f};
 constexpr float kMostOfThePrevious = 0.85f;  // a level must be smaller than this of it
 constexpr float kMostError = 0.15f;          // of the mesh's extent
 constexpr size_t kLeastTriangles = 32;
@@ -25,10 +25,10 @@ void OrderForCache(size_t vertex_count, std::vector<uint32_t>& indices) {
   indices = std::move(ordered);
 }
 
-std::vector<LevelOfDetail> CoarserLevels(std::span<const glm::vec3> positions,
-                                         std::span<const uint32_t> indices,
-                                         size_t whole) {
-  std::vector<LevelOfDetail> levels;
+std::vector<human::LevelOfDetail> CoarserLevels(std::span<const glm::vec3> positions,
+                                                std::span<const uint32_t> indices,
+                                                size_t whole) {
+  std::vector<human::LevelOfDetail> levels;
   if (indices.empty()) {
     return levels;
   }
@@ -41,7 +41,7 @@ std::vector<LevelOfDetail> CoarserLevels(std::span<const glm::vec3> positions,
     if (wanted < 3 * kLeastTriangles) {
       break;
     }
-    LevelOfDetail level;
+    human::LevelOfDetail level;
     level.indices.resize(indices.size());
     float error = 0.0f;
     const size_t left =
@@ -68,4 +68,4 @@ float MeanEdge(std::span<const glm::vec3> positions, std::span<const uint32_t> i
   return indices.empty() ? 0.0f : static_cast<float>(sum / static_cast<double>(indices.size()));
 }
 
-}  // namespace lararium::human
+}  // namespace lararium::import

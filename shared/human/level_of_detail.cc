@@ -1,0 +1,36 @@
+#include "shared/human/level_of_detail.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lararium::human {
+namespace {
+
+bool AreTriangles(const std::vector<uint32_t>& indices, size_t vertex_count) {
+  return indices.size() % 3 == 0 &&
+         std::all_of(indices.begin(), indices.end(),
+                     [vertex_count](uint32_t i) { return i < vertex_count; });
+}
+
+}  // namespace
+
+Status ValidateTriangles(const std::vector<uint32_t>& indices,
+                         const std::vector<LevelOfDetail>& coarser,
+                         size_t vertex_count,
+                         const std::string& place) {
+  const auto can_be_detail = [](const LevelOfDetail& level) {
+    return std::isfinite(level.error) && level.error >= 0.0f;
+  };
+  if (!AreTriangles(indices, vertex_count) ||
+      std::any_of(coarser.begin(), coarser.end(), [vertex_count](const LevelOfDetail& level) {
+        return !AreTriangles(level.indices, vertex_count);
+      })) {
+    return Status::Error(place, "its triangles name vertices that do not exist");
+  }
+  if (!std::all_of(coarser.begin(), coarser.end(), can_be_detail)) {
+    return Status::Error(place, "a level of detail has no possible error");
+  }
+  return Status();
+}
+
+}  // namespace lararium::human
