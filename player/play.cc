@@ -629,6 +629,7 @@ Status Performance::RunLockStep() {
   show::StagedFrame staged;
   while (KeepGoing()) {
     if (languages_changed_) {
+      lock_step.reset();
       LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
       lock_step.emplace(stages());
     }

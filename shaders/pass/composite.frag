@@ -25,8 +25,8 @@ void main() {
   vec2 cell = layer_scale * vec2(gl_FragCoord.x, picture_height - gl_FragCoord.y);
   vec3 encoded = Background(raw);
   bool may_show = Within(cell, smeared_bounds);
-  // Loops instead of ifs where they leave out much: shaders/include/sun.glsl.
 #ifdef LOOK
+  // Loops instead of ifs where they leave out much: shaders/include/sun.glsl.
   vec4 person = vec4(0.0);
   int shows = may_show ? 1 : 0;
   for (int i = 0; i < shows; ++i) {
@@ -42,11 +42,9 @@ void main() {
   kept = Within(cell, catcher_bounds) ? kept : vec3(1.0);
   person *= people_opacity;
   kept = mix(vec3(1.0), kept, people_opacity);
-  int changes = person.a > 0.0 || any(greaterThan(abs(kept - 1.0), vec3(0.0))) ? 1 : 0;
-  for (int i = 0; i < changes; ++i) {
-    vec3 light = LinearFromSrgb(encoded) * kept * (1.0 - person.a) + person.rgb;
-    encoded = SrgbFromLinear(clamp(light, 0.0, 1.0));
-  }
+  vec3 light = LinearFromSrgb(encoded) * kept * (1.0 - person.a) + person.rgb;
+  bool changes = person.a > 0.0 || any(notEqual(kept, vec3(1.0)));
+  encoded = changes ? SrgbFromLinear(clamp(light, 0.0, 1.0)) : encoded;
 #ifdef LOOK
   int noisy = person.a > 0.0 ? noise_is_on : 0;
   for (int i = 0; i < noisy; ++i) {

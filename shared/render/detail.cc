@@ -6,7 +6,8 @@
 namespace lararium::render {
 namespace {
 
-constexpr double kNearest = 0.5;  // metres
+constexpr double kNearest = 0.5;    // metres
+constexpr float kElsewhere = 0.5f;  // ErrorShare but of faces
 constexpr float kPressureStep = 1.25f;
 constexpr float kMostPressure = 64.0f;
 // The budget lets go only where that much of it would stay free.
@@ -51,14 +52,23 @@ bool MaySee(const geometry::CameraModel& display,
          inside(-centre.y(), display.fy, display.cy + 0.5);
 }
 
-std::vector<MeshLevel> FindMeshLevels(const human::SkinnedMesh& mesh) {
+float ErrorShare(human::Surface surface) {
+  const bool of_a_face = surface == human::Surface::kSkin || surface == human::Surface::kEye;
+  return of_a_face ? 1.0f : kElsewhere;
+}
+
+std::vector<MeshLevel> FindMeshLevels(const human::Human& human, size_t index) {
+  const human::SkinnedMesh& mesh = human.meshes[index];
+  const float share = mesh.material == human::Material::kNone
+                          ? kElsewhere
+                          : ErrorShare(human.materials[static_cast<size_t>(mesh.material)].surface);
   const auto level = [](const std::vector<uint32_t>& indices, float error) {
     const auto last = std::max_element(indices.begin(), indices.end());
     return MeshLevel{error, indices.size() / 3, last == indices.end() ? 0 : size_t{*last} + 1};
   };
   std::vector<MeshLevel> levels = {level(mesh.indices, 0.0f)};
   for (const human::LevelOfDetail& coarser : mesh.coarser) {
-    levels.push_back(level(coarser.indices, coarser.error));
+    levels.push_back(level(coarser.indices, share * coarser.error));
   }
   for (size_t i = levels.size() - 1; i > 0; --i) {
     levels[i - 1].vertices = std::max(levels[i - 1].vertices, levels[i].vertices);
@@ -69,8 +79,8 @@ std::vector<MeshLevel> FindMeshLevels(const human::SkinnedMesh& mesh) {
 std::vector<DetailLevel> FindDetailLevels(const human::Human& human) {
   std::vector<std::vector<MeshLevel>> meshes;
   std::vector<float> errors = {0.0f};
-  for (const human::SkinnedMesh& mesh : human.meshes) {
-    for (const MeshLevel& level : meshes.emplace_back(FindMeshLevels(mesh))) {
+  for (size_t i = 0; i < human.meshes.size(); ++i) {
+    for (const MeshLevel& level : meshes.emplace_back(FindMeshLevels(human, i))) {
       errors.push_back(level.error);
     }
   }

@@ -153,8 +153,9 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
   return part;
 }
 
-PartSource Source(const human::SkinnedMesh& mesh) {
-  const std::vector<MeshLevel> levels = FindMeshLevels(mesh);
+PartSource Source(const human::Human& human, size_t index) {
+  const human::SkinnedMesh& mesh = human.meshes[index];
+  const std::vector<MeshLevel> levels = FindMeshLevels(human, index);
   PartSource source{mesh.positions,
                     mesh.normals,
                     {},
@@ -166,8 +167,7 @@ PartSource Source(const human::SkinnedMesh& mesh) {
                             mesh.joints[v], mesh.weights[v], kBack};
   }
   for (size_t i = 0; i < mesh.coarser.size(); ++i) {
-    source.levels.push_back(
-        {mesh.coarser[i].indices, mesh.coarser[i].error, levels[i + 1].vertices});
+    source.levels.push_back({mesh.coarser[i].indices, levels[i + 1].error, levels[i + 1].vertices});
   }
   return source;
 }
@@ -186,8 +186,9 @@ PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
                             {1.0f, 0.0f, 0.0f, 0.0f},
                             kBack};
   }
+  const float share = ErrorShare(human::Surface::kPlain);
   for (const human::LevelOfDetail& level : mesh.coarser) {
-    source.levels.push_back({level.indices, level.error, mesh.positions.size()});
+    source.levels.push_back({level.indices, share * level.error, mesh.positions.size()});
   }
   return source;
 }
@@ -358,8 +359,8 @@ Result<GpuModel> GpuModel::Create(const human::Human& human, TexturePool& pool) 
   const bool dual = human.skinning == human::Skinning::kDualQuaternion;
   model.skin = dual ? Skin::kDualQuaternion : Skin::kLinear;
   std::vector<PartSource> sources;
-  for (const human::SkinnedMesh& mesh : human.meshes) {
-    sources.push_back(Source(mesh));
+  for (size_t i = 0; i < human.meshes.size(); ++i) {
+    sources.push_back(Source(human, i));
   }
   SetBacks(human.light.meshes, sources);
   LARARIUM_RETURN_IF_ERROR(

@@ -59,7 +59,7 @@ struct SceneHuman {
   // levels of detail take.
   std::span<const glm::vec3> irradiance = {};
   // Metres by which what is drawn may differ from the finest level of detail
-  // (shared/render/detail.h).
+  // as errors count (shared/render/detail.h).
   float detail = 0.0f;
   // Where they stand. Its sun is taken for as bright, in the scene's direction; none: the scene's.
   const light::ProbeLight* light = nullptr;

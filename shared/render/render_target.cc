@@ -54,14 +54,6 @@ void RenderTarget::ReadPixels(cv::Mat& bgr) const {
   cv::cvtColor(read_, bgr, cv::COLOR_RGBA2BGR);
 }
 
-void RenderTarget::DrawInto(const RenderTarget& target) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer());
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, target.width_, target.height_, GL_COLOR_BUFFER_BIT,
-                    GL_LINEAR);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-}
-
 void RenderTarget::Present(int framebuffer_width, int framebuffer_height) const {
   const double scale = std::min(static_cast<double>(framebuffer_width) / width_,
                                 static_cast<double>(framebuffer_height) / height_);

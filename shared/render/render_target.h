@@ -26,9 +26,6 @@ class RenderTarget {
   // Waits for the drawing. bgr: CV_8UC3, allocated when its size is another.
   void ReadPixels(cv::Mat& bgr) const;
 
-  // Fills another target with the picture, made larger or smaller.
-  void DrawInto(const RenderTarget& target) const;
-
   // Draws the picture as large as it fits into the window's framebuffer, with
   // black bars where the proportions differ.
   void Present(int framebuffer_width, int framebuffer_height) const;

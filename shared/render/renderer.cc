@@ -20,9 +20,6 @@
 namespace lararium::render {
 namespace {
 
-// Nobody looks at things as closely as at faces.
-constexpr float kPropShare = 2.0f;
-
 // Nearly as fine is as fine: it would cost as much.
 constexpr double kLeastEnlarged = 0.9;
 
@@ -130,6 +127,8 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
                             ShaderProgram::Create("full_screen.vert", "background.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
                             ShaderProgram::Create("full_screen.vert", "composite.frag"));
+  LARARIUM_ASSIGN_OR_RETURN(state->enlarging_pass,
+                            ShaderProgram::Create("full_screen.vert", "enlarged.frag"));
   state->no_vertices = GlVertexArray::Generate();
   return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
@@ -264,9 +263,8 @@ float Renderer::State::PropDetail(const RenderScene& scene, const SceneProp& pro
   }
   const geometry::CameraModel display =
       scene.display.Resized(picture_size.width, picture_size.height);
-  return kPropShare * quality.detail_px /
-         PixelsPerMetre(display, *scene.camera_from_stage,
-                        glm::vec3(prop.stage_from_part.front()[3]));
+  return quality.detail_px / PixelsPerMetre(display, *scene.camera_from_stage,
+                                            glm::vec3(prop.stage_from_part.front()[3]));
 }
 
 PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const PictureView& view) {
@@ -424,6 +422,19 @@ void Renderer::State::Composite(const RenderScene& scene,
   glActiveTexture(GL_TEXTURE0);
 }
 
+void Renderer::State::Enlarge(const RenderTarget& picture, const RenderTarget& target) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  glViewport(0, 0, target.width(), target.height());
+  enlarging_pass.Use();
+  enlarging_pass.Set("target_size", glm::vec2(target.width(), target.height()));
+  enlarging_pass.Set("picture", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, picture.texture());
+  glBindVertexArray(no_vertices.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
 Status Renderer::State::CheckDriver() {
   if (glGetError() != GL_NO_ERROR) {
     return Status::Error("graphics", "the driver reports an error, probably out of memory",
@@ -450,7 +461,7 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   }
   state.Composite(scene, layer, smear, *picture);
   if (picture != &target) {
-    picture->DrawInto(target);
+    state.Enlarge(*picture, target);
   }
   return State::CheckDriver();
 }

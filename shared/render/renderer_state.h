@@ -36,7 +36,8 @@ struct Renderer::State {
   ShaderProgram background_pass;
   ShaderProgram composite_pass;
   ShaderProgram look_composite_pass;  // with RenderScene::look
-  GlVertexArray no_vertices;          // of the full-screen pass
+  ShaderProgram enlarging_pass;
+  GlVertexArray no_vertices;  // of full-screen passes
   Texture background_image;
   std::optional<RenderTarget> small_picture;  // that is made larger
   LinearTarget people;
@@ -75,6 +76,8 @@ struct Renderer::State {
                  const PictureView& layer,
                  const Smear& smear,
                  const RenderTarget& target);
+  // Fills the target with a picture of another size.
+  void Enlarge(const RenderTarget& picture, const RenderTarget& target) const;
   // How far away the people in the picture are on average, along the view; of those who
   // consist of a root joint and others, by the root.
   float PeopleDepth(const PictureView& view) const;

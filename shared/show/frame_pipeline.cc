@@ -25,7 +25,6 @@ void TimedStage(const FrameStages& stages,
   const Clock::time_point begin = Clock::now();
   {
     ScopedStageTimer timer(stages.statistics.simulate);
-    stages.statistics.tracking.Add(tracked);
     stages.show.StageFrame(std::move(tracked), time, staged);
     timer.AddCpu(staged.helpers_cpu_ms);
   }
@@ -43,7 +42,22 @@ void SleepUntil(Clock::time_point due, const std::stop_token& stop) {
 
 }  // namespace
 
-Result<bool> LockStep::Next(StagedFrame& staged) {
+LockStep::LockStep(FrameStages stages)
+    : stages_(stages), thread_([this](const std::stop_token& stop) {
+        while (std::optional<StagedFrame> staged = wanted_.Take(stop)) {
+          Result<bool> more = Prepare(*staged);
+          prepared_.Put({std::move(more), std::move(*staged)});
+        }
+      }) {
+  wanted_.Put({});
+}
+
+LockStep::~LockStep() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+Result<bool> LockStep::Prepare(StagedFrame& staged) {
   LARARIUM_ASSIGN_OR_RETURN(const std::optional<geometry::Frame> frame, TimedNext(stages_));
   if (!frame) {
     return false;
@@ -53,6 +67,19 @@ Result<bool> LockStep::Next(StagedFrame& staged) {
   staged.located = Clock::now();
   TimedStage(stages_, std::move(tracked), clock_.ShowTime(*frame), staged);
   return true;
+}
+
+Result<bool> LockStep::Next(StagedFrame& staged) {
+  if (more_.ok() && *more_) {
+    Prepared prepared = *prepared_.Take(std::stop_token());
+    more_ = std::move(prepared.more);
+    if (more_.ok() && *more_) {
+      std::swap(staged, prepared.staged);
+      stages_.statistics.tracking.Add(staged.tracked);
+      wanted_.Put(std::move(prepared.staged));
+    }
+  }
+  return more_;
 }
 
 RealtimePipeline::RealtimePipeline(FrameStages stages)
@@ -124,6 +151,7 @@ void RealtimePipeline::Simulate(const std::stop_token& stop) {
     staged->arrival = located->arrival;
     staged->located = located->located;
     const double time = clock.ShowTime(located->tracked.frame);
+    stages_.statistics.tracking.Add(located->tracked);
     TimedStage(stages_, std::move(located->tracked), time, *staged);
     staged_.Put(std::move(staged));
   }

@@ -41,17 +41,34 @@ class FrameClock {
   std::optional<double> first_;
 };
 
-// Each call takes one frame through all stages.
+// Each call takes one frame through all stages. While the caller draws it the next one is prepared:
+// what is done to the show in between may be seen a frame later.
 class LockStep {
  public:
-  explicit LockStep(FrameStages stages) : stages_(stages) {}
+  explicit LockStep(FrameStages stages);
+  // Waits for the frame under way; what stages names is the caller's again.
+  ~LockStep();
+  LockStep(const LockStep&) = delete;
+  LockStep& operator=(const LockStep&) = delete;
 
-  // False at the end of the source.
+  // False at the end of the source, and from then on; so does a failure of it stay.
   Result<bool> Next(StagedFrame& staged);
 
  private:
+  // Fills a frame, whose buffers serve again.
+  Result<bool> Prepare(StagedFrame& staged);
+
+  struct Prepared {
+    Result<bool> more;
+    StagedFrame staged;
+  };
+
   FrameStages stages_;
   FrameClock clock_;
+  Mailbox<StagedFrame> wanted_;  // to be filled
+  Mailbox<Prepared> prepared_;
+  Result<bool> more_ = true;
+  std::jthread thread_;
 };
 
 // Capture, tracking and simulation on a thread each; the caller draws. Recorded

@@ -213,7 +213,7 @@ void PersonLight::MakeMeshes() {
   for (size_t i = 0; i < human_->meshes.size(); ++i) {
     const LightTransfer::Mesh& mesh = human_->light.meshes[i];
     MeshLight& made = meshes_.emplace_back();
-    made.levels = render::FindMeshLevels(human_->meshes[i]);
+    made.levels = render::FindMeshLevels(*human_, i);
     made.irradiance.resize(mesh.receivers.size());
     made.receivers.resize(mesh.receivers.size());
     for (size_t v = 0; v < made.receivers.size(); ++v) {

@@ -30,14 +30,15 @@ TEST(FindDetailLevels, SumsWhatEachMeshShowsAtAnError) {
   EXPECT_EQ(levels[1].triangles, all + half.size() / 3);
   EXPECT_EQ(levels[2].triangles, 2 * (half.size() / 3));
   EXPECT_EQ(levels[3].triangles, half.size() / 3 + 1);
-  EXPECT_FLOAT_EQ(levels[3].error, 0.004f);
+  EXPECT_FLOAT_EQ(levels[3].error, 0.004f * ErrorShare(human::Surface::kPlain));
 }
 
 TEST(FindMeshLevels, CountsTheFirstVerticesThatALevelAndAllCoarserOnesTake) {
-  human::SkinnedMesh mesh = MakeHuman(BendingBox(glm::vec3(0.5f)), 3).meshes[0];
+  human::Human human = MakeHuman(BendingBox(glm::vec3(0.5f)), 3);
+  human::SkinnedMesh& mesh = human.meshes[0];
   mesh.indices = {0, 1, 2, 5, 4, 3};
   mesh.coarser = {{0.001f, {0, 1, 2}}, {0.002f, {1, 2, 3}}, {0.004f, {}}};
-  const std::vector<MeshLevel> levels = FindMeshLevels(mesh);
+  const std::vector<MeshLevel> levels = FindMeshLevels(human, 0);
   ASSERT_EQ(levels.size(), 4u);
   const size_t vertices[] = {6, 4, 4, 0};
   const size_t triangles[] = {2, 1, 1, 0};
@@ -46,8 +47,23 @@ TEST(FindMeshLevels, CountsTheFirstVerticesThatALevelAndAllCoarserOnesTake) {
     EXPECT_EQ(levels[i].triangles, triangles[i]) << i;
   }
   EXPECT_EQ(&LevelAllowed(levels, 0.0f), &levels[0]);
-  EXPECT_EQ(&LevelAllowed(levels, 0.003f), &levels[2]);
+  EXPECT_EQ(&LevelAllowed(levels, 0.003f * ErrorShare(human::Surface::kPlain)), &levels[2]);
   EXPECT_EQ(&LevelAllowed(levels, 1.0f), &levels[3]);
+}
+
+TEST(FindMeshLevels, CountErrorsOfSkinAndEyesMoreThanOthers) {
+  human::Human human = MakeHuman(BendingBox(glm::vec3(0.5f)), 3);
+  human.meshes[0].coarser = {{0.002f, {0, 1, 2}}};
+  human.meshes[0].material = 0;
+  human.materials.resize(1);
+  const auto error = [&human](human::Surface surface) {
+    human.materials[0].surface = surface;
+    return FindMeshLevels(human, 0)[1].error;
+  };
+  EXPECT_FLOAT_EQ(error(human::Surface::kSkin), 0.002f);
+  EXPECT_FLOAT_EQ(error(human::Surface::kEye), 0.002f);
+  EXPECT_LT(error(human::Surface::kCloth), 0.002f);
+  EXPECT_LT(error(human::Surface::kHair), 0.002f);
 }
 
 TEST(PixelsPerMetre, IsWhatTheCameraSees) {

@@ -2,10 +2,27 @@
 
 #include <gtest/gtest.h>
 
+#include <semaphore>
+
 #include "tests/show/small_show.h"
 
 namespace lararium::show {
 namespace {
+
+// Says of every frame that it was asked for.
+class TellingPoses : public vision::PoseSource {
+ public:
+  vision::TrackedFrame Track(const geometry::Frame& frame) override {
+    asked_.release();
+    return fake_.Track(frame);
+  }
+  // Waits for the next one that is asked for.
+  bool WasAsked() { return asked_.try_acquire_for(std::chrono::seconds(20)); }
+
+ private:
+  test::FakePoses fake_;
+  std::counting_semaphore<> asked_{0};
+};
 
 class FramePipelineTest : public ::testing::Test {
  protected:
@@ -39,6 +56,36 @@ TEST_F(FramePipelineTest, LockStepReportsWhatTheSourceSays) {
     EXPECT_TRUE(lock_step.Next(staged).value());
   }
   EXPECT_EQ(lock_step.Next(staged).message(), "fake: broken");
+  EXPECT_EQ(lock_step.Next(staged).message(), "fake: broken");
+}
+
+TEST_F(FramePipelineTest, LockStepHasEndedForGood) {
+  test::FakeSource source(1);
+  LockStep lock_step(Stages(source));
+  StagedFrame staged;
+  EXPECT_TRUE(lock_step.Next(staged).value());
+  EXPECT_FALSE(lock_step.Next(staged).value());
+  EXPECT_FALSE(lock_step.Next(staged).value());
+}
+
+TEST_F(FramePipelineTest, LockStepPreparesTheNextFrameWhileOneIsDrawn) {
+  test::FakeSource source(20);
+  TellingPoses poses;
+  LockStep lock_step({source, poses, *show_, statistics_});
+  StagedFrame staged;
+  EXPECT_TRUE(poses.WasAsked());
+  EXPECT_TRUE(lock_step.Next(staged).value());
+  EXPECT_TRUE(poses.WasAsked()) << "only one was taken";
+  EXPECT_EQ(staged.tracked.frame.index, 0);
+  EXPECT_EQ(statistics_.tracking.frames(), 1) << "counts what was not shown yet";
+}
+
+TEST_F(FramePipelineTest, LockStepCanBeAbandonedAtAnyMoment) {
+  test::FakeSource source(20);
+  StagedFrame staged;
+  { const LockStep unused(Stages(source)); }
+  LockStep lock_step(Stages(source));
+  EXPECT_TRUE(lock_step.Next(staged).value());
 }
 
 TEST_F(FramePipelineTest, RealtimeDeliversTheLastFrameAndNeverGoesBack) {
