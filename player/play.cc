@@ -1,7 +1,5 @@
 #include "player/play.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <cmath>
 #include <csignal>
@@ -32,6 +30,7 @@
 #include "shared/capture/steady_camera.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/memory.h"
 #include "shared/core/parallel.h"
 #include "shared/render/quality.h"
 #include "shared/show/frame_pipeline.h"
@@ -684,15 +683,10 @@ Status Performance::Run() {
   return Status();
 }
 
-// Loading makes and drops much that is large, playing little of it again and again.
-// At first what is large goes back to the system as soon as it is dropped.
-void BeginLoading() { ::mallopt(M_MMAP_THRESHOLD, 128 << 10); }
-// From here on it is kept for the next frame.
-void EndLoading() {
-  ::malloc_trim(0);
-  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
-}
+// Loading makes and drops much that is large, playing little of it again and again: what is large
+// goes back at first, and is kept for the next frame later.
+constexpr size_t kLargeInLoading = 128 << 10;
+constexpr size_t kLargeInPlaying = 32 << 20;
 
 }  // namespace
 
@@ -708,9 +702,10 @@ Status Play(const PlayOptions& options,
     limit.emplace(options.threads);
   }
   Performance performance(options, started, log, start, heartbeat);
-  BeginLoading();
+  ReturnBlocksFrom(kLargeInLoading);
   LARARIUM_RETURN_IF_ERROR(performance.Prepare());
-  EndLoading();
+  TrimHeap();
+  ReturnBlocksFrom(kLargeInPlaying);
   if (options.sandbox && options.display == Display::kOpenXr) {
     log.info("no sandbox: the headset's runtime needs the system");
   } else if (options.sandbox) {

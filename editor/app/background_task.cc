@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "shared/core/memory.h"
+
 namespace lararium::app {
 
 std::optional<double> EstimateSecondsLeft(double fraction, double elapsed_seconds) {
@@ -48,6 +50,7 @@ BackgroundTask::BackgroundTask(std::string name, Work work) : name_(std::move(na
   thread_ = std::jthread([this, work = std::move(work)] {
     Reporter reporter(*this);
     Status status = work(reporter);
+    TrimHeap();  // such work takes much, once
     const std::lock_guard lock(mutex_);
     outcome_ = std::move(status);
   });

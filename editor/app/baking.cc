@@ -469,9 +469,22 @@ BakeStep SoundStep(const SoundFile& sound) {
           }};
 }
 
+Status AddPeople(const ProjectPaths& paths,
+                 const ProjectDocument& document,
+                 const Progress& progress,
+                 std::vector<BakeStep>& steps) {
+  for (const CastDocument& member : document.cast) {
+    LARARIUM_ASSIGN_OR_RETURN(BakeStep step, HumanStep(paths, member));
+    steps.push_back(std::move(step));
+    steps.push_back(TransferStep(paths, member, progress));
+  }
+  return Status();
+}
+
 Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
                                     const ProjectDocument& document,
-                                    const Progress& progress) {
+                                    const Progress& progress,
+                                    BakeWhat what) {
   std::vector<BakeStep> steps;
   for (const PlaceDocument& place : document.places) {
     for (const ProbeDocument& probe : place.probes) {
@@ -484,10 +497,8 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
       }
     }
   }
-  for (const CastDocument& member : document.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(BakeStep step, HumanStep(paths, member));
-    steps.push_back(std::move(step));
-    steps.push_back(TransferStep(paths, member, progress));
+  if (what == BakeWhat::kAll) {
+    LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, steps));
   }
   for (const ObjectDocument& object : document.objects) {
     steps.push_back(ObjectStep(paths, object));
@@ -579,9 +590,11 @@ std::optional<std::filesystem::path> FindCastLibrary() {
 
 Result<BakeReport> Bake(const ProjectPaths& paths,
                         const ProjectDocument& document,
-                        Progress& progress) {
+                        Progress& progress,
+                        BakeWhat what) {
   BakeReport report;
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<BakeStep> steps, Steps(paths, document, progress));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<BakeStep> steps,
+                            Steps(paths, document, progress, what));
   for (size_t i = 0; i < steps.size(); ++i) {
     progress.Report("baking", static_cast<double>(i) / static_cast<double>(steps.size()));
     if (progress.Cancelled()) {
@@ -592,6 +605,18 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
   }
   progress.Report("baking", 1.0);
   return report;
+}
+
+std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDocument& document) {
+  const NoProgress silent;
+  std::vector<std::string> names;
+  for (const CastDocument& member : document.cast) {
+    const Result<BakeStep> step = HumanStep(paths, member);
+    if (!step.ok() || !IsMade(*step) || !IsMade(TransferStep(paths, member, silent))) {
+      names.push_back(member.name);
+    }
+  }
+  return names;
 }
 
 Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member) {
@@ -661,6 +686,17 @@ Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocumen
     return NotBaked(file);
   }
   return human::LoadHuman(file);
+}
+
+Result<human::Human> LoadBakedHumanOrStandIn(const ProjectPaths& paths,
+                                             const CastDocument& member) {
+  Result<human::Human> baked = LoadBakedHuman(paths, member);
+  if (baked.ok()) {
+    return baked;
+  }
+  human::Human figure = MakePlainFigure(member);
+  LARARIUM_RETURN_IF_ERROR(AddClips(paths, member, figure));
+  return figure;
 }
 
 Result<stage::Prop> LoadBakedProp(const ProjectPaths& paths, const ObjectDocument& object) {

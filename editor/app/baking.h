@@ -31,12 +31,18 @@ struct BakeReport {
   std::vector<std::string> warnings;
 };
 
+enum class BakeWhat { kAll, kAllButPeople };
+
 // Makes what is missing or stale. Stops at the first failure; what was made
 // until then is complete and stays. A probe that cannot be read is a warning: even light
 // stands in for it.
 Result<BakeReport> Bake(const ProjectPaths& paths,
                         const ProjectDocument& document,
-                        Progress& progress);
+                        Progress& progress,
+                        BakeWhat what = BakeWhat::kAll);
+
+// Of the cast, who is not baked as the project has them now.
+std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDocument& document);
 
 // One human alone, made where it is missing or stale, without light transfer.
 Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member);
@@ -59,6 +65,8 @@ Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const OccluderDocument& occluder);
 // With its light transfer, where that is up to date.
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member);
+// The same; the plain figure where nobody was baked.
+Result<human::Human> LoadBakedHumanOrStandIn(const ProjectPaths& paths, const CastDocument& member);
 // The file that it is loaded from.
 std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocument& member);
 Result<stage::Prop> LoadBakedProp(const ProjectPaths& paths, const ObjectDocument& object);

@@ -6,6 +6,7 @@
 #include "editor/app/baking.h"
 #include "editor/app/thumbnail.h"
 #include "editor/import/cast_presets.h"
+#include "shared/core/memory.h"
 #include "shared/human/human.h"
 
 namespace lararium::app {
@@ -62,6 +63,7 @@ class CastPictures::Painter {
     alone.cast.push_back(member);
     NoProgress silent;
     LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, silent));
+    TrimHeap();
     std::move(report.warnings.begin(), report.warnings.end(), std::back_inserter(warnings));
     return Status();
   }

@@ -9,6 +9,7 @@
 #include "shared/audio/mixer.h"
 #include "shared/audio/sound_player.h"
 #include "shared/capture/frame_source.h"
+#include "shared/core/memory.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/render_target.h"
 #include "shared/show/show.h"
@@ -251,6 +252,7 @@ void Preview::Run(std::stop_token stop) {
     const std::lock_guard lock(mutex_);
     source_ = (*worker)->source();
   }
+  TrimHeap();  // of what the one before left, too
   while (const std::optional<PreviewRequest> request = requests_.Take(stop)) {
     Result<std::shared_ptr<const PreviewPicture>> picture = (*worker)->Draw(*request);
     if (!picture.ok()) {

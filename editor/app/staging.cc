@@ -218,7 +218,8 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const PlaceDocument& place,
                                        std::shared_ptr<const vision::SceneDatabase> database,
                                        const Similarity3& map_from_picked,
-                                       const show::LanguageChoice& languages) {
+                                       const show::LanguageChoice& languages,
+                                       Unbuilt unbuilt) {
   show::ShowContent content;
   content.title = document.title;
   LARARIUM_ASSIGN_OR_RETURN(stage::Place staged,
@@ -232,7 +233,9 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
     }
   }
   for (const CastDocument& member : document.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
+    LARARIUM_ASSIGN_OR_RETURN(human::Human human, unbuilt == Unbuilt::kFails
+                                                      ? LoadBakedHuman(paths, member)
+                                                      : LoadBakedHumanOrStandIn(paths, member));
     content.cast.push_back(
         {member.name, std::make_shared<const human::Human>(std::move(human)), {}});
   }

@@ -96,6 +96,9 @@ Result<StagedMap> LoadStagedMap(const ProjectPaths& paths, const PlaceDocument& 
 Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
                                                    const ProjectDocument& document);
 
+// What becomes of people who were never baked.
+enum class Unbuilt { kFails, kStandsIn };
+
 // Everything that a show needs at one place, whose map is at hand and whose picks
 // are resolved. Fails where something was not baked.
 Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
@@ -103,7 +106,8 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const PlaceDocument& place,
                                        std::shared_ptr<const vision::SceneDatabase> database,
                                        const geometry::Similarity3& map_from_picked,
-                                       const show::LanguageChoice& languages = {});
+                                       const show::LanguageChoice& languages = {},
+                                       Unbuilt unbuilt = Unbuilt::kFails);
 
 // The same with the map read from the project. Picks that do not resolve are an
 // error here; a place without any is staged by the guess.

@@ -16,11 +16,16 @@
 #include "editor/app/window_content.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/theme.h"
+#include "shared/core/memory.h"
 #include "shared/render/window.h"
 
 namespace lararium::app {
 
 namespace {
+
+// Bytes. Baking and opening take and drop hundreds of megabytes on threads that live on, whose
+// heaps would keep them. Pictures of the window are larger, and drawn seldom.
+constexpr size_t kLargeBlock = 1 << 20;
 
 // ImGui with its back ends, for the life of the window.
 class Interface {
@@ -141,6 +146,7 @@ Status MainLoop(render::Window& window,
 }  // namespace
 
 Status RunWindow(const WindowOptions& options, Log& log) {
+  ReturnBlocksFrom(kLargeBlock);
   const Settings settings = RestoreSettings(log);
   std::unique_ptr<Workspace> workspace;
   if (!options.project.empty()) {

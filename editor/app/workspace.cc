@@ -540,23 +540,30 @@ void Workspace::ReloadPreview() {
   }
   const auto content = std::make_shared<show::ShowContent>();
   const auto report = std::make_shared<BakeReport>();
-  const auto work = [content, report, paths = paths_, document = commands_.snapshot(),
-                     script = script_.snapshot(), name = place_name_, database = loaded_.database,
-                     baking = baking_,
+  const auto missing = std::make_shared<size_t>(0);  // people for whom others stand in
+  const auto work = [content, report, missing, others_stand_in = PeopleLeft() > 0, paths = paths_,
+                     document = commands_.snapshot(), script = script_.snapshot(),
+                     name = place_name_, database = loaded_.database, baking = baking_,
                      map_from_picked = loaded_.picks.map_from_picked](Progress& progress) {
-    {
+    *missing = others_stand_in ? PeopleToBake(paths, *document).size() : 0;
+    if (*missing == 0) {
       const std::lock_guard turn(*baking);
       LARARIUM_ASSIGN_OR_RETURN(*report, app::Bake(paths, *document, progress));
+    } else {
+      LARARIUM_ASSIGN_OR_RETURN(*report,
+                                app::Bake(paths, *document, progress, BakeWhat::kAllButPeople));
     }
     const PlaceDocument place = WithoutDrafts(*document->FindPlace(name), *database);
     LARARIUM_ASSIGN_OR_RETURN(*content,
-                              AssembleShow(paths, *document, place, database, map_from_picked));
+                              AssembleShow(paths, *document, place, database, map_from_picked, {},
+                                           *missing > 0 ? Unbuilt::kStandsIn : Unbuilt::kFails));
     content->drama = *script;  // as it is written now, saved or not
     return Status();
   };
-  const auto done = [this, content, report, revision = script_.revision(),
+  const auto done = [this, content, report, missing, revision = script_.revision(),
                      document = commands_.snapshot(),
                      name = place_name_](const Status& status, bool cancelled) {
+    stand_ins_ = *missing;
     if (!status.ok()) {
       Report(status, cancelled, "");
       return;
@@ -621,8 +628,16 @@ void Workspace::AdvancePlayback(double seconds) {
   time_ = time_ + seconds < end ? time_ + seconds : 0.0;
 }
 
+size_t Workspace::PeopleLeft() const {
+  const std::vector<CastDocument>& cast = document().cast;
+  return static_cast<size_t>(std::count_if(
+      cast.begin(), cast.end(),
+      [this](const CastDocument& member) { return cast_pictures_.Working(member.name); }));
+}
+
 bool Workspace::StageIsOutdated() const {
-  return preview_stale_ || cast_pictures_.Working() || tasks_.Running(kOpening);
+  return preview_stale_ || (stand_ins_ == 0 && cast_pictures_.Working()) ||
+         tasks_.Running(kOpening);
 }
 
 void Workspace::RequestPicture() {
@@ -700,8 +715,14 @@ void Workspace::Update(double seconds) {
     MeasureAgain();
   }
   TellOfPictures();
-  // Who is being changed is baked for their picture first; the stage follows.
-  if (preview_stale_ && !cast_pictures_.Working()) {
+  const size_t left = PeopleLeft();
+  if (left < stand_ins_) {
+    preview_key_.clear();
+    preview_stale_ = true;
+  }
+  // Who is being changed is baked for their picture first; the stage follows. Where there is no
+  // picture yet, others stand in.
+  if (preview_stale_ && (left == 0 || preview_ == nullptr || stand_ins_ > 0)) {
     ReloadPreview();
   }
   AdvancePlayback(seconds);

@@ -145,6 +145,10 @@ class Workspace {
 
   // The people of the project in pictures.
   CastPictures& cast_pictures() { return cast_pictures_; }
+  // How many people of the cast are still to be built or pictured.
+  size_t PeopleLeft() const;
+  // The preview shows plain figures, or people as they were built before, for some of them.
+  bool HasStandIns() const { return stand_ins_ > 0; }
   // What recipes can choose from, read when first asked for. nullptr: not yet, or the
   // library is not there, which catalogue_problem() says.
   const CastCatalogue* catalogue();
@@ -270,6 +274,7 @@ class Workspace {
   std::string preview_key_;
   bool map_stale_ = false;
   bool preview_stale_ = false;
+  size_t stand_ins_ = 0;  // people for whom others stand in, in the preview
   std::unique_ptr<Preview> preview_;
   std::shared_ptr<const PreviewPicture> picture_;
   int64_t requested_frame_ = -1;

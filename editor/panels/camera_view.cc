@@ -181,9 +181,6 @@ void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& si
   } else if (workspace.tasks_empty() && !workspace.recording() && !workspace.messages().empty()) {
     text = Tr("No picture. The messages below say why.");
   }
-  if (workspace.loaded().database != nullptr && workspace.cast_pictures().Working()) {
-    text = Tr("The picture comes when the people are built.");
-  }
   const ImVec2 extent = ImGui::CalcTextSize(text);
   ImGui::GetWindowDrawList()->AddText(
       ImVec2(origin.x + 0.5f * (size.x - extent.x), origin.y + 0.5f * (size.y - extent.y)),

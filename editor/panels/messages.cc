@@ -98,14 +98,12 @@ void ShowStatusBar(app::Workspace& workspace) {
   for (const app::TaskList::Entry& entry : workspace.tasks().entries()) {
     ShowTask(*entry.task);
   }
-  const std::vector<app::CastDocument>& cast = workspace.document().cast;
-  const auto unbuilt =
-      std::count_if(cast.begin(), cast.end(), [&](const app::CastDocument& member) {
-        return workspace.cast_pictures().Working(member.name);
-      });
+  const size_t unbuilt = workspace.PeopleLeft();
   if (unbuilt > 0) {
     ImGui::AlignTextToFramePadding();
-    DimText(Text(Tr("Building people: %d left"), static_cast<int>(unbuilt)));
+    const char* text = workspace.HasStandIns() ? Tr("Building people: %d left; others stand in")
+                                               : Tr("Building people: %d left");
+    DimText(Text(text, static_cast<int>(unbuilt)));
     ImGui::SameLine();
   }
   if (!workspace.messages().empty() && workspace.tasks_empty()) {
