@@ -6,8 +6,11 @@
 namespace lararium::render {
 namespace {
 
-constexpr double kNearest = 0.5;    // metres
-constexpr float kElsewhere = 0.5f;  // ErrorShare but of faces
+constexpr double kNearest = 0.5;  // metres
+// Shares of errors. Where skin at the last step of quality counted as other surfaces do, faces
+// were smears.
+constexpr float kOfFaces = 2.5f;
+constexpr float kElsewhere = 0.5f;
 constexpr float kPressureStep = 1.25f;
 constexpr float kMostPressure = 64.0f;
 // The budget lets go only where that much of it would stay free.
@@ -54,7 +57,7 @@ bool MaySee(const geometry::CameraModel& display,
 
 float ErrorShare(human::Surface surface) {
   const bool of_a_face = surface == human::Surface::kSkin || surface == human::Surface::kEye;
-  return of_a_face ? 1.0f : kElsewhere;
+  return of_a_face ? kOfFaces : kElsewhere;
 }
 
 std::vector<MeshLevel> FindMeshLevels(const human::Human& human, size_t index) {
