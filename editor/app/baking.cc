@@ -96,6 +96,12 @@ bool Exists(const std::filesystem::path& file) {
   return std::filesystem::exists(file, ignored);
 }
 
+// How long steps take, in proportion to each other.
+constexpr double kCostOfPerson = 5.0;
+constexpr double kCostOfPersonsLight = 13.0;
+constexpr double kCostOfObject = 1.0;
+constexpr double kCostOfOthers = 0.1;
+
 struct BakeStep {
   std::string name;
   std::filesystem::path product;
@@ -105,6 +111,7 @@ struct BakeStep {
   std::function<Result<std::vector<std::byte>>(std::vector<std::string>&)> make;
   // What stands in where it fails, said in the warning that this then is. Empty: nothing can.
   std::string stand_in = {};
+  double cost = kCostOfOthers;
 };
 
 // Whether the product is there as it would be made now.
@@ -324,6 +331,7 @@ BakeStep HumanStep(const ProjectPaths& paths,
                 figure.sources,
                 member.name + " " + figure.settings,
                 {}};
+  step.cost = kCostOfPerson;
   for (const ClipDocument& clip : member.clips) {
     step.sources.push_back(paths.Resolve(clip.file));
     step.settings += " " + clip.name + (clip.loops ? " loops" : "");
@@ -384,7 +392,9 @@ BakeStep TransferStep(const ProjectPaths& paths,
             OnlyCancels quiet(progress);
             LARARIUM_ASSIGN_OR_RETURN(human.light, bake::BakeTransfer(human, {}, quiet));
             return human::SerializeHuman(human);
-          }};
+          },
+          {},
+          kCostOfPersonsLight};
 }
 
 std::string PropTransferSettings() {
@@ -411,6 +421,7 @@ BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& obj
                 {file},
                 "object file" + PropTransferSettings(),
                 {}};
+  step.cost = kCostOfObject;
   const std::filesystem::path use = import::UseFileBeside(file);
   if (use != file && Exists(use)) {
     step.sources.push_back(use);
@@ -434,7 +445,9 @@ BakeStep ObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
             LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop,
                                       import::BuildObjectModel(object.model));
             return LitProp(prop, object.name);
-          }};
+          },
+          {},
+          kCostOfObject};
 }
 
 // Rendering a voice takes so little that sound and visemes each do it.
@@ -595,13 +608,19 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
   BakeReport report;
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<BakeStep> steps,
                             Steps(paths, document, progress, what));
-  for (size_t i = 0; i < steps.size(); ++i) {
-    progress.Report("baking", static_cast<double>(i) / static_cast<double>(steps.size()));
+  double whole = 0.0;
+  for (const BakeStep& step : steps) {
+    whole += step.cost;
+  }
+  double done = 0.0;
+  for (const BakeStep& step : steps) {
+    progress.Report("baking", done / whole);
     if (progress.Cancelled()) {
-      return Status::Error("bake", "cancelled before the " + steps[i].name);
+      return Status::Error("bake", "cancelled before the " + step.name);
     }
-    LARARIUM_ASSIGN_OR_RETURN(const bool made, RunOrReplace(steps[i], report.warnings));
-    (made ? report.baked : report.unchanged).push_back(steps[i].name);
+    LARARIUM_ASSIGN_OR_RETURN(const bool made, RunOrReplace(step, report.warnings));
+    (made ? report.baked : report.unchanged).push_back(step.name);
+    done += step.cost;
   }
   progress.Report("baking", 1.0);
   return report;

@@ -1,6 +1,7 @@
 #include "editor/app/cast_pictures.h"
 
 #include <algorithm>
+#include <stop_token>
 #include <utility>
 
 #include "editor/app/baking.h"
@@ -18,6 +19,18 @@ std::string StampOf(const std::filesystem::path& file) {
   return error ? " none" : " " + std::to_string(time.time_since_epoch().count());
 }
 
+// Ends baking where its thread is to end.
+class UntilStopped : public Progress {
+ public:
+  explicit UntilStopped(std::stop_token stop) : stop_(std::move(stop)) {}
+
+  void Report(std::string_view, double) override {}
+  bool Cancelled() const override { return stop_.stop_requested(); }
+
+ private:
+  std::stop_token stop_;
+};
+
 }  // namespace
 
 // What only the thread touches.
@@ -28,7 +41,8 @@ class CastPictures::Painter {
     std::shared_ptr<const CastPortrait> portrait;
   };
 
-  explicit Painter(std::shared_ptr<std::mutex> baking) : baking_(std::move(baking)) {}
+  Painter(std::shared_ptr<std::mutex> baking, std::stop_token stop)
+      : baking_(std::move(baking)), progress_(std::move(stop)) {}
 
   lararium::Result<Result> Paint(const ProjectPaths& paths,
                                  const Order& order,
@@ -61,8 +75,7 @@ class CastPictures::Painter {
     const std::lock_guard turn(*baking_);
     ProjectDocument alone;
     alone.cast.push_back(member);
-    NoProgress silent;
-    LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, silent));
+    LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, progress_));
     TrimHeap();
     std::move(report.warnings.begin(), report.warnings.end(), std::back_inserter(warnings));
     return Status();
@@ -92,6 +105,7 @@ class CastPictures::Painter {
   }
 
   std::shared_ptr<std::mutex> baking_;
+  UntilStopped progress_;
   std::unique_ptr<Studio> studio_;
   std::string seated_;  // the key of who sits there
   std::vector<std::string> joints_;
@@ -240,7 +254,7 @@ void CastPictures::Deliver(const Order& order,
 }
 
 void CastPictures::Run(std::stop_token stop) {
-  Painter painter(baking_);
+  Painter painter(baking_, stop);
   std::unique_lock lock(mutex_);
   while (ordered_.wait(lock, stop, [this] { return NextOrder().has_value(); })) {
     const Order order = *NextOrder();
@@ -248,6 +262,9 @@ void CastPictures::Run(std::stop_token stop) {
     std::vector<std::string> warnings;
     auto painted = painter.Paint(order.of_preset ? presets_folder_ : project_, order, warnings);
     lock.lock();
+    if (stop.stop_requested()) {
+      return;
+    }
     if (!painted.ok()) {
       problems_.push_back(painted.status());
       Deliver(order, nullptr, nullptr);
@@ -255,9 +272,6 @@ void CastPictures::Run(std::stop_token stop) {
       Deliver(order, std::move(painted->thumbnail), std::move(painted->portrait));
     }
     std::move(warnings.begin(), warnings.end(), std::back_inserter(warnings_));
-    if (stop.stop_requested()) {
-      return;
-    }
   }
 }
 

@@ -43,7 +43,7 @@ class CastPictures {
   CastPictures(ProjectPaths project,
                std::filesystem::path presets,
                std::shared_ptr<std::mutex> baking);
-  // Waits for the person who is being made.
+  // Waits where somebody is being built; their light is given up.
   ~CastPictures();
   CastPictures(const CastPictures&) = delete;
   CastPictures& operator=(const CastPictures&) = delete;
