@@ -1,7 +1,6 @@
 #pragma once
 
-// How the heap treats memory that is no longer used. Elsewhere than with the GNU C library these
-// do nothing.
+// How the heap of the GNU C library treats memory that is no longer used.
 
 #include <cstddef>
 

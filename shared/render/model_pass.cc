@@ -24,8 +24,8 @@ constexpr uint32_t kSkinBinding = 0;
 // multiple of every driver's offset alignment.
 constexpr size_t kSkinStride = human::Skeleton::kMaxJoints * sizeof(glm::mat4);
 
-// Metres by which what casts shadows may differ from the finest level of detail: less
-// than a texel of the sun's map.
+// Metres by which what casts shadows may differ from the finest level of detail, as errors
+// count: less than a texel of the sun's map.
 constexpr float kCasterDetail = 0.0025f;
 // Of people no longer parts than these cast shadows: eyes, teeth, brows and lashes do not.
 constexpr float kLeastCaster = 0.15f;  // metres

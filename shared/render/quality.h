@@ -33,8 +33,8 @@ struct Quality {
   bool reflections = true;
   // Noise, softness and motion blur of the camera.
   bool camera_look = true;
-  // By how many pixels levels of detail may be off, and how many triangles all people together
-  // may have (DetailOptions).
+  // By how many pixels levels of detail may be off, as errors count (ErrorShare), and how many
+  // triangles all people together may have (DetailOptions).
   float detail_px = 0.5f;
   int triangles = 300'000;
 
