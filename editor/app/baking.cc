@@ -707,12 +707,15 @@ Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocumen
   return human::LoadHuman(file);
 }
 
-Result<human::Human> LoadBakedHumanOrStandIn(const ProjectPaths& paths,
-                                             const CastDocument& member) {
-  Result<human::Human> baked = LoadBakedHuman(paths, member);
-  if (baked.ok()) {
-    return baked;
+Result<SharedPerson> ShareBakedHuman(const ProjectPaths& paths, const CastDocument& member) {
+  const std::filesystem::path file = BakedHumanFile(paths, member);
+  if (!Exists(file)) {
+    return NotBaked(file);
   }
+  return SharePerson(file);
+}
+
+Result<human::Human> MakeStandIn(const ProjectPaths& paths, const CastDocument& member) {
   human::Human figure = MakePlainFigure(member);
   LARARIUM_RETURN_IF_ERROR(AddClips(paths, member, figure));
   return figure;

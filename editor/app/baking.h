@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "editor/app/project.h"
+#include "editor/app/shared_people.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/geometry/triangle_mesh.h"
@@ -65,8 +66,10 @@ Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const OccluderDocument& occluder);
 // With its light transfer, where that is up to date.
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member);
-// The same; the plain figure where nobody was baked.
-Result<human::Human> LoadBakedHumanOrStandIn(const ProjectPaths& paths, const CastDocument& member);
+// The same, with all others who show them now.
+Result<SharedPerson> ShareBakedHuman(const ProjectPaths& paths, const CastDocument& member);
+// The plain figure, for who was not baked.
+Result<human::Human> MakeStandIn(const ProjectPaths& paths, const CastDocument& member);
 // The file that it is loaded from.
 std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocument& member);
 Result<stage::Prop> LoadBakedProp(const ProjectPaths& paths, const ObjectDocument& object);

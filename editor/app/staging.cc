@@ -9,6 +9,7 @@
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/lines.h"
 #include "editor/app/paradata.h"
+#include "editor/app/shared_people.h"
 #include "editor/app/sounds.h"
 #include "shared/core/file.h"
 #include "shared/geometry/glm_convert.h"
@@ -213,6 +214,19 @@ Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
   return objects;
 }
 
+// With the plain figure where nobody was baked, unless that fails.
+Result<show::CastMember> LoadMember(const ProjectPaths& paths,
+                                    const CastDocument& member,
+                                    Unbuilt unbuilt) {
+  Result<SharedPerson> baked = ShareBakedHuman(paths, member);
+  if (!baked.ok() && unbuilt == Unbuilt::kStandsIn) {
+    LARARIUM_ASSIGN_OR_RETURN(human::Human figure, MakeStandIn(paths, member));
+    return show::CastMember{member.name, std::make_shared<const human::Human>(std::move(figure))};
+  }
+  LARARIUM_RETURN_IF_ERROR(baked.status());
+  return show::CastMember{member.name, std::move(baked->human), {}, std::move(baked->light)};
+}
+
 Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const ProjectDocument& document,
                                        const PlaceDocument& place,
@@ -233,11 +247,7 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
     }
   }
   for (const CastDocument& member : document.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(human::Human human, unbuilt == Unbuilt::kFails
-                                                      ? LoadBakedHuman(paths, member)
-                                                      : LoadBakedHumanOrStandIn(paths, member));
-    content.cast.push_back(
-        {member.name, std::make_shared<const human::Human>(std::move(human)), {}});
+    LARARIUM_ASSIGN_OR_RETURN(content.cast.emplace_back(), LoadMember(paths, member, unbuilt));
   }
   LARARIUM_ASSIGN_OR_RETURN(content.objects, LoadObjects(paths, document));
   LARARIUM_ASSIGN_OR_RETURN(content.paradata, LoadParadata(paths));

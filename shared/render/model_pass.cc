@@ -269,15 +269,15 @@ void ModelPass::BindTextures(const GpuModel& model, const GpuModel::Part& part) 
   glBindTexture(GL_TEXTURE_2D, texture(part.colour_texture));
 }
 
-// The shadow of a prop that stands still is kept, wherever it is seen from. A face's shadow is looked
-// at no more closely than any other.
+// Where only depths are drawn, faces are looked at no more closely than anything else. The shadow
+// of a prop that stands still is kept, wherever it is seen from.
 float ModelPass::DetailOf(const ModelDraw& draw, const GpuModel::Part& part, Phase phase) {
-  if (phase != Phase::kCaster) {
+  if (phase != Phase::kDepth && phase != Phase::kCaster) {
     return draw.detail;
   }
-  const float allowed = draw.model->skin == GpuModel::Skin::kRigid
-                            ? kCasterDetail
-                            : std::max(draw.detail, kCasterDetail);
+  const float least = phase == Phase::kCaster ? kCasterDetail : 0.0f;
+  const bool kept = phase == Phase::kCaster && draw.model->skin == GpuModel::Skin::kRigid;
+  const float allowed = kept ? least : std::max(draw.detail, least);
   return allowed * ErrorShare(part.surface) / ErrorShare(human::Surface::kPlain);
 }
 

@@ -42,8 +42,8 @@ class StandInTest : public testing::Test {
 };
 
 TEST_F(StandInTest, WhoWasNeverBakedIsThePlainFigureInTheirSize) {
-  EXPECT_FALSE(LoadBakedHuman(paths_, document_.cast[0]).ok());
-  const auto ada = LoadBakedHumanOrStandIn(paths_, document_.cast[0]);
+  EXPECT_FALSE(ShareBakedHuman(paths_, document_.cast[0]).ok());
+  const auto ada = MakeStandIn(paths_, document_.cast[0]);
   ASSERT_TRUE(ada.ok()) << ada.message();
   EXPECT_NEAR(HeightOf(*ada), 1.5f, 0.05f);
 }
@@ -52,9 +52,9 @@ TEST_F(StandInTest, WhoWasBakedBeforeStaysAsTheyWere) {
   ASSERT_TRUE(BakeHuman(paths_, document_.cast[0]).ok());
   CastDocument taller = document_.cast[0];
   taller.height = 1.9;
-  const auto ada = LoadBakedHumanOrStandIn(paths_, taller);
+  const auto ada = ShareBakedHuman(paths_, taller);
   ASSERT_TRUE(ada.ok()) << ada.message();
-  EXPECT_NEAR(HeightOf(*ada), 1.5f, 0.05f);
+  EXPECT_NEAR(HeightOf(*ada->human), 1.5f, 0.05f);
 }
 
 TEST_F(StandInTest, BakingAllButPeopleLeavesThemToBeBaked) {
