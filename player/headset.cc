@@ -204,6 +204,14 @@ Result<Headset> ParseHeadset(const JsonView& view) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView stereo, view.Field("stereo"));
     LARARIUM_ASSIGN_OR_RETURN(headset.stereo, stereo.Boolean());
   }
+  if (view.Has("see_through")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("see_through"));
+    LARARIUM_ASSIGN_OR_RETURN(const std::string by, field.Text(16));
+    if (by != "camera" && by != "runtime") {
+      return field.Problem("must be \"camera\" or \"runtime\"");
+    }
+    headset.runtime_shows_room = by == "runtime";
+  }
   if (view.Has("panel")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView panel, view.Field("panel"));
     LARARIUM_ASSIGN_OR_RETURN(headset.panel, ParsePanel(panel));

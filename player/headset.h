@@ -36,6 +36,9 @@ struct Headset {
   double picture_distance = 3.0;
   // People are drawn once for each eye, from where it is; otherwise both see one picture.
   bool stereo = false;
+  // What is real is shown by the headset's OpenXR runtime, and people alone by us; otherwise all is
+  // in our camera's picture.
+  bool runtime_shows_room = false;
   std::optional<Panel> panel;  // none: its runtime knows it (OpenXR)
 
   // Who looks at the picture through an eye.

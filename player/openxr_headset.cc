@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -10,14 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "player/openxr_calls.h"
 #include "player/openxr_graphics.h"
+#include "player/openxr_see_through.h"
 #include "player/pose_history.h"
 #include "shared/render/picture_copy.h"
-
-#define XR_USE_GRAPHICS_API_OPENGL
-#define XR_USE_TIMESPEC
-#include <openxr/openxr.h>
-#include <openxr/openxr_platform.h>
 
 namespace lararium::player {
 namespace {
@@ -25,55 +23,10 @@ namespace {
 using geometry::Rigid3;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::string_view kPlace = "OpenXR";
-constexpr auto kEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
 constexpr double kFarthestLayer = 1000.0;  // metres: no eye can tell it from infinity
 constexpr auto kLongestEnd = std::chrono::seconds(1);
 constexpr auto kIdleStep = std::chrono::milliseconds(10);
 const XrPosef kNowhere = {{0.0f, 0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}};
-
-// OpenXR's axes are x right, y up, z backward; ours x right, y down, z forward.
-Rigid3 FromXr(const XrPosef& pose) {
-  const XrQuaternionf& q = pose.orientation;
-  const XrVector3f& p = pose.position;
-  return {Eigen::Quaterniond(q.w, q.x, -q.y, -q.z).normalized(), Eigen::Vector3d(p.x, -p.y, -p.z)};
-}
-
-XrPosef ToXr(const Rigid3& pose) {
-  const Eigen::Quaternionf q = pose.rotation.cast<float>();
-  const Eigen::Vector3f p = pose.translation.cast<float>();
-  return {{q.x(), -q.y(), -q.z(), q.w()}, {p.x(), -p.y(), -p.z()}};
-}
-
-// OpenXR's structures begin with their type.
-template <typename T>
-T Typed(XrStructureType type) {
-  T value = {};
-  value.type = type;
-  return value;
-}
-
-bool IsLoss(XrResult result) {
-  return result == XR_ERROR_SESSION_LOST || result == XR_ERROR_INSTANCE_LOST ||
-         result == XR_ERROR_RUNTIME_FAILURE || result == XR_SESSION_LOSS_PENDING;
-}
-
-// instance may be null: then results have numbers only.
-Status ToStatus(XrInstance instance, XrResult result, const char* what) {
-  if (XR_SUCCEEDED(result) && !IsLoss(result)) {
-    return Status();
-  }
-  char name[XR_MAX_RESULT_STRING_SIZE] = {};
-  if (instance == XR_NULL_HANDLE || XR_FAILED(xrResultToString(instance, result, name))) {
-    std::snprintf(name, sizeof(name), "error %d", static_cast<int>(result));
-  }
-  if (IsLoss(result)) {
-    return Status::Error(kPlace, std::string("the runtime was lost (") + name + ")",
-                         "start the headset's runtime again, then the player");
-  }
-  return Status::Error(kPlace, std::string(what) + " failed (" + name + ")",
-                       "look at what the headset's runtime says");
-}
 
 // A runtime's images of one eye.
 struct PictureImages {
@@ -82,6 +35,8 @@ struct PictureImages {
   int width = 0;
   int height = 0;
   bool filled = false;
+  XrPosef pose = kNowhere;  // of the eye for which it was drawn, in the room
+  XrFovf fov = {};          // likewise
 };
 
 class Session final : public OpenXrHeadset {
@@ -101,6 +56,8 @@ class Session final : public OpenXrHeadset {
   show::PictureEye PictureEyeOf(Eye eye) const override { return headset_.PictureEyeOf(eye); }
   Status SetPicture(Eye eye, const render::RenderTarget& picture) override;
   void Place(const geometry::CameraModel& pinhole, SteadyClock::time_point taken) override;
+  std::optional<Rigid3> RoomFromCamera(SteadyClock::time_point taken) const override;
+  std::optional<EyeView> ViewOf(Eye eye, int width, int height) override;
   Result<bool> Frame() override;
   Status End() override;
 
@@ -114,6 +71,10 @@ class Session final : public OpenXrHeadset {
   Status ChangeState(XrSessionState state);
   Status SubmitFrame();
   Status LocateHead(XrTime shown);
+  Result<bool> LocateEyes(XrSpace space, XrTime shown, std::array<XrView, 2>& views) const;
+  Status LookAhead(const XrFrameState& frame);
+  void AddQuad(Eye eye, std::vector<const XrCompositionLayerBaseHeader*>& layers);
+  void AddEyes(std::vector<const XrCompositionLayerBaseHeader*>& layers);
   XrTime TimeOf(SteadyClock::time_point time) const;
   Status Check(XrResult result, const char* what) const {
     return ToStatus(instance_, result, what);
@@ -137,6 +98,13 @@ class Session final : public OpenXrHeadset {
   bool in_room_ = false;  // else before the head, as long as nobody knows where it is
   XrPosef layer_pose_ = kNowhere;
   XrExtent2Df layer_size_ = {1.0f, 1.0f};
+  OpenXrSeeThrough see_through_;
+  std::optional<std::array<XrView, 2>> next_eyes_;  // in the room, when the next frame is shown
+  std::array<EyeView, 2> drawn_for_;                // of the pictures to come
+  // Of the frame being handed over.
+  std::array<XrCompositionLayerQuad, 2> quads_ = {};
+  std::array<XrCompositionLayerProjectionView, 2> projected_ = {};
+  XrCompositionLayerProjection projection_ = {};
 };
 
 Status Session::Create(const std::string& title) {
@@ -148,26 +116,30 @@ Status Session::Create(const std::string& title) {
 
 Status Session::CreateInstance(const std::string& title) {
   ::setenv("XR_LOADER_DEBUG", "none", 0);  // one message is enough, and it is ours
-  const char* extensions[] = {XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
-                              XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
+  std::vector<const char*> extensions = {XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
+                                         XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
+  if (headset_.runtime_shows_room) {
+    const std::vector<const char*> more = OpenXrSeeThrough::Extensions();
+    extensions.insert(extensions.end(), more.begin(), more.end());
+  }
   auto create = Typed<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
   std::snprintf(create.applicationInfo.applicationName,
                 sizeof(create.applicationInfo.applicationName), "%s", title.c_str());
   std::snprintf(create.applicationInfo.engineName, sizeof(create.applicationInfo.engineName), "%s",
                 "Lararium");
   create.applicationInfo.apiVersion = XR_CURRENT_API_VERSION;
-  create.enabledExtensionCount = static_cast<uint32_t>(std::size(extensions));
-  create.enabledExtensionNames = extensions;
+  create.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  create.enabledExtensionNames = extensions.data();
   const XrResult result = xrCreateInstance(&create, &instance_);
   if (result == XR_ERROR_EXTENSION_NOT_PRESENT) {
-    return Status::Error(kPlace,
+    return Status::Error(kOpenXrPlace,
                          "the runtime lacks XR_KHR_opengl_enable or "
                          "XR_KHR_convert_timespec_time",
                          "use another runtime, as Monado or SteamVR");
   }
   if (XR_FAILED(result)) {
     instance_ = XR_NULL_HANDLE;
-    return Status::Error(kPlace, "there is no runtime that can be used",
+    return Status::Error(kOpenXrPlace, "there is no runtime that can be used",
                          "install and start the headset's runtime (as Monado or SteamVR); "
                          "XR_RUNTIME_JSON names another than the system's");
   }
@@ -182,20 +154,16 @@ Status Session::FindSystem() {
   get.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
   const XrResult result = xrGetSystem(instance_, &get, &system_);
   if (result == XR_ERROR_FORM_FACTOR_UNAVAILABLE) {
-    return Status::Error(kPlace, "no headset is connected", "connect it, and start its runtime");
+    return Status::Error(kOpenXrPlace, "no headset is connected",
+                         "connect it, and start its runtime");
   }
   LARARIUM_RETURN_IF_ERROR(Check(result, "finding the headset"));
-  const auto function = [&](const char* name) {
-    PFN_xrVoidFunction found = nullptr;
-    xrGetInstanceProcAddr(instance_, name, &found);
-    return found;
-  };
-  to_xr_time_ = reinterpret_cast<PFN_xrConvertTimespecTimeToTimeKHR>(
-      function("xrConvertTimespecTimeToTimeKHR"));
-  const auto requirements = reinterpret_cast<PFN_xrGetOpenGLGraphicsRequirementsKHR>(
-      function("xrGetOpenGLGraphicsRequirementsKHR"));
+  to_xr_time_ =
+      FunctionOf<PFN_xrConvertTimespecTimeToTimeKHR>(instance_, "xrConvertTimespecTimeToTimeKHR");
+  const auto requirements = FunctionOf<PFN_xrGetOpenGLGraphicsRequirementsKHR>(
+      instance_, "xrGetOpenGLGraphicsRequirementsKHR");
   if (to_xr_time_ == nullptr || requirements == nullptr) {
-    return Status::Error(kPlace, "the runtime lacks a function of its own extensions",
+    return Status::Error(kOpenXrPlace, "the runtime lacks a function of its own extensions",
                          "update the runtime");
   }
   // To be asked before there is a session; every driver that we run on has more than is asked for.
@@ -206,7 +174,7 @@ Status Session::FindSystem() {
 Status Session::CreateSession() {
   const std::shared_ptr<const void> binding = CurrentGraphicsBinding();
   if (binding == nullptr) {
-    return Status::Error(kPlace, "the window has no OpenGL context of X11",
+    return Status::Error(kOpenXrPlace, "the window has no OpenGL context of X11",
                          "start the player in an X11 session or with XWayland");
   }
   auto create = Typed<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
@@ -221,7 +189,8 @@ Status Session::CreateSession() {
     LARARIUM_RETURN_IF_ERROR(
         Check(xrCreateReferenceSpace(session_, &reference, space), "a reference space"));
   }
-  return Status();
+  return headset_.runtime_shows_room ? see_through_.Begin(instance_, system_, session_, log_)
+                                     : Status();
 }
 
 Status Session::ChooseFormat() {
@@ -238,7 +207,8 @@ Status Session::ChooseFormat() {
       return Status();
     }
   }
-  return Status::Error(kPlace, "the runtime takes no pictures of 8 bits", "update the runtime");
+  return Status::Error(kOpenXrPlace, "the runtime takes no pictures of 8 bits",
+                       "update the runtime");
 }
 
 Status Session::CreateImages(PictureImages& images, int width, int height) const {
@@ -288,6 +258,11 @@ Status Session::SetPicture(Eye eye, const render::RenderTarget& picture) {
       Check(xrWaitSwapchainImage(images.swapchain, &wait), "waiting for an image"));
   copy_.Into(images.textures[std::min<size_t>(index, images.textures.size() - 1)], picture);
   images.filled = true;
+  const geometry::CameraModel& camera = drawn_for_[eye].camera;
+  const auto across = static_cast<float>(std::atan2(0.5 * camera.width, camera.fx));
+  const auto along = static_cast<float>(std::atan2(0.5 * camera.height, camera.fy));
+  images.pose = ToXr(drawn_for_[eye].room_from_eye);
+  images.fov = {-across, across, along, -along};
   return Check(xrReleaseSwapchainImage(images.swapchain, nullptr), "handing over an image");
 }
 
@@ -315,11 +290,34 @@ void Session::Place(const geometry::CameraModel& pinhole, SteadyClock::time_poin
   placed_ = true;
 }
 
+std::optional<Rigid3> Session::RoomFromCamera(SteadyClock::time_point taken) const {
+  const std::optional<Rigid3> room_from_head = heads_.At(TimeOf(taken));
+  return room_from_head ? std::optional(*room_from_head * headset_.head_from_camera) : std::nullopt;
+}
+
+// As wide to both sides, and alike for both eyes, so that what is drawn over the middle of both is
+// seen as one, far away; pixels are square.
+std::optional<EyeView> Session::ViewOf(Eye eye, int width, int height) {
+  if (!next_eyes_) {
+    return std::nullopt;
+  }
+  double slope = 0.0;  // of a pixel
+  for (const XrView& view : *next_eyes_) {
+    const double across = std::max(std::tan(-view.fov.angleLeft), std::tan(view.fov.angleRight));
+    const double along = std::max(std::tan(view.fov.angleUp), std::tan(-view.fov.angleDown));
+    slope = std::max({slope, 2.0 * across / width, 2.0 * along / height});
+  }
+  EyeView& view = drawn_for_[eye];
+  view.camera = {width, height, 1.0 / slope, 1.0 / slope, 0.5 * (width - 1), 0.5 * (height - 1)};
+  view.room_from_eye = FromXr((*next_eyes_)[eye].pose);
+  return view;
+}
+
 Status Session::ChangeState(XrSessionState state) {
   switch (state) {
     case XR_SESSION_STATE_READY: {
       auto begin = Typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
-      begin.primaryViewConfigurationType = kEyes;
+      begin.primaryViewConfigurationType = kEyesOfHead;
       running_ = true;
       return Check(xrBeginSession(session_, &begin), "beginning the session");
     }
@@ -367,20 +365,79 @@ Status Session::LocateHead(XrTime shown) {
     }
     heads_.Add(now, room_from_head);
   }
-  auto locate = Typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
-  locate.viewConfigurationType = kEyes;
-  locate.displayTime = shown;
-  locate.space = head_;
-  auto state = Typed<XrViewState>(XR_TYPE_VIEW_STATE);
   std::array<XrView, 2> views;
-  views.fill(Typed<XrView>(XR_TYPE_VIEW));
-  uint32_t count = 0;
-  LARARIUM_RETURN_IF_ERROR(
-      Check(xrLocateViews(session_, &locate, &state, 2, &count, views.data()), "locating eyes"));
+  LARARIUM_RETURN_IF_ERROR(LocateEyes(head_, shown, views).status());
   for (const Eye eye : {kLeft, kRight}) {
     headset_.head_from_eye[eye] = FromXr(views[eye].pose);
   }
   return Status();
+}
+
+// Whether it is known where they are, and how they look.
+Result<bool> Session::LocateEyes(XrSpace space, XrTime shown, std::array<XrView, 2>& views) const {
+  auto locate = Typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
+  locate.viewConfigurationType = kEyesOfHead;
+  locate.displayTime = shown;
+  locate.space = space;
+  auto state = Typed<XrViewState>(XR_TYPE_VIEW_STATE);
+  views.fill(Typed<XrView>(XR_TYPE_VIEW));
+  uint32_t count = 0;
+  LARARIUM_RETURN_IF_ERROR(
+      Check(xrLocateViews(session_, &locate, &state, 2, &count, views.data()), "locating eyes"));
+  constexpr XrViewStateFlags kKnown =
+      XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+  return (state.viewStateFlags & kKnown) == kKnown;
+}
+
+// Where the eyes will be when what is drawn next is shown.
+Status Session::LookAhead(const XrFrameState& frame) {
+  std::array<XrView, 2> views;
+  const XrTime next = frame.predictedDisplayTime + frame.predictedDisplayPeriod;
+  LARARIUM_ASSIGN_OR_RETURN(const bool known, LocateEyes(room_, next, views));
+  next_eyes_ = known ? std::optional(views) : std::nullopt;
+  return Status();
+}
+
+void Session::AddQuad(Eye eye, std::vector<const XrCompositionLayerBaseHeader*>& layers) {
+  const PictureImages& images = images_[eye];
+  if (!placed_ || !images.filled) {
+    return;
+  }
+  XrCompositionLayerQuad& quad = quads_[eye];
+  quad = Typed<XrCompositionLayerQuad>(XR_TYPE_COMPOSITION_LAYER_QUAD);
+  quad.space = in_room_ ? room_ : head_;
+  quad.eyeVisibility = !headset_.stereo ? XR_EYE_VISIBILITY_BOTH
+                       : eye == kLeft   ? XR_EYE_VISIBILITY_LEFT
+                                        : XR_EYE_VISIBILITY_RIGHT;
+  quad.subImage.swapchain = images.swapchain;
+  quad.subImage.imageRect = {{0, 0}, {images.width, images.height}};
+  quad.pose = layer_pose_;
+  quad.size = layer_size_;
+  layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&quad));
+}
+
+// What the runtime shows of the room, and people over it as they were drawn for each eye.
+void Session::AddEyes(std::vector<const XrCompositionLayerBaseHeader*>& layers) {
+  if (see_through_.layer() != nullptr) {
+    layers.push_back(see_through_.layer());
+  }
+  if (!images_[kLeft].filled || !images_[kRight].filled) {
+    return;
+  }
+  for (const Eye eye : {kLeft, kRight}) {
+    XrCompositionLayerProjectionView& view = projected_[eye];
+    view = Typed<XrCompositionLayerProjectionView>(XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW);
+    view.pose = images_[eye].pose;
+    view.fov = images_[eye].fov;
+    view.subImage.swapchain = images_[eye].swapchain;
+    view.subImage.imageRect = {{0, 0}, {images_[eye].width, images_[eye].height}};
+  }
+  projection_ = Typed<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
+  projection_.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
+  projection_.space = room_;
+  projection_.viewCount = static_cast<uint32_t>(projected_.size());
+  projection_.views = projected_.data();
+  layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection_));
 }
 
 Status Session::SubmitFrame() {
@@ -390,31 +447,20 @@ Status Session::SubmitFrame() {
   auto begin = Typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
   LARARIUM_RETURN_IF_ERROR(Check(xrBeginFrame(session_, &begin), "beginning a frame"));
   LARARIUM_RETURN_IF_ERROR(LocateHead(frame.predictedDisplayTime));
-  std::array<XrCompositionLayerQuad, 2> quads;
   std::vector<const XrCompositionLayerBaseHeader*> layers;
-  for (const Eye eye : {kLeft, kRight}) {
-    const PictureImages& images = images_[eye];
-    if (frame.shouldRender != XR_TRUE || !placed_ || !images.filled) {
-      continue;
-    }
-    XrCompositionLayerQuad& quad = quads[eye];
-    quad = Typed<XrCompositionLayerQuad>(XR_TYPE_COMPOSITION_LAYER_QUAD);
-    quad.space = in_room_ ? room_ : head_;
-    quad.eyeVisibility = !headset_.stereo ? XR_EYE_VISIBILITY_BOTH
-                         : eye == kLeft   ? XR_EYE_VISIBILITY_LEFT
-                                          : XR_EYE_VISIBILITY_RIGHT;
-    quad.subImage.swapchain = images.swapchain;
-    quad.subImage.imageRect = {{0, 0}, {images.width, images.height}};
-    quad.pose = layer_pose_;
-    quad.size = layer_size_;
-    layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&quad));
+  if (frame.shouldRender == XR_TRUE && headset_.runtime_shows_room) {
+    AddEyes(layers);
+  } else if (frame.shouldRender == XR_TRUE) {
+    AddQuad(kLeft, layers);
+    AddQuad(kRight, layers);
   }
   auto end = Typed<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
   end.displayTime = frame.predictedDisplayTime;
-  end.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+  end.environmentBlendMode = see_through_.blend_mode();
   end.layerCount = static_cast<uint32_t>(layers.size());
   end.layers = layers.data();
-  return Check(xrEndFrame(session_, &end), "handing over a frame");
+  LARARIUM_RETURN_IF_ERROR(Check(xrEndFrame(session_, &end), "handing over a frame"));
+  return headset_.runtime_shows_room ? LookAhead(frame) : Status();
 }
 
 Result<bool> Session::Frame() {
@@ -442,7 +488,7 @@ Status Session::End() {
       return Status();
     }
   }
-  log_.warn("{}: the runtime did not end the session in time", kPlace);
+  log_.warn("{}: the runtime did not end the session in time", kOpenXrPlace);
   return Status();
 }
 

@@ -2,8 +2,9 @@
 
 // A headset that an OpenXR runtime drives. The finished picture is handed over as a layer that
 // hangs in the room where the camera saw it: as far before it as the device file says, at the
-// pose that the head had when the image was taken. The runtime shows it to each eye from where
-// the head is at every refresh of the display, however seldom a new picture comes.
+// pose that the head had when the image was taken. Or the runtime shows what is real by itself,
+// and is handed people alone, as each eye will see them from where it will be. Either way it shows
+// them from where the head is at every refresh of the display, however seldom a new picture comes.
 
 #include <chrono>
 #include <memory>
@@ -16,6 +17,13 @@
 #include "shared/render/render_target.h"
 
 namespace lararium::player {
+
+// What an eye will look through: a pinhole, and where it will be in the runtime's room, axes as a
+// camera's.
+struct EyeView {
+  geometry::CameraModel camera;
+  geometry::Rigid3 room_from_eye;
+};
 
 class OpenXrHeadset {
  public:
@@ -38,6 +46,15 @@ class OpenXrHeadset {
   // steady clock.
   virtual void Place(const geometry::CameraModel& pinhole,
                      std::chrono::steady_clock::time_point taken) = 0;
+
+  // Where the camera was in the room at a moment of a steady clock; none as long as nobody knows.
+  virtual std::optional<geometry::Rigid3> RoomFromCamera(
+      std::chrono::steady_clock::time_point taken) const = 0;
+
+  // Where the runtime shows what is real (Headset::runtime_shows_room): for which view of an eye
+  // its next picture of that size is to be drawn, which is then handed over by SetPicture, of both
+  // eyes before the next frame. None as long as nobody knows where the eyes are.
+  virtual std::optional<EyeView> ViewOf(Eye eye, int width, int height) = 0;
 
   // Handles what the runtime says, and submits a frame where it wants one, which waits for the
   // display. False: the runtime has ended the session. An error where it was lost.

@@ -21,6 +21,7 @@
 #include "player/recorder.h"
 #include "player/sandbox.h"
 #include "player/screen.h"
+#include "player/stage_anchor.h"
 #include "player/stereo_display.h"
 #include "player/visitor_menu.h"
 #include "shared/audio/sound_player.h"
@@ -147,6 +148,8 @@ class Performance {
   Status RunRealtime();
   Status DrawPicture(const show::StagedFrame& staged);
   Status DrawForOpenXr(const show::StagedFrame& staged);
+  Status DrawSeeThrough(const show::StagedFrame& staged, SteadyClock::time_point taken);
+  void ShowMenuTo(const geometry::CameraModel& picture);
   Status ServeOpenXr();
   const render::RenderTarget& shown() const { return stereo_ ? stereo_->panel() : *target_; }
   Status DrawFrame(const show::StagedFrame& staged);
@@ -177,6 +180,7 @@ class Performance {
   std::optional<render::RenderTarget> target_;
   std::optional<StereoDisplay> stereo_;
   std::unique_ptr<OpenXrHeadset> openxr_;  // nullptr: there is no such headset
+  StageAnchor anchor_;                     // where it shows what is real by itself
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
@@ -288,9 +292,11 @@ void Performance::ShowMenu(const show::StagedFrame& staged) {
           Seconds(SteadyClock::now()), tracked ? staged.camera_from_stage : std::nullopt)) {
     Do(*action);
   }
-  const geometry::CameraModel picture =
-      renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
-          .Resized(size_.width, size_.height);
+  ShowMenuTo(renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
+                 .Resized(size_.width, size_.height));
+}
+
+void Performance::ShowMenuTo(const geometry::CameraModel& picture) {
   renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture)) : std::nullopt);
 }
 
@@ -326,6 +332,7 @@ Status Performance::CreateShow(show::ShowContent content) {
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
   show_->SetLostLadder(device_.lost);
   show_->SetPictureSize(size_.width, size_.height, part_);
+  show_->SetSeenAround(headset_ && headset_->runtime_shows_room);
   return Status();
 }
 
@@ -562,17 +569,45 @@ void Performance::AddTimes(const show::StagedFrame& staged, SteadyClock::time_po
   ++drawn_frames_;
 }
 
+// As the eyes will see them: what is real is not in the picture.
+Status Performance::DrawSeeThrough(const show::StagedFrame& staged, SteadyClock::time_point taken) {
+  const double now = Seconds(SteadyClock::now());
+  const std::optional<geometry::Rigid3> room_from_camera = openxr_->RoomFromCamera(taken);
+  if (staged.camera_from_stage && room_from_camera) {
+    anchor_.Observe(*room_from_camera * *staged.camera_from_stage, now);
+  }
+  for (const Eye eye : {kLeft, kRight}) {
+    const std::optional<EyeView> view = openxr_->ViewOf(eye, size_.width, size_.height);
+    if (!view || !anchor_.room_from_stage()) {
+      return Status();
+    }
+    ShowMenuTo(view->camera);
+    LARARIUM_RETURN_IF_ERROR(renderer_->DrawSeeThrough(
+        staged,
+        {view->camera, view->room_from_eye.Inverse() * *anchor_.room_from_stage(),
+         anchor_.Opacity(now)},
+        *target_));
+    LARARIUM_RETURN_IF_ERROR(openxr_->SetPicture(eye, *target_));
+  }
+  return Status();
+}
+
 Status Performance::DrawForOpenXr(const show::StagedFrame& staged) {
+  const auto delay = std::chrono::duration<double>(headset_->camera_delay);
+  const SteadyClock::time_point taken =
+      staged.arrival - std::chrono::duration_cast<SteadyClock::duration>(delay);
+  if (headset_->runtime_shows_room) {
+    return DrawSeeThrough(staged, taken);
+  }
   for (const Eye eye : {kLeft, kRight}) {
     if (eye == kLeft || headset_->stereo) {
       LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_, openxr_->PictureEyeOf(eye)));
       LARARIUM_RETURN_IF_ERROR(openxr_->SetPicture(eye, *target_));
     }
   }
-  const auto delay = std::chrono::duration<double>(headset_->camera_delay);
   openxr_->Place(renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
                      .Resized(size_.width, size_.height),
-                 staged.arrival - std::chrono::duration_cast<SteadyClock::duration>(delay));
+                 taken);
   return Status();
 }
 

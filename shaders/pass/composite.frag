@@ -1,9 +1,13 @@
 // The finished picture where people or their shadows are: the camera's image darker where they
 // keep light off, people over it, encoded as sRGB. Light brighter than white is clipped. The
 // target's top row comes first. LOOK: people are as noisy, soft and smeared as the image;
-// without it software does not pay for what is off.
+// without it software does not pay for what is off. SEE_THROUGH: what is real is behind the
+// picture and not in it: people alone, times their coverage, and in alpha how much of what is
+// behind they and their shadows hide.
 
+#ifndef SEE_THROUGH
 #include "background.glsl"
+#endif
 #include "camera_look.glsl"
 #include "colour.glsl"
 
@@ -21,9 +25,7 @@ bool Within(vec2 cell, vec4 bounds) {
 }
 
 void main() {
-  vec2 raw = RawPixel();
   vec2 cell = layer_scale * vec2(gl_FragCoord.x, picture_height - gl_FragCoord.y);
-  vec3 encoded = Background(raw);
   bool may_show = Within(cell, smeared_bounds);
 #ifdef LOOK
   // Loops instead of ifs where they leave out much: shaders/include/sun.glsl.
@@ -42,6 +44,13 @@ void main() {
   kept = Within(cell, catcher_bounds) ? kept : vec3(1.0);
   person *= people_opacity;
   kept = mix(vec3(1.0), kept, people_opacity);
+#ifdef SEE_THROUGH
+  // One number stands for what is kept of all colours; what is real cannot be brightened.
+  float left = min(dot(kept, vec3(0.2126, 0.7152, 0.0722)), 1.0) * (1.0 - person.a);
+  colour = vec4(SrgbFromLinear(clamp(person.rgb, 0.0, 1.0)), 1.0 - left);
+#else
+  vec2 raw = RawPixel();
+  vec3 encoded = Background(raw);
   vec3 light = LinearFromSrgb(encoded) * kept * (1.0 - person.a) + person.rgb;
   bool changes = person.a > 0.0 || any(notEqual(kept, vec3(1.0)));
   encoded = changes ? SrgbFromLinear(clamp(light, 0.0, 1.0)) : encoded;
@@ -52,4 +61,5 @@ void main() {
   }
 #endif
   colour = vec4(encoded, 1.0);
+#endif
 }

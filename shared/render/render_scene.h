@@ -93,6 +93,10 @@ struct CameraLook {
 };
 
 struct RenderScene {
+  // What is real is seen through the picture, on a display that shows it by itself: the picture has
+  // people and props alone, sRGB-encoded, times their coverage, and alpha says how much they and
+  // their shadows hide of what is behind. Without background and look.
+  bool see_through = false;
   // The camera's image, CV_8UC3, sRGB-encoded, raw; empty draws black instead.
   cv::Mat background = {};
   geometry::CameraModel camera = {};  // of background, with distortion

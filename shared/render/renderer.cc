@@ -123,6 +123,9 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
   LARARIUM_ASSIGN_OR_RETURN(
       state->look_composite_pass,
       ShaderProgram::Create("full_screen.vert", "composite.frag", "#define LOOK\n"));
+  LARARIUM_ASSIGN_OR_RETURN(
+      state->see_through_composite_pass,
+      ShaderProgram::Create("full_screen.vert", "composite.frag", "#define SEE_THROUGH\n"));
   LARARIUM_ASSIGN_OR_RETURN(state->background_pass,
                             ShaderProgram::Create("full_screen.vert", "background.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
@@ -154,6 +157,9 @@ Status Renderer::State::Validate(const RenderScene& scene) const {
   if (scene.display.width <= 0 || scene.display.height <= 0 ||
       !(scene.display.fx > 0.0 && scene.display.fy > 0.0)) {
     return Status::Error(kPlace, "the display's camera is not set");
+  }
+  if (scene.see_through && !scene.background.empty()) {
+    return Status::Error(kPlace, "what is seen through has no background");
   }
   if (!scene.background.empty() && scene.background.type() != CV_8UC3) {
     return Status::Error(kPlace, "the background must be 8-bit BGR");
@@ -407,18 +413,50 @@ void Renderer::State::Composite(const RenderScene& scene,
     const ShaderProgram& composite = look ? look_composite_pass : composite_pass;
     composite.Use();
     SetBackground(composite, scene, display);
-    composite.Set("picture_height", static_cast<float>(size.height));
-    composite.Set("layer_scale", scale);
-    composite.Set("people_opacity", std::min(scene.people_opacity, 1.0f));
-    glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, people.texture());
-    composite.Set("people", 1);
-    look_pass.BindFor(composite, scene.look, smear, seen);
-    catcher_pass.BindFor(composite, 2);
+    SetLayer(composite, scene, smear, seen, scale, size.height);
     FillBounds(changed);
   }
   glDisable(GL_SCISSOR_TEST);
   glBindVertexArray(0);
+  glActiveTexture(GL_TEXTURE0);
+}
+
+void Renderer::State::SetLayer(const ShaderProgram& composite,
+                               const RenderScene& scene,
+                               const Smear& smear,
+                               const PixelBounds& seen,
+                               float scale,
+                               int picture_height) {
+  composite.Set("picture_height", static_cast<float>(picture_height));
+  composite.Set("layer_scale", scale);
+  composite.Set("people_opacity", std::min(scene.people_opacity, 1.0f));
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, people.texture());
+  composite.Set("people", 1);
+  look_pass.BindFor(composite, scene.look, smear, seen);
+  catcher_pass.BindFor(composite, 2);
+}
+
+void Renderer::State::CompositeSeeThrough(const RenderScene& scene,
+                                          const PictureView& layer,
+                                          const RenderTarget& target) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  glViewport(0, 0, target.width(), target.height());
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  const float scale = static_cast<float>(layer.size.width) / static_cast<float>(target.width());
+  const PixelBounds changed = InPicture(Union(people_bounds, catcher_pass.bounds()), scale, target);
+  if (!changed.empty()) {
+    glEnable(GL_SCISSOR_TEST);
+    glBindVertexArray(no_vertices.id());
+    see_through_composite_pass.Use();
+    SetLayer(see_through_composite_pass, scene, {}, people_bounds, scale, target.height());
+    FillBounds(changed);
+    glDisable(GL_SCISSOR_TEST);
+    glBindVertexArray(0);
+  }
   glActiveTexture(GL_TEXTURE0);
 }
 
@@ -459,7 +497,11 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   if (scene.camera_from_stage && scene.people_opacity > 0.0f) {
     LARARIUM_RETURN_IF_ERROR(state.DrawLayer(scene, layer, smear));
   }
-  state.Composite(scene, layer, smear, *picture);
+  if (scene.see_through) {
+    state.CompositeSeeThrough(scene, layer, *picture);
+  } else {
+    state.Composite(scene, layer, smear, *picture);
+  }
   if (picture != &target) {
     state.Enlarge(*picture, target);
   }

@@ -35,7 +35,8 @@ struct Renderer::State {
   SunMask sun_mask;
   ShaderProgram background_pass;
   ShaderProgram composite_pass;
-  ShaderProgram look_composite_pass;  // with RenderScene::look
+  ShaderProgram look_composite_pass;         // with RenderScene::look
+  ShaderProgram see_through_composite_pass;  // with RenderScene::see_through
   ShaderProgram enlarging_pass;
   GlVertexArray no_vertices;  // of full-screen passes
   Texture background_image;
@@ -76,6 +77,17 @@ struct Renderer::State {
                  const PictureView& layer,
                  const Smear& smear,
                  const RenderTarget& target);
+  // What is in the layer, over what is seen through the target.
+  void CompositeSeeThrough(const RenderScene& scene,
+                           const PictureView& layer,
+                           const RenderTarget& target);
+  // Of the program in use. seen: where people may be, of the layer's pixels.
+  void SetLayer(const ShaderProgram& composite,
+                const RenderScene& scene,
+                const Smear& smear,
+                const PixelBounds& seen,
+                float scale,
+                int picture_height);
   // Fills the target with a picture of another size.
   void Enlarge(const RenderTarget& picture, const RenderTarget& target) const;
   // How far away the people in the picture are on average, along the view; of those who

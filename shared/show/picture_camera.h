@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "shared/geometry/camera_model.h"
+#include "shared/geometry/transform.h"
 
 namespace lararium::show {
 
@@ -28,6 +29,13 @@ geometry::CameraModel PictureCamera(const geometry::CameraModel& camera,
 struct PictureEye {
   Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();                // metres
   double picture_distance = std::numeric_limits<double>::infinity();  // metres
+};
+
+// An eye that looks anywhere at what is real, past the camera and its image.
+struct FreeEye {
+  geometry::CameraModel camera;  // a pinhole
+  geometry::Rigid3 eye_from_stage;
+  float opacity = 1.0f;  // of people and things: 0, nobody is there
 };
 
 // For points before the eye, in its axes, the pixel of a picture that shows the camera's view:

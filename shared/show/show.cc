@@ -275,7 +275,8 @@ void Show::ChooseDetails(const StagedFrame& staged) {
   for (const Visible& visible : visible_) {
     const glm::vec3 middle = visible.state->position + glm::vec3(0.0f, 0.5f * kPersonHeight, 0.0f);
     const float scale = render::PixelsPerMetre(display, *staged.camera_from_stage, middle);
-    const bool seen = render::MaySee(display, *staged.camera_from_stage, middle, kPersonReach);
+    const bool seen =
+        seen_around_ || render::MaySee(display, *staged.camera_from_stage, middle, kPersonReach);
     BodyDetail& detail = details_[visible.cast];
     detail = ChooseBodyDetail(kPersonHeight * scale * share, !seen, detail);
     requests_[visible.cast].pixels_per_metre = seen ? scale : 0.0f;

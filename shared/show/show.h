@@ -180,6 +180,10 @@ class Show {
     picture_part_ = part;
   }
 
+  // People are also seen past the borders of the camera's picture: by eyes that see more than it.
+  // Not while a frame is being staged.
+  void SetSeenAround(bool around) { seen_around_ = around; }
+
   // Brings the drama to time (seconds, at least 0) and fills staged. The drama
   // runs in ticks of 1/120 s; what lies between two ticks is interpolated. Going
   // back, or far ahead, seeks. The drama does not depend on the place: it runs on
@@ -239,6 +243,7 @@ class Show {
   int picture_width_ = 0;   // 0: the camera's
   int picture_height_ = 0;  // likewise
   ViewPart picture_part_;
+  bool seen_around_ = false;
   std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
   uint32_t place_ = 0;  // of the last pose

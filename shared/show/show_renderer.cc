@@ -135,26 +135,13 @@ void ShowRenderer::BlendReflections(const StagedFrame& staged) {
   }
 }
 
-Status ShowRenderer::Draw(const StagedFrame& staged,
-                          const render::RenderTarget& target,
-                          const PictureEye& eye) {
-  const vision::TrackedFrame& tracked = staged.tracked;
+render::RenderScene ShowRenderer::SceneOf(const StagedFrame& staged, int height) {
   const PlaceScene& place = places_[staged.place];
   render::RenderScene scene;
-  scene.background = tracked.frame.bgr;
-  scene.camera = tracked.camera;
-  scene.background_display = PictureOf(tracked.camera, target.width(), target.height());
-  scene.display = ForEye(*scene.background_display, eye);
-  const geometry::Rigid3 eye_from_camera{.translation = -eye.in_camera};
-  if (staged.camera_from_stage) {
-    scene.camera_from_stage = eye_from_camera * *staged.camera_from_stage;
-  }
-  scene.people_opacity = staged.opacity;
-  const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
   CollectHumans(staged);
   CollectProps(staged);
   if (shows_evidence_) {
-    MarkByEvidence(staged, target.height());
+    MarkByEvidence(staged, height);
   }
   scene.occluders = place.occluders;
   scene.humans = humans_;
@@ -171,12 +158,46 @@ Status ShowRenderer::Draw(const StagedFrame& staged,
   scene.matte = matte_;
   if (place.camera && !matte_) {
     scene.knee = place.camera->knee;
+  }
+  return scene;
+}
+
+Status ShowRenderer::Draw(const StagedFrame& staged,
+                          const render::RenderTarget& target,
+                          const PictureEye& eye) {
+  const vision::TrackedFrame& tracked = staged.tracked;
+  const PlaceScene& place = places_[staged.place];
+  render::RenderScene scene = SceneOf(staged, target.height());
+  scene.background = tracked.frame.bgr;
+  scene.camera = tracked.camera;
+  scene.background_display = PictureOf(tracked.camera, target.width(), target.height());
+  scene.display = ForEye(*scene.background_display, eye);
+  const geometry::Rigid3 eye_from_camera{.translation = -eye.in_camera};
+  if (staged.camera_from_stage) {
+    scene.camera_from_stage = eye_from_camera * *staged.camera_from_stage;
+  }
+  scene.people_opacity = staged.opacity;
+  if (place.camera && !matte_) {
+    const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
     scene.look = LookOf(*place.camera, staged, picture);
     if (scene.look.previous_camera_from_stage) {
       scene.look.previous_camera_from_stage =
           eye_from_camera * *scene.look.previous_camera_from_stage;
     }
   }
+  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
+  captions_->Draw(staged, shows_evidence_ ? &*evidence_ : nullptr, target);
+  return Status();
+}
+
+Status ShowRenderer::DrawSeeThrough(const StagedFrame& staged,
+                                    const FreeEye& eye,
+                                    const render::RenderTarget& target) {
+  render::RenderScene scene = SceneOf(staged, target.height());
+  scene.see_through = true;
+  scene.display = eye.camera;
+  scene.camera_from_stage = eye.eye_from_stage;
+  scene.people_opacity = eye.opacity;
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
   captions_->Draw(staged, shows_evidence_ ? &*evidence_ : nullptr, target);
   return Status();

@@ -64,6 +64,12 @@ class ShowRenderer {
               const render::RenderTarget& target,
               const PictureEye& eye = {});
 
+  // Fills the target with people, things and captions alone, for a display that shows what is real
+  // behind it (render::RenderScene::see_through).
+  Status DrawSeeThrough(const StagedFrame& staged,
+                        const FreeEye& eye,
+                        const render::RenderTarget& target);
+
   // Of the frame drawn last: how much of each pixel people and props cover, CV_8UC1.
   void ReadCoverage(cv::Mat& coverage) const { renderer_->ReadCoverage(coverage); }
 
@@ -78,6 +84,8 @@ class ShowRenderer {
       : renderer_(std::move(renderer)) {}
 
   Status AddObjects(const ShowContent& content);
+  // All but from where it is seen.
+  render::RenderScene SceneOf(const StagedFrame& staged, int height);
   void CollectHumans(const StagedFrame& staged);
   void CollectProps(const StagedFrame& staged);
   void MarkByEvidence(const StagedFrame& staged, int height);

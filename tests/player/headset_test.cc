@@ -27,6 +27,7 @@ TEST(Headset, WithoutMoreHasEyesAsPeopleHaveThem) {
   EXPECT_NEAR(headset.head_from_eye[kRight].translation.x(), 0.0315, 1e-12);
   EXPECT_EQ(headset.picture_distance, 3.0);
   EXPECT_FALSE(headset.stereo);
+  EXPECT_FALSE(headset.runtime_shows_room);
   EXPECT_FALSE(headset.panel.has_value());
 }
 
@@ -34,6 +35,12 @@ TEST(Headset, KnowsHowLateTheCameraIs) {
   EXPECT_EQ(Parse(R"({"camera": {"delay": 0.04}})")->camera_delay, 0.04);
   EXPECT_NE(Problem(R"({"camera": {"delay": 40}})").find("headset.camera.delay"),
             std::string::npos);
+}
+
+TEST(Headset, SaysWhoShowsWhatIsReal) {
+  EXPECT_TRUE(Parse(R"({"see_through": "runtime"})").value().runtime_shows_room);
+  EXPECT_FALSE(Parse(R"({"see_through": "camera"})").value().runtime_shows_room);
+  EXPECT_NE(Problem(R"({"see_through": "glass"})").find("headset.see_through"), std::string::npos);
 }
 
 TEST(Headset, TheRightLensMirrorsTheLeftUnlessItIsGiven) {

@@ -4,7 +4,9 @@
 //
 // LARARIUM_NULL_XR: words, apart by blanks. log=FILE: where calls are written. exit=N, lose=N: the
 // runtime ends the session, or is lost, at the frame N. away: no headset is connected. turn=A: the
-// head turns by A radians a second about the vertical, to the left.
+// head turns by A radians a second about the vertical, to the left. blends=MODES: how layers are
+// blended with what is real, of the letters o (opaque), a (alpha), + (additive); o unless said.
+// passes: what is real can be shown by a layer (XR_FB_passthrough).
 
 #include <epoxy/gl.h>
 
@@ -55,6 +57,8 @@ constexpr uint32_t kImages = 3;
 const auto kSession = reinterpret_cast<XrSession>(uintptr_t{1});
 const auto kRoom = reinterpret_cast<XrSpace>(uintptr_t{2});
 const auto kHead = reinterpret_cast<XrSpace>(uintptr_t{3});
+const auto kPassthrough = reinterpret_cast<XrPassthroughFB>(uintptr_t{4});
+const auto kPassthroughLayer = reinterpret_cast<XrPassthroughLayerFB>(uintptr_t{5});
 
 struct Swapchain {
   GLuint textures[kImages] = {};
@@ -70,6 +74,8 @@ struct Runtime {
   long lose_at = -1;
   bool away = false;
   double turn = 0.0;
+  std::string blends = "o";
+  bool passes = false;
   std::deque<XrSessionState> events;
   long frames = 0;
   bool running = false;
@@ -98,20 +104,24 @@ XrTime Now() {
   return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
 }
 
-void ReadScript(Runtime& runtime) {
+void ReadScript(Runtime& runtime, bool writes) {
   const char* script = std::getenv("LARARIUM_NULL_XR");
   std::istringstream words(script == nullptr ? "" : script);
   std::string word;
   while (words >> word) {
     const std::string value = word.substr(word.find('=') + 1);
     if (word.rfind("log=", 0) == 0) {
-      runtime.log = std::fopen(value.c_str(), "w");
+      runtime.log = writes ? std::fopen(value.c_str(), "w") : nullptr;
     } else if (word.rfind("exit=", 0) == 0) {
       runtime.exit_at = std::stol(value);
     } else if (word.rfind("lose=", 0) == 0) {
       runtime.lose_at = std::stol(value);
     } else if (word.rfind("turn=", 0) == 0) {
       runtime.turn = std::stod(value);
+    } else if (word.rfind("blends=", 0) == 0) {
+      runtime.blends = value;
+    } else if (word == "passes") {
+      runtime.passes = true;
     } else if (word == "away") {
       runtime.away = true;
     }
@@ -125,8 +135,8 @@ XrPosef HeadAt(XrTime time) {
           {0.0f, 1.6f, 0.0f}};
 }
 
-// A pixel of a layer: the red, green and blue of a texture that shares its place, as shares of
-// its size from the lower left corner.
+// A pixel of a layer: the red, green, blue and alpha of a texture that shares its place, as shares
+// of its size from the lower left corner.
 std::string PixelOf(const Swapchain& chain, double x, double y) {
   const uint32_t shown = (chain.next + kImages - 1) % kImages;
   GLuint framebuffer = 0;
@@ -141,7 +151,28 @@ std::string PixelOf(const Swapchain& chain, double x, double y) {
                GL_UNSIGNED_BYTE, rgba);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
   glDeleteFramebuffers(1, &framebuffer);
-  return std::to_string(rgba[0]) + "," + std::to_string(rgba[1]) + "," + std::to_string(rgba[2]);
+  return std::to_string(rgba[0]) + "," + std::to_string(rgba[1]) + "," + std::to_string(rgba[2]) +
+         "," + std::to_string(rgba[3]);
+}
+
+std::string Describe(const XrCompositionLayerProjection& projection) {
+  std::string all = "projection space " + std::string(projection.space == kRoom ? "room" : "head") +
+                    " flags " + std::to_string(projection.layerFlags);
+  for (uint32_t i = 0; i < projection.viewCount; ++i) {
+    const XrCompositionLayerProjectionView& view = projection.views[i];
+    const auto& chain = *reinterpret_cast<const Swapchain*>(view.subImage.swapchain);
+    char text[400];
+    std::snprintf(text, sizeof(text),
+                  " | position %.5f %.5f %.5f orientation %.5f %.5f %.5f %.5f fov %.5f %.5f %.5f "
+                  "%.5f upper %s lower %s",
+                  view.pose.position.x, view.pose.position.y, view.pose.position.z,
+                  view.pose.orientation.w, view.pose.orientation.x, view.pose.orientation.y,
+                  view.pose.orientation.z, view.fov.angleLeft, view.fov.angleRight,
+                  view.fov.angleUp, view.fov.angleDown, PixelOf(chain, 0.5, 0.9).c_str(),
+                  PixelOf(chain, 0.5, 0.1).c_str());
+    all += text;
+  }
+  return all;
 }
 
 std::string Describe(const XrCompositionLayerQuad& quad) {
@@ -167,9 +198,13 @@ XrResult EnumerateInstanceExtensionProperties(const char* /*layer*/,
                                               uint32_t* count,
                                               XrExtensionProperties* properties) {
   const char* names[] = {XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
-                         XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
-  *count = 2;
-  for (uint32_t i = 0; i < 2 && capacity >= 2; ++i) {
+                         XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME,
+                         XR_FB_PASSTHROUGH_EXTENSION_NAME};
+  // Asked before there is an instance.
+  Runtime scripted;
+  ReadScript(scripted, false);
+  *count = scripted.passes ? 3 : 2;
+  for (uint32_t i = 0; i < *count && capacity >= *count; ++i) {
     std::snprintf(properties[i].extensionName, sizeof(properties[i].extensionName), "%s", names[i]);
     properties[i].extensionVersion = 1;
   }
@@ -178,7 +213,7 @@ XrResult EnumerateInstanceExtensionProperties(const char* /*layer*/,
 
 XrResult CreateInstance(const XrInstanceCreateInfo* create, XrInstance* instance) {
   g_runtime = new Runtime();
-  ReadScript(*g_runtime);
+  ReadScript(*g_runtime, true);
   g_runtime->began = Now();
   g_runtime->Write(std::string("instance for ") + create->applicationInfo.applicationName);
   *instance = reinterpret_cast<XrInstance>(g_runtime);
@@ -211,6 +246,51 @@ XrResult GetSystem(XrInstance /*instance*/, const XrSystemGetInfo* get, XrSystem
     return XR_ERROR_FORM_FACTOR_UNAVAILABLE;
   }
   *system = 1;
+  return XR_SUCCESS;
+}
+
+XrResult GetSystemProperties(XrInstance /*instance*/,
+                             XrSystemId /*system*/,
+                             XrSystemProperties* properties) {
+  auto* more = static_cast<XrSystemPassthroughPropertiesFB*>(properties->next);
+  if (more != nullptr && more->type == XR_TYPE_SYSTEM_PASSTHROUGH_PROPERTIES_FB) {
+    more->supportsPassthrough = g_runtime->passes ? XR_TRUE : XR_FALSE;
+  }
+  return XR_SUCCESS;
+}
+
+XrResult EnumerateEnvironmentBlendModes(XrInstance /*instance*/,
+                                        XrSystemId /*system*/,
+                                        XrViewConfigurationType /*views*/,
+                                        uint32_t capacity,
+                                        uint32_t* count,
+                                        XrEnvironmentBlendMode* modes) {
+  *count = static_cast<uint32_t>(g_runtime->blends.size());
+  for (uint32_t i = 0; i < *count && capacity >= *count; ++i) {
+    const char letter = g_runtime->blends[i];
+    modes[i] = letter == 'a'   ? XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND
+               : letter == '+' ? XR_ENVIRONMENT_BLEND_MODE_ADDITIVE
+                               : XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+  }
+  return XR_SUCCESS;
+}
+
+XrResult CreatePassthrough(XrSession /*session*/,
+                           const XrPassthroughCreateInfoFB* create,
+                           XrPassthroughFB* passthrough) {
+  *passthrough = kPassthrough;
+  g_runtime->Write("passthrough flags " + std::to_string(create->flags));
+  return XR_SUCCESS;
+}
+
+XrResult CreatePassthroughLayer(XrSession /*session*/,
+                                const XrPassthroughLayerCreateInfoFB* create,
+                                XrPassthroughLayerFB* layer) {
+  if (create->passthrough != kPassthrough ||
+      create->purpose != XR_PASSTHROUGH_LAYER_PURPOSE_RECONSTRUCTION_FB) {
+    return XR_ERROR_VALIDATION_FAILURE;
+  }
+  *layer = kPassthroughLayer;
   return XR_SUCCESS;
 }
 
@@ -264,12 +344,20 @@ XrResult LocateViews(XrSession /*session*/,
                      uint32_t* count,
                      XrView* views) {
   *count = 2;
-  if (capacity < 2 || locate->space != kHead) {
+  if (capacity < 2 || (locate->space != kHead && locate->space != kRoom)) {
     return XR_ERROR_VALIDATION_FAILURE;
   }
   state->viewStateFlags = XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+  // About the vertical only.
+  const XrPosef head =
+      locate->space == kRoom ? HeadAt(locate->displayTime) : XrPosef{{0.0f, 0.0f, 0.0f, 1.0f}, {}};
+  const float cosine = 1.0f - 2.0f * head.orientation.y * head.orientation.y;
+  const float sine = 2.0f * head.orientation.y * head.orientation.w;
   for (int eye = 0; eye < 2; ++eye) {
-    views[eye].pose = {{0.0f, 0.0f, 0.0f, 1.0f}, {eye == 0 ? -kHalfEyes : kHalfEyes, 0.0f, 0.0f}};
+    const float beside = eye == 0 ? -kHalfEyes : kHalfEyes;
+    views[eye].pose = head;
+    views[eye].pose.position.x += cosine * beside;
+    views[eye].pose.position.z -= sine * beside;
     views[eye].fov = {-0.8f, 0.8f, 0.8f, -0.8f};
   }
   return XR_SUCCESS;
@@ -427,16 +515,27 @@ XrResult EndFrame(XrSession /*session*/, const XrFrameEndInfo* end) {
     return XR_ERROR_CALL_ORDER_INVALID;
   }
   g_runtime->begun = false;
-  if (end->environmentBlendMode != XR_ENVIRONMENT_BLEND_MODE_OPAQUE) {
+  const char blend = end->environmentBlendMode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE        ? 'o'
+                     : end->environmentBlendMode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND ? 'a'
+                                                                                          : '+';
+  if (g_runtime->blends.find(blend) == std::string::npos) {
     return XR_ERROR_ENVIRONMENT_BLEND_MODE_UNSUPPORTED;
   }
   g_runtime->Write("frame " + std::to_string(g_runtime->frames) + " layers " +
-                   std::to_string(end->layerCount));
+                   std::to_string(end->layerCount) + " blend " + blend);
   for (uint32_t i = 0; i < end->layerCount; ++i) {
-    if (end->layers[i]->type != XR_TYPE_COMPOSITION_LAYER_QUAD) {
+    const XrCompositionLayerBaseHeader* layer = end->layers[i];
+    if (layer->type == XR_TYPE_COMPOSITION_LAYER_QUAD) {
+      g_runtime->Write(Describe(*reinterpret_cast<const XrCompositionLayerQuad*>(layer)));
+    } else if (layer->type == XR_TYPE_COMPOSITION_LAYER_PROJECTION) {
+      g_runtime->Write(Describe(*reinterpret_cast<const XrCompositionLayerProjection*>(layer)));
+    } else if (layer->type == XR_TYPE_COMPOSITION_LAYER_PASSTHROUGH_FB &&
+               reinterpret_cast<const XrCompositionLayerPassthroughFB*>(layer)->layerHandle ==
+                   kPassthroughLayer) {
+      g_runtime->Write("what is real");
+    } else {
       return XR_ERROR_LAYER_INVALID;
     }
-    g_runtime->Write(Describe(*reinterpret_cast<const XrCompositionLayerQuad*>(end->layers[i])));
   }
   if (++g_runtime->frames == g_runtime->exit_at) {
     g_runtime->events.push_back(XR_SESSION_STATE_STOPPING);
@@ -467,6 +566,10 @@ const Entry kEntries[] = {
     {"xrGetInstanceProperties", Erased(GetInstanceProperties)},
     {"xrResultToString", Erased(ResultToString)},
     {"xrGetSystem", Erased(GetSystem)},
+    {"xrGetSystemProperties", Erased(GetSystemProperties)},
+    {"xrEnumerateEnvironmentBlendModes", Erased(EnumerateEnvironmentBlendModes)},
+    {"xrCreatePassthroughFB", Erased(CreatePassthrough)},
+    {"xrCreatePassthroughLayerFB", Erased(CreatePassthroughLayer)},
     {"xrGetOpenGLGraphicsRequirementsKHR", Erased(GetOpenGlRequirements)},
     {"xrCreateSession", Erased(CreateSession)},
     {"xrDestroySession", Erased(DestroySession)},

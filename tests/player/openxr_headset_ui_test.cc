@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -191,8 +192,8 @@ TEST_F(OpenXrTest, ThePictureIsUprightAndItsColoursAreKept) {
   Run(3);
   Show(SteadyClock::now());
   Run(2);
-  EXPECT_EQ(LastQuad().upper, "255,0,0");
-  EXPECT_THAT(LastQuad().lower, ::testing::AnyOf("0,0,127", "0,0,128"));
+  EXPECT_EQ(LastQuad().upper, "255,0,0,255");
+  EXPECT_THAT(LastQuad().lower, ::testing::AnyOf("0,0,127,255", "0,0,128,255"));
 }
 
 TEST_F(OpenXrTest, ThePictureStaysInTheRoomWhileTheHeadTurns) {
@@ -226,6 +227,156 @@ TEST_F(OpenXrTest, InStereoEachEyeHasItsPictureAndTheRuntimesEyes) {
   ASSERT_EQ(quads.size(), 2u);
   EXPECT_EQ(ParseQuad(quads[0])->eye, "left");
   EXPECT_EQ(ParseQuad(quads[1])->eye, "right");
+}
+
+// What an eye is shown over what is real, as the runtime was given it.
+struct Projected {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double yaw = 0.0;                                      // to the left, radians
+  double left = 0.0, right = 0.0, up = 0.0, down = 0.0;  // of the field of view, radians
+  std::string upper;
+  std::string lower;
+};
+
+// Both eyes' of a line.
+std::vector<Projected> ParseProjection(const std::string& line) {
+  std::vector<Projected> eyes;
+  for (size_t at = line.find('|'); at != std::string::npos; at = line.find('|', at + 1)) {
+    Projected eye;
+    double w = 0.0, x = 0.0, y = 0.0, z = 0.0;
+    std::string word;
+    std::istringstream in(line.substr(at + 1));
+    in >> word >> eye.position.x() >> eye.position.y() >> eye.position.z() >> word >> w >> x >> y >>
+        z >> word >> eye.left >> eye.right >> eye.up >> eye.down >> word >> eye.upper >> word >>
+        eye.lower;
+    eye.yaw = 2.0 * std::atan2(y, w);
+    eyes.push_back(eye);
+  }
+  return eyes;
+}
+
+// A headset whose runtime shows what is real.
+class OpenXrSeeThroughTest : public OpenXrTest {
+ protected:
+  void SetUp() override {
+    OpenXrTest::SetUp();
+    headset_.runtime_shows_room = true;
+  }
+
+  // The upper half covers all behind it, the lower nothing.
+  void ShowToBoth() {
+    const auto target = render::RenderTarget::Create(kPinhole.width, kPinhole.height);
+    ASSERT_TRUE(target.ok());
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(1.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, kPinhole.height / 2, kPinhole.width, kPinhole.height / 2);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    for (const Eye eye : {kLeft, kRight}) {
+      views_[eye] = xr_->ViewOf(eye, kPinhole.width, kPinhole.height);
+      ASSERT_TRUE(views_[eye].has_value());
+      const Status set = xr_->SetPicture(eye, *target);
+      ASSERT_TRUE(set.ok()) << set.message();
+    }
+  }
+
+  std::array<std::optional<EyeView>, 2> views_;
+};
+
+TEST_F(OpenXrSeeThroughTest, PeopleAreBlendedOverWhatIsRealWhereTheRuntimeCan) {
+  ASSERT_TRUE(Open("blends=o+a passes").ok());
+  Run(3);
+  ShowToBoth();
+  Run(1);
+  EXPECT_THAT(Lines("frame ").back(), HasSubstr("layers 1 blend a"));
+  const std::vector<Projected> eyes =
+      ParseProjection(Lines("projection space room flags 2").back());
+  ASSERT_EQ(eyes.size(), 2u);
+  for (const Projected& eye : eyes) {
+    EXPECT_EQ(eye.upper, "255,0,0,255");
+    EXPECT_EQ(eye.lower, "0,0,0,0");
+  }
+  EXPECT_TRUE(Lines("passthrough").empty());
+}
+
+TEST_F(OpenXrSeeThroughTest, OtherwiseWhatIsRealIsALayerBelowPeople) {
+  ASSERT_TRUE(Open("blends=o passes").ok());
+  Run(3);
+  ShowToBoth();
+  Run(1);
+  const std::vector<std::string> lines = Lines();
+  ASSERT_GE(lines.size(), 3u);
+  EXPECT_THAT(lines[lines.size() - 3], HasSubstr("layers 2 blend o"));
+  EXPECT_EQ(lines[lines.size() - 2], "what is real");
+  EXPECT_THAT(lines.back(), HasSubstr("projection"));
+  EXPECT_EQ(Lines("passthrough flags 1").size(), 1u);
+}
+
+TEST_F(OpenXrSeeThroughTest, WhatIsRealIsSeenBeforeThereAreAnyPeople) {
+  ASSERT_TRUE(Open("blends=o passes").ok());
+  Run(3);
+  EXPECT_THAT(Lines("frame ").back(), HasSubstr("layers 1"));
+  EXPECT_FALSE(Lines("what is real").empty());
+}
+
+TEST_F(OpenXrSeeThroughTest, AHeadsetOfGlassOnlyAddsLight) {
+  ASSERT_TRUE(Open("blends=+").ok());
+  Run(3);
+  ShowToBoth();
+  Run(1);
+  EXPECT_THAT(Lines("frame ").back(), HasSubstr("layers 1 blend +"));
+}
+
+TEST_F(OpenXrSeeThroughTest, AHeadsetThatShowsNothingRealIsOneErrorThatSaysWhatToDo) {
+  EXPECT_EQ(Open("blends=o").message(),
+            "OpenXR: the headset does not show what is real by itself; set \"see_through\" of the "
+            "device file's \"headset\" to \"camera\"");
+}
+
+TEST_F(OpenXrSeeThroughTest, EachEyesPictureIsHandedOverForTheViewItWasDrawnFor) {
+  ASSERT_TRUE(Open("blends=a turn=1").ok());
+  Run(12);
+  ShowToBoth();
+  Run(4);  // without a newer picture the head turns on
+  const std::vector<Projected> eyes = ParseProjection(Lines("projection").back());
+  ASSERT_EQ(eyes.size(), 2u);
+  for (const Eye eye : {kLeft, kRight}) {
+    const EyeView& view = *views_[eye];
+    const geometry::Rigid3& pose = view.room_from_eye;
+    // Our axes are turned half about x.
+    EXPECT_NEAR(eyes[eye].position.x(), pose.translation.x(), 1e-4);
+    EXPECT_NEAR(eyes[eye].position.y(), -pose.translation.y(), 1e-4);
+    EXPECT_NEAR(eyes[eye].position.z(), -pose.translation.z(), 1e-4);
+    EXPECT_NEAR(eyes[eye].yaw, -2.0 * std::atan2(pose.rotation.y(), pose.rotation.w()), 1e-4);
+    EXPECT_NEAR(eyes[eye].right, std::atan(0.5 * kPinhole.width / view.camera.fx), 1e-4);
+    EXPECT_NEAR(eyes[eye].up, std::atan(0.5 * kPinhole.height / view.camera.fy), 1e-4);
+    EXPECT_NEAR(eyes[eye].left, -eyes[eye].right, 1e-6);
+    // All that the eye can see is in it.
+    EXPECT_GE(eyes[eye].right, 0.8 - 1e-4);
+    EXPECT_GE(eyes[eye].up, 0.8 - 1e-4);
+  }
+  EXPECT_NEAR((eyes[kRight].position - eyes[kLeft].position).norm(), 0.064, 1e-4);
+}
+
+TEST_F(OpenXrSeeThroughTest, EyesAreForeseenAndTheCameraIsKnownBackInTime) {
+  headset_.head_from_camera.translation = Eigen::Vector3d(0.0, -0.05, 0.1);
+  ASSERT_TRUE(Open("blends=a turn=1").ok());
+  Run(12);
+  const SteadyClock::time_point taken = SteadyClock::now() - std::chrono::milliseconds(50);
+  ShowToBoth();
+  const std::optional<geometry::Rigid3> camera = xr_->RoomFromCamera(taken);
+  ASSERT_TRUE(camera.has_value());
+  const auto yaw = [](const geometry::Rigid3& pose) {
+    return -2.0 * std::atan2(pose.rotation.y(), pose.rotation.w());
+  };
+  // Two and three periods of the display ahead, and what drawing took.
+  const double ahead = yaw(views_[kLeft]->room_from_eye) - yaw(*camera);
+  EXPECT_GT(ahead, 0.05);
+  EXPECT_LT(ahead, 0.05 + 0.05);
+  EXPECT_NEAR(camera->translation.y(), -1.65, 1e-4);
 }
 
 TEST_F(OpenXrTest, ALostRuntimeIsOneErrorThatSaysWhatToDo) {

@@ -1,5 +1,6 @@
 // Shadows of people on real surfaces, against what is known of them.
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -314,6 +315,57 @@ TEST_F(CatcherTest, PeopleOverAShadowStayAsTheyAre) {
             without.at<cv::Vec3b>(PixelOf({0.0, 0.35, 0.0})));
   EXPECT_NE(with.at<cv::Vec3b>(PixelOf({0.4, 0.0, 0.1})),
             without.at<cv::Vec3b>(PixelOf({0.4, 0.0, 0.1})));
+}
+
+// The top row first; alpha as well.
+cv::Mat ReadRgba(const RenderTarget& target) {
+  cv::Mat rgba(target.height(), target.width(), CV_8UC4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer());
+  glReadPixels(0, 0, rgba.cols, rgba.rows, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data);
+  return rgba;
+}
+
+TEST_F(CatcherTest, SeenThroughOverWhatIsRealItIsThePictureThatHasBoth) {
+  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value();
+  const glm::mat4 skin(1.0f);
+  SceneHuman human = {.human = ball, .skin = {&skin, 1}};
+  human.stage_from_actor = glm::mat4(glm::mat3(0.3f));
+  human.stage_from_actor[3] = glm::vec4(0.0f, 0.3f, 0.0f, 1.0f);
+  scene_.humans = {&human, 1};
+  const glm::vec4 blocker(0.0f, 0.3f, 0.0f, 0.3f);
+  scene_.blockers = {&blocker, 1};
+  for (const float opacity : {1.0f, 0.4f}) {
+    scene_.people_opacity = opacity;
+    scene_.see_through = false;
+    scene_.background = cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(kGrey));
+    const cv::Mat both = Draw();
+    scene_.see_through = true;
+    scene_.background.release();
+    const RenderTarget target = MakeTarget(kWidth, kHeight);
+    ASSERT_TRUE(renderer_->Draw(scene_, target).ok());
+    const cv::Mat alone = ReadRgba(target);
+    EXPECT_EQ(alone.at<cv::Vec4b>(2, 2), cv::Vec4b(0, 0, 0, 0)) << "nobody is there";
+    int hidden = 0;
+    int darkened = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const cv::Vec4b seen = alone.at<cv::Vec4b>(y, x);
+        const double over = LinearFromSrgb(seen[1] / 255.0) +
+                            (1.0 - seen[3] / 255.0) * LinearFromSrgb(kGrey / 255.0);
+        ASSERT_NEAR(over, LinearFromSrgb(both.at<cv::Vec3b>(y, x)[1] / 255.0), 0.008)
+            << x << " " << y;
+        hidden += seen[3] > 250 * opacity && seen[1] > 0 ? 1 : 0;
+        darkened += seen[3] > 3 && seen[1] == 0 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(hidden, 500) << "the ball";
+    EXPECT_GT(darkened, 500) << "its shadow";
+  }
+}
+
+TEST_F(CatcherTest, WhatIsSeenThroughHasNoBackground) {
+  scene_.see_through = true;
+  EXPECT_FALSE(renderer_->Draw(scene_, MakeTarget(kWidth, kHeight)).ok());
 }
 
 // Far from it, a crowd of balls is merged: it must darken like its parts.
