@@ -90,20 +90,26 @@ class OpenXrTest : public ::testing::Test {
     return more;
   }
 
-  void Show(SteadyClock::time_point taken) {
-    const auto target = render::RenderTarget::Create(kPinhole.width, kPinhole.height);
-    ASSERT_TRUE(target.ok());
+  // Red above, opaque, and below as told: red, green, blue, alpha.
+  static render::RenderTarget TwoHalves(const std::array<float, 4>& lower) {
+    auto target = render::RenderTarget::Create(kPinhole.width, kPinhole.height);
+    EXPECT_TRUE(target.ok()) << target.message();
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
     glDisable(GL_SCISSOR_TEST);
     glClearColor(1.0f, 0.0f, 0.0f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
     glEnable(GL_SCISSOR_TEST);
-    glScissor(0, kPinhole.height / 2, kPinhole.width, kPinhole.height / 2);  // the lower half
-    glClearColor(0.0f, 0.0f, 0.5f, 1.0f);
+    glScissor(0, kPinhole.height / 2, kPinhole.width, kPinhole.height / 2);
+    glClearColor(lower[0], lower[1], lower[2], lower[3]);
     glClear(GL_COLOR_BUFFER_BIT);
+    return std::move(target).value();
+  }
+
+  void Show(SteadyClock::time_point taken) {
+    const render::RenderTarget target = TwoHalves({0.0f, 0.0f, 0.5f, 1.0f});
     for (const Eye eye : {kLeft, kRight}) {
       if (eye == kLeft || headset_.stereo) {
-        const Status set = xr_->SetPicture(eye, *target);
+        const Status set = xr_->SetPicture(eye, target);
         ASSERT_TRUE(set.ok()) << set.message();
       }
     }
@@ -263,22 +269,12 @@ class OpenXrSeeThroughTest : public OpenXrTest {
     headset_.runtime_shows_room = true;
   }
 
-  // The upper half covers all behind it, the lower nothing.
   void ShowToBoth() {
-    const auto target = render::RenderTarget::Create(kPinhole.width, kPinhole.height);
-    ASSERT_TRUE(target.ok());
-    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
-    glDisable(GL_SCISSOR_TEST);
-    glClearColor(1.0f, 0.0f, 0.0f, 1.0f);
-    glClear(GL_COLOR_BUFFER_BIT);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(0, kPinhole.height / 2, kPinhole.width, kPinhole.height / 2);
-    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    glClear(GL_COLOR_BUFFER_BIT);
+    const render::RenderTarget target = TwoHalves({0.0f, 0.0f, 0.0f, 0.0f});
     for (const Eye eye : {kLeft, kRight}) {
       views_[eye] = xr_->ViewOf(eye, kPinhole.width, kPinhole.height);
       ASSERT_TRUE(views_[eye].has_value());
-      const Status set = xr_->SetPicture(eye, *target);
+      const Status set = xr_->SetPicture(eye, target);
       ASSERT_TRUE(set.ok()) << set.message();
     }
   }

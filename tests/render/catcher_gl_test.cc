@@ -72,6 +72,14 @@ class CatcherTest : public GlTest {
     EXPECT_TRUE(drawn.ok()) << drawn.message();
     return Read(target);
   }
+  // A person that is a ball, 0.3 m in radius.
+  void AddBallOnTheFloor() {
+    human_.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value();
+    human_.skin = {&skin_, 1};
+    human_.stage_from_actor = glm::mat4(glm::mat3(0.3f));
+    human_.stage_from_actor[3] = glm::vec4(0.0f, 0.3f, 0.0f, 1.0f);
+    scene_.humans = {&human_, 1};
+  }
   // How much of its light a pixel kept.
   static double Kept(const cv::Mat& picture, const cv::Point& pixel, int channel = 1) {
     return LinearFromSrgb(picture.at<cv::Vec3b>(pixel)[channel] / 255.0) /
@@ -94,6 +102,8 @@ class CatcherTest : public GlTest {
   static constexpr int kGrey = 190;
   std::unique_ptr<Renderer> renderer_;
   std::vector<SceneOccluder> occluders_;
+  glm::mat4 skin_ = glm::mat4(1.0f);
+  SceneHuman human_;
   RenderScene scene_;
 };
 
@@ -301,12 +311,7 @@ TEST_F(CatcherTest, ShadowsDoNotBleedOverEdges) {
 }
 
 TEST_F(CatcherTest, PeopleOverAShadowStayAsTheyAre) {
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value();
-  const glm::mat4 skin(1.0f);
-  SceneHuman human = {.human = ball, .skin = {&skin, 1}};
-  human.stage_from_actor = glm::mat4(glm::mat3(0.3f));
-  human.stage_from_actor[3] = glm::vec4(0.0f, 0.3f, 0.0f, 1.0f);
-  scene_.humans = {&human, 1};
+  AddBallOnTheFloor();
   const cv::Mat without = Draw();
   const glm::vec4 blocker(0.0f, 0.3f, 0.0f, 0.3f);
   scene_.blockers = {&blocker, 1};
@@ -326,12 +331,7 @@ cv::Mat ReadRgba(const RenderTarget& target) {
 }
 
 TEST_F(CatcherTest, SeenThroughOverWhatIsRealItIsThePictureThatHasBoth) {
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value();
-  const glm::mat4 skin(1.0f);
-  SceneHuman human = {.human = ball, .skin = {&skin, 1}};
-  human.stage_from_actor = glm::mat4(glm::mat3(0.3f));
-  human.stage_from_actor[3] = glm::vec4(0.0f, 0.3f, 0.0f, 1.0f);
-  scene_.humans = {&human, 1};
+  AddBallOnTheFloor();
   const glm::vec4 blocker(0.0f, 0.3f, 0.0f, 0.3f);
   scene_.blockers = {&blocker, 1};
   for (const float opacity : {1.0f, 0.4f}) {
