@@ -310,6 +310,7 @@ void Performance::Obey(const StaffCommand& command) {
   };
   const show::ShowContent& content = show_->content();
   Choices choices = choices_;
+  choices.volume = command.volume.value_or(choices.volume);
   if (command.language && has(content.spoken_languages, *command.language)) {
     choices.language = *command.language;
   }
@@ -535,6 +536,9 @@ Status Performance::Prepare() {
 Status Performance::PrepareDrawing(const show::ShowContent& content) {
   LARARIUM_ASSIGN_OR_RETURN(screen_, Screen::Open(options_, content.title));
   LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(size_.width, size_.height));
+  if (staff_) {
+    staff_->Prepare(*target_);
+  }
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content));
   renderer_->SetEvidence(options_.evidence);
   renderer_->SetPart(part_);

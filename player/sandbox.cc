@@ -130,6 +130,11 @@ constexpr const char* kOfPage[] = {
     "restart_syscall",
     "exit",
     "exit_group",
+#ifdef __SANITIZE_ADDRESS__
+    // How sanitizers find out whether memory is there.
+    "pipe",
+    "pipe2",
+#endif
 };
 
 struct Release {

@@ -20,6 +20,9 @@ class StaffReporter {
   // As StaffLink.
   StaffReporter(int link, Log& log) : link_(link, log), mirror_(StaffLink::kPictureWidth) {}
 
+  // Before the first frame, when there is the context: pictures of that size are mirrored.
+  void Prepare(const render::RenderTarget& picture) { mirror_.Prepare(picture); }
+
   // A frame was shown, and picture holds it. fill: adds what frames do not say; called only when
   // the page is told.
   void AfterFrame(const show::StagedFrame& staged,

@@ -52,42 +52,67 @@ void PictureMirror::Begin(const RenderTarget& picture) {
   if (picture.width() != width_ || picture.height() != height_) {
     MakeLevels(picture.width(), picture.height());
   }
+  step_ = 0;
+  Halve(picture.framebuffer(), width_, height_, levels_.front());
+}
+
+void PictureMirror::Halve(uint32_t from, int width, int height, const Level& level) {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_FRAMEBUFFER_SRGB);  // what is encoded stays as it is
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  uint32_t from = picture.framebuffer();
-  int width = width_;
-  int height = height_;
-  for (const Level& level : levels_) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, level.framebuffer.id());
-    glBlitFramebuffer(0, 0, width, height, 0, 0, level.width, level.height, GL_COLOR_BUFFER_BIT,
-                      GL_LINEAR);
-    from = level.framebuffer.id();
-    width = level.width;
-    height = level.height;
-  }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, level.framebuffer.id());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, level.width, level.height, GL_COLOR_BUFFER_BIT,
+                    GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+void PictureMirror::Prepare(const RenderTarget& picture) {
+  Begin(picture);
+  cv::Mat unused;
+  do {
+    glFinish();
+  } while (under_way() && !TryFinish(unused));
+}
+
+bool PictureMirror::StepIsDone() {
+  const auto fence = static_cast<GLsync>(fence_);
+  if (fence == nullptr || glClientWaitSync(fence, 0, 0) == GL_TIMEOUT_EXPIRED) {
+    return false;
+  }
+  glDeleteSync(fence);
+  fence_ = nullptr;
+  return true;
+}
+
+void PictureMirror::BeginReading() {
+  const Level& last = levels_.back();
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, last.framebuffer.id());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer_.id());
   glPixelStorei(GL_PACK_ALIGNMENT, kBytesPerPixel);
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  glReadPixels(0, 0, last.width, last.height, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
 bool PictureMirror::TryFinish(cv::Mat& rgba) {
-  if (!under_way()) {
+  if (!StepIsDone()) {
     return false;
   }
-  const auto fence = static_cast<GLsync>(fence_);
-  const GLenum state = glClientWaitSync(fence, 0, 0);
-  if (state == GL_TIMEOUT_EXPIRED) {
+  // Where the device is the processor (software), each step would wait for the one before.
+  ++step_;
+  if (step_ < levels_.size()) {
+    const Level& finer = levels_[step_ - 1];
+    Halve(finer.framebuffer.id(), finer.width, finer.height, levels_[step_]);
     return false;
   }
-  glDeleteSync(fence);
-  fence_ = nullptr;
+  if (step_ == levels_.size()) {
+    BeginReading();
+    return false;
+  }
   const Level& last = levels_.back();
   const size_t bytes = size_t{kBytesPerPixel} * last.width * last.height;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer_.id());

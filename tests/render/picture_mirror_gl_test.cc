@@ -25,7 +25,7 @@ class PictureMirrorTest : public GlTest {
   static cv::Mat Finished(PictureMirror& mirror) {
     cv::Mat rgba;
     for (int i = 0; i < 1000 && !mirror.TryFinish(rgba); ++i) {
-      glFlush();
+      glFinish();
     }
     return rgba;
   }
