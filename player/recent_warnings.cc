@@ -26,6 +26,11 @@ std::vector<RecentWarnings::Entry> RecentWarnings::Entries() {
 }
 
 std::shared_ptr<RecentWarnings> RecentWarnings::Of(Log& log) {
+  for (const spdlog::sink_ptr& known : log.sinks()) {
+    if (auto sink = std::dynamic_pointer_cast<RecentWarnings>(known)) {
+      return sink;
+    }
+  }
   auto sink = std::make_shared<RecentWarnings>();
   sink->set_level(spdlog::level::warn);
   log.sinks().push_back(sink);

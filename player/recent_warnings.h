@@ -31,7 +31,8 @@ class RecentWarnings : public spdlog::sinks::base_sink<std::mutex> {
   // Oldest first. From any thread.
   std::vector<Entry> Entries();
 
-  // Hears of all that a log is told from now on. Not while others write to it.
+  // Hears of all that a log is told from now on; the same for the same log. Not while others write
+  // to it.
   static std::shared_ptr<RecentWarnings> Of(Log& log);
 
  protected:

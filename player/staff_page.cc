@@ -16,6 +16,7 @@
 #include <optional>
 #include <utility>
 
+#include "player/recent_warnings.h"
 #include "player/sandbox.h"
 #include "player/staff_server.h"
 
@@ -141,6 +142,8 @@ Result<std::unique_ptr<StaffPage>> StaffPage::Start(const StaffPageOptions& opti
     ::close(listening);
     return Status::Error("staff page", std::strerror(errno));
   }
+  // What a kiosk's watchdog says of the shows that it begins, they then know.
+  RecentWarnings::Of(log);
   const ListenAddress address = {options.address.ip, ntohs(bound.sin_port)};
   const pid_t process = ::fork();
   if (process == 0) {

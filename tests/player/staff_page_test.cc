@@ -146,8 +146,9 @@ TEST_F(StaffPageTest, ShowsWhatThePlayerSays) {
   log_->warn("\"quoted\" \xff");
   ASSERT_TRUE(Soon([&] { return State()["player"]["title"] == "Vetutius"; }));
   Player().Tell(state);
-  ASSERT_TRUE(Soon([&] { return State()["player"]["warnings"].size() == 1; }));
+  ASSERT_TRUE(Soon([&] { return State()["player"]["warnings"].size() == 2; }));
   const Json player = State()["player"];
+  EXPECT_EQ(player["warnings"][0]["text"], "the camera");
   EXPECT_EQ(player["tracking"]["state"], "lost");
   EXPECT_EQ(player["tracking"]["reason"], "too dark");
   EXPECT_EQ(player["tracking"]["lost_seconds"], 7.5);

@@ -45,6 +45,7 @@ TEST(StaffJson, IsJsonWhateverItHolds) {
 TEST(RecentWarnings, KeepsTheLastAndCountsWhatIsSaidAgain) {
   const auto log = MakeSilentLog();
   const auto recent = RecentWarnings::Of(*log);
+  EXPECT_EQ(RecentWarnings::Of(*log), recent);
   log->info("nothing to worry about");
   for (int i = 0; i < 20; ++i) {
     log->warn("warning {}", i);
