@@ -138,7 +138,7 @@ function statusOf(state) {
 function showPlayer(player) {
   byId('title').textContent = player.title;
   document.title = player.title;
-  put('place', player.place);
+  put('place', player.tracking.state === 'searching' ? '–' : player.place);
   put('show-time', player.length === null ? clock(player.seconds)
     : `${clock(player.seconds)} / ${clock(player.length)}`);
   put('tracked-minute', percent(player.tracking.tracked_minute));
