@@ -1,5 +1,7 @@
 #include "player/doctor.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,6 +14,7 @@
 #include "player/camera_choice.h"
 #include "player/kiosk.h"
 #include "player/power_sensors.h"
+#include "player/staff_page.h"
 #include "shared/audio/audio_out.h"
 #include "shared/bundle/bundle.h"
 #include "shared/capture/frame_source.h"
@@ -200,6 +203,20 @@ Finding LookAtDisk(std::filesystem::path folder) {
   return JudgeDisk(written, ignored ? 0 : space.available, folder.string());
 }
 
+Finding LookAtStaffPage(const DoctorOptions& options) {
+  const Result<ListenAddress> address = ParseListenAddress("--staff-page", options.staff_page);
+  if (!address.ok()) {
+    return JudgeStaffPage(address.status(), {}, {});
+  }
+  const Result<int> port = ListenForStaff(*address);
+  if (port.ok()) {
+    ::close(*port);
+  }
+  const Status pin =
+      options.staff_pin.empty() ? Status() : StaffPin::Load(options.staff_pin).status();
+  return JudgeStaffPage(port.status(), pin, StaffPageUrls(*address));
+}
+
 }  // namespace
 
 Finding JudgeCamera(const CameraProbe& probe) {
@@ -334,6 +351,21 @@ Finding JudgePower(const show::PowerState& power) {
   return {"power", Verdict::kGood, found};
 }
 
+Finding JudgeStaffPage(const Status& port,
+                       const Status& pin,
+                       const std::vector<std::string>& urls) {
+  for (const Status& status : {port, pin}) {
+    if (!status.ok()) {
+      return {"staff", Verdict::kBad, status.message(), "the player will not start with it"};
+    }
+  }
+  std::string found;
+  for (const std::string& url : urls) {
+    found += (found.empty() ? "" : ", ") + url;
+  }
+  return {"staff", Verdict::kGood, found};
+}
+
 std::string FormatFindings(const std::vector<Finding>& findings) {
   std::string text;
   for (const Finding& finding : findings) {
@@ -401,6 +433,9 @@ bool RunDoctor(const DoctorOptions& options, Log& log) {
   findings.push_back(JudgeSound(OpenSoundDevice()));
   findings.push_back(LookAtDisk(options.state));
   findings.push_back(JudgePower(ReadPower()));
+  if (!options.staff_page.empty()) {
+    findings.push_back(LookAtStaffPage(options));
+  }
   const bool bad = std::any_of(findings.begin(), findings.end(),
                                [](const Finding& f) { return f.verdict == Verdict::kBad; });
   if (options.json) {

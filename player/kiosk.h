@@ -4,12 +4,15 @@
 // a failure it goes on where it was.
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <thread>
 
 #include "player/kiosk_state.h"
+#include "player/visit_statistics.h"
 #include "player/visitor_watch.h"
 #include "player/watchdog.h"
 #include "shared/core/log.h"
@@ -26,14 +29,21 @@ class Kiosk {
   // A state that cannot be read is a new one, and the log says so. start: after failed starts the
   // show begins at its beginning: what is there may be what fails.
   Kiosk(std::filesystem::path folder, const ChildStart& start, Log& log);
+  // Writes what it has counted.
+  ~Kiosk();
+  Kiosk(const Kiosk&) = delete;
+  Kiosk& operator=(const Kiosk&) = delete;
 
   // What the last visitor chose: of the show that it names.
   const KioskState& state() const { return state_; }
   // Where to go on with a show; 0: at its beginning.
   double ResumeAt(const std::string& title) const;
 
+  // Seconds after which the story of the show is told; 0: not known.
+  void SetStoryLength(double seconds) { story_length_ = seconds; }
+
   // After a frame was shown, seconds by a steady clock. Begins the show anew for the next visitor,
-  // and keeps where it is.
+  // keeps where it is and counts.
   void AfterFrame(double now, const show::StagedFrame& staged, show::Show& show);
 
   // A key was pressed: somebody is there. Who just came sees the show from its beginning.
@@ -41,7 +51,17 @@ class Kiosk {
   // What a visitor chose.
   void Keep(const Choices& choices, double now);
 
+  // Whether somebody is there.
+  bool visited() const { return watch_.noticed(); }
+  const VisitStatistics& statistics() const { return statistics_; }
+  // Grows when they are written down.
+  int64_t statistics_version() const { return statistics_version_; }
+
  private:
+  void Write(const std::filesystem::path& folder, const std::stop_token& stop);
+  void SaveStatistics(const std::filesystem::path& folder, bool& told);
+  void Count(double now, const show::StagedFrame& staged);
+  void KeepStatistics(double now);
   void Remember(double now);
 
   Log& log_;
@@ -50,6 +70,14 @@ class Kiosk {
   VisitorWatch watch_;
   double remembered_ = -1e9;  // when the state was handed to the writer
   Mailbox<KioskState> to_write_;
+  VisitStatistics statistics_;
+  VisitCounter counter_;
+  double story_length_ = 0.0;
+  std::string today_;
+  bool was_noticed_ = false;
+  double kept_statistics_ = -1e9;  // when they were handed to the writer
+  int64_t statistics_version_ = 0;
+  Mailbox<VisitStatistics> statistics_to_write_;
   std::jthread writer_;  // disks are slow
 };
 

@@ -8,6 +8,7 @@
 #include "player/latency.h"
 #include "player/options.h"
 #include "player/play.h"
+#include "player/staff_page.h"
 #include "shared/core/log.h"
 #include "shared/core/processor.h"
 
@@ -21,6 +22,17 @@ int Report(const Status& status, Log& log) {
     log.error("{}", status.message());
   }
   return status.ok() ? 0 : 1;
+}
+
+// nullptr: none is wanted. Here, where there is one thread yet and before a kiosk's watchdog: where
+// the port is taken nothing begins.
+Result<std::unique_ptr<StaffPage>> OpenStaffPage(const PlayOptions& options, Log& log) {
+  if (options.staff_page.empty()) {
+    return std::unique_ptr<StaffPage>();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const ListenAddress address,
+                            ParseListenAddress("--staff-page", options.staff_page));
+  return StaffPage::Start({address, options.staff_pin, options.sandbox}, log);
 }
 
 }  // namespace
@@ -53,12 +65,17 @@ int main(int argc, char** argv) {
   if (!play->benchmark.empty()) {
     return Report(Benchmark(*play, **log), **log);
   }
+  const Result<std::unique_ptr<StaffPage>> page = OpenStaffPage(*play, **log);
+  if (!page.ok()) {
+    return Report(page.status(), **log);
+  }
+  const int staff_link = *page != nullptr ? (*page)->link() : -1;
   if (!play->kiosk) {
-    return Report(Play(*play, start, **log), **log);
+    return Report(Play(*play, start, **log, {}, Heartbeat(), staff_link), **log);
   }
   const auto child = [&](const ChildStart& number, Heartbeat& heartbeat) {
     const auto begun = number.number == 0 ? start : std::chrono::steady_clock::now();
-    return Report(Play(*play, begun, **log, number, heartbeat), **log);
+    return Report(Play(*play, begun, **log, number, heartbeat, staff_link), **log);
   };
   return Supervise(child, {}, **log);
 }

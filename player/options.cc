@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <map>
 
-#include "player/osc.h"
+#include "player/listen_address.h"
 
 namespace lararium::player {
 namespace {
@@ -72,6 +72,14 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("--osc", play.osc,
                  "Listen for Open Sound Control: PORT on this machine, ADDRESS:PORT or "
                  "INTERFACE:PORT on a network");
+  CLI::Option* page = app.add_option(
+      "--staff-page", play.staff_page,
+      "A page for staff, by HTTP: PORT for this machine only, ADDRESS:PORT or INTERFACE:PORT for "
+      "a network, 0.0.0.0:PORT for all of them");
+  app.add_option("--staff-pin-file", play.staff_pin,
+                 "File with the PIN for changing things on that page; without one it only shows")
+      ->check(CLI::ExistingFile)
+      ->needs(page);
   app.add_flag("--evidence", play.evidence,
                "People and things in the colours of how certain they are; F2 switches");
   app.add_option(
@@ -179,6 +187,9 @@ Command ParseCommandLine(int argc, const char* const* argv) {
       ->check(CLI::NonNegativeNumber);
   doctor_command->add_option("--monitor", doctor.monitor, "Number of the monitor")
       ->check(CLI::NonNegativeNumber);
+  CLI::Option* doctor_page =
+      doctor_command->add_option("--staff-page", doctor.staff_page, "As the player will be told");
+  doctor_command->add_option("--staff-pin-file", doctor.staff_pin, "Likewise")->needs(doctor_page);
   doctor_command->add_flag("--json", doctor.json, "Print one JSON object");
   CLI::App* latency_command = app.add_subcommand(
       "latency", "Flash the display, watch it by the camera: how late is what is shown seen?");
@@ -196,8 +207,17 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     if (numbers != 0 && numbers != 4 && numbers != 8) {
       throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
     }
-    if (!play.osc.empty() && !ParseOscAddress(play.osc).ok()) {
-      throw CLI::ValidationError("--osc", ParseOscAddress(play.osc).message());
+    if (!play.osc.empty() && !ParseListenAddress("--osc", play.osc).ok()) {
+      throw CLI::ValidationError("--osc", ParseListenAddress("--osc", play.osc).message());
+    }
+    for (const std::string& page : {play.staff_page, doctor.staff_page}) {
+      if (!page.empty() && !ParseListenAddress("--staff-page", page).ok()) {
+        throw CLI::ValidationError("--staff-page",
+                                   ParseListenAddress("--staff-page", page).message());
+      }
+    }
+    if (!play.benchmark.empty() && !play.staff_page.empty()) {
+      throw CLI::ValidationError("--staff-page", "cannot go with --benchmark");
     }
     if (!play.benchmark.empty() && (play.camera || !play.video.empty() || !play.images.empty())) {
       throw CLI::ValidationError("--benchmark", "takes its images from its own folder");

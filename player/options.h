@@ -49,6 +49,9 @@ struct PlayOptions {
 
   std::string osc;  // where to listen for messages; empty: nowhere
 
+  std::string staff_page;           // where staff ask for their page; empty: there is none
+  std::filesystem::path staff_pin;  // the file with their PIN; empty: the page only shows
+
   // None: side by side where the device file has a headset's panel.
   std::optional<Display> display;
   bool headless = false;
@@ -95,6 +98,8 @@ struct DoctorOptions {
   std::filesystem::path trust;
   std::filesystem::path device;
   std::filesystem::path state;
+  std::string staff_page;  // empty: none is wanted
+  std::filesystem::path staff_pin;
   int camera = 0;
   int monitor = -1;  // any
   bool json = false;

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "player/listen_address.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 
@@ -25,19 +26,12 @@ namespace lararium::player {
 // 400 bytes.
 Result<std::vector<std::string>> ParseOsc(std::span<const std::byte> packet);
 
-// Where to listen: "9000" (this machine's programs only), "192.168.1.5:9000", "wlan0:9000".
-struct OscAddress {
-  uint32_t ip = 0;  // host's byte order
-  uint16_t port = 0;
-};
-Result<OscAddress> ParseOscAddress(std::string_view text);
-
 // Listens on a thread of its own. The log has a line for the first packet that is refused
 // and for each hundredth.
 class OscListener {
  public:
   // Fails where the port is taken. Borrows log.
-  static Result<std::unique_ptr<OscListener>> Open(const OscAddress& address, Log& log);
+  static Result<std::unique_ptr<OscListener>> Open(const ListenAddress& address, Log& log);
   ~OscListener();
   OscListener(const OscListener&) = delete;
   OscListener& operator=(const OscListener&) = delete;

@@ -21,6 +21,7 @@
 #include "player/recorder.h"
 #include "player/sandbox.h"
 #include "player/screen.h"
+#include "player/staff_reporter.h"
 #include "player/stage_anchor.h"
 #include "player/stereo_display.h"
 #include "player/visitor_menu.h"
@@ -108,8 +109,17 @@ class Performance {
               SteadyClock::time_point started,
               Log& log,
               const ChildStart& start,
-              Heartbeat heartbeat)
-      : options_(options), started_(started), log_(log), heartbeat_(heartbeat) {
+              Heartbeat heartbeat,
+              int staff_link)
+      : options_(options),
+        started_(started),
+        log_(log),
+        heartbeat_(heartbeat),
+        restarts_(start.number) {
+    // First: it hears of all that the log is told.
+    if (staff_link >= 0) {
+      staff_.emplace(staff_link, log);
+    }
     if (options.kiosk) {
       kiosk_.emplace(options.state.empty() ? DefaultStateFolder() : options.state, start, log);
       choices_ = kiosk_->state().choices;
@@ -129,7 +139,12 @@ class Performance {
   void PressKeys();
   void PressKey(const std::string& key);
   void Do(Action action);
-  void ChooseAnd(Action action);
+  void Change(const Choices& choices);
+  void ObeyStaff();
+  void Obey(const StaffCommand& command);
+  void TellStaff(const show::StagedFrame& staged);
+  void FillStaffState(const show::StagedFrame& staged, StaffState& state) const;
+  size_t level() const;
   void ToggleMenu();
   void ShowMenu(const show::StagedFrame& staged);
   Status OpenSource();
@@ -163,6 +178,10 @@ class Performance {
   Log& log_;
   Heartbeat heartbeat_;
   std::optional<Kiosk> kiosk_;
+  int restarts_;               // before this run
+  bool begin_again_ = false;   // the watchdog is to begin it again
+  double story_length_ = 0.0;  // seconds; 0: not known
+  int64_t told_statistics_ = -1;
   Choices choices_;
   bool languages_changed_ = false;
   GazeMenu menu_;
@@ -181,6 +200,7 @@ class Performance {
   std::optional<StereoDisplay> stereo_;
   std::unique_ptr<OpenXrHeadset> openxr_;  // nullptr: there is no such headset
   StageAnchor anchor_;                     // where it shows what is real by itself
+  std::optional<StaffReporter> staff_;     // none: there is no page for staff
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
@@ -195,6 +215,7 @@ bool Performance::KeepGoing() {
   const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
   const bool keep_going = g_end_requested == 0 && !enough && screen_->KeepGoing();
   PressKeys();
+  ObeyStaff();
   // Alive as long as pictures come, also while the camera takes its time.
   if (drawn_frames_ > 0 && SteadyClock::now() - last_shown_ < kLongestSilence) {
     heartbeat_.Beat();
@@ -252,18 +273,21 @@ void Performance::Do(Action action) {
     case Action::kMenu:
       ToggleMenu();
       break;
-    default:
-      ChooseAnd(action);
+    default: {
+      Choices choices = choices_;
+      Choose(action, {show_->content().spoken_languages, show_->content().caption_languages},
+             choices);
+      Change(choices);
+    }
   }
 }
 
-// Chooses, and lets it be heard and read.
-void Performance::ChooseAnd(Action action) {
-  const Choices before = choices_;
-  Choose(action, {show_->content().spoken_languages, show_->content().caption_languages}, choices_);
-  if (choices_ == before) {
+// Lets what is chosen be heard and read.
+void Performance::Change(const Choices& choices) {
+  if (choices == choices_) {
     return;
   }
+  const Choices before = std::exchange(choices_, choices);
   if (choices_.volume != before.volume && sound_ != nullptr) {
     sound_->SetVolume(static_cast<float>(choices_.volume));
   }
@@ -273,6 +297,71 @@ void Performance::ChooseAnd(Action action) {
   if (kiosk_) {
     kiosk_->Keep(choices_, Seconds(SteadyClock::now()));
   }
+}
+
+void Performance::ObeyStaff() {
+  if (staff_) {
+    for (const StaffCommand& command : staff_->link().TakeCommands()) {
+      Obey(command);
+    }
+  }
+}
+
+// What the show does not have is not chosen.
+void Performance::Obey(const StaffCommand& command) {
+  const auto has = [](const std::vector<std::string>& languages, const std::string& language) {
+    return std::find(languages.begin(), languages.end(), language) != languages.end();
+  };
+  const show::ShowContent& content = show_->content();
+  Choices choices = choices_;
+  choices.volume = command.volume.value_or(choices.volume);
+  if (command.language && has(content.spoken_languages, *command.language)) {
+    choices.language = *command.language;
+  }
+  if (command.captions && (has(content.caption_languages, *command.captions) ||
+                           *command.captions == show::kNoCaptions)) {
+    choices.captions = *command.captions;
+  }
+  Change(choices);
+  if (command.action) {
+    Do(*command.action);
+  }
+  begin_again_ = begin_again_ || (command.begin_again && kiosk_);
+  if (command.end || begin_again_) {
+    g_end_requested = 1;
+  }
+}
+
+void Performance::TellStaff(const show::StagedFrame& staged) {
+  if (!staff_) {
+    return;
+  }
+  staff_->AfterFrame(staged, *target_,
+                     [this, &staged](StaffState& state) { FillStaffState(staged, state); });
+  if (kiosk_ && told_statistics_ != kiosk_->statistics_version()) {
+    told_statistics_ = kiosk_->statistics_version();
+    staff_->link().TellStatistics(kiosk_->statistics());
+  }
+}
+
+void Performance::FillStaffState(const show::StagedFrame& staged, StaffState& state) const {
+  const show::ShowContent& content = show_->content();
+  state.title = content.title;
+  state.place = content.places[staged.place].stage.name;
+  state.length = story_length_ > 0.0 ? std::optional(story_length_) : std::nullopt;
+  state.kiosk = kiosk_.has_value();
+  state.visitor = kiosk_ ? std::optional(kiosk_->visited()) : std::nullopt;
+  state.quality = level();
+  state.choices = choices_;
+  state.audible = sound_ != nullptr;
+  state.languages = content.spoken_languages;
+  state.caption_languages = content.caption_languages;
+  state.up_seconds = Seconds(last_shown_);
+  state.restarts = restarts_;
+}
+
+size_t Performance::level() const {
+  return quality_ ? quality_->level() : static_cast<size_t>(options_.quality.value_or(0));
 }
 
 void Performance::ToggleMenu() {
@@ -330,6 +419,10 @@ Status Performance::CreateShow(show::ShowContent content) {
   drama::DramaOptions drama;
   drama.seed = options_.seed;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
+  story_length_ = show_->drama().settings().length;
+  if (kiosk_) {
+    kiosk_->SetStoryLength(story_length_);
+  }
   show_->SetLostLadder(device_.lost);
   show_->SetPictureSize(size_.width, size_.height, part_);
   show_->SetSeenAround(headset_ && headset_->runtime_shows_room);
@@ -440,7 +533,8 @@ Status Performance::Prepare() {
   LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, shown(), *show_));
   OpenSound();
   if (!options_.osc.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(const OscAddress address, ParseOscAddress(options_.osc));
+    LARARIUM_ASSIGN_OR_RETURN(const ListenAddress address,
+                              ParseListenAddress("--osc", options_.osc));
     LARARIUM_ASSIGN_OR_RETURN(osc_, OscListener::Open(address, log_));
   }
   return Status();
@@ -449,6 +543,9 @@ Status Performance::Prepare() {
 Status Performance::PrepareDrawing(const show::ShowContent& content) {
   LARARIUM_ASSIGN_OR_RETURN(screen_, Screen::Open(options_, content.title));
   LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(size_.width, size_.height));
+  if (staff_) {
+    staff_->Prepare(*target_);
+  }
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content));
   renderer_->SetEvidence(options_.evidence);
   renderer_->SetPart(part_);
@@ -544,9 +641,7 @@ void Performance::ShowToStaff() {
   char more[64];
   const double rate =
       statistics_.interval.count() == 0 ? 0.0 : 1000.0 / statistics_.interval.mean();
-  std::snprintf(more, sizeof(more), "   quality %zu   %.0f/s",
-                quality_ ? quality_->level() : static_cast<size_t>(options_.quality.value_or(0)),
-                rate);
+  std::snprintf(more, sizeof(more), "   quality %zu   %.0f/s", level(), rate);
   renderer_->SetStaff(more);
 }
 
@@ -655,6 +750,7 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
   if (kiosk_) {
     kiosk_->AfterFrame(Seconds(last_shown_), staged, *show_);
   }
+  TellStaff(staged);
   return recorder_->Add(staged, shown());
 }
 
@@ -715,7 +811,7 @@ Status Performance::Run() {
   }
   log_.info("{} frames shown, {:.1f} % tracked", drawn_frames_,
             100.0 * statistics_.tracking.tracked_fraction());
-  return Status();
+  return begin_again_ ? Status::Error("staff page", "the player is to begin again") : Status();
 }
 
 // Loading makes and drops much that is large, playing little of it again and again: what is large
@@ -729,14 +825,15 @@ Status Play(const PlayOptions& options,
             SteadyClock::time_point started,
             Log& log,
             const ChildStart& start,
-            Heartbeat heartbeat) {
+            Heartbeat heartbeat,
+            int staff_link) {
   std::signal(SIGINT, RequestEnd);
   std::signal(SIGTERM, RequestEnd);
   std::optional<ThreadLimit> limit;
   if (options.threads > 0) {
     limit.emplace(options.threads);
   }
-  Performance performance(options, started, log, start, heartbeat);
+  Performance performance(options, started, log, start, heartbeat, staff_link);
   ReturnBlocksFrom(kLargeInLoading);
   LARARIUM_RETURN_IF_ERROR(performance.Prepare());
   TrimHeap();

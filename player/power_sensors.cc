@@ -36,6 +36,18 @@ void ForEachFolder(const std::filesystem::path& parent, const std::string& prefi
   }
 }
 
+// The machine's own, not those of a mouse: share that is left, and status as Linux words it.
+template <typename Visit>
+void ForEachBattery(const std::filesystem::path& sys, Visit visit) {
+  ForEachFolder(sys / "class/power_supply", "", [&](const std::filesystem::path& supply) {
+    const std::optional<double> percent = Number(supply / "capacity");
+    if (FirstLine(supply / "type") == "Battery" && FirstLine(supply / "scope") != "Device" &&
+        percent && *percent >= 0.0 && *percent <= 100.0) {
+      visit(*percent / 100.0, FirstLine(supply / "status").value_or(""));
+    }
+  });
+}
+
 // Sensors that are not connected report nonsense.
 constexpr double kLeastCelsius = 1.0;
 constexpr double kMostCelsius = 150.0;
@@ -50,15 +62,22 @@ show::PowerState ReadPower(const std::filesystem::path& sys) {
       power.celsius = std::max(power.celsius.value_or(0.0), *thousandths / 1000.0);
     }
   });
-  ForEachFolder(sys / "class/power_supply", "", [&](const std::filesystem::path& supply) {
-    const std::optional<double> percent = Number(supply / "capacity");
-    if (FirstLine(supply / "type") == "Battery" && FirstLine(supply / "scope") != "Device" &&
-        FirstLine(supply / "status") == "Discharging" && percent && *percent >= 0.0 &&
-        *percent <= 100.0) {
-      power.battery = std::min(power.battery.value_or(1.0), *percent / 100.0);
+  ForEachBattery(sys, [&](double share, const std::string& status) {
+    if (status == "Discharging") {
+      power.battery = std::min(power.battery.value_or(1.0), share);
     }
   });
   return power;
+}
+
+std::optional<Battery> ReadBattery(const std::filesystem::path& sys) {
+  std::optional<Battery> emptiest;
+  ForEachBattery(sys, [&](double share, const std::string& status) {
+    if (!emptiest || share < emptiest->share) {
+      emptiest = Battery{share, status == "Charging" || status == "Full"};
+    }
+  });
+  return emptiest;
 }
 
 }  // namespace lararium::player

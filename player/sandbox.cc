@@ -1,13 +1,16 @@
 #include "player/sandbox.h"
 
 #include <seccomp.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 
 #include <cerrno>
 #include <cstring>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace lararium::player {
 namespace {
@@ -85,6 +88,55 @@ constexpr const char* kForbidden[] = {
     "accept4",
 };
 
+// What a web server does whose sockets are open. Whatever is not here fails.
+constexpr const char* kOfPage[] = {
+    "recvfrom",
+    "recvmsg",
+    "read",
+    "write",
+    "writev",
+    "shutdown",
+    "close",
+    "getsockopt",
+    "setsockopt",
+    "getsockname",
+    "getpeername",
+    "fcntl",
+    "poll",
+    "ppoll",
+    "epoll_ctl",
+    "epoll_wait",
+    "epoll_pwait",
+    "fstat",
+    "brk",
+    "munmap",
+    "mremap",
+    "madvise",
+    "futex",
+    "clock_gettime",
+    "clock_nanosleep",
+    "nanosleep",
+    "gettimeofday",
+    "time",
+    "getrandom",
+    "getpid",
+    "gettid",
+    "tgkill",
+    "rt_sigaction",
+    "rt_sigprocmask",
+    "rt_sigreturn",
+    "sigaltstack",
+    "sched_yield",
+    "restart_syscall",
+    "exit",
+    "exit_group",
+#ifdef __SANITIZE_ADDRESS__
+    // How sanitizers find out whether memory is there.
+    "pipe",
+    "pipe2",
+#endif
+};
+
 struct Release {
   void operator()(void* filter) const { seccomp_release(filter); }
 };
@@ -94,9 +146,20 @@ scmp_arg_cmp First(scmp_compare op, scmp_datum_t a) {
   return {.arg = 0, .op = op, .datum_a = a, .datum_b = 0};
 }
 
+// A bit of a call's argument that is not set.
+scmp_arg_cmp Without(unsigned argument, scmp_datum_t bit) {
+  return {.arg = argument, .op = SCMP_CMP_MASKED_EQ, .datum_a = bit, .datum_b = 0};
+}
+
 Status Problem(const char* what, int code) {
   return Status::Error("sandbox", std::string(what) + ": " + std::strerror(-code),
                        "run with --sandbox off if the system has no seccomp");
+}
+
+Status Load(scmp_filter_ctx filter) {
+  seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
+  const int loaded = seccomp_load(filter);
+  return loaded == 0 ? Status() : Problem("the system does not take it", loaded);
 }
 
 }  // namespace
@@ -129,11 +192,41 @@ Status EnterSandbox() {
       return Problem("cannot be made", added);
     }
   }
-  seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1);
-  if (const int loaded = seccomp_load(filter.get()); loaded != 0) {
-    return Problem("the system does not take it", loaded);
+  return Load(filter.get());
+}
+
+Status EnterPageSandbox(int listening) {
+  const std::unique_ptr<void, Release> filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)));
+  if (filter == nullptr) {
+    return Problem("cannot be made", -ENOMEM);
   }
-  return Status();
+  const auto allow = [&](const char* name, std::initializer_list<scmp_arg_cmp> conditions) {
+    const int call = seccomp_syscall_resolve_name(name);
+    return call == __NR_SCMP_ERROR  // not of this kernel or machine
+               ? 0
+               : seccomp_rule_add_array(filter.get(), SCMP_ACT_ALLOW, call,
+                                        static_cast<unsigned>(conditions.size()),
+                                        conditions.begin());
+  };
+  std::vector<int> added;
+  for (const char* name : kOfPage) {
+    added.push_back(allow(name, {}));
+  }
+  for (const char* name : {"accept", "accept4"}) {
+    added.push_back(allow(name, {First(SCMP_CMP_EQ, static_cast<scmp_datum_t>(listening))}));
+  }
+  // Sending with this flag connects.
+  added.push_back(allow("sendto", {Without(3, MSG_FASTOPEN)}));
+  added.push_back(allow("sendmsg", {Without(2, MSG_FASTOPEN)}));
+  // No memory from which could be run what a stranger sent.
+  added.push_back(allow("mmap", {Without(2, PROT_EXEC)}));
+  added.push_back(allow("mprotect", {Without(2, PROT_EXEC)}));
+  for (const int code : added) {
+    if (code != 0 && code != -EDOM) {
+      return Problem("cannot be made", code);
+    }
+  }
+  return Load(filter.get());
 }
 
 }  // namespace lararium::player

@@ -13,4 +13,9 @@ namespace lararium::player {
 // has no seccomp: the show can go on without.
 Status EnterSandbox();
 
+// For the process of the staff page (staff_page.h), which is all that strangers reach: it may take
+// connections of the one socket that listens, speak with who has come, and have memory. It opens
+// no file and no socket and connects to nobody.
+Status EnterPageSandbox(int listening);
+
 }  // namespace lararium::player

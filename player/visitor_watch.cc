@@ -9,6 +9,7 @@ constexpr double kMotionGap = 0.5;  // seconds without motion end a motion
 
 VisitorWatch::Event VisitorWatch::Arrive(double time) {
   last_sign_ = time;
+  noticed_ = true;
   if (present_) {
     return Event::kNone;
   }
@@ -41,6 +42,7 @@ VisitorWatch::Event VisitorWatch::Update(double time,
   }
   if (present_ && time - *last_sign_ >= options_.idle_seconds) {
     present_ = false;
+    noticed_ = false;
     moving_since_.reset();
     return Event::kLeft;
   }

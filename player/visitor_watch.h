@@ -29,12 +29,18 @@ class VisitorWatch {
   Event Touch(double time);
 
   bool present() const { return present_; }
+  // Whether somebody was noticed who has not left since: at the beginning somebody may be there,
+  // and nobody knows.
+  bool noticed() const { return present_ && noticed_; }
+  // When they last moved or pressed a button, seconds; while noticed().
+  double last_sign() const { return last_sign_.value_or(0.0); }
 
  private:
   Event Arrive(double time);
 
   VisitorWatchOptions options_;
   bool present_ = true;
+  bool noticed_ = false;
   std::optional<geometry::Rigid3> rest_;  // where it was when it last moved
   std::optional<double> last_sign_;       // when somebody was last known to be there
   std::optional<double> moving_since_;

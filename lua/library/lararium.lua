@@ -199,6 +199,7 @@ function Sound:length() end
 
 ---Settles the drama as a whole, while the script loads: {when_lost = "hold"}, time stands
 ---still while tracking is lost for longer than {patience = seconds}; "go_on": it runs on.
+---{length = seconds}: when its story is told; life may go on after that.
 ---@param settings table
 function drama(settings) end
 

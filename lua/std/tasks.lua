@@ -17,6 +17,7 @@ end
 
 -- Settles the drama as a whole, while the script loads: {when_lost = "hold"}, time stands
 -- still while tracking is lost for longer than {patience = seconds}; "go_on": it runs on.
+-- {length = seconds}: when its story is told; life may go on after that.
 function drama(settings)
   if type(settings) ~= "table" then
     error("drama: give a table like {when_lost = \"hold\"}", 2)
@@ -27,7 +28,11 @@ function drama(settings)
   end
   local patience = settings.patience or 1
   check_seconds(patience, "drama")
-  host.configure(lost == "hold", patience)
+  local length = settings.length or 0
+  if type(length) ~= "number" or not (length >= 0 and length <= 86400) then
+    error("drama: length is a number of seconds from 0 to 86400", 2)
+  end
+  host.configure(lost == "hold", patience, length)
 end
 
 -- Seconds since the drama began.

@@ -41,6 +41,7 @@ struct ScriptError {
 struct DramaSettings {
   bool hold_when_lost = false;  // time stands still while tracking is lost
   double patience = 1.0;        // seconds that it may be lost before that
+  double length = 0.0;          // seconds after which the story is told; 0: nobody said
 };
 
 // One thing that somebody was told to do, and how it ended: what a timeline shows of the

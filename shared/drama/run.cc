@@ -587,13 +587,14 @@ void Run::NoteBlock(lua_State* lua, const stage::Actor& actor, std::string actio
   on_task_(std::move(record));
 }
 
-// configure(whether it holds while tracking is lost, seconds)
+// configure(whether it holds while tracking is lost, seconds, length in seconds)
 int Run::Configure(lua_State* lua) {
   if (!declaring_) {
     return luaL_error(lua, "drama: only while the script loads, not within main()");
   }
   declaring_->settings.hold_when_lost = lua_toboolean(lua, 1) != 0;
   declaring_->settings.patience = CheckFinite(lua, 2, "patience");
+  declaring_->settings.length = CheckFinite(lua, 3, "length");
   return 0;
 }
 

@@ -185,6 +185,13 @@ TEST_F(VisitorTest, FirstTellsWhichAndWaitForWaits) {
   EXPECT_EQ(FirstError(*drama), "");
 }
 
+TEST_F(VisitorTest, AnAuthorSaysWhenTheStoryIsTold) {
+  EXPECT_EQ(Make("function main() end")->settings().length, 0.0) << "nobody said";
+  EXPECT_EQ(Make("drama{length = 235} function main() end")->settings().length, 235.0);
+  const auto wrong = Make("drama{length = -1} function main() end");
+  EXPECT_NE(FirstError(*wrong), "");
+}
+
 TEST_F(VisitorTest, TheDramaHoldsWhereItsAuthorWantsThat) {
   const auto holds = Make("drama{ when_lost = 'hold', patience = 0.5 } function main() end");
   Be(*holds, kNear, kKeeper, 1.0);

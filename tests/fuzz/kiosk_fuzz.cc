@@ -1,4 +1,5 @@
-// Any text as a device file, as a kiosk's state, and as the key that shows must be signed with.
+// Any text as a device file, as a kiosk's state and statistics, as a command of its staff page, and
+// as the key that shows must be signed with.
 
 #include <cmath>
 #include <span>
@@ -6,6 +7,9 @@
 
 #include "player/device_file.h"
 #include "player/kiosk_state.h"
+#include "player/staff_messages.h"
+#include "player/staff_texts.h"
+#include "player/visit_statistics.h"
 #include "shared/bundle/signature.h"
 #include "shared/core/check.h"
 
@@ -26,6 +30,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (const auto state = player::ParseKioskState(text, "state.json"); state.ok()) {
     CHECK(state->seconds >= 0.0 && state->choices.volume >= 0.0 && state->choices.volume <= 1.0);
   }
+  if (const auto days = player::ParseVisitStatistics(text, "statistics.json"); days.ok()) {
+    CHECK(days->days().size() <= player::VisitStatistics::kMostDays);
+    CHECK(days->ToCsv().starts_with("day,"));
+  }
+  if (const auto command = player::ParseStaffCommand(text); command.ok()) {
+    CHECK(!command->volume || (*command->volume >= 0.0 && *command->volume <= 1.0));
+  }
+  CHECK(player::StaffLanguage(text).size() == 2);
   if (const auto key = bundle::ParsePublicKey(text, "museum.pub"); key.ok()) {
     CHECK(!bundle::Verifies({}, {}, *key));
   }

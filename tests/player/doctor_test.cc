@@ -101,5 +101,13 @@ TEST(Doctor, PrintsAdviceBelowWhatItIsFor) {
       "bad");
 }
 
+TEST(Doctor, SaysHowTheStaffPageIsAskedFor) {
+  const Finding good = JudgeStaffPage({}, {}, {"http://10.0.0.7:8090/", "http://10.1.0.7:8090/"});
+  EXPECT_EQ(good.verdict, Verdict::kGood);
+  EXPECT_EQ(good.found, "http://10.0.0.7:8090/, http://10.1.0.7:8090/");
+  EXPECT_EQ(JudgeStaffPage(Status::Error("port", "taken"), {}, {}).verdict, Verdict::kBad);
+  EXPECT_EQ(JudgeStaffPage({}, Status::Error("pin", "short"), {}).verdict, Verdict::kBad);
+}
+
 }  // namespace
 }  // namespace lararium::player

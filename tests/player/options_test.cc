@@ -39,6 +39,18 @@ TEST_F(OptionsTest, TheDisplayIsTheDevicesUnlessItIsGiven) {
   EXPECT_EQ(ExitCode({show_, "--display", "openxr", "--headless"}), 2);
 }
 
+TEST_F(OptionsTest, AStaffPageHasAPortAndMayHaveAPin) {
+  const Command command = Parse({show_, "--staff-page", "0.0.0.0:8090", "--staff-pin-file", show_});
+  const auto* play = std::get_if<PlayOptions>(&command);
+  ASSERT_NE(play, nullptr);
+  EXPECT_EQ(play->staff_page, "0.0.0.0:8090");
+  EXPECT_EQ(play->staff_pin, show_);
+  EXPECT_EQ(ExitCode({show_, "--staff-page", "page"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--staff-page", "70000"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--staff-pin-file", show_}), 2) << "without a page";
+  EXPECT_EQ(ExitCode({"doctor", "--staff-page", "nowhere0:80"}), 2);
+}
+
 TEST_F(OptionsTest, ReadsWhatTheDesignNames) {
   const Command command = Parse({show_, "--headless", "--pace", "fast", "--frames", "9",
                                  "--intrinsics", "500,500,320,240", "--record", "out.mp4"});

@@ -113,14 +113,15 @@ TEST(Osc, EveryCutAndEveryChangedByteEndsWell) {
   }
 }
 
-TEST(OscAddress, NamesAPortOfThisMachineOrOfANetwork) {
-  EXPECT_EQ(ParseOscAddress("9000")->ip, uint32_t{INADDR_LOOPBACK});
-  EXPECT_EQ(ParseOscAddress("9000")->port, 9000);
-  EXPECT_EQ(ParseOscAddress("10.0.0.7:57120")->ip, 0x0a000007u);
-  EXPECT_EQ(ParseOscAddress("lo:9000")->ip, uint32_t{INADDR_LOOPBACK});
-  EXPECT_THAT(ParseOscAddress("0").message(), HasSubstr("1 to 65535"));
-  EXPECT_THAT(ParseOscAddress("70000").message(), HasSubstr("1 to 65535"));
-  EXPECT_THAT(ParseOscAddress("nowhere0:9000").message(), HasSubstr("no network interface"));
+TEST(ListenAddress, NamesAPortOfThisMachineOrOfANetwork) {
+  EXPECT_EQ(ParseListenAddress("--osc", "9000")->ip, uint32_t{INADDR_LOOPBACK});
+  EXPECT_EQ(ParseListenAddress("--osc", "9000")->port, 9000);
+  EXPECT_EQ(ParseListenAddress("--osc", "10.0.0.7:57120")->ip, 0x0a000007u);
+  EXPECT_EQ(ParseListenAddress("--osc", "lo:9000")->ip, uint32_t{INADDR_LOOPBACK});
+  EXPECT_THAT(ParseListenAddress("--osc", "0").message(), HasSubstr("1 to 65535"));
+  EXPECT_THAT(ParseListenAddress("--osc", "70000").message(), HasSubstr("1 to 65535"));
+  EXPECT_THAT(ParseListenAddress("--osc", "nowhere0:9000").message(),
+              HasSubstr("no network interface"));
 }
 
 TEST(OscListener, HearsThisMachineAndRefusesNoise) {

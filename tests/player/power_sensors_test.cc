@@ -53,5 +53,20 @@ TEST_F(PowerSensorsTest, OnlyAnEmptyingBatteryCounts) {
   EXPECT_FALSE(Read().battery);
 }
 
+TEST_F(PowerSensorsTest, ABatteryIsKnownWhileItIsChargedToo) {
+  EXPECT_FALSE(ReadBattery(folder_.path()));
+  Put("power_supply/BAT0/type", "Battery\n");
+  Put("power_supply/BAT0/status", "Charging\n");
+  Put("power_supply/BAT0/capacity", "80\n");
+  ASSERT_TRUE(ReadBattery(folder_.path()));
+  EXPECT_EQ(ReadBattery(folder_.path())->share, 0.8);
+  EXPECT_TRUE(ReadBattery(folder_.path())->charging);
+  Put("power_supply/BAT1/type", "Battery\n");
+  Put("power_supply/BAT1/status", "Discharging\n");
+  Put("power_supply/BAT1/capacity", "20\n");
+  EXPECT_EQ(ReadBattery(folder_.path())->share, 0.2) << "the emptiest";
+  EXPECT_FALSE(ReadBattery(folder_.path())->charging);
+}
+
 }  // namespace
 }  // namespace lararium::player

@@ -1,7 +1,10 @@
 #include "player/sandbox.h"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/socket.h>
@@ -10,17 +13,18 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <functional>
 #include <thread>
 
 namespace lararium::player {
 namespace {
 
-// What a function returns in a process that has entered the sandbox; -1: it did not end by itself.
-int Inside(const std::function<int()>& function) {
+// What a function returns in a process that has entered a sandbox; -1: it did not end by itself.
+int InsideOf(const std::function<Status()>& enter, const std::function<int()>& function) {
   const pid_t process = ::fork();
   if (process == 0) {
-    if (!EnterSandbox().ok()) {
+    if (!enter().ok()) {
       std::_Exit(99);
     }
     std::_Exit(function());
@@ -29,6 +33,8 @@ int Inside(const std::function<int()>& function) {
   ::waitpid(process, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
+
+int Inside(const std::function<int()>& function) { return InsideOf(EnterSandbox, function); }
 
 int ErrorOf(long result) { return result < 0 ? errno : 0; }
 
@@ -66,6 +72,82 @@ TEST(Sandbox, ThreadsThatThereWereAreInItToo) {
               std::thread other([&code] { code = ErrorOf(::socket(AF_INET, SOCK_STREAM, 0)); });
               other.join();
               return code;
+            }),
+            EPERM);
+}
+
+TEST(Sandbox, NobodyIsLetInWhereNoPageIsAskedFor) {
+  const int listening = ::socket(AF_INET, SOCK_STREAM, 0);
+  ASSERT_EQ(::listen(listening, 1), 0);
+  EXPECT_EQ(Inside([=] { return ErrorOf(::listen(listening, 1)); }), EPERM);
+  EXPECT_EQ(Inside([=] { return ErrorOf(::accept(listening, nullptr, nullptr)); }), EPERM);
+  ::close(listening);
+}
+
+// A socket that listens on a port of this machine, and what connects to it.
+class PageSandbox : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    address_.sin_family = AF_INET;
+    address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address_);
+    ASSERT_EQ(::bind(listening_, Address(), size), 0);
+    ASSERT_EQ(::listen(listening_, 4), 0);
+    ASSERT_EQ(::getsockname(listening_, reinterpret_cast<sockaddr*>(&address_), &size), 0);
+    ASSERT_EQ(::connect(caller_, Address(), size), 0);
+  }
+  void TearDown() override {
+    ::close(listening_);
+    ::close(caller_);
+  }
+  const sockaddr* Address() const { return reinterpret_cast<const sockaddr*>(&address_); }
+  int InPage(const std::function<int()>& function) const {
+    return InsideOf([this] { return EnterPageSandbox(listening_); }, function);
+  }
+
+  int listening_ = ::socket(AF_INET, SOCK_STREAM, 0);
+  int caller_ = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address_ = {};
+};
+
+TEST_F(PageSandbox, WhoHasCalledIsAnswered) {
+  EXPECT_EQ(InPage([this] {
+              const int visitor = ::accept(listening_, nullptr, nullptr);
+              return visitor >= 0 && ::send(visitor, "x", 1, 0) == 1 ? 0 : 1;
+            }),
+            0);
+  char got = 0;
+  EXPECT_EQ(::recv(caller_, &got, 1, 0), 1);
+  EXPECT_EQ(got, 'x');
+}
+
+TEST_F(PageSandbox, NobodyIsCalled) {
+  EXPECT_EQ(InPage([] { return ErrorOf(::socket(AF_INET, SOCK_STREAM, 0)); }), EPERM);
+  EXPECT_EQ(InPage([] { return ErrorOf(::socket(AF_UNIX, SOCK_STREAM, 0)); }), EPERM);
+  EXPECT_EQ(InPage([this] { return ErrorOf(::connect(caller_, Address(), sizeof(address_))); }),
+            EPERM);
+  EXPECT_EQ(
+      InPage([this] {
+        ::shutdown(listening_, SHUT_RD);
+        return ErrorOf(::sendto(listening_, "x", 1, MSG_FASTOPEN, Address(), sizeof(address_)));
+      }),
+      EPERM);
+  EXPECT_EQ(InPage([this] { return ErrorOf(::accept(caller_, nullptr, nullptr)); }), EPERM)
+      << "only the socket that it was given listens";
+  EXPECT_EQ(InPage([this] { return ErrorOf(::bind(caller_, Address(), sizeof(address_))); }),
+            EPERM);
+}
+
+TEST_F(PageSandbox, NoFileIsOpenedAndNothingElseIsRun) {
+  EXPECT_EQ(InPage([] { return ErrorOf(::open("/etc/hostname", O_RDONLY)); }), EPERM);
+  EXPECT_EQ(InPage([] { return ErrorOf(::unlink("/tmp/lararium_no_such_file")); }), EPERM);
+  EXPECT_EQ(InPage([] { return ErrorOf(::execl("/bin/true", "true", nullptr)); }), EPERM);
+  EXPECT_EQ(InPage([] { return ErrorOf(::fork()); }), EPERM);
+  EXPECT_EQ(InPage([] { return ErrorOf(::kill(::getppid(), 0)); }), EPERM);
+  EXPECT_EQ(InPage([] {
+              void* memory =
+                  ::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+              return memory == MAP_FAILED ? errno : 0;
             }),
             EPERM);
 }

@@ -37,6 +37,18 @@ std::vector<std::pair<double, Event>> Play(VisitorWatch& watch,
   return events;
 }
 
+TEST(VisitorWatch, AtTheBeginningNobodyIsNoticedUntilTheyMove) {
+  VisitorWatch watch;
+  Play(watch, 0.0, 10.0, Still);
+  EXPECT_TRUE(watch.present());
+  EXPECT_FALSE(watch.noticed());
+  Play(watch, 10.0, 5.0, Watching);
+  EXPECT_TRUE(watch.noticed());
+  EXPECT_NEAR(watch.last_sign(), 15.0, 0.5);
+  Play(watch, 15.0, 60.0, Still);
+  EXPECT_FALSE(watch.noticed());
+}
+
 TEST(VisitorWatch, WhoLooksAboutIsThereForHours) {
   VisitorWatch watch;
   EXPECT_TRUE(Play(watch, 0.0, 3600.0, Watching).empty());

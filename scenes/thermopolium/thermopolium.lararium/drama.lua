@@ -11,7 +11,7 @@
 -- What is timed stands in tracks, which the timeline shows; what depends on others or on
 -- the visitor is script.
 
-drama{when_lost = "hold", patience = 2}
+drama{when_lost = "hold", patience = 2, length = 235}
 
 local keeper = actor("keeper") -- Placidus
 local server = actor("server") -- Ascula, who lives with him

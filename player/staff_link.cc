@@ -1,0 +1,120 @@
+#include "player/staff_link.h"
+
+#include <poll.h>
+
+#include <chrono>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <utility>
+
+#include "player/power_sensors.h"
+#include "shared/show/show_statistics.h"
+
+namespace lararium::player {
+namespace {
+
+constexpr int kLookUpMs = 100;
+constexpr double kMachineSeconds = 5.0;
+constexpr double kWantedSeconds = 5.0;  // after somebody asked for a picture
+constexpr size_t kMostCommands = 16;    // that wait
+constexpr size_t kMostNote = 200;
+constexpr int kJpegQuality = 75;
+
+// One line of the log, whatever was sent.
+std::string OneLine(std::string_view text) {
+  std::string line(text.substr(0, kMostNote));
+  for (char& c : line) {
+    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return line;
+}
+
+}  // namespace
+
+StaffLink::StaffLink(int link, Log& log)
+    : link_(link),
+      log_(log),
+      warnings_(RecentWarnings::Of(log)),
+      thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+
+double StaffLink::Now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void StaffLink::Run(const std::stop_token& stop) {
+  bool open = true;
+  while (!stop.stop_requested() && open) {
+    pollfd waiting = {link_, POLLIN, 0};
+    if (::poll(&waiting, 1, kLookUpMs) > 0) {
+      Receive(open);
+    }
+    if (const std::optional<StaffState> state = state_.TryTake()) {
+      SendState(*state);
+    }
+    if (const std::optional<VisitStatistics> statistics = statistics_.TryTake()) {
+      SendStaffMessage(link_, StaffMessage::kStatistics, statistics->ToCsv());
+    }
+    if (const std::optional<cv::Mat> picture = picture_.TryTake()) {
+      SendPicture(*picture);
+    }
+  }
+  if (!open) {
+    log_.warn("the staff page ended; the show goes on without it");
+  }
+}
+
+// What comes is checked here again: the page is what strangers reach.
+void StaffLink::Receive(bool& open) {
+  while (const auto message = ReceiveStaffMessage(link_, buffer_, open)) {
+    if (message->kind == StaffMessage::kPictureWanted) {
+      wanted_until_.store(Now() + kWantedSeconds, std::memory_order_relaxed);
+    } else if (message->kind == StaffMessage::kNote) {
+      log_.warn("staff page: {}", OneLine(message->content));
+    } else if (message->kind == StaffMessage::kCommand) {
+      if (Result<StaffCommand> command = ParseStaffCommand(message->content); command.ok()) {
+        log_.info("staff page: {}", OneLine(message->content));
+        AddCommand(*std::move(command));
+      }
+    }
+  }
+}
+
+// This thread is the only one that puts: what it takes out nobody has seen.
+void StaffLink::AddCommand(StaffCommand command) {
+  Commands commands = commands_.TryTake().value_or(Commands());
+  if (commands.size() < kMostCommands) {
+    commands.push_back(std::move(command));
+  }
+  commands_.Put(std::move(commands));
+}
+
+void StaffLink::ReadMachine() {
+  if (Now() - machine_read_ >= kMachineSeconds) {
+    machine_read_ = Now();
+    machine_.celsius = ReadPower().celsius;
+    machine_.battery = ReadBattery();
+    machine_.memory_mib = show::ResidentMebibytes();
+  }
+  machine_.warnings = warnings_->Entries();
+}
+
+void StaffLink::SendState(const StaffState& state) {
+  ReadMachine();
+  SendStaffMessage(link_, StaffMessage::kState, StaffJson(state, machine_));
+}
+
+void StaffLink::SendPicture(const cv::Mat& rgba) {
+  cv::Mat bgr;
+  std::vector<unsigned char> jpeg;
+  cv::cvtColor(rgba, bgr, cv::COLOR_RGBA2BGR);
+  try {
+    cv::imencode(".jpg", bgr, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  } catch (const cv::Exception&) {
+    return;  // the page says that there is no picture
+  }
+  SendStaffMessage(link_, StaffMessage::kPicture,
+                   {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+}
+
+}  // namespace lararium::player

@@ -1,0 +1,72 @@
+#include "player/staff_messages.h"
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include "shared/core/json.h"
+
+namespace lararium::player {
+namespace {
+
+constexpr size_t kMostLanguage = 64;
+
+constexpr std::pair<std::string_view, Action> kActions[] = {{"restart", Action::kRestart},
+                                                            {"find_anew", Action::kFindAnew},
+                                                            {"louder", Action::kLouder},
+                                                            {"quieter", Action::kQuieter}};
+
+}  // namespace
+
+bool SendStaffMessage(int link, StaffMessage kind, std::string_view content) {
+  if (content.size() >= kMostStaffMessage) {
+    return false;
+  }
+  std::string message(1, static_cast<char>(kind));
+  message += content;
+  return ::send(link, message.data(), message.size(), MSG_DONTWAIT | MSG_NOSIGNAL) ==
+         static_cast<ssize_t>(message.size());
+}
+
+std::optional<ReceivedStaffMessage> ReceiveStaffMessage(int link, std::string& buffer, bool& open) {
+  buffer.resize(kMostStaffMessage);
+  const ssize_t size = ::recv(link, buffer.data(), buffer.size(), MSG_DONTWAIT);
+  open = size > 0 || (size < 0 && (errno == EAGAIN || errno == EINTR));
+  if (size <= 0) {
+    return std::nullopt;
+  }
+  return ReceivedStaffMessage{static_cast<StaffMessage>(buffer[0]),
+                              std::string_view(buffer).substr(1, static_cast<size_t>(size) - 1)};
+}
+
+Result<StaffCommand> ParseStaffCommand(std::string_view text) {
+  constexpr std::string_view kPlace = "command";
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, kPlace));
+  const JsonView view(json, std::string(kPlace));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string what, view.Text("do", 32));
+  StaffCommand command;
+  const auto* found = std::find_if(std::begin(kActions), std::end(kActions),
+                                   [&](const auto& entry) { return entry.first == what; });
+  if (found != std::end(kActions)) {
+    command.action = found->second;
+  } else if (what == "volume") {
+    LARARIUM_ASSIGN_OR_RETURN(command.volume, view.Number("value", 0.0, 1.0));
+  } else if (what == "language") {
+    LARARIUM_ASSIGN_OR_RETURN(command.language, view.Text("value", kMostLanguage));
+  } else if (what == "captions") {
+    LARARIUM_ASSIGN_OR_RETURN(command.captions, view.Text("value", kMostLanguage));
+  } else if (what == "end") {
+    command.end = true;
+  } else if (what == "begin_again") {
+    command.begin_again = true;
+  } else {
+    return view.Problem("there is no such thing to do");
+  }
+  return command;
+}
+
+}  // namespace lararium::player
