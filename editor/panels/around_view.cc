@@ -157,14 +157,17 @@ void AroundView::UpdateMap(const app::LoadedPlace& loaded) {
 }
 
 void AroundView::UpdateOccluders(const app::Workspace& workspace) {
-  const auto& staged = workspace.loaded().staged;
+  const std::shared_ptr<const stage::Place>& staged = workspace.loaded().staged;
   static const std::vector<stage::Occluder> kNone;
   const std::vector<stage::Occluder>& wanted = staged != nullptr ? staged->occluders : kNone;
-  const bool same = wanted.size() == occluders_.size() &&
-                    std::equal(wanted.begin(), wanted.end(), occluders_.begin(),
-                               [](const auto& a, const auto& b) {
-                                 return a.name == b.name && a.mesh.positions.size() == b.vertices;
+  const std::vector<stage::Occluder>& known = staged_ != nullptr ? staged_->occluders : kNone;
+  const bool same = staged == staged_ ||
+                    std::equal(wanted.begin(), wanted.end(), known.begin(), known.end(),
+                               [](const stage::Occluder& a, const stage::Occluder& b) {
+                                 return a.name == b.name && a.mesh.positions == b.mesh.positions &&
+                                        a.mesh.indices == b.mesh.indices;
                                });
+  staged_ = staged;
   if (same) {
     return;
   }
@@ -173,8 +176,7 @@ void AroundView::UpdateOccluders(const app::Workspace& workspace) {
   }
   occluders_.clear();
   for (const stage::Occluder& occluder : wanted) {
-    occluders_.push_back(
-        {occluder.name, occluder.mesh.positions.size(), renderer_->AddMesh(occluder.mesh)});
+    occluders_.push_back({occluder.name, renderer_->AddMesh(occluder.mesh)});
   }
 }
 
@@ -231,9 +233,7 @@ void AroundView::AddMeshes(const app::Workspace& workspace, const EditorState& s
   }
   for (const Ghost& ghost : occluders_) {
     const Selection selection{Selection::Kind::kOccluder, ghost.name};
-    // One that was drawn lies in the map and cannot be moved.
-    const Similarity3 transform = SelectedTransform(workspace, selection)
-                                      .value_or(workspace.loaded().picks.map_from_picked.Inverse());
+    const Similarity3 transform = WorldFromOccluder(workspace, ghost.name);
     const bool selected = state.selection == selection;
     scene_.meshes.push_back(
         {ghost.mesh, geometry::ToGlm(transform),

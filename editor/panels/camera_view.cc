@@ -145,7 +145,22 @@ void NudgeWithKeys(app::Workspace& workspace, const EditorState& state) {
   }
 }
 
-void ShowTransport(app::Workspace& workspace) {
+// A switch at the end of the row.
+void ShowOccluderSwitch(EditorState& state) {
+  const bool on = state.show_occluders;
+  ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, on ? Colours().chosen : Colours().hover);
+  if (ImGui::Button(Tr("Occluders"))) {
+    state.show_occluders = !on;
+  }
+  ImGui::PopStyleColor(2);
+  if (ImGui::IsItemHovered()) {
+    const char* does = Tr("Shows the occluders over the camera's picture");
+    ImGui::SetTooltip("%s", WithKey(does, KeyAction::kOccluders).c_str());
+  }
+}
+
+void ShowTransport(app::Workspace& workspace, EditorState& state) {
   const std::optional<app::PreviewSource> recording = workspace.recording();
   ImGui::BeginDisabled(!recording.has_value());
   if (ImGui::Button(workspace.playing() ? Tr("Pause") : Tr("Play"),
@@ -158,8 +173,9 @@ void ShowTransport(app::Workspace& workspace) {
       recording ? static_cast<double>(workspace.frame()) / recording->frames_per_second : 0.0;
   char label[64];
   std::snprintf(label, sizeof(label), "%.2f s", seconds);
-  const float time_width = Px(70);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - time_width);
+  const float spacing = ImGui::GetStyle().ItemSpacing.x;
+  const float after = Px(62) + WidestButton(std::array{Tr("Occluders")}, 0.0f) + 2.0f * spacing;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - after);
   int frame = static_cast<int>(workspace.frame());
   if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last), Tr("frame %d"),
                        ImGuiSliderFlags_AlwaysClamp)) {
@@ -170,6 +186,8 @@ void ShowTransport(app::Workspace& workspace) {
   ImGui::AlignTextToFramePadding();
   DimText(label);
   ImGui::EndDisabled();
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - WidestButton(std::array{Tr("Occluders")}, 0.0f));
+  ShowOccluderSwitch(state);
 }
 
 void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
@@ -208,6 +226,9 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
     draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
+    if (picture->camera_from_stage && (state.show_stage || state.show_occluders)) {
+      ghosts_.Show(workspace, state, PictureView(*picture, *workspace.place(), rect), draw);
+    }
     if (picture->camera_from_stage && state.show_stage) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
       DrawStage(workspace, view, draw);
@@ -223,7 +244,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
   }
   NudgeWithKeys(workspace, state);
   ImGui::SetCursorScreenPos(ImVec2(origin.x, origin.y + size.y + Px(8)));
-  ShowTransport(workspace);
+  ShowTransport(workspace, state);
 }
 
 }  // namespace lararium::panels
