@@ -379,8 +379,12 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   const bool was_dragging = state.drag.has_value();
   const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
                     (state.drag.has_value() || was_dragging || !active);
-  draw.AddText(ImVec2(origin.x + Px(12), corner.y - Px(28)), Packed(OverPicture().dim),
-               Tr("Drag to orbit, Shift or right drag to pan, wheel to zoom"));
+  const char* keys = Tr("Drag to orbit, Shift or right drag to pan, wheel to zoom");
+  const float wrap = size.x - Px(24);
+  const float tall = ImGui::CalcTextSize(keys, nullptr, false, wrap).y;
+  draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(),
+               ImVec2(origin.x + Px(12), corner.y - Px(10) - tall), Packed(OverPicture().dim), keys,
+               nullptr, wrap);
   draw.PopClipRect();
   Interact(state, hovered, busy, ToEigen(size));
 }

@@ -212,8 +212,11 @@ void DrawLabel(const ImVec2& at, const std::string& text, ImU32 packed, ImDrawLi
 }
 
 void LabelMark(const ImVec2& mark, const std::string& text, ImU32 packed, ImDrawList& draw) {
-  DrawLabel(ImVec2(mark.x + Px(13), mark.y - 0.5f * ImGui::GetTextLineHeight()), text, packed,
-            draw);
+  // To the left of marks at the right edge of what is seen.
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
+  const bool fits = mark.x + Px(18) + width <= draw.GetClipRectMax().x;
+  const float x = fits ? mark.x + Px(13) : mark.x - Px(13) - width;
+  DrawLabel(ImVec2(x, mark.y - 0.5f * ImGui::GetTextLineHeight()), text, packed, draw);
 }
 
 }  // namespace lararium::panels
