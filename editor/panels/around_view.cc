@@ -36,11 +36,6 @@ glm::u8vec4 Bytes(const ImVec4& c, float alpha = 1.0f) {
   return glm::u8vec4(glm::vec4(c.x, c.y, c.z, alpha) * 255.0f + 0.5f);
 }
 
-bool SameTransform(const Similarity3& a, const Similarity3& b) {
-  return a.scale == b.scale && a.translation == b.translation &&
-         a.rotation.coeffs() == b.rotation.coeffs();
-}
-
 // Each point as grey as its first sight in a training image.
 std::vector<uint8_t> PointShades(const vision::SceneDatabase& database) {
   constexpr uint8_t kUnseen = 128;
@@ -115,8 +110,7 @@ AroundView::AroundView(std::unique_ptr<render::Renderer> renderer,
 AroundView::~AroundView() = default;
 
 void AroundView::UpdateMap(const app::LoadedPlace& loaded) {
-  if (loaded.database == database_ &&
-      SameTransform(loaded.picks.map_from_picked, map_from_picked_)) {
+  if (loaded.database == database_ && loaded.picks.map_from_picked == map_from_picked_) {
     return;
   }
   framed_ = framed_ && loaded.database == database_;
