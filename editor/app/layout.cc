@@ -26,7 +26,8 @@ using panels::Px;
 constexpr float kSplitter = 6.0f;  // logical pixels, the gap between panels
 constexpr float kMinPanel = 160.0f;
 constexpr float kMinBottom = 96.0f;
-constexpr float kMinViewport = 320.0f;
+constexpr float kMinViewportWidth = 280.0f;
+constexpr float kMinViewportHeight = 320.0f;
 
 // A bar between two panels; dragging changes size by the movement times sign.
 void Splitter(const char* id, bool vertical, float length, float sign, float& size) {
@@ -108,10 +109,10 @@ void Layout::ShowBottom(Workspace& workspace) {
 void Layout::ShowPanels(Workspace& workspace) {
   const float status = ImGui::GetFrameHeight() + Px(4);
   const ImVec2 available = ImGui::GetContentRegionAvail();
-  const float widest = (available.x / Px(1.0f) - kMinViewport) * 0.5f;
+  const float widest = (available.x / Px(1.0f) - kMinViewportWidth) * 0.5f;
   outliner_width_ = std::clamp(outliner_width_, kMinPanel, std::max(kMinPanel, widest));
   inspector_width_ = std::clamp(inspector_width_, kMinPanel, std::max(kMinPanel, widest));
-  const float tallest = available.y / Px(1.0f) - kMinViewport;
+  const float tallest = available.y / Px(1.0f) - kMinViewportHeight;
   float& bottom = BottomHeight();
   bottom = std::clamp(bottom, kMinBottom, std::max(kMinBottom, tallest));
 

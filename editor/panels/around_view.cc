@@ -36,11 +36,6 @@ glm::u8vec4 Bytes(const ImVec4& c, float alpha = 1.0f) {
   return glm::u8vec4(glm::vec4(c.x, c.y, c.z, alpha) * 255.0f + 0.5f);
 }
 
-bool SameTransform(const Similarity3& a, const Similarity3& b) {
-  return a.scale == b.scale && a.translation == b.translation &&
-         a.rotation.coeffs() == b.rotation.coeffs();
-}
-
 // Each point as grey as its first sight in a training image.
 std::vector<uint8_t> PointShades(const vision::SceneDatabase& database) {
   constexpr uint8_t kUnseen = 128;
@@ -115,8 +110,7 @@ AroundView::AroundView(std::unique_ptr<render::Renderer> renderer,
 AroundView::~AroundView() = default;
 
 void AroundView::UpdateMap(const app::LoadedPlace& loaded) {
-  if (loaded.database == database_ &&
-      SameTransform(loaded.picks.map_from_picked, map_from_picked_)) {
+  if (loaded.database == database_ && loaded.picks.map_from_picked == map_from_picked_) {
     return;
   }
   framed_ = framed_ && loaded.database == database_;
@@ -157,14 +151,17 @@ void AroundView::UpdateMap(const app::LoadedPlace& loaded) {
 }
 
 void AroundView::UpdateOccluders(const app::Workspace& workspace) {
-  const auto& staged = workspace.loaded().staged;
+  const std::shared_ptr<const stage::Place>& staged = workspace.loaded().staged;
   static const std::vector<stage::Occluder> kNone;
   const std::vector<stage::Occluder>& wanted = staged != nullptr ? staged->occluders : kNone;
-  const bool same = wanted.size() == occluders_.size() &&
-                    std::equal(wanted.begin(), wanted.end(), occluders_.begin(),
-                               [](const auto& a, const auto& b) {
-                                 return a.name == b.name && a.mesh.positions.size() == b.vertices;
+  const std::vector<stage::Occluder>& known = staged_ != nullptr ? staged_->occluders : kNone;
+  const bool same = staged == staged_ ||
+                    std::equal(wanted.begin(), wanted.end(), known.begin(), known.end(),
+                               [](const stage::Occluder& a, const stage::Occluder& b) {
+                                 return a.name == b.name && a.mesh.positions == b.mesh.positions &&
+                                        a.mesh.indices == b.mesh.indices;
                                });
+  staged_ = staged;
   if (same) {
     return;
   }
@@ -173,8 +170,7 @@ void AroundView::UpdateOccluders(const app::Workspace& workspace) {
   }
   occluders_.clear();
   for (const stage::Occluder& occluder : wanted) {
-    occluders_.push_back(
-        {occluder.name, occluder.mesh.positions.size(), renderer_->AddMesh(occluder.mesh)});
+    occluders_.push_back({occluder.name, renderer_->AddMesh(occluder.mesh)});
   }
 }
 
@@ -231,9 +227,7 @@ void AroundView::AddMeshes(const app::Workspace& workspace, const EditorState& s
   }
   for (const Ghost& ghost : occluders_) {
     const Selection selection{Selection::Kind::kOccluder, ghost.name};
-    // One that was drawn lies in the map and cannot be moved.
-    const Similarity3 transform = SelectedTransform(workspace, selection)
-                                      .value_or(workspace.loaded().picks.map_from_picked.Inverse());
+    const Similarity3 transform = WorldFromOccluder(workspace, ghost.name);
     const bool selected = state.selection == selection;
     scene_.meshes.push_back(
         {ghost.mesh, geometry::ToGlm(transform),
@@ -379,8 +373,12 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   const bool was_dragging = state.drag.has_value();
   const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
                     (state.drag.has_value() || was_dragging || !active);
-  draw.AddText(ImVec2(origin.x + Px(12), corner.y - Px(28)), Packed(OverPicture().dim),
-               Tr("Drag to orbit, Shift or right drag to pan, wheel to zoom"));
+  const char* keys = Tr("Drag to orbit, Shift or right drag to pan, wheel to zoom");
+  const float wrap = size.x - Px(24);
+  const float tall = ImGui::CalcTextSize(keys, nullptr, false, wrap).y;
+  draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(),
+               ImVec2(origin.x + Px(12), corner.y - Px(10) - tall), Packed(OverPicture().dim), keys,
+               nullptr, wrap);
   draw.PopClipRect();
   Interact(state, hovered, busy, ToEigen(size));
 }

@@ -84,11 +84,11 @@ class AroundView {
 
   struct Ghost {
     std::string name;
-    size_t vertices = 0;
     render::MeshHandle mesh;
   };
   std::vector<Ghost> occluders_;
-  std::optional<render::MeshHandle> floor_;  // a square from -1 to 1 on y = 0
+  std::shared_ptr<const stage::Place> staged_;  // whose they are
+  std::optional<render::MeshHandle> floor_;     // a square from -1 to 1 on y = 0
   std::shared_ptr<const app::PreviewPicture> actors_of_;
   std::vector<std::pair<render::MeshHandle, glm::mat4>> actors_;
   bool framed_ = false;  // the orbit was set to show the whole place

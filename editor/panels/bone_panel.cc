@@ -173,7 +173,7 @@ void ShowBones(app::Workspace& workspace, EditorState& state, const app::CastDoc
     return;
   }
   ShowVerdict(*review);
-  ImGui::Checkbox(Tr("All joints that people can have"), &state.cast.all_joints);
+  CheckRow(Tr("All joints that people can have"), state.cast.all_joints);
   ShowTable(workspace, state, member, *review);
   for (const std::string& note : review->notes) {
     Hint(note);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <string>
 
 #include "editor/panels/check_point_panel.h"
@@ -86,15 +85,22 @@ void DrawTrails(const app::PreviewPicture& picture, const Rect& rect, ImDrawList
   }
 }
 
+// How well the picture is tracked; less of it where the picture is narrow.
+std::string BadgeText(const app::PreviewPicture& picture, float width) {
+  if (!picture.camera_from_stage) {
+    const char* state = picture.state == vision::TrackState::kLost ? Tr("Lost") : Tr("Searching");
+    const std::string text = Text("%s: %s", state, ReasonText(picture.reason));
+    return ImGui::CalcTextSize(text.c_str()).x <= width ? text : state;
+  }
+  const char* state = picture.followed ? Tr("Followed") : Tr("Found");
+  const auto percent = static_cast<double>(100.0f * picture.confidence);
+  const std::string text = Text(Tr("%s, %.0f %% sure, %d points"), state, percent, picture.inliers);
+  return ImGui::CalcTextSize(text.c_str()).x <= width ? text : Text("%s, %.0f %%", state, percent);
+}
+
 void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList& draw) {
   const bool tracked = picture.camera_from_stage.has_value();
-  const std::string text =
-      tracked
-          ? Text(Tr("%s, %.0f %% sure, %d points"), picture.followed ? Tr("Followed") : Tr("Found"),
-                 static_cast<double>(100.0f * picture.confidence), picture.inliers)
-          : Text("%s: %s",
-                 picture.state == vision::TrackState::kLost ? Tr("Lost") : Tr("Searching"),
-                 ReasonText(picture.reason));
+  const std::string text = BadgeText(picture, rect.size.x - Px(58));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(rect.origin.x + Px(12), rect.origin.y + Px(12));
   draw.AddRectFilled(at, ImVec2(at.x + size.x + Px(34), at.y + size.y + Px(10)),
@@ -145,7 +151,49 @@ void NudgeWithKeys(app::Workspace& workspace, const EditorState& state) {
   }
 }
 
-void ShowTransport(app::Workspace& workspace) {
+// A switch at the end of the row.
+void ShowOccluderSwitch(EditorState& state) {
+  const bool on = state.show_occluders;
+  ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, on ? Colours().chosen : Colours().hover);
+  if (ImGui::Button(Tr("Occluders"))) {
+    state.show_occluders = !on;
+  }
+  ImGui::PopStyleColor(2);
+  if (ImGui::IsItemHovered()) {
+    const char* does = Tr("Shows the occluders over the camera's picture");
+    ImGui::SetTooltip("%s", WithKey(does, KeyAction::kOccluders).c_str());
+  }
+}
+
+// The frame, and its time where that leaves the slider long enough.
+void ShowSlider(app::Workspace& workspace, const std::optional<app::PreviewSource>& recording) {
+  const int64_t last = recording ? std::max<int64_t>(recording->frames - 1, 0) : 0;
+  const double seconds =
+      recording ? static_cast<double>(workspace.frame()) / recording->frames_per_second : 0.0;
+  const float spacing = ImGui::GetStyle().ItemSpacing.x;
+  const float time = Px(62) + spacing;
+  float width =
+      ImGui::GetContentRegionAvail().x - spacing - WidestButton(std::array{Tr("Occluders")}, 0.0f);
+  const bool shows_time = width - time >= Px(140);
+  width -= shows_time ? time : 0.0f;
+  const std::string longest = Text(Tr("frame %d"), static_cast<int>(last));
+  const bool named = ImGui::CalcTextSize(longest.c_str()).x + Px(16) <= width;
+  ImGui::SetNextItemWidth(width);
+  int frame = static_cast<int>(workspace.frame());
+  if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last), named ? Tr("frame %d") : "%d",
+                       ImGuiSliderFlags_AlwaysClamp)) {
+    workspace.SetPlaying(false);
+    workspace.SetFrame(frame);
+  }
+  if (shows_time) {
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    DimText(Text("%.2f s", seconds));
+  }
+}
+
+void ShowTransport(app::Workspace& workspace, EditorState& state) {
   const std::optional<app::PreviewSource> recording = workspace.recording();
   ImGui::BeginDisabled(!recording.has_value());
   if (ImGui::Button(workspace.playing() ? Tr("Pause") : Tr("Play"),
@@ -153,23 +201,10 @@ void ShowTransport(app::Workspace& workspace) {
     workspace.SetPlaying(!workspace.playing());
   }
   ImGui::SameLine();
-  const int64_t last = recording ? std::max<int64_t>(recording->frames - 1, 0) : 0;
-  const double seconds =
-      recording ? static_cast<double>(workspace.frame()) / recording->frames_per_second : 0.0;
-  char label[64];
-  std::snprintf(label, sizeof(label), "%.2f s", seconds);
-  const float time_width = Px(70);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - time_width);
-  int frame = static_cast<int>(workspace.frame());
-  if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last), Tr("frame %d"),
-                       ImGuiSliderFlags_AlwaysClamp)) {
-    workspace.SetPlaying(false);
-    workspace.SetFrame(frame);
-  }
-  ImGui::SameLine();
-  ImGui::AlignTextToFramePadding();
-  DimText(label);
+  ShowSlider(workspace, recording);
   ImGui::EndDisabled();
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - WidestButton(std::array{Tr("Occluders")}, 0.0f));
+  ShowOccluderSwitch(state);
 }
 
 void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
@@ -181,10 +216,12 @@ void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& si
   } else if (workspace.tasks_empty() && !workspace.recording() && !workspace.messages().empty()) {
     text = Tr("No picture. The messages below say why.");
   }
-  const ImVec2 extent = ImGui::CalcTextSize(text);
+  const float wrap = size.x - Px(24);
+  const ImVec2 extent = ImGui::CalcTextSize(text, nullptr, false, wrap);
   ImGui::GetWindowDrawList()->AddText(
+      ImGui::GetFont(), ImGui::GetFontSize(),
       ImVec2(origin.x + 0.5f * (size.x - extent.x), origin.y + 0.5f * (size.y - extent.y)),
-      Packed(Colours().dim), text);
+      Packed(Colours().dim), text, nullptr, wrap);
 }
 
 }  // namespace
@@ -208,6 +245,9 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
     draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
+    if (picture->camera_from_stage && (state.show_stage || state.show_occluders)) {
+      ghosts_.Show(workspace, state, PictureView(*picture, *workspace.place(), rect), draw);
+    }
     if (picture->camera_from_stage && state.show_stage) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
       DrawStage(workspace, view, draw);
@@ -223,7 +263,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
   }
   NudgeWithKeys(workspace, state);
   ImGui::SetCursorScreenPos(ImVec2(origin.x, origin.y + size.y + Px(8)));
-  ShowTransport(workspace);
+  ShowTransport(workspace, state);
 }
 
 }  // namespace lararium::panels

@@ -1,10 +1,11 @@
 #pragma once
 
 // Through the camera: the recording, tracked and composited, with the stage and
-// the handles of the selected thing over it.
+// the handles of the selected thing over it, and occluders as ghosts.
 
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
+#include "editor/panels/ghost_view.h"
 #include "editor/panels/light_view.h"
 #include "shared/render/texture.h"
 
@@ -17,6 +18,7 @@ class CameraView {
 
  private:
   render::Texture texture_;
+  GhostView ghosts_;
   LightOverlay light_;
   const app::PreviewPicture* uploaded_ = nullptr;
 };

@@ -21,11 +21,6 @@ using Verdict = CheckPointReport::Verdict;
 
 constexpr double kCentimetres = 100.0;
 
-bool SameTransform(const geometry::Similarity3& a, const geometry::Similarity3& b) {
-  return a.scale == b.scale && a.translation == b.translation &&
-         a.rotation.coeffs() == b.rotation.coeffs();
-}
-
 const char* VerdictText(Verdict verdict) {
   switch (verdict) {
     case Verdict::kNotPicked:
@@ -192,8 +187,7 @@ const CheckReport& CheckedPoints(const app::Workspace& workspace, EditorState& s
     return check.report;
   }
   if (check.document != document || check.database != loaded.database ||
-      check.place != place->name ||
-      !SameTransform(check.map_from_picked, loaded.picks.map_from_picked)) {
+      check.place != place->name || check.map_from_picked != loaded.picks.map_from_picked) {
     check.document = document;
     check.database = loaded.database;
     check.place = place->name;

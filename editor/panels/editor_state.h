@@ -126,9 +126,10 @@ struct EditorState {
   GizmoMode gizmo = GizmoMode::kMove;
   std::optional<GizmoDrag> drag;
   OrbitCamera orbit;
-  bool show_stage = true;     // axes, grid and handles over the camera's picture
-  bool show_points = true;    // around the place
-  bool show_matches = false;  // over the camera's picture: the points that its pose stands on
+  bool show_stage = true;       // axes, grid and handles over the camera's picture
+  bool show_points = true;      // around the place
+  bool show_matches = false;    // over the camera's picture: the points that its pose stands on
+  bool show_occluders = false;  // over the camera's picture: all, not the selected one alone
 
   // Picking: which anchor the next click sets, and in which keyframe.
   int anchor = 0;

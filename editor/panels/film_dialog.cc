@@ -162,9 +162,10 @@ void FilmDialog::ShowStart(app::Workspace& workspace, EditorState& state) {
 void FilmDialog::ShowFilming(app::Workspace& workspace, EditorState& state) {
   const app::FilmMoment moment = film_->moment();
   const std::optional<Status> outcome = film_->outcome();
-  const float side = Px(320);
-  ImVec2 picture(ImGui::GetContentRegionAvail().x - side - Px(14), 0.0f);
-  picture.y = 0.75f * picture.x;
+  const float available = ImGui::GetContentRegionAvail().x;
+  const float side = std::min(Px(320), 0.45f * available);
+  ImVec2 picture(available - side - Px(14), 0.0f);
+  picture.y = std::min(0.75f * picture.x, 0.6f * ImGui::GetMainViewport()->WorkSize.y);
   ShowPicture(state, moment, picture);
   ImGui::SameLine(0.0f, Px(14));
   ImGui::BeginGroup();

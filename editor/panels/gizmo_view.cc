@@ -91,6 +91,11 @@ std::optional<Similarity3> SelectedTransform(const app::Workspace& workspace,
   return std::nullopt;
 }
 
+Similarity3 WorldFromOccluder(const app::Workspace& workspace, const std::string& name) {
+  return SelectedTransform(workspace, {Selection::Kind::kOccluder, name})
+      .value_or(workspace.loaded().picks.map_from_picked.Inverse());
+}
+
 void MoveSelected(app::Workspace& workspace,
                   const Selection& selection,
                   const Similarity3& world_from_thing,
@@ -166,11 +171,7 @@ void DrawWorldLine(const ViewCamera& view,
   } else if (b.z() < kClip) {
     b = a + (b - a) * (a.z() - kClip) / (a.z() - b.z());
   }
-  const auto pixel = [&](const Vector3d& p) {
-    return ImVec2(static_cast<float>(view.center.x() + view.focal_x * p.x() / p.z()),
-                  static_cast<float>(view.center.y() + view.focal_y * p.y() / p.z()));
-  };
-  draw.AddLine(pixel(a), pixel(b), colour, width);
+  draw.AddLine(ToImGui(view.PixelOf(a)), ToImGui(view.PixelOf(b)), colour, width);
 }
 
 void DrawStage(const app::Workspace& workspace, const ViewCamera& view, ImDrawList& draw) {
@@ -211,8 +212,11 @@ void DrawLabel(const ImVec2& at, const std::string& text, ImU32 packed, ImDrawLi
 }
 
 void LabelMark(const ImVec2& mark, const std::string& text, ImU32 packed, ImDrawList& draw) {
-  DrawLabel(ImVec2(mark.x + Px(13), mark.y - 0.5f * ImGui::GetTextLineHeight()), text, packed,
-            draw);
+  // To the left of marks at the right edge of what is seen.
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
+  const bool fits = mark.x + Px(18) + width <= draw.GetClipRectMax().x;
+  const float x = fits ? mark.x + Px(13) : mark.x - Px(13) - width;
+  DrawLabel(ImVec2(x, mark.y - 0.5f * ImGui::GetTextLineHeight()), text, packed, draw);
 }
 
 }  // namespace lararium::panels

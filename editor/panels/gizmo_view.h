@@ -18,6 +18,10 @@ namespace lararium::panels {
 std::optional<geometry::Similarity3> SelectedTransform(const app::Workspace& workspace,
                                                        const Selection& selection);
 
+// Where an occluder's mesh lies in the world. One that was drawn lies in the map and cannot be
+// moved.
+geometry::Similarity3 WorldFromOccluder(const app::Workspace& workspace, const std::string& name);
+
 // Moves the selected thing. gesture: see CommandStack::Edit.
 void MoveSelected(app::Workspace& workspace,
                   const Selection& selection,

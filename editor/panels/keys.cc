@@ -49,6 +49,8 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kViews, Action::kLight, GLFW_KEY_L, 0, 0, TrLater("Selects the light probe")},
     {Scope::kViews, Action::kMatches, GLFW_KEY_T, 0, 0,
      TrLater("Shows the points that the camera is located by")},
+    {Scope::kViews, Action::kOccluders, GLFW_KEY_O, 0, 0,
+     TrLater("Shows the occluders over the camera's picture")},
     {Scope::kViews, Action::kSound, GLFW_KEY_M, 0, 0, TrLater("Switches sound on and off")},
 
     {Scope::kCamera, Action::kNudgeLeft, GLFW_KEY_LEFT, 0, 0,

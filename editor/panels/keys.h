@@ -51,6 +51,7 @@ enum class KeyAction {
   kLayOnFloor,
   kLight,
   kMatches,
+  kOccluders,
   kSound,
   // the camera view
   kNudgeLeft,

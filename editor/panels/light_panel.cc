@@ -184,7 +184,7 @@ void BeginPicking(EditorState& state, Picking mode) {
 
 void ShowDirections(app::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
   LightView& light = state.light;
-  ImGui::Checkbox(Tr("Keep the probe level"), &light.level);
+  CheckRow(Tr("Keep the probe level"), light.level);
   Tip(Tr("Turn about the vertical only: for probes that were photographed level."));
   if (BeginProperties("turn")) {
     Eigen::Quaterniond rotation = probe.stage_from_probe;
@@ -206,10 +206,10 @@ void ShowDirections(app::Workspace& workspace, EditorState& state, const ProbeDo
     Hint(Tr("2. Click the same thing in the camera view."));
   }
   if (light.direction_match) {
-    DimText(Text(Tr("%zu directions, each %.1f\xc2\xb0 off"), light.pairs.size(),
-                 kDegrees * light.direction_match->residual));
+    Hint(Text(Tr("%zu directions, each %.1f\xc2\xb0 off"), light.pairs.size(),
+              kDegrees * light.direction_match->residual));
   } else if (light.pairs.size() == 1) {
-    DimText(Tr("One direction. A second one fixes the tilt."));
+    Hint(Tr("One direction. A second one fixes the tilt."));
   }
 }
 
@@ -260,22 +260,22 @@ void ShowBrightness(app::Workspace& workspace, EditorState& state, const ProbeDo
 
 void ShowViews(app::Workspace& workspace, EditorState& state) {
   LightView& light = state.light;
-  ImGui::Checkbox(Tr("Balls at the probe"), &light.balls);
+  CheckRow(Tr("Balls at the probe"), light.balls);
   Tip(Tr("A mirror ball and a grey one in the camera view. Drag the mirror to turn the probe."));
-  ImGui::Checkbox(Tr("Before and after  (B)"), &light.wipe);
+  CheckRow(Tr("Before and after  (B)"), light.wipe);
   Tip(Tr("The camera's image alone to the left of a line that you drag."));
-  ImGui::Checkbox(Tr("Histogram"), &light.histogram);
+  CheckRow(Tr("Histogram"), light.histogram);
   Tip(Tr("How bright the camera's image is, and how bright people are in it."));
   bool look = workspace.camera_look();
-  if (ImGui::Checkbox(Tr("The camera's noise and blur"), &look)) {
+  if (CheckRow(Tr("The camera's noise and blur"), look)) {
     workspace.SetCameraLook(look);
   }
   Tip(Tr("People as the camera would have taken them; off: as they are drawn."));
   const std::optional<light::CameraTraits>& camera = workspace.place()->camera;
-  DimText(camera ? Text(Tr("Edges %.2f px soft, noise %.2f %%"), camera->blur_px,
-                        100.0 * std::sqrt(camera->noise_floor * camera->noise_floor +
-                                          0.5f * camera->noise_slope))
-                 : std::string(Tr("Not measured yet")));
+  Hint(camera ? Text(Tr("Edges %.2f px soft, noise %.2f %%"), camera->blur_px,
+                     100.0 * std::sqrt(camera->noise_floor * camera->noise_floor +
+                                       0.5f * camera->noise_slope))
+              : std::string(Tr("Not measured yet")));
   ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kCamera) ||
                        workspace.place()->training.empty());
   if (ImGui::Button(Tr("Measure the camera"), ImVec2(-FLT_MIN, 0))) {

@@ -192,6 +192,22 @@ void DrawLoupe(const ImVec2& pointer,
   DrawCross(center, Packed(OverPicture().accent), draw);
 }
 
+// As much of a text as fits beside what came before; all of it under the mouse.
+void DimTextBeside(const std::string& text) {
+  ImGui::SameLine(0.0f, Px(14));
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (width < Px(60)) {
+    ImGui::NewLine();
+    return;
+  }
+  ImGui::AlignTextToFramePadding();
+  const std::string shown = Elided(text, width);
+  DimText(shown);
+  if (shown != text && ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", text.c_str());
+  }
+}
+
 void ShowAnchorButtons(const app::Workspace& workspace, EditorState& state) {
   std::array<std::string, kAnchors.size()> labels;
   std::array<const char*, kAnchors.size()> texts = {};
@@ -201,32 +217,30 @@ void ShowAnchorButtons(const app::Workspace& workspace, EditorState& state) {
     texts[i] = labels[i].c_str();
   }
   Segmented("anchors", texts, state.anchor);
-  ImGui::SameLine(0.0f, Px(14));
-  ImGui::AlignTextToFramePadding();
-  DimText(Tr(kAnchors[static_cast<size_t>(state.anchor)].hint));
+  DimTextBeside(Tr(kAnchors[static_cast<size_t>(state.anchor)].hint));
 }
 
 void ShowCornerHint(const app::Workspace& workspace, const app::OccluderDocument& occluder) {
   const auto drawn = app::DrawOccluder(occluder, *workspace.loaded().database, 1.0);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(occluder.name.c_str());
-  ImGui::SameLine(0.0f, Px(14));
-  DimText(drawn.ok() ? Text(Tr("%d corners, %.2f px off on average; drag one to move it"),
-                            static_cast<int>(occluder.corners.size()), drawn->error_px)
-                     : Tr("Click the corners of a face in turn, then the same ones in another "
-                          "image."));
+  DimTextBeside(drawn.ok()
+                    ? Text(Tr("%d corners, %.2f px off on average; drag one to move it"),
+                           static_cast<int>(occluder.corners.size()), drawn->error_px)
+                    : Tr("Click the corners of a face in turn, then the same ones in another "
+                         "image."));
 }
 
 void ShowCheckHint(const app::Workspace& workspace, EditorState& state, const std::string& name) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name.c_str());
-  ImGui::SameLine(0.0f, Px(14));
   for (const app::CheckPointReport& point : CheckedPoints(workspace, state).points) {
     if (point.name == name) {
-      DimText(point.located()
-                  ? Text(Tr("%d picks agree to %.2f px; the ring is where the stage says it is"),
-                         point.anchor.picks, point.anchor.error_px)
-                  : Tr("Click it in this image, then in one taken from elsewhere."));
+      DimTextBeside(
+          point.located()
+              ? Text(Tr("%d picks agree to %.2f px; the ring is where the stage says it is"),
+                     point.anchor.picks, point.anchor.error_px)
+              : Tr("Click it in this image, then in one taken from elsewhere."));
     }
   }
 }
@@ -380,8 +394,11 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
     name += ", " + Text(Tr("session %d"), static_cast<int>(keyframe.session));
   }
   const float name_width = ImGui::CalcTextSize(name.c_str()).x + Px(12);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - name_width);
-  ImGui::SliderInt("##keyframe", &state.keyframe, 0, last, Tr("training image %d"),
+  const float width = ImGui::GetContentRegionAvail().x - name_width;
+  const std::string longest = Text(Tr("training image %d"), last);
+  const bool named = ImGui::CalcTextSize(longest.c_str()).x + Px(16) <= width;
+  ImGui::SetNextItemWidth(width);
+  ImGui::SliderInt("##keyframe", &state.keyframe, 0, last, named ? Tr("training image %d") : "%d",
                    ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();

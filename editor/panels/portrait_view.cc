@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -163,9 +164,13 @@ void ShowPortrait(app::Workspace& workspace,
   }
   const char* const labels[] = {Tr("Bust"), Tr("Face"), Tr("Figure")};
   Segmented("frame", labels, state.cast.frame);
-  ImGui::SameLine();
-  ImGui::AlignTextToFramePadding();
-  DimText(Tr("Drag to turn"));
+  if (FitsBeside(std::array{Tr("Drag to turn")})) {
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    DimText(Tr("Drag to turn"));
+  } else {
+    ImGui::Dummy(ImVec2(0, 0));  // the space below a row
+  }
 }
 
 }  // namespace lararium::panels

@@ -1373,6 +1373,14 @@ void TimelinePanel::ShowTools(app::Workspace& workspace, EditorState& state) {
   }
   tip(WithKey(Tr("Adds an item at the playhead"), KeyAction::kAdd));
   ImGui::EndDisabled();
+  if (FitsBeside(std::array{Tr("Snap"), Tr("Ripple"), Tr("Fit"), "   "})) {
+    ShowSwitches(workspace);
+  } else {
+    ShowSwitchMenu(workspace);
+  }
+}
+
+void TimelinePanel::ShowSwitches(const app::Workspace& workspace) {
   ImGui::SameLine();
   ToggleButton(Tr("Snap"), snap_,
                WithKey(Tr("Items are drawn to others, to the playhead and to the grid; not while "
@@ -1385,7 +1393,25 @@ void TimelinePanel::ShowTools(app::Workspace& workspace, EditorState& state) {
   if (ImGui::Button(Tr("Fit"))) {
     ZoomToFit(scale_, workspace.duration());
   }
-  tip(WithKey(Tr("Shows all of the drama; Ctrl and the wheel zoom"), KeyAction::kFit));
+  if (ImGui::IsItemHovered()) {
+    const char* does = Tr("Shows all of the drama; Ctrl and the wheel zoom");
+    ImGui::SetTooltip("%s", WithKey(does, KeyAction::kFit).c_str());
+  }
+}
+
+void TimelinePanel::ShowSwitchMenu(const app::Workspace& workspace) {
+  ImGui::SameLine();
+  if (ImGui::Button("\xe2\x80\xa6")) {
+    ImGui::OpenPopup("switches");
+  }
+  if (ImGui::BeginPopup("switches")) {
+    ImGui::MenuItem(Tr("Snap"), KeyText(KeyAction::kSnap).c_str(), &snap_);
+    ImGui::MenuItem(Tr("Ripple"), KeyText(KeyAction::kRipple).c_str(), &ripple_);
+    if (ImGui::MenuItem(Tr("Fit"), KeyText(KeyAction::kFit).c_str())) {
+      ZoomToFit(scale_, workspace.duration());
+    }
+    ImGui::EndPopup();
+  }
 }
 
 void TimelinePanel::Show(app::Workspace& workspace, EditorState& state) {

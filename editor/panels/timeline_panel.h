@@ -62,6 +62,9 @@ class TimelinePanel {
   const Face& FaceOf(const app::Workspace& workspace, const drama::TimelineItem& item);
   TimeSpan Shown(const app::Workspace& workspace, const drama::TimelineItem& item);
 
+  // Snap, ripple and fit: as buttons, or in a menu where those do not fit.
+  void ShowSwitches(const app::Workspace& workspace);
+  void ShowSwitchMenu(const app::Workspace& workspace);
   void ShowRuler(app::Workspace& workspace, float height);
   void ShowRows(app::Workspace& workspace, EditorState& state);
   void DrawRow(const app::Workspace& workspace,

@@ -157,6 +157,9 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   if (MenuItem(Tr("Matches over the picture"), KeyAction::kMatches, state.show_matches)) {
     state.show_matches = !state.show_matches;
   }
+  if (MenuItem(Tr("Occluders over the picture"), KeyAction::kOccluders, state.show_occluders)) {
+    state.show_occluders = !state.show_occluders;
+  }
   ImGui::Separator();
   if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.shows_evidence())) {
     workspace.SetEvidence(!workspace.shows_evidence());
@@ -253,6 +256,9 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       break;
     case KeyAction::kMatches:
       state.show_matches = !state.show_matches;
+      break;
+    case KeyAction::kOccluders:
+      state.show_occluders = !state.show_occluders;
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());

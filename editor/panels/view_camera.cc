@@ -11,8 +11,7 @@ std::optional<Eigen::Vector2d> ViewCamera::Project(const Eigen::Vector3d& point_
   if (point.z() < kNear) {
     return std::nullopt;
   }
-  return Eigen::Vector2d(center.x() + focal_x * point.x() / point.z(),
-                         center.y() + focal_y * point.y() / point.z());
+  return PixelOf(point);
 }
 
 Ray ViewCamera::RayThrough(const Eigen::Vector2d& pixel) const {

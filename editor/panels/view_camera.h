@@ -26,6 +26,11 @@ struct ViewCamera {
 
   static constexpr double kNear = 1e-3;  // world units; nearer points are not drawn
 
+  // Of a point before the camera, in its axes.
+  Eigen::Vector2d PixelOf(const Eigen::Vector3d& point_in_camera) const {
+    return {center.x() + focal_x * point_in_camera.x() / point_in_camera.z(),
+            center.y() + focal_y * point_in_camera.y() / point_in_camera.z()};
+  }
   // nullopt behind the near plane.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& point_in_world) const;
   Ray RayThrough(const Eigen::Vector2d& pixel) const;

@@ -105,7 +105,8 @@ void ShowModal(const char* title, float width, bool& open, const std::function<v
   const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
   ImGui::OpenPopup(title);
   ImGui::SetNextWindowPos(center, ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
-  ImGui::SetNextWindowSize(ImVec2(Px(width), 0));
+  const float widest = ImGui::GetMainViewport()->WorkSize.x - Px(16);
+  ImGui::SetNextWindowSize(ImVec2(std::min(Px(width), widest), 0));
   bool kept = true;
   if (!ImGui::BeginPopupModal(title, &kept,
                               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
@@ -169,13 +170,25 @@ std::string ElidedFront(const std::string& text, float width) {
   return shown;
 }
 
+bool FitsBeside(std::span<const char* const> labels, float gap) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = gap < 0.0f ? style.ItemSpacing.x : gap;
+  for (const char* label : labels) {
+    width += ImGui::CalcTextSize(label).x + 2.0f * style.FramePadding.x;
+  }
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  return ImGui::GetItemRectMax().x + width <= right;
+}
+
 bool Segmented(const char* id, std::span<const char* const> labels, int& chosen) {
   ImGui::PushID(id);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(1), 0));
   bool changed = false;
   for (int i = 0; i < static_cast<int>(labels.size()); ++i) {
-    if (i > 0) {
+    if (i > 0 && FitsBeside(labels.subspan(static_cast<size_t>(i), 1))) {
       ImGui::SameLine();
+    } else if (i > 0) {
+      ImGui::SetCursorPosY(ImGui::GetCursorPosY() + Px(2));
     }
     const bool active = i == chosen;
     ImGui::PushStyleColor(ImGuiCol_Button, active ? Colours().chosen : Colours().frame);
@@ -202,16 +215,35 @@ float WidestButton(std::span<const char* const> labels, float least) {
 }
 
 void SameLineIfFits(std::span<const char* const> labels, float gap) {
+  if (FitsBeside(labels, gap)) {
+    ImGui::SameLine(0.0f, gap);
+    return;
+  }
+  // A row of Segmented() leaves no space below it.
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float below = ImGui::GetItemRectMax().y + ImGui::GetStyle().ItemSpacing.y;
+  ImGui::SetCursorScreenPos(ImVec2(at.x, std::max(at.y, below)));
+}
+
+bool CheckRow(const char* label, bool& on) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  const float before = gap < 0.0f ? style.ItemSpacing.x : gap;
-  float width = 0.0f;
-  for (const char* label : labels) {
-    width += ImGui::CalcTextSize(label).x + 2.0f * style.FramePadding.x;
+  const float taken = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x;
+  if (ImGui::CalcTextSize(label).x + taken <= ImGui::GetContentRegionAvail().x) {
+    return ImGui::Checkbox(label, &on);
   }
-  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  if (ImGui::GetItemRectMax().x + before + width <= right) {
-    ImGui::SameLine(0.0f, before);
+  ImGui::PushID(label);
+  ImGui::BeginGroup();
+  bool changed = ImGui::Checkbox("##on", &on);
+  ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextWrapped("%s", label);
+  if (ImGui::IsItemClicked()) {
+    on = !on;
+    changed = true;
   }
+  ImGui::EndGroup();
+  ImGui::PopID();
+  return changed;
 }
 
 bool Fold(const std::string& title, bool open_at_first) {
@@ -226,6 +258,10 @@ bool Fold(const std::string& title, bool open_at_first) {
 }
 
 bool BeginProperties(const char* id, float label_width) {
+  constexpr float kLeastValue = 130.0f;  // logical pixels
+  if (ImGui::GetContentRegionAvail().x < Px(label_width + kLeastValue)) {
+    return ImGui::BeginTable(id, 1, ImGuiTableFlags_SizingStretchProp);
+  }
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) {
     return false;
   }
@@ -241,6 +277,9 @@ void PropertyLabel(const char* label) {
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   DimText(label);
+  if (ImGui::TableGetColumnCount() == 1) {
+    ImGui::TableNextRow();
+  }
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
@@ -283,6 +322,18 @@ bool SliderProperty(app::Workspace& workspace,
   return changed;
 }
 
+// Whether three numbers can be read in fields beside each other.
+bool FitInRow(const Eigen::Vector3d& value, const char* format) {
+  constexpr double kUsual = -8.88;  // so that fields do not jump while one is dragged
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float widest = 0.0f;
+  for (const double number : {value.x(), value.y(), value.z(), kUsual}) {
+    widest = std::max(widest, ImGui::CalcTextSize(Text(format, number).c_str()).x);
+  }
+  return 3.0f * (widest + Px(8)) + 2.0f * style.ItemInnerSpacing.x <=
+         ImGui::GetContentRegionAvail().x;
+}
+
 bool VectorProperty(app::Workspace& workspace,
                     const char* label,
                     Eigen::Vector3d& value,
@@ -290,8 +341,22 @@ bool VectorProperty(app::Workspace& workspace,
                     const char* format) {
   PropertyLabel(label);
   ImGui::PushID(label);
-  const bool changed = ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), 3,
-                                          static_cast<float>(speed), nullptr, nullptr, format);
+  const bool row = FitInRow(value, format);
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float width = std::floor((ImGui::GetContentRegionAvail().x - 2.0f * gap) / 3.0f);
+  bool changed = false;
+  ImGui::BeginGroup();
+  for (int i = 0; i < 3; ++i) {
+    if (row && i > 0) {
+      ImGui::SameLine(0.0f, gap);
+    }
+    ImGui::PushID(i);
+    ImGui::SetNextItemWidth(row && i < 2 ? width : -FLT_MIN);
+    changed |= ImGui::DragScalar("##value", ImGuiDataType_Double, &value[i],
+                                 static_cast<float>(speed), nullptr, nullptr, format);
+    ImGui::PopID();
+  }
+  ImGui::EndGroup();
   EndGestureWithItem(workspace);
   ImGui::PopID();
   return changed;

@@ -35,20 +35,27 @@ DialogAnswer DialogButtons(const char* action,
 std::string Elided(const std::string& text, float width);
 std::string ElidedFront(const std::string& text, float width);
 
-// A row of buttons of which one is chosen; true when the choice changed.
+// A row of buttons of which one is chosen, or several rows where they do not fit; true when the
+// choice changed.
 bool Segmented(const char* id, std::span<const char* const> labels, int& chosen);
 
 // As wide as a button must be for any of the labels, and at least so many logical pixels.
 float WidestButton(std::span<const char* const> labels, float least);
 
-// Where buttons with these labels fit beside what came before they go there, after a gap of
-// pixels (below 0: the usual one); otherwise onto the next line.
+// Whether buttons with these labels fit beside what came before, after a gap of pixels (below 0:
+// the usual one).
+bool FitsBeside(std::span<const char* const> labels, float gap = -1.0f);
+// Where they do they go there, otherwise onto the next line.
 void SameLineIfFits(std::span<const char* const> labels, float gap = -1.0f);
+
+// A box to tick; its label takes several lines where it must.
+bool CheckRow(const char* label, bool& on);
 
 // A heading that folds what follows away; true while it is open. title: see Label().
 bool Fold(const std::string& title, bool open_at_first);
 
-// A grid of label and value; values fill the width that is left. label_width: logical pixels.
+// A grid of label and value; values fill the width that is left, or lie below their labels where
+// that is little. label_width: logical pixels.
 bool BeginProperties(const char* id, float label_width = 92.0f);
 void EndProperties();
 // Starts a row: the next widget is the value.
@@ -71,6 +78,7 @@ bool SliderProperty(app::Workspace& workspace,
                     double min,
                     double max,
                     const char* format);
+// Three of them, one below the other where they could not be read in a row.
 bool VectorProperty(app::Workspace& workspace,
                     const char* label,
                     Eigen::Vector3d& value,

@@ -34,6 +34,11 @@ struct Rigid3 {
 
   // Of camera_from_world: where the camera is, in world coordinates.
   Eigen::Vector3d Center() const { return -(rotation.conjugate() * translation); }
+
+  // The same numbers. A quaternion and its negative, which turn alike, differ.
+  friend bool operator==(const Rigid3& a, const Rigid3& b) {
+    return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
+  }
 };
 
 // x_a = scale * (rotation * x_b) + translation, scale > 0.
@@ -52,6 +57,12 @@ struct Similarity3 {
   Similarity3 Inverse() const {
     const Eigen::Quaterniond inverse = rotation.conjugate();
     return {1.0 / scale, inverse, -(inverse * translation) / scale};
+  }
+
+  // The same numbers, as for Rigid3.
+  friend bool operator==(const Similarity3& a, const Similarity3& b) {
+    return a.scale == b.scale && a.rotation.coeffs() == b.rotation.coeffs() &&
+           a.translation == b.translation;
   }
 };
 

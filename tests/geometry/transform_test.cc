@@ -50,6 +50,35 @@ TEST(Similarity3, InverseAndCompositionActAsMaps) {
   }
 }
 
+TEST(Similarity3, AreEqualWhereEveryNumberIs) {
+  Random random(4);
+  const Similarity3 a = RandomSimilarity(random);
+  EXPECT_EQ(a, Similarity3(a));
+  for (int which = 0; which < 3; ++which) {
+    Similarity3 b = a;
+    if (which == 0) {
+      b.scale *= 1.0 + 1e-12;
+    } else if (which == 1) {
+      b.rotation.coeffs() = -b.rotation.coeffs();  // turns alike
+    } else {
+      b.translation.z() += 1e-12;
+    }
+    EXPECT_NE(a, b) << which;
+  }
+}
+
+TEST(Rigid3, AreEqualWhereEveryNumberIs) {
+  Random random(5);
+  const Rigid3 a = RandomRigid(random);
+  Rigid3 b = a;
+  EXPECT_EQ(a, b);
+  b.translation.x() += 1e-12;
+  EXPECT_NE(a, b);
+  b = a;
+  b.rotation.w() += 1e-12;
+  EXPECT_NE(a, b);
+}
+
 TEST(CameraFromB, IsRigidAndProjectsToTheSamePixel) {
   Random random(3);
   const CameraModel camera{640, 480, 500, 510, 320, 240, -0.1, 0.02, 1e-3, -1e-3};

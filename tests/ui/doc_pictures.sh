@@ -1,6 +1,6 @@
 #!/bin/bash
-# Makes editor.jpg, timeline.jpg and film.jpg of the docs anew, by real input events under Xvfb, from
-# the sample that ./demo leaves trained and baked:
+# Makes editor.jpg, timeline.jpg, light-panel.jpg, occluders.jpg, check-points.jpg and film.jpg of the
+# docs anew, by real input events under Xvfb, from the sample that ./demo leaves trained and baked:
 #
 #   tests/ui/doc_pictures.sh build/release/bin/lararium-editor \
 #       build/demo/thermopolium/thermopolium.lararium [OUTPUT_FOLDER]     docs/images otherwise
@@ -30,6 +30,22 @@ shot() {
     fail "cannot write $1.jpg"
 }
 
+# check_point NAME X,Y,Z [FRAME U,V]...: a point of the stage, and where it is seen.
+check_point() {
+  local name=$1
+  "$editor" check-points "$project" --set "$name" --at "$2" > /dev/null || fail "no point $name"
+  shift 2
+  while [ $# -gt 0 ]; do
+    "$editor" check-points "$project" --place maquette --pick "$name" --frame "$1" --pixel "$2" \
+      > /dev/null
+    shift 2
+  done
+}
+check_point "counter, left" -1.25,0,-0.89 000072.png 124,374 000080.png 172,367 000096.png 111,424
+check_point "counter, right" 2.2,0,-0.89 000000.png 525,333 000004.png 574,337 000059.png 418,405
+check_point "floor, ahead" 0,0,-0.85 000008.png 412,415 000075.png 295,398 000107.png 170,406
+check_point "floor, right" 0.8,0,0 000062.png 181,468 000078.png 413,455 000102.png 420,448
+
 open_window 700 300 "$project"
 sleep 45        # people are read, the drama is run dry
 click 581 574   # the ruler of the timeline
@@ -40,6 +56,32 @@ click 510 640   # a line of the keeper
 xdotool mousemove 1250 800
 sleep 2
 shot timeline 1424x338+8+522 1424
+
+# The light panel: the messages leave the most room above.
+press F8
+click 338 690  # the first frame, in which nobody speaks
+press l
+xdotool mousemove 1250 870
+sleep 5
+shot light-panel 1204x656+236+62 1000
+
+# Occluders over the picture.
+click 48 210    # Stage
+press o
+xdotool mousemove 1250 870
+sleep 2
+shot occluders 860x656+236+62 800
+press o
+
+# A check point, through the camera.
+xdotool mousemove 110 500
+for ((n = 0; n < 60; ++n)); do xdotool click 5; sleep 0.05; done
+sleep 1
+click 66 633
+xdotool mousemove 1250 870
+sleep 2
+shot check-points 1204x656+236+62 1000
+press F5
 
 # The recording, filmed as if it were a camera.
 click 37 44     # Train
