@@ -24,10 +24,15 @@ Stamp StampOf(const std::filesystem::path& file) {
           found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
 }
 
+// Whoever holds the human holds its light, so that nobody has to read it again for that.
+struct Person {
+  human::Human human;
+  std::shared_ptr<const show::UnpackedLight> light;
+};
+
 struct Held {
   Stamp stamp = {};
-  std::weak_ptr<const human::Human> human;
-  std::weak_ptr<const show::UnpackedLight> light;
+  std::weak_ptr<const Person> person;
 };
 
 // Whoever wants the same person waits until they are read.
@@ -41,26 +46,29 @@ People& AllPeople() {
   return people;
 }
 
+SharedPerson Shared(const std::shared_ptr<const Person>& person) {
+  return {{person, &person->human}, {person, person->light.get()}};
+}
+
 }  // namespace
 
 Result<SharedPerson> SharePerson(const std::filesystem::path& file) {
   People& people = AllPeople();
   const std::lock_guard lock(people.mutex);
-  std::erase_if(people.held, [](const auto& entry) { return entry.second.human.expired(); });
+  std::erase_if(people.held, [](const auto& entry) { return entry.second.person.expired(); });
   const Stamp stamp = StampOf(file);
   if (const auto held = people.held.find(file);
       held != people.held.end() && held->second.stamp == stamp) {
-    SharedPerson person{held->second.human.lock(), held->second.light.lock()};
-    if (person.human != nullptr && person.light != nullptr) {
-      return person;
+    if (const auto person = held->second.person.lock()) {
+      return Shared(person);
     }
   }
   LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::LoadHuman(file));
-  SharedPerson person;
-  person.light = show::TakeLight(human);
-  person.human = std::make_shared<const human::Human>(std::move(human));
-  people.held[file] = {stamp, person.human, person.light};
-  return person;
+  auto person = std::make_shared<Person>();
+  person->light = show::TakeLight(human);
+  person->human = std::move(human);
+  people.held[file] = {stamp, person};
+  return Shared(person);
 }
 
 }  // namespace lararium::app

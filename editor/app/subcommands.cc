@@ -34,9 +34,8 @@ Status FillStage(const ProjectPaths& paths,
                  stage::Stage& stage,
                  show::ShowContent& content) {
   for (const CastDocument& member : document.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadBakedHuman(paths, member));
-    LARARIUM_RETURN_IF_ERROR(
-        stage.Add(member.name, std::make_shared<const human::Human>(std::move(human))).status());
+    LARARIUM_ASSIGN_OR_RETURN(const SharedPerson person, ShareBakedHuman(paths, member));
+    LARARIUM_RETURN_IF_ERROR(stage.Add(member.name, person.human).status());
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto objects, LoadObjects(paths, document));
   for (const show::StageObject& object : objects) {

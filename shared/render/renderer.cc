@@ -336,7 +336,8 @@ float Renderer::State::PeopleDepth(const PictureView& view) const {
 Status Renderer::State::DrawLayer(const RenderScene& scene, const PictureView& view, Smear& smear) {
   const PixelBounds drawn = CollectDraws(scene, view);
   catcher_pass.SetBlockers(scene.blockers);
-  sun_pass.Draw(scene, quality, view, meshes, model_pass, all_draws, catcher_pass.reach());
+  LARARIUM_RETURN_IF_ERROR(
+      sun_pass.Draw(scene, quality, view, meshes, model_pass, all_draws, catcher_pass.reach()));
   if (quality.camera_look) {
     smear = SmearOf(scene, view, drawn, PeopleDepth(view));
   }
@@ -539,8 +540,8 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   state.picture_size = size;
   const PictureView view = ViewOf(linear, size, size);
   const PixelBounds bounds = state.CollectDraws(linear, view);
-  state.sun_pass.Draw(linear, state.quality, view, state.meshes, state.model_pass, state.all_draws,
-                      {});
+  LARARIUM_RETURN_IF_ERROR(state.sun_pass.Draw(linear, state.quality, view, state.meshes,
+                                               state.model_pass, state.all_draws, {}));
   LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, view, bounds, 0));
   state.people.ReadPixels(bounds, rgba);
   return State::CheckDriver();

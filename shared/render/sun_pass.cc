@@ -103,11 +103,8 @@ Result<SunPass> SunPass::Create() {
   SunPass pass;
   LARARIUM_ASSIGN_OR_RETURN(pass.occluder_shaders_,
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
-  for (size_t i = 0; i < kMapSizes.size(); ++i) {
-    LARARIUM_RETURN_IF_ERROR(Allocate(kMapSizes[i], pass.people_.images[i]));
-    LARARIUM_RETURN_IF_ERROR(Allocate(kMapSizes[i], pass.still_images_[i]));
-    LARARIUM_RETURN_IF_ERROR(Allocate(kMapSizes[i], pass.occluders_.images[i]));
-  }
+  // Shaders name the maps whether there is a sun or not.
+  LARARIUM_RETURN_IF_ERROR(pass.AllocateAll({1, 1}));
   pass.plain_depth_ = GlSampler::Generate();
   glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -115,6 +112,15 @@ Result<SunPass> SunPass::Create() {
   glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
   return pass;
+}
+
+Status SunPass::AllocateAll(const std::array<int, 2>& sizes) {
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    for (Image* image : {&people_.images[i], &still_images_[i], &occluders_.images[i]}) {
+      LARARIUM_RETURN_IF_ERROR(Allocate(sizes[i], *image));
+    }
+  }
+  return Status();
 }
 
 Status SunPass::Allocate(int size, Image& image) {
@@ -242,16 +248,19 @@ void SunPass::ChooseCasters(std::span<const ModelDraw> all, const PictureView& v
   }
 }
 
-void SunPass::Draw(const RenderScene& scene,
-                   const Quality& quality,
-                   const PictureView& view,
-                   const SlotMap<GpuMesh>& meshes,
-                   ModelPass& models,
-                   std::span<const ModelDraw> casters,
-                   const Box& around) {
+Status SunPass::Draw(const RenderScene& scene,
+                     const Quality& quality,
+                     const PictureView& view,
+                     const SlotMap<GpuMesh>& meshes,
+                     ModelPass& models,
+                     std::span<const ModelDraw> casters,
+                     const Box& around) {
   Skip();
   if (!scene.sun) {
-    return;
+    return Status();
+  }
+  if (people_.images[0].size != kMapSizes[0]) {
+    LARARIUM_RETURN_IF_ERROR(AllocateAll(kMapSizes));
   }
   sun_ = *scene.sun;
   sun_.direction = glm::normalize(sun_.direction);
@@ -283,6 +292,7 @@ void SunPass::Draw(const RenderScene& scene,
   DrawOccluders(scene, meshes, sun_from_stage, Widened(covered, 0.05f));
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_TEST);
+  return Status();
 }
 
 void SunPass::Skip() {

@@ -34,13 +34,14 @@ class SunPass {
 
   // casters: all people and props, whether seen or not. around: a box of the stage in
   // which the sun past occluders will be asked for as well.
-  void Draw(const RenderScene& scene,
-            const Quality& quality,
-            const PictureView& view,
-            const SlotMap<GpuMesh>& meshes,
-            ModelPass& models,
-            std::span<const ModelDraw> casters,
-            const Box& around);
+  // With the first sun memory is taken for the maps.
+  Status Draw(const RenderScene& scene,
+              const Quality& quality,
+              const PictureView& view,
+              const SlotMap<GpuMesh>& meshes,
+              ModelPass& models,
+              std::span<const ModelDraw> casters,
+              const Box& around);
   // There is no sun.
   void Skip();
   // Models were removed.
@@ -72,6 +73,8 @@ class SunPass {
   };
 
   static Status Allocate(int size, Image& image);
+  // All images of all maps, the finer first: texels along each side.
+  Status AllocateAll(const std::array<int, 2>& sizes);
   // Draws go into an image of a map from now on, which is empty at first. Says clip_from_stage.
   static glm::mat4 Begin(const Map& map, const Image& image);
   // Leaves people out who cannot be seen in the picture, and whose shadows cannot.
