@@ -1,6 +1,7 @@
 #include "editor/app/cast_pictures.h"
 
 #include <algorithm>
+#include <chrono>
 #include <stop_token>
 #include <utility>
 
@@ -19,6 +20,10 @@ std::string StampOf(const std::filesystem::path& file) {
   const auto time = std::filesystem::last_write_time(file, error);
   return error ? " none" : " " + std::to_string(time.time_since_epoch().count());
 }
+
+// The studio is kept so long without anybody to be drawn: what it draws with takes tens of
+// megabytes.
+constexpr std::chrono::seconds kKept(20);
 
 // Ends baking where its thread is to end.
 class UntilStopped : public Progress {
@@ -67,6 +72,13 @@ class CastPictures::Painter {
       LARARIUM_ASSIGN_OR_RETURN(result.portrait, Portray(*order.gaze));
     }
     return result;
+  }
+
+  // Nobody is looked at for now: what draws them is made anew when somebody is.
+  void Rest() {
+    studio_.reset();
+    seated_.clear();
+    TrimHeap();
   }
 
  private:
@@ -254,10 +266,24 @@ void CastPictures::Deliver(const Order& order,
   }
 }
 
+// Waits for the next order; false at the end.
+bool CastPictures::AwaitOrder(std::unique_lock<std::mutex>& lock,
+                              const std::stop_token& stop,
+                              Painter& painter) {
+  const auto ordered = [this] { return NextOrder().has_value(); };
+  if (ordered_.wait_for(lock, stop, kKept, ordered)) {
+    return true;
+  }
+  lock.unlock();
+  painter.Rest();
+  lock.lock();
+  return ordered_.wait(lock, stop, ordered);
+}
+
 void CastPictures::Run(std::stop_token stop) {
   Painter painter(baking_, stop);
   std::unique_lock lock(mutex_);
-  while (ordered_.wait(lock, stop, [this] { return NextOrder().has_value(); })) {
+  while (AwaitOrder(lock, stop, painter)) {
     const Order order = *NextOrder();
     lock.unlock();
     std::vector<std::string> warnings;

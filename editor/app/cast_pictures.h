@@ -98,6 +98,9 @@ class CastPictures {
   std::string KeyOf(const CastDocument& member) const;
   void Start();
   void Run(std::stop_token stop);
+  bool AwaitOrder(std::unique_lock<std::mutex>& lock,
+                  const std::stop_token& stop,
+                  Painter& painter);
   std::optional<Order> NextOrder() const;
   void Deliver(const Order& order, Picture thumbnail, std::shared_ptr<const CastPortrait> portrait);
 

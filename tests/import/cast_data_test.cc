@@ -171,7 +171,7 @@ TEST_P(CastPresets, AreCoarserFromAfar) {
     }
   }
   const human::SkinnedMesh& skin = Preset(GetParam()).meshes[0];
-  ASSERT_EQ(skin.coarser.size(), 4u);
+  ASSERT_EQ(skin.coarser.size(), static_cast<size_t>(kLevelsOfDetail));
   EXPECT_LT(skin.coarser[2].indices.size(), 0.15 * skin.indices.size());
   EXPECT_LT(skin.coarser[2].error, 0.01f);
   EXPECT_LT(skin.coarser[3].indices.size(), 0.08 * skin.indices.size());
