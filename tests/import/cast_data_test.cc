@@ -11,6 +11,7 @@
 #include "editor/import/cast_presets.h"
 #include "editor/import/cast_shape.h"
 #include "editor/import/plain_skeleton.h"
+#include "editor/import/simplify.h"
 
 namespace lararium::import {
 namespace {
