@@ -11,11 +11,13 @@ need() {
   done
 }
 
-# on_a_display "$0" "$@": starts the script anew on a virtual display.
+# on_a_display "$0" "$@": starts the script anew on a virtual display. A server that resets itself
+# when its last client goes refuses whoever comes meanwhile: here the window, between two questions
+# whether it is there.
 on_a_display() {
   if [ -z "${LARARIUM_UI_TEST_DISPLAY:-}" ]; then
     export LARARIUM_UI_TEST_DISPLAY=1
-    exec xvfb-run -a -s "-screen 0 1440x900x24" "$@"
+    exec xvfb-run -a -s "-screen 0 1440x900x24 -noreset" "$@"
   fi
 }
 
