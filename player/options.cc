@@ -105,8 +105,8 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
          [&play](const std::string& quality) {
            play.quality = quality == "auto" ? std::nullopt : std::optional(std::stoi(quality));
          },
-         "0, the finest, to 4; auto: as fine as keeps the frame rate")
-      ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4"}));
+         "0, the finest, to 5; auto: as fine as keeps the frame rate")
+      ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4", "5"}));
   app.add_option_function<std::string>(
          "--sandbox", [&play](const std::string& sandbox) { play.sandbox = sandbox == "on"; },
          "on: no other programs, no network, no settings of the machine; off")

@@ -14,8 +14,9 @@
 uniform sampler2D caught;      // what real surfaces keep of their light
 uniform vec4 catcher_bounds;   // left, bottom, right, top of the layer: it means nothing outside
 uniform float caught_step;     // of the layer's pixels, for one of caught
-uniform float picture_height;
-uniform float layer_scale;     // of the layer's pixels, which have people and shadows
+// Of the layer, which has people and shadows; from a plane that both see, where it was drawn for
+// an earlier picture. Its rows count from the bottom.
+uniform mat3 layer_from_pixel;
 uniform float people_opacity;  // of people and of what they do to the light
 
 layout(location = 0) out vec4 colour;
@@ -25,7 +26,8 @@ bool Within(vec2 cell, vec4 bounds) {
 }
 
 void main() {
-  vec2 cell = layer_scale * vec2(gl_FragCoord.x, picture_height - gl_FragCoord.y);
+  vec3 in_layer = layer_from_pixel * vec3(gl_FragCoord.xy, 1.0);
+  vec2 cell = in_layer.xy / in_layer.z;
   bool may_show = Within(cell, smeared_bounds);
 #ifdef LOOK
   // Loops instead of ifs where they leave out much: shaders/include/sun.glsl.

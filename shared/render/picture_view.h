@@ -15,6 +15,7 @@ namespace lararium::render {
 struct PictureView {
   ImageSize size;
   ImageSize most;                 // what images are allocated for: no view will be larger
+  int margin = 0;                 // pixels of size, on each side, beyond what the picture shows
   geometry::CameraModel display;  // scaled to size
   float near = 0.0f;              // metres
   float far = 0.0f;
@@ -27,8 +28,20 @@ struct PictureView {
   glm::vec3 ray_per_row = glm::vec3(0.0f);
 };
 
-// Without a pose only size and display are set.
-PictureView ViewOf(const RenderScene& scene, const ImageSize& size, const ImageSize& most);
+// size, most: without the margin. Without a pose only sizes and display are set.
+PictureView ViewOf(const RenderScene& scene,
+                   const ImageSize& size,
+                   const ImageSize& most,
+                   int margin = 0);
+
+// Where a picture shows what an earlier view showed, on a plane across that view so far away.
+// Maps the picture's pixels, rows from the top, to the view's, from the corner of its bottom row.
+// display: the picture's, at its size. pose: of the camera that took the view.
+glm::mat3 ViewFromPicture(const PictureView& view,
+                          const geometry::Rigid3& pose,
+                          float depth,
+                          const geometry::CameraModel& display,
+                          const geometry::Rigid3& camera_from_stage);
 
 // For CameraLook: where a plane across the view, so far away, was seen one frame ago.
 // Maps this picture's pixels to that one's, both from the corner of the bottom row.

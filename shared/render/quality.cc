@@ -19,7 +19,7 @@ Quality Clamped(const Quality& quality) {
 }
 
 std::span<const Quality> QualityLadder() {
-  static constexpr std::array<Quality, 5> kLadder = {{
+  static constexpr std::array<Quality, 6> kLadder = {{
       {},
       {.samples = 1, .sun_taps = 8, .detail_px = 0.75f},
       {.samples = 1,
@@ -47,6 +47,17 @@ std::span<const Quality> QualityLadder() {
        .camera_look = false,
        .detail_px = 2.0f,
        .triangles = 80'000},
+      {.samples = 1,
+       .full_size = false,
+       .layer_scale = 0.5f,
+       .shadow_cell = 16,
+       .sun_map = 512,
+       .sun_taps = 4,
+       .reflections = false,
+       .camera_look = false,
+       .detail_px = 2.0f,
+       .triangles = 80'000,
+       .half_rate = true},
   }};
   return kLadder;
 }

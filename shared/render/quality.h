@@ -38,6 +38,11 @@ struct Quality {
   float detail_px = 0.5f;
   int triangles = 300'000;
 
+  // People and shadows are drawn over two pictures, while each picture shows those that were ready,
+  // turned to where the camera sees them now: they move at half the rate of the picture and a
+  // picture or two late (show::ShowRenderer; Renderer::DrawHalf).
+  bool half_rate = false;
+
   friend bool operator==(const Quality&, const Quality&) = default;
 };
 

@@ -22,6 +22,10 @@ namespace {
 
 // Nearly as fine is as fine: it would cost as much.
 constexpr double kLeastEnlarged = 0.9;
+// Of the picture's width, beyond each of its edges, for a layer that is carried to other poses; and
+// how far it may be carried: it would lack too much at an edge.
+constexpr float kMargin = 1.0f / 32.0f;
+constexpr float kFurthestCarried = 0.1f;
 
 glm::vec4 Intrinsics(const geometry::CameraModel& camera) {
   return {static_cast<float>(camera.fx), static_cast<float>(camera.fy),
@@ -90,6 +94,15 @@ float RootDepth(const ModelDraw& draw, const PictureView& view) {
   return (view.clip_from_stage * draw.stage_from_model * draw.skin[0][3]).w;
 }
 
+// Of a picture with a pose.
+glm::mat3 LayerFromPicture(const Layer& layer,
+                           const RenderScene& scene,
+                           const RenderTarget& picture) {
+  return ViewFromPicture(layer.view, *layer.camera_from_stage, layer.depth,
+                         scene.display.Resized(picture.width(), picture.height()),
+                         *scene.camera_from_stage);
+}
+
 void ResetState() {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -150,7 +163,10 @@ void Renderer::RemoveModel(ModelHandle model) {
   state_->models.Remove(model);
   state_->sun_pass.ForgetModels();
 }
-void Renderer::SetQuality(const Quality& quality) { state_->quality = Clamped(quality); }
+void Renderer::SetQuality(const Quality& quality) {
+  state_->quality = Clamped(quality);
+  state_->layer = {};  // of other sizes
+}
 
 Status Renderer::State::Validate(const RenderScene& scene) const {
   constexpr std::string_view kPlace = "picture";
@@ -315,7 +331,6 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
   if (bounds.empty()) {
     return Status();
   }
-  LARARIUM_RETURN_IF_ERROR(sun_mask.Draw(view, bounds, draws, sun_pass, model_pass));
   const PixelBounds cleared = Widened(bounds, clear, view.size);
   people.BindAndClear(cleared);
   DrawOccluders(scene.occluders, view.clip_from_stage);
@@ -333,22 +348,40 @@ float Renderer::State::PeopleDepth(const PictureView& view) const {
   return draws.empty() ? view.far : std::max(sum / static_cast<float>(draws.size()), view.near);
 }
 
-Status Renderer::State::DrawLayer(const RenderScene& scene, const PictureView& view, Smear& smear) {
-  const PixelBounds drawn = CollectDraws(scene, view);
+Status Renderer::State::DrawShadows(const RenderScene& scene,
+                                    const PictureView& view,
+                                    const PixelBounds& bounds) {
   catcher_pass.SetBlockers(scene.blockers);
   LARARIUM_RETURN_IF_ERROR(
       sun_pass.Draw(scene, quality, view, meshes, model_pass, all_draws, catcher_pass.reach()));
+  return bounds.empty() ? Status() : sun_mask.Draw(view, bounds, draws, sun_pass, model_pass);
+}
+
+Status Renderer::State::DrawLit(const RenderScene& scene,
+                                const PictureView& view,
+                                const PixelBounds& bounds) {
+  layer = {};
+  layer.view = view;
+  layer.depth = PeopleDepth(view);
+  layer.camera_from_stage = scene.camera_from_stage;
+  layer.people = bounds;
   if (quality.camera_look) {
-    smear = SmearOf(scene, view, drawn, PeopleDepth(view));
+    layer.smear = SmearOf(scene, view, bounds, layer.depth);
   }
-  people_bounds = drawn;
   // What is seen at the rim of a smear looks as far again, and a pixel on where the layer is
   // made larger.
-  LARARIUM_RETURN_IF_ERROR(DrawPeople(scene, view, drawn, 2 * smear.reach + 2));
+  const int reach = layer.smear.reach;
+  LARARIUM_RETURN_IF_ERROR(DrawPeople(scene, view, bounds, 2 * reach + 2));
   const bool enlarged = view.size != view.most;
-  const int margin = smear.reach + (enlarged ? 1 : 0);
   return catcher_pass.Draw(scene, quality, meshes, sun_pass, view,
-                           {people.texture(), drawn, margin});
+                           {people.texture(), bounds, reach + (enlarged ? 1 : 0)});
+}
+
+PictureView Renderer::State::LayerView(const RenderScene& scene,
+                                       const RenderTarget& picture) const {
+  const ImageSize size = Scaled({picture.width(), picture.height()}, quality.layer_scale);
+  const float margin = quality.half_rate ? kMargin * static_cast<float>(size.width) : 0.0f;
+  return ViewOf(scene, size, picture_size, static_cast<int>(std::ceil(margin)));
 }
 
 // Of the program in use.
@@ -386,10 +419,20 @@ Result<const RenderTarget*> Renderer::State::ChoosePicture(const RenderScene& sc
   return &*small_picture;
 }
 
-void Renderer::State::Composite(const RenderScene& scene,
-                                const PictureView& layer,
-                                const Smear& smear,
-                                const RenderTarget& target) {
+PixelBounds Renderer::State::ChangedBy(const RenderScene& scene, const RenderTarget& target) const {
+  if (!layer.camera_from_stage || !scene.camera_from_stage) {
+    return {};
+  }
+  if (*layer.camera_from_stage != *scene.camera_from_stage || layer.view.margin > 0) {
+    return {0, 0, target.width(), target.height()};
+  }
+  const PixelBounds seen = Widened(layer.people, layer.smear.reach, layer.view.size);
+  const float scale =
+      static_cast<float>(layer.view.size.width) / static_cast<float>(target.width());
+  return InPicture(Union(seen, catcher_pass.bounds()), scale, target);
+}
+
+void Renderer::State::Composite(const RenderScene& scene, const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   glDisable(GL_DEPTH_TEST);
@@ -400,9 +443,7 @@ void Renderer::State::Composite(const RenderScene& scene,
   if (!scene.background.empty()) {
     background_image.Upload(scene.background);
   }
-  const PixelBounds seen = Widened(people_bounds, smear.reach, layer.size);
-  const float scale = static_cast<float>(layer.size.width) / static_cast<float>(size.width);
-  const PixelBounds changed = InPicture(Union(seen, catcher_pass.bounds()), scale, target);
+  const PixelBounds changed = ChangedBy(scene, target);
   glBindVertexArray(no_vertices.id());
   background_pass.Use();
   SetBackground(background_pass, scene, display);
@@ -414,7 +455,7 @@ void Renderer::State::Composite(const RenderScene& scene,
     const ShaderProgram& composite = look ? look_composite_pass : composite_pass;
     composite.Use();
     SetBackground(composite, scene, display);
-    SetLayer(composite, scene, smear, seen, scale, size.height);
+    SetLayer(composite, scene, target);
     FillBounds(changed);
   }
   glDisable(GL_SCISSOR_TEST);
@@ -424,41 +465,48 @@ void Renderer::State::Composite(const RenderScene& scene,
 
 void Renderer::State::SetLayer(const ShaderProgram& composite,
                                const RenderScene& scene,
-                               const Smear& smear,
-                               const PixelBounds& seen,
-                               float scale,
-                               int picture_height) {
-  composite.Set("picture_height", static_cast<float>(picture_height));
-  composite.Set("layer_scale", scale);
+                               const RenderTarget& target) const {
+  composite.Set("layer_from_pixel", LayerFromPicture(layer, scene, target));
   composite.Set("people_opacity", std::min(scene.people_opacity, 1.0f));
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, people.texture());
   composite.Set("people", 1);
-  look_pass.BindFor(composite, scene.look, smear, seen);
+  look_pass.BindFor(composite, scene.look, layer.smear,
+                    Widened(layer.people, layer.smear.reach, layer.view.size));
   catcher_pass.BindFor(composite, 2);
 }
 
-void Renderer::State::CompositeSeeThrough(const RenderScene& scene,
-                                          const PictureView& layer,
-                                          const RenderTarget& target) {
+void Renderer::State::CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_SCISSOR_TEST);
   glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   glClear(GL_COLOR_BUFFER_BIT);
-  const float scale = static_cast<float>(layer.size.width) / static_cast<float>(target.width());
-  const PixelBounds changed = InPicture(Union(people_bounds, catcher_pass.bounds()), scale, target);
+  const PixelBounds changed = ChangedBy(scene, target);
   if (!changed.empty()) {
     glEnable(GL_SCISSOR_TEST);
     glBindVertexArray(no_vertices.id());
     see_through_composite_pass.Use();
-    SetLayer(see_through_composite_pass, scene, {}, people_bounds, scale, target.height());
+    SetLayer(see_through_composite_pass, scene, target);
     FillBounds(changed);
     glDisable(GL_SCISSOR_TEST);
     glBindVertexArray(0);
   }
   glActiveTexture(GL_TEXTURE0);
+}
+
+void Renderer::State::PutTogether(const RenderScene& scene,
+                                  const RenderTarget& picture,
+                                  const RenderTarget& target) {
+  if (scene.see_through) {
+    CompositeSeeThrough(scene, picture);
+  } else {
+    Composite(scene, picture);
+  }
+  if (&picture != &target) {
+    Enlarge(picture, target);
+  }
 }
 
 void Renderer::State::Enlarge(const RenderTarget& picture, const RenderTarget& target) const {
@@ -487,25 +535,66 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   LARARIUM_RETURN_IF_ERROR(state.Validate(scene));
   ResetState();
   state.picture_size = {target.width(), target.height()};
-  state.people_bounds = {};
+  state.layer = {};
   state.catcher_pass.Skip();
   state.sun_pass.Skip();
   LARARIUM_ASSIGN_OR_RETURN(const RenderTarget* picture, state.ChoosePicture(scene, target));
-  const PictureView layer =
-      ViewOf(scene, Scaled({picture->width(), picture->height()}, state.quality.layer_scale),
-             state.picture_size);
-  Smear smear;
   if (scene.camera_from_stage && scene.people_opacity > 0.0f) {
-    LARARIUM_RETURN_IF_ERROR(state.DrawLayer(scene, layer, smear));
+    const PictureView view = state.LayerView(scene, *picture);
+    const PixelBounds bounds = state.CollectDraws(scene, view);
+    LARARIUM_RETURN_IF_ERROR(state.DrawShadows(scene, view, bounds));
+    LARARIUM_RETURN_IF_ERROR(state.DrawLit(scene, view, bounds));
   }
-  if (scene.see_through) {
-    state.CompositeSeeThrough(scene, layer, *picture);
-  } else {
-    state.Composite(scene, layer, smear, *picture);
+  state.PutTogether(scene, *picture, target);
+  return State::CheckDriver();
+}
+
+bool Renderer::CanCarryLayer(const RenderScene& picture, const RenderTarget& target) const {
+  const State& state = *state_;
+  const Layer& layer = state.layer;
+  if (!layer.camera_from_stage || !picture.camera_from_stage || picture.people_opacity <= 0.0f ||
+      state.picture_size != ImageSize{target.width(), target.height()}) {
+    return false;
   }
-  if (picture != &target) {
-    state.Enlarge(*picture, target);
+  const PictureView& view = layer.view;
+  const PictureView now =
+      ViewOf(picture, {view.size.width - 2 * view.margin, view.size.height - 2 * view.margin},
+             state.picture_size, view.margin);
+  if (now.display != view.display) {
+    return false;
   }
+  const glm::mat3 layer_from_view = ViewFromPicture(view, *layer.camera_from_stage, layer.depth,
+                                                    now.display, *picture.camera_from_stage);
+  const glm::vec2 sides(view.size.width, view.size.height);
+  for (const glm::vec2& corner : {glm::vec2(0.0f, 0.0f), glm::vec2(1.0f, 0.0f),
+                                  glm::vec2(0.0f, 1.0f), glm::vec2(1.0f, 1.0f)}) {
+    const glm::vec3 seen = layer_from_view * glm::vec3(corner * sides, 1.0f);
+    const glm::vec2 before(corner.x * sides.x, (1.0f - corner.y) * sides.y);
+    if (seen.z <= 0.0f ||
+        glm::distance(glm::vec2(seen) / seen.z, before) > kFurthestCarried * sides.x) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Status Renderer::DrawHalf(Half half,
+                          const RenderScene& people,
+                          const RenderScene& picture,
+                          const RenderTarget& target) {
+  State& state = *state_;
+  LARARIUM_RETURN_IF_ERROR(state.Validate(people));
+  LARARIUM_RETURN_IF_ERROR(state.Validate(picture));
+  if (!people.camera_from_stage) {
+    return Status::Error("picture", "people cannot be drawn without the camera's pose");
+  }
+  ResetState();
+  LARARIUM_ASSIGN_OR_RETURN(const RenderTarget* smaller, state.ChoosePicture(picture, target));
+  const PictureView view = state.LayerView(people, *smaller);
+  const PixelBounds bounds = state.CollectDraws(people, view);
+  LARARIUM_RETURN_IF_ERROR(half == Half::kShadows ? state.DrawShadows(people, view, bounds)
+                                                  : state.DrawLit(people, view, bounds));
+  state.PutTogether(picture, *smaller, target);
   return State::CheckDriver();
 }
 
@@ -513,12 +602,14 @@ void Renderer::ReadCoverage(cv::Mat& coverage) const {
   const State& state = *state_;
   const cv::Size size(state.picture_size.width, state.picture_size.height);
   coverage = cv::Mat::zeros(size, CV_8UC1);
-  if (state.people_bounds.empty()) {
+  if (state.layer.people.empty()) {
     return;
   }
   cv::Mat rgba, alpha;
-  state.people.ReadPixels(state.people_bounds, rgba);
+  state.people.ReadPixels(state.layer.people, rgba);
   cv::extractChannel(rgba, alpha, 3);
+  const int margin = state.layer.view.margin;
+  alpha = alpha(cv::Rect(margin, margin, alpha.cols - 2 * margin, alpha.rows - 2 * margin));
   if (alpha.size() != size) {
     cv::resize(alpha, alpha, size);
   }
@@ -536,12 +627,12 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   linear.exposure = 1.0f;
   linear.gain = glm::vec3(1.0f);
   linear.knee = 65504.0f;  // the largest that the target holds
+  linear.blockers = {};
   const ImageSize size = {scene.display.width, scene.display.height};
   state.picture_size = size;
   const PictureView view = ViewOf(linear, size, size);
   const PixelBounds bounds = state.CollectDraws(linear, view);
-  LARARIUM_RETURN_IF_ERROR(state.sun_pass.Draw(linear, state.quality, view, state.meshes,
-                                               state.model_pass, state.all_draws, {}));
+  LARARIUM_RETURN_IF_ERROR(state.DrawShadows(linear, view, bounds));
   LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, view, bounds, 0));
   state.people.ReadPixels(bounds, rgba);
   return State::CheckDriver();

@@ -42,7 +42,19 @@ class Renderer {
   // memory) the target's content is undefined.
   Status Draw(const RenderScene& scene, const RenderTarget& target);
 
-  // Of the picture that Draw() made last: how much of each pixel people and props cover,
+  // Quality::half_rate: half of a layer of people and shadows, then a picture with the layer that
+  // was ready last, where its camera sees it now. people: the same scene twice in a row, for one
+  // half after the other. picture: its image, cameras and opacity count.
+  enum class Half { kShadows, kPeople };
+  Status DrawHalf(Half half,
+                  const RenderScene& people,
+                  const RenderScene& picture,
+                  const RenderTarget& target);
+  // Whether the layer that was ready last would do for a picture: it was drawn for one like it,
+  // from nearly there.
+  bool CanCarryLayer(const RenderScene& picture, const RenderTarget& target) const;
+
+  // Of the layer that was drawn last: how much of each pixel people and props cover,
   // 0 to 255, CV_8UC1, before the camera's look softens them.
   void ReadCoverage(cv::Mat& coverage) const;
 

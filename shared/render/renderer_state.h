@@ -25,6 +25,16 @@
 
 namespace lararium::render {
 
+// People and caught shadows as they are drawn before they go into a picture.
+struct Layer {
+  PictureView view;
+  Smear smear;
+  float depth = 1.0f;  // of people, along the view, metres
+  // Of the camera that it was drawn for; none: nobody is in it.
+  std::optional<geometry::Rigid3> camera_from_stage;
+  PixelBounds people;  // what of them is valid
+};
+
 struct Renderer::State {
   Quality quality;
   ShaderProgram occluder_pass;
@@ -42,8 +52,8 @@ struct Renderer::State {
   Texture background_image;
   std::optional<RenderTarget> small_picture;  // that is made larger
   LinearTarget people;
-  PixelBounds people_bounds;  // of the layer drawn last: what of people is valid
-  ImageSize picture_size;     // likewise
+  Layer layer;             // drawn last
+  ImageSize picture_size;  // likewise
   SlotMap<GpuMesh> meshes;
   SlotMap<GpuModel> models;
   TexturePool textures;
@@ -58,36 +68,38 @@ struct Renderer::State {
   PixelBounds CollectDraws(const RenderScene& scene, const PictureView& view);
   // Unless it lies outside the picture.
   void CollectDraw(const ModelDraw& draw, const PictureView& view, ScreenBounds& bounds);
-  // Nothing is left of older pictures up to clear beyond the bounds.
+  // As the sun mask has their shadows. Nothing is left of older pictures up to clear beyond the
+  // bounds.
   Status DrawPeople(const RenderScene& scene,
                     const PictureView& view,
                     const PixelBounds& bounds,
                     int clear);
   void DrawOccluders(std::span<const SceneOccluder> occluders,
                      const glm::mat4& clip_from_stage) const;
-  // Fills layer, people and caught shadows.
-  Status DrawLayer(const RenderScene& scene, const PictureView& view, Smear& smear);
+  // The halves of a layer: what keeps the sun off, for draws that may be seen within the bounds;
+  // then people, and the shadows that real surfaces catch.
+  Status DrawShadows(const RenderScene& scene, const PictureView& view, const PixelBounds& bounds);
+  Status DrawLit(const RenderScene& scene, const PictureView& view, const PixelBounds& bounds);
+  PictureView LayerView(const RenderScene& scene, const RenderTarget& picture) const;
   void SetBackground(const ShaderProgram& shaders,
                      const RenderScene& scene,
                      const geometry::CameraModel& display) const;
   // Where the picture is put together: the target, or a smaller one (Quality::full_size).
   Result<const RenderTarget*> ChoosePicture(const RenderScene& scene, const RenderTarget& target);
+  // The picture of what is in the layer, made larger where the target is.
+  void PutTogether(const RenderScene& scene,
+                   const RenderTarget& picture,
+                   const RenderTarget& target);
   // The camera's image, and over it what is in the layer.
-  void Composite(const RenderScene& scene,
-                 const PictureView& layer,
-                 const Smear& smear,
-                 const RenderTarget& target);
+  void Composite(const RenderScene& scene, const RenderTarget& target);
   // What is in the layer, over what is seen through the target.
-  void CompositeSeeThrough(const RenderScene& scene,
-                           const PictureView& layer,
-                           const RenderTarget& target);
-  // Of the program in use. seen: where people may be, of the layer's pixels.
+  void CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target);
+  // Where the layer changes the target: all of it where it was drawn for another pose.
+  PixelBounds ChangedBy(const RenderScene& scene, const RenderTarget& target) const;
+  // Of the program in use.
   void SetLayer(const ShaderProgram& composite,
                 const RenderScene& scene,
-                const Smear& smear,
-                const PixelBounds& seen,
-                float scale,
-                int picture_height);
+                const RenderTarget& target) const;
   // Fills the target with a picture of another size.
   void Enlarge(const RenderTarget& picture, const RenderTarget& target) const;
   // How far away the people in the picture are on average, along the view; of those who

@@ -13,6 +13,18 @@ bool Leaps(const geometry::Rigid3& before, const geometry::Rigid3& now, int64_t 
 
 }  // namespace
 
+geometry::Rigid3 Predict(const CameraMotion& motion,
+                         const geometry::Rigid3& camera_from_stage,
+                         double frames) {
+  const geometry::Rigid3 moved = camera_from_stage * motion.before_from_stage.Inverse();
+  const double share = frames / static_cast<double>(motion.frames);
+  const Eigen::AngleAxisd turned(moved.rotation);
+  const geometry::Rigid3 ahead = {
+      .rotation = Eigen::Quaterniond(Eigen::AngleAxisd(share * turned.angle(), turned.axis())),
+      .translation = share * moved.translation};
+  return ahead * camera_from_stage;
+}
+
 std::optional<CameraMotion> CameraMotionTracker::Update(int64_t frame,
                                                         const geometry::Rigid3& camera_from_stage) {
   const int64_t since = now_ ? frame - now_->frame : -1;

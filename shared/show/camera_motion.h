@@ -14,6 +14,11 @@ struct CameraMotion {
   int64_t frames = 1;                  // since
 };
 
+// Where the camera will be so many frames later if it goes on like this.
+geometry::Rigid3 Predict(const CameraMotion& motion,
+                         const geometry::Rigid3& camera_from_stage,
+                         double frames);
+
 // Follows the poses of successive frames at one place.
 class CameraMotionTracker {
  public:

@@ -29,6 +29,10 @@ geometry::CameraModel PictureCamera(const geometry::CameraModel& camera,
 struct PictureEye {
   Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();                // metres
   double picture_distance = std::numeric_limits<double>::infinity();  // metres
+
+  friend bool operator==(const PictureEye& a, const PictureEye& b) {
+    return a.in_camera == b.in_camera && a.picture_distance == b.picture_distance;
+  }
 };
 
 // An eye that looks anywhere at what is real, past the camera and its image.

@@ -14,6 +14,18 @@ namespace {
 
 // Of the weights between probes with which reflections are blended.
 constexpr float kWeightSteps = 32.0f;
+// A layer drawn by halves is seen in the next picture and in the one after it.
+constexpr double kPicturesUntilSeen = 1.5;
+
+// As the camera will see it so many frames later.
+void LookAhead(double frames, StagedFrame& staged) {
+  if (staged.motion && staged.camera_from_stage) {
+    const geometry::Rigid3 now = *staged.camera_from_stage;
+    staged.camera_from_stage = Predict(*staged.motion, now, frames);
+    staged.motion->before_from_stage =
+        staged.motion->before_from_stage * now.Inverse() * *staged.camera_from_stage;
+  }
+}
 
 }  // namespace
 
@@ -162,12 +174,18 @@ render::RenderScene ShowRenderer::SceneOf(const StagedFrame& staged, int height)
   return scene;
 }
 
-Status ShowRenderer::Draw(const StagedFrame& staged,
-                          const render::RenderTarget& target,
-                          const PictureEye& eye) {
+void ShowRenderer::SetQuality(const render::Quality& quality) {
+  renderer_->SetQuality(quality);
+  half_rate_ = quality.half_rate;
+  shadows_are_drawn_ = false;
+}
+
+void ShowRenderer::SetCamera(const StagedFrame& staged,
+                             const render::RenderTarget& target,
+                             const PictureEye& eye,
+                             render::RenderScene& scene) const {
   const vision::TrackedFrame& tracked = staged.tracked;
   const PlaceScene& place = places_[staged.place];
-  render::RenderScene scene = SceneOf(staged, target.height());
   scene.background = tracked.frame.bgr;
   scene.camera = tracked.camera;
   scene.background_display = PictureOf(tracked.camera, target.width(), target.height());
@@ -185,7 +203,46 @@ Status ShowRenderer::Draw(const StagedFrame& staged,
           eye_from_camera * *scene.look.previous_camera_from_stage;
     }
   }
-  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
+}
+
+Status ShowRenderer::DrawWhole(const StagedFrame& staged,
+                               const render::RenderTarget& target,
+                               const PictureEye& eye) {
+  render::RenderScene scene = SceneOf(staged, target.height());
+  SetCamera(staged, target, eye, scene);
+  shadows_are_drawn_ = false;
+  layer_place_ = staged.place;
+  return renderer_->Draw(scene, target);
+}
+
+Status ShowRenderer::DrawHalf(const StagedFrame& staged,
+                              const render::RenderScene& picture,
+                              const render::RenderTarget& target) {
+  if (!shadows_are_drawn_) {
+    drawn_by_halves_ = staged;
+    const int64_t frames = staged.tracked.frame.index - last_frame_;
+    LookAhead(kPicturesUntilSeen * static_cast<double>(std::clamp(frames, int64_t{1},
+                                                                  CameraMotionTracker::kLongest)),
+              drawn_by_halves_);
+  }
+  render::RenderScene people = SceneOf(drawn_by_halves_, target.height());
+  SetCamera(drawn_by_halves_, target, {}, people);
+  const auto half =
+      shadows_are_drawn_ ? render::Renderer::Half::kPeople : render::Renderer::Half::kShadows;
+  shadows_are_drawn_ = !shadows_are_drawn_;
+  return renderer_->DrawHalf(half, people, picture, target);
+}
+
+Status ShowRenderer::Draw(const StagedFrame& staged,
+                          const render::RenderTarget& target,
+                          const PictureEye& eye) {
+  render::RenderScene picture;
+  SetCamera(staged, target, eye, picture);
+  const bool halves = half_rate_ && eye == PictureEye() && layer_place_ == staged.place &&
+                      renderer_->CanCarryLayer(picture, target);
+  LARARIUM_RETURN_IF_ERROR(halves ? DrawHalf(staged, picture, target)
+                                  : DrawWhole(staged, target, eye));
+  last_frame_ = staged.tracked.frame.index;
   captions_->Draw(staged, shows_evidence_ ? &*evidence_ : nullptr, target);
   return Status();
 }
@@ -198,6 +255,7 @@ Status ShowRenderer::DrawSeeThrough(const StagedFrame& staged,
   scene.display = eye.camera;
   scene.camera_from_stage = eye.eye_from_stage;
   scene.people_opacity = eye.opacity;
+  layer_place_.reset();
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
   captions_->Draw(staged, shows_evidence_ ? &*evidence_ : nullptr, target);
   return Status();

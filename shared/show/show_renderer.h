@@ -33,7 +33,7 @@ class ShowRenderer {
   void SetMatte(bool matte) { matte_ = matte; }
 
   // Of the frames from now on.
-  void SetQuality(const render::Quality& quality) { renderer_->SetQuality(quality); }
+  void SetQuality(const render::Quality& quality);
 
   // People and things in the colours of how certain they are, with a legend where the show
   // has letters.
@@ -59,7 +59,8 @@ class ShowRenderer {
   }
 
   // Fills the target with the composite: image, the occluders of the frame's
-  // place, people in its light, captions. eye: who sees it; the camera unless told otherwise.
+  // place, people in its light, captions. eye: who sees it; the camera unless told otherwise, and
+  // for the camera alone Quality::half_rate holds.
   Status Draw(const StagedFrame& staged,
               const render::RenderTarget& target,
               const PictureEye& eye = {});
@@ -86,6 +87,17 @@ class ShowRenderer {
   Status AddObjects(const ShowContent& content);
   // All but from where it is seen.
   render::RenderScene SceneOf(const StagedFrame& staged, int height);
+  // The image and from where it is seen, as a part of the scene.
+  void SetCamera(const StagedFrame& staged,
+                 const render::RenderTarget& target,
+                 const PictureEye& eye,
+                 render::RenderScene& scene) const;
+  Status DrawWhole(const StagedFrame& staged,
+                   const render::RenderTarget& target,
+                   const PictureEye& eye);
+  Status DrawHalf(const StagedFrame& staged,
+                  const render::RenderScene& picture,
+                  const render::RenderTarget& target);
   void CollectHumans(const StagedFrame& staged);
   void CollectProps(const StagedFrame& staged);
   void MarkByEvidence(const StagedFrame& staged, int height);
@@ -100,6 +112,11 @@ class ShowRenderer {
   ViewPart part_;
   std::optional<Evidence> evidence_;  // set when created
   bool shows_evidence_ = false;
+  bool half_rate_ = false;
+  std::optional<uint32_t> layer_place_;  // of the people drawn last
+  int64_t last_frame_ = 0;               // of which there was a picture
+  bool shadows_are_drawn_ = false;       // of drawn_by_halves_, whose people are not yet
+  StagedFrame drawn_by_halves_;          // a copy: others go on meanwhile
   // Of the frame being drawn.
   std::vector<render::SceneHuman> humans_;
   std::vector<render::SceneVertices> vertices_;

@@ -417,6 +417,111 @@ TEST_F(RendererTest, APictureThatIsMadeLargerShowsTheSame) {
       << "as fine as the image already";
 }
 
+// A white ball over the camera's image, drawn in halves.
+class HalfRateTest : public RendererTest {
+ protected:
+  static constexpr int kWidth = 320, kHeight = 240;
+
+  void SetUp() override {
+    RendererTest::SetUp();
+    Recreate({.samples = 1, .half_rate = true});
+    human_ = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value(),
+              .skin = {&skin_, 1}};
+    human_.stage_from_actor[3] = glm::vec4(0.3f, 0.2f, -6.0f, 1.0f);
+    target_.emplace(MakeTarget(kWidth, kHeight));
+  }
+  RenderScene SceneFrom(const geometry::Rigid3& pose) const {
+    RenderScene scene;
+    scene.background = background_;
+    scene.camera = scene.display = Pinhole(kWidth, kHeight, 300.0);
+    scene.camera_from_stage = pose;
+    scene.light = UniformLight(kPi);
+    scene.humans = {&human_, 1};
+    return scene;
+  }
+  cv::Mat DrawHalf(Renderer::Half half, const RenderScene& people, const RenderScene& picture) {
+    const Status drawn = renderer_->DrawHalf(half, people, picture, *target_);
+    EXPECT_TRUE(drawn.ok()) << drawn.message();
+    return Read(*target_);
+  }
+  static geometry::Rigid3 Turned(double radians,
+                                 const Eigen::Vector3d& moved = Eigen::Vector3d::Zero()) {
+    const geometry::Rigid3 turn = {
+        .rotation = Eigen::Quaterniond(Eigen::AngleAxisd(radians, Eigen::Vector3d::UnitY())),
+        .translation = moved};
+    return turn * LookAlongMinusZ();
+  }
+
+  const glm::mat4 skin_ = glm::mat4(1.0f);
+  const cv::Mat background_ = SmoothImage(kWidth, kHeight, 5);
+  SceneHuman human_;
+  std::optional<RenderTarget> target_;
+};
+
+TEST_F(HalfRateTest, TwoHalvesAreTheWhole) {
+  const RenderScene before = SceneFrom(LookAlongMinusZ());
+  SceneHuman moved = human_;
+  moved.stage_from_actor[3].x += 1.0f;
+  RenderScene later = before;
+  later.humans = {&moved, 1};
+  const cv::Mat expected = Draw(later, kWidth, kHeight);
+  const cv::Mat first = Draw(before, kWidth, kHeight);
+  ASSERT_FALSE(test::ImagesAgree(first, expected, {.max = 255.0, .mean = 1.0}));
+  EXPECT_TRUE(test::ImagesAgree(DrawHalf(Renderer::Half::kShadows, later, later), first,
+                                {.max = 0.0, .mean = 0.0}))
+      << "people of before, until the new ones are ready";
+  EXPECT_TRUE(test::ImagesAgree(DrawHalf(Renderer::Half::kPeople, later, later), expected,
+                                {.max = 0.0, .mean = 0.0}));
+}
+
+// What the camera turns over leaves no trace: the picture is the one drawn anew, but for edges.
+TEST_F(HalfRateTest, PeopleAreWhereTheCameraSeesThemNow) {
+  const RenderScene before = SceneFrom(LookAlongMinusZ());
+  for (const RenderScene& now :
+       {SceneFrom(Turned(0.04)), SceneFrom(Turned(-0.03, {0.05, -0.03, 0.1}))}) {
+    const cv::Mat anew = Draw(now, kWidth, kHeight);
+    Draw(before, kWidth, kHeight);
+    ASSERT_TRUE(renderer_->CanCarryLayer(now, *target_));
+    const cv::Mat carried = DrawHalf(Renderer::Half::kShadows, before, now);
+    const cv::Mat left_behind = Draw(before, kWidth, kHeight);
+    EXPECT_FALSE(test::ImagesAgree(left_behind, anew, {.max = 255.0, .mean = 0.6}));
+    EXPECT_TRUE(test::ImagesAgree(carried, anew, {.max = 160.0, .mean = 0.15}));
+  }
+}
+
+TEST_F(HalfRateTest, WhoIsJustOutsideOfThePictureIsThereWhenTheCameraTurns) {
+  // The ball ends a few pixels left of the picture, and half of it comes in.
+  human_.stage_from_actor[3] = glm::vec4(-4.25f, 0.0f, -6.0f, 1.0f);
+  const RenderScene before = SceneFrom(LookAlongMinusZ());
+  const RenderScene now = SceneFrom(Turned(0.03));
+  const cv::Mat anew = Draw(now, kWidth, kHeight);
+  ASSERT_GT(cv::norm(anew.col(0), background_.col(0), cv::NORM_INF), 50.0);
+  Draw(before, kWidth, kHeight);
+  const cv::Mat carried = DrawHalf(Renderer::Half::kShadows, before, now);
+  EXPECT_TRUE(test::ImagesAgree(carried, anew, {.max = 160.0, .mean = 0.15}));
+}
+
+TEST_F(HalfRateTest, ALayerIsNotCarriedFarOrToAnotherPicture) {
+  const RenderScene before = SceneFrom(LookAlongMinusZ());
+  EXPECT_FALSE(renderer_->CanCarryLayer(before, *target_)) << "there is none";
+  Draw(before, kWidth, kHeight);
+  EXPECT_TRUE(renderer_->CanCarryLayer(before, *target_));
+  EXPECT_FALSE(renderer_->CanCarryLayer(SceneFrom(Turned(0.2)), *target_));
+  EXPECT_FALSE(renderer_->CanCarryLayer(SceneFrom(Turned(3.0)), *target_)) << "behind";
+  EXPECT_FALSE(renderer_->CanCarryLayer(before, MakeTarget(kHeight, kHeight)));
+  RenderScene other = before;
+  other.camera_from_stage.reset();
+  EXPECT_FALSE(renderer_->CanCarryLayer(other, *target_));
+  other = before;
+  other.people_opacity = 0.0f;
+  EXPECT_FALSE(renderer_->CanCarryLayer(other, *target_));
+  other = before;
+  other.display = Pinhole(kWidth, kHeight, 310.0);
+  EXPECT_FALSE(renderer_->CanCarryLayer(other, *target_));
+  renderer_->SetQuality({.samples = 1, .layer_scale = 0.5f, .half_rate = true});
+  EXPECT_FALSE(renderer_->CanCarryLayer(before, *target_)) << "of another size";
+}
+
 TEST_F(RendererTest, DrawsSeveralPeopleWithTheirOwnPoses) {
   const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
   std::array<glm::mat4, 2> skins = {glm::mat4(1.0f), glm::mat4(1.0f)};

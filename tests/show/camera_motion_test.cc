@@ -54,5 +54,30 @@ TEST(CameraMotionTracker, ALeapIsNoMotion) {
   EXPECT_TRUE(motion.Update(6, turned).has_value()) << "a quick turn of the head";
 }
 
+TEST(Predict, GoesOnAsFastAsBefore) {
+  const geometry::Rigid3 step = {
+      .rotation = Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Eigen::Vector3d(0.6, 0.8, 0.0))),
+      .translation = {0.01, -0.02, 0.005}};
+  const geometry::Rigid3 before = {
+      .rotation = Eigen::Quaterniond(Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitX())),
+      .translation = {0.3, 1.6, -2.0}};
+  const geometry::Rigid3 now = step * step * before;
+  const CameraMotion motion{before, 2};
+  const geometry::Rigid3 later = Predict(motion, now, 2.0);
+  const geometry::Rigid3 expected = step * step * now;
+  EXPECT_LT(later.rotation.angularDistance(expected.rotation), 1e-9);
+  // What turns on the way moves a little aside.
+  EXPECT_LT((later.translation - expected.translation).norm(), 1e-4);
+  const geometry::Rigid3 same = Predict(motion, now, 0.0);
+  EXPECT_LT(same.rotation.angularDistance(now.rotation), 1e-9);
+  EXPECT_LT((same.translation - now.translation).norm(), 1e-12);
+}
+
+TEST(Predict, WhoStandsStays) {
+  const geometry::Rigid3 later = Predict({At(0.4), 1}, At(0.4), 3.0);
+  EXPECT_EQ(later.translation.x(), 0.4);
+  EXPECT_EQ(later.rotation.angularDistance(Eigen::Quaterniond::Identity()), 0.0);
+}
+
 }  // namespace
 }  // namespace lararium::show

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "shared/show/show_renderer.h"
@@ -86,6 +87,7 @@ class ShowRendererTest : public render::GlTest {
   std::unique_ptr<ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
   StagedFrame staged_;
+  CameraMotion motion_;
 };
 
 TEST_F(ShowRendererTest, OneStopLessOfTheCameraIsOneStopLessOfThePeople) {
@@ -158,6 +160,73 @@ TEST_F(ShowRendererTest, StagingOnePlaceAnewLeavesTheOthers) {
   EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.5, 0.01);
   staged_.place = 1;
   EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.0, 0.01);
+}
+
+// By which the middle of the ball's ellipse moves: f z / (z^2 - r^2).
+constexpr double kPixelsPerMetre = 200.0 * 4.0 / (16.0 - 1.0);
+
+// Where the ball is in the picture; the camera's image is black.
+double BallAt(const cv::Mat& picture) {
+  cv::Mat lit;
+  cv::inRange(picture, cv::Scalar::all(60), cv::Scalar::all(255), lit);
+  return cv::moments(lit, true).m10 / std::max(cv::moments(lit, true).m00, 1.0);
+}
+
+TEST_F(ShowRendererTest, AtHalfTheRatePeopleMoveInEverySecondPicture) {
+  Create(glm::vec3(0.8f), {{}});
+  SetLight(glm::vec3(1.0f));
+  renderer_->SetQuality({.samples = 1, .half_rate = true});
+  std::vector<double> seen;
+  for (int frame = 0; frame < 7; ++frame) {
+    staged_.tracked.frame.index = frame;
+    staged_.actors[0].stage_from_actor[3].x = 0.1f * static_cast<float>(frame);
+    seen.push_back(BallAt(Draw()));
+  }
+  // The first picture is whole; each pair shows what the one before began.
+  const std::array<double, 7> expected = {0, 0, 1, 1, 3, 3, 5};
+  for (size_t frame = 0; frame < seen.size(); ++frame) {
+    EXPECT_NEAR(seen[frame] - seen[0], kPixelsPerMetre * 0.1 * expected[frame], 0.3) << frame;
+  }
+}
+
+TEST_F(ShowRendererTest, AtHalfTheRatePeopleStayOnTheirSpotWhileTheCameraTurns) {
+  Create(glm::vec3(0.8f), {{}});
+  SetLight(glm::vec3(1.0f));
+  const auto turn = [&](int frame) {
+    staged_.tracked.frame.index = frame;
+    staged_.camera_from_stage = geometry::Rigid3{
+        Eigen::Quaterniond(Eigen::AngleAxisd(0.012 * frame, Eigen::Vector3d::UnitY())) *
+            Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0),
+        Eigen::Vector3d::Zero()};
+    staged_.motion = frame == 0 ? std::nullopt : std::optional(motion_);
+    motion_ = {*staged_.camera_from_stage, 1};
+  };
+  std::vector<double> whole;
+  for (int frame = 0; frame < 6; ++frame) {
+    turn(frame);
+    whole.push_back(BallAt(Draw()));
+  }
+  renderer_->SetQuality({.samples = 1, .half_rate = true});
+  for (int frame = 0; frame < 6; ++frame) {
+    turn(frame);
+    EXPECT_NEAR(BallAt(Draw()), whole[static_cast<size_t>(frame)], 0.3) << frame;
+  }
+}
+
+TEST_F(ShowRendererTest, AtHalfTheRateNobodyOfAnotherPlaceIsCarriedOver) {
+  Create(glm::vec3(0.8f), {{}, {}});
+  SetLight(glm::vec3(1.0f));
+  renderer_->SetQuality({.samples = 1, .half_rate = true});
+  for (int frame = 0; frame < 4; ++frame) {
+    staged_.tracked.frame.index = frame;
+    Draw();
+  }
+  staged_.place = 1;
+  staged_.actors[0].stage_from_actor[3].x = 0.5f;
+  const double there = BallAt(Draw());
+  EXPECT_NEAR(there, 79.5 + kPixelsPerMetre * 0.5, 0.5);
+  staged_.camera_from_stage.reset();
+  EXPECT_EQ(cv::countNonZero(Draw().reshape(1)), 0) << "without a pose nobody is there";
 }
 
 }  // namespace
