@@ -64,6 +64,7 @@ class Interface {
 
   void Begin() {
     ImGui_ImplOpenGL3_NewFrame();
+    ImGui::GetIO().Fonts->ClearTexData();  // the texture has it
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
   }

@@ -97,15 +97,11 @@ void AddStage(std::vector<render::OverlayLine>& lines, const Similarity3& world_
 }  // namespace
 
 Result<std::unique_ptr<AroundView>> AroundView::Create() {
-  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Renderer> renderer, render::Renderer::Create());
-  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Overlay> overlay,
-                            render::Overlay::Create(*renderer));
-  return std::unique_ptr<AroundView>(new AroundView(std::move(renderer), std::move(overlay)));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Overlay> overlay, render::Overlay::Create());
+  return std::unique_ptr<AroundView>(new AroundView(std::move(overlay)));
 }
 
-AroundView::AroundView(std::unique_ptr<render::Renderer> renderer,
-                       std::unique_ptr<render::Overlay> overlay)
-    : renderer_(std::move(renderer)), overlay_(std::move(overlay)) {}
+AroundView::AroundView(std::unique_ptr<render::Overlay> overlay) : overlay_(std::move(overlay)) {}
 
 AroundView::~AroundView() = default;
 
@@ -166,11 +162,11 @@ void AroundView::UpdateOccluders(const app::Workspace& workspace) {
     return;
   }
   for (const Ghost& ghost : occluders_) {
-    renderer_->RemoveMesh(ghost.mesh);
+    overlay_->RemoveMesh(ghost.mesh);
   }
   occluders_.clear();
   for (const stage::Occluder& occluder : wanted) {
-    occluders_.push_back({occluder.name, renderer_->AddMesh(occluder.mesh)});
+    occluders_.push_back({occluder.name, overlay_->AddMesh(occluder.mesh)});
   }
 }
 
@@ -180,7 +176,7 @@ void AroundView::UpdateActors(const app::Workspace& workspace) {
   }
   actors_of_ = workspace.picture();
   for (const auto& [mesh, transform] : actors_) {
-    renderer_->RemoveMesh(mesh);
+    overlay_->RemoveMesh(mesh);
   }
   actors_.clear();
   if (actors_of_ == nullptr) {
@@ -193,7 +189,7 @@ void AroundView::UpdateActors(const app::Workspace& workspace) {
       mesh.normals.resize(part.positions.size());
       mesh.indices = part.indices;
       human::SkinMesh(part, actor.skin, mesh.positions, mesh.normals);
-      actors_.emplace_back(renderer_->AddMesh(mesh), actor.stage_from_actor);
+      actors_.emplace_back(overlay_->AddMesh(mesh), actor.stage_from_actor);
     }
   }
 }
@@ -208,7 +204,7 @@ void AroundView::AddFloor(const app::LoadedPlace& loaded) {
     square.positions = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}};
     square.normals.assign(4, {0, 1, 0});
     square.indices = {0, 1, 2, 0, 2, 3};
-    floor_ = renderer_->AddMesh(square);
+    floor_ = overlay_->AddMesh(square);
   }
   const train::FloorPlane& floor = *loaded.measures.floor;
   const Similarity3 map_from_floor{

@@ -13,7 +13,6 @@
 #include "editor/panels/editor_state.h"
 #include "shared/render/overlay.h"
 #include "shared/render/render_target.h"
-#include "shared/render/renderer.h"
 
 namespace lararium::panels {
 
@@ -27,7 +26,7 @@ class AroundView {
   void Show(app::Workspace& workspace, EditorState& state);
 
  private:
-  AroundView(std::unique_ptr<render::Renderer> renderer, std::unique_ptr<render::Overlay> overlay);
+  explicit AroundView(std::unique_ptr<render::Overlay> overlay);
 
   // Brings what is uploaded up to date with what is loaded.
   void UpdateMap(const app::LoadedPlace& loaded);
@@ -48,7 +47,6 @@ class AroundView {
   void MeasurePoints();
   void Interact(EditorState& state, bool hovered, bool gizmo_busy, const Eigen::Vector2d& size);
 
-  std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<render::Overlay> overlay_;
   std::optional<render::RenderTarget> target_;
 

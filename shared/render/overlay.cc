@@ -9,7 +9,7 @@
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/gl_object.h"
-#include "shared/render/renderer_state.h"
+#include "shared/render/gpu_mesh.h"
 #include "shared/render/shader_program.h"
 
 namespace lararium::render {
@@ -72,9 +72,7 @@ void SetDepth(OverlayDepth depth, bool write) {
 }  // namespace
 
 struct Overlay::State {
-  explicit State(const Renderer& meshes_of) : renderer(meshes_of) {}
-
-  const Renderer& renderer;
+  SlotMap<GpuMesh> meshes;
   ShaderProgram point_pass;
   ShaderProgram line_pass;
   ShaderProgram mesh_pass;
@@ -90,8 +88,8 @@ struct Overlay::State {
 Overlay::Overlay(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Overlay::~Overlay() = default;
 
-Result<std::unique_ptr<Overlay>> Overlay::Create(const Renderer& renderer) {
-  auto state = std::make_unique<State>(renderer);
+Result<std::unique_ptr<Overlay>> Overlay::Create() {
+  auto state = std::make_unique<State>();
   LARARIUM_ASSIGN_OR_RETURN(state->point_pass,
                             ShaderProgram::Create("overlay_point.vert", "overlay_point.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->line_pass,
@@ -100,6 +98,12 @@ Result<std::unique_ptr<Overlay>> Overlay::Create(const Renderer& renderer) {
                             ShaderProgram::Create("overlay_mesh.vert", "overlay_mesh.frag"));
   return std::unique_ptr<Overlay>(new Overlay(std::move(state)));
 }
+
+MeshHandle Overlay::AddMesh(const geometry::TriangleMesh& mesh) {
+  return state_->meshes.Add(GpuMesh::Create(mesh));
+}
+
+void Overlay::RemoveMesh(MeshHandle mesh) { state_->meshes.Remove(mesh); }
 
 void Overlay::Begin(const OverlayView& view, const RenderTarget& target) {
   CHECK(!state_->drawing);
@@ -157,7 +161,7 @@ void Overlay::DrawLines(std::span<const OverlayLine> lines, float width_px, Over
 
 Status Overlay::DrawMesh(MeshHandle mesh, const glm::mat4& stage_from_mesh, glm::u8vec4 colour) {
   CHECK(state_->drawing);
-  const GpuMesh* gpu = state_->renderer.state_->meshes.Find(mesh);
+  const GpuMesh* gpu = state_->meshes.Find(mesh);
   if (gpu == nullptr) {
     return Status::Error("overlay", "a mesh was removed");
   }

@@ -14,9 +14,9 @@
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
+#include "shared/geometry/triangle_mesh.h"
 #include "shared/render/render_scene.h"
 #include "shared/render/render_target.h"
-#include "shared/render/renderer.h"
 
 namespace lararium::render {
 
@@ -56,11 +56,15 @@ enum class OverlayDepth {
 
 class Overlay {
  public:
-  // Borrows the renderer, and draws the meshes that were added to it.
-  static Result<std::unique_ptr<Overlay>> Create(const Renderer& renderer);
+  // Needs a current context; everything else happens on its thread.
+  static Result<std::unique_ptr<Overlay>> Create();
   ~Overlay();
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
+
+  // Must be valid (TriangleMesh::Validate).
+  MeshHandle AddMesh(const geometry::TriangleMesh& mesh);
+  void RemoveMesh(MeshHandle mesh);
 
   // Begin, any number of Draw..., End; the target is borrowed in between.
   void Begin(const OverlayView& view, const RenderTarget& target);

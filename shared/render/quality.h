@@ -1,7 +1,7 @@
 #pragma once
 
 // What drawing may save where a picture takes too long. All of it may change from picture to
-// picture; nothing is allocated then. What each costs and changes: docs/illumination.md.
+// picture; what is allocated then is kept. What each costs and changes: docs/illumination.md.
 
 #include <span>
 

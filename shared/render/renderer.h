@@ -64,7 +64,6 @@ class Renderer {
   Status DrawLinear(const RenderScene& scene, cv::Mat& rgba);
 
  private:
-  friend class Overlay;
   struct State;
   explicit Renderer(std::unique_ptr<State> state);
 

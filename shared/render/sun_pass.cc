@@ -104,7 +104,9 @@ Result<SunPass> SunPass::Create() {
   LARARIUM_ASSIGN_OR_RETURN(pass.occluder_shaders_,
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
   // Shaders name the maps whether there is a sun or not.
-  LARARIUM_RETURN_IF_ERROR(pass.AllocateAll({1, 1}));
+  for (size_t i = 0; i < kMapSizes.size(); ++i) {
+    LARARIUM_RETURN_IF_ERROR(pass.AllocateAll(i, 1));
+  }
   pass.plain_depth_ = GlSampler::Generate();
   glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glSamplerParameteri(pass.plain_depth_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -114,11 +116,9 @@ Result<SunPass> SunPass::Create() {
   return pass;
 }
 
-Status SunPass::AllocateAll(const std::array<int, 2>& sizes) {
-  for (size_t i = 0; i < sizes.size(); ++i) {
-    for (Image* image : {&people_.images[i], &still_images_[i], &occluders_.images[i]}) {
-      LARARIUM_RETURN_IF_ERROR(Allocate(sizes[i], *image));
-    }
+Status SunPass::AllocateAll(size_t index, int size) {
+  for (Image* image : {&people_.images[index], &still_images_[index], &occluders_.images[index]}) {
+    LARARIUM_RETURN_IF_ERROR(Allocate(size, *image));
   }
   return Status();
 }
@@ -259,14 +259,14 @@ Status SunPass::Draw(const RenderScene& scene,
   if (!scene.sun) {
     return Status();
   }
-  if (people_.images[0].size != kMapSizes[0]) {
-    LARARIUM_RETURN_IF_ERROR(AllocateAll(kMapSizes));
-  }
   sun_ = *scene.sun;
   sun_.direction = glm::normalize(sun_.direction);
   shines_ = true;
   taps_ = quality.sun_taps;
   people_.chosen = occluders_.chosen = quality.sun_map < kMapSizes[0] ? 1 : 0;
+  if (people_.image().size != kMapSizes[people_.chosen]) {
+    LARARIUM_RETURN_IF_ERROR(AllocateAll(people_.chosen, kMapSizes[people_.chosen]));
+  }
   const glm::mat4 sun_from_stage = SunFromStage(sun_.direction);
   const Box things = BoxOf(scene, meshes, glm::mat4(1.0f));
   const Box all = BoxOf(casters, glm::mat4(1.0f));

@@ -73,8 +73,8 @@ class SunPass {
   };
 
   static Status Allocate(int size, Image& image);
-  // All images of all maps, the finer first: texels along each side.
-  Status AllocateAll(const std::array<int, 2>& sizes);
+  // One image of each map.
+  Status AllocateAll(size_t index, int size);
   // Draws go into an image of a map from now on, which is empty at first. Says clip_from_stage.
   static glm::mat4 Begin(const Map& map, const Image& image);
   // Leaves people out who cannot be seen in the picture, and whose shadows cannot.

@@ -97,8 +97,7 @@ void BenchOverlayPoints(benchmark::State& state) {
     state.SkipWithError(context.message().c_str());
     return;
   }
-  const auto renderer = Renderer::Create().value();
-  const auto overlay = Overlay::Create(*renderer).value();
+  const auto overlay = Overlay::Create().value();
   const RenderTarget target = RenderTarget::Create(1280, 720).value();
   std::vector<OverlayPoint> points(static_cast<size_t>(state.range(0)));
   Random random(1);

@@ -4,6 +4,7 @@
 
 #include "shared/render/clip_space.h"
 #include "shared/render/overlay.h"
+#include "shared/render/renderer.h"
 #include "tests/render/gl_fixture.h"
 
 namespace lararium::render {
@@ -13,10 +14,7 @@ class OverlayTest : public GlTest {
  protected:
   void SetUp() override {
     GlTest::SetUp();
-    auto renderer = Renderer::Create();
-    ASSERT_TRUE(renderer.ok()) << renderer.message();
-    renderer_ = std::move(renderer).value();
-    auto overlay = Overlay::Create(*renderer_);
+    auto overlay = Overlay::Create();
     ASSERT_TRUE(overlay.ok()) << overlay.message();
     overlay_ = std::move(overlay).value();
     target_.emplace(MakeTarget(160, 120));
@@ -32,7 +30,6 @@ class OverlayTest : public GlTest {
     return {pixel.x(), pixel.y()};
   }
 
-  std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<Overlay> overlay_;
   std::optional<RenderTarget> target_;
   OverlayView view_;
@@ -84,9 +81,9 @@ TEST_F(OverlayTest, LinesThatComeFromBehindTheViewerAreCut) {
 
 TEST_F(OverlayTest, MeshesAreTranslucentAndHiddenByNearerThings) {
   const MeshHandle square =
-      renderer_->AddMesh({.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
-                          .normals = {},
-                          .indices = {0, 1, 2, 0, 2, 3}});
+      overlay_->AddMesh({.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+                         .normals = {},
+                         .indices = {0, 1, 2, 0, 2, 3}});
   const OverlayPoint near = {{0.0f, 0.0f, 1.0f}, {255, 0, 0, 255}};
   view_.clear = glm::vec3(0.0f, 0.0f, 1.0f);
   overlay_->Begin(view_, *target_);
@@ -99,7 +96,7 @@ TEST_F(OverlayTest, MeshesAreTranslucentAndHiddenByNearerThings) {
   EXPECT_NEAR(ghost[0], 127, 2);  // the blue behind it
   EXPECT_NEAR(ghost[1], 126, 6);  // its own green, facing the lamp
   EXPECT_EQ(picture.at<cv::Vec3b>(5, 5), cv::Vec3b(255, 0, 0));
-  renderer_->RemoveMesh(square);
+  overlay_->RemoveMesh(square);
   overlay_->Begin(view_, *target_);
   EXPECT_FALSE(overlay_->DrawMesh(square, glm::mat4(1.0f), {0, 255, 0, 128}).ok());
   overlay_->End();
@@ -109,7 +106,8 @@ TEST_F(OverlayTest, DrawsOverThePictureThatIsThere) {
   RenderScene scene;
   scene.background = cv::Mat(120, 160, CV_8UC3, cv::Scalar(10, 20, 30));
   scene.camera = scene.display = view_.display;
-  ASSERT_TRUE(renderer_->Draw(scene, *target_).ok());
+  const auto renderer = Renderer::Create();
+  ASSERT_TRUE(renderer.ok() && (*renderer)->Draw(scene, *target_).ok());
   view_.clear.reset();
   const OverlayPoint point = {{0.0f, 0.0f, 0.0f}, {255, 255, 255, 255}};
   overlay_->Begin(view_, *target_);
