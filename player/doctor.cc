@@ -13,6 +13,7 @@
 
 #include "player/camera_choice.h"
 #include "player/kiosk.h"
+#include "player/openxr_headset.h"
 #include "player/power_sensors.h"
 #include "player/staff_page.h"
 #include "shared/audio/audio_out.h"
@@ -131,6 +132,16 @@ Result<DisplayProbe> OpenDisplay(int monitor) {
   LARARIUM_ASSIGN_OR_RETURN(const render::Window window, render::Window::Create(wanted));
   const render::Window::Size size = window.framebuffer_size();
   return DisplayProbe{{size.width, size.height}, render::GraphicsDeviceName()};
+}
+
+// A session, as the player will have it.
+Result<std::string> OpenRuntime(const Headset& headset, Log& log) {
+  render::WindowOptions hidden;
+  hidden.visible = false;
+  LARARIUM_ASSIGN_OR_RETURN(const render::Window window, render::Window::Create(hidden));
+  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<OpenXrHeadset> opened,
+                            OpenXrHeadset::Open(headset, "Lararium", log));
+  return opened->runtime();
 }
 
 Result<std::string> OpenSoundDevice() {
@@ -295,6 +306,13 @@ Finding JudgeHeadset(const Headset& headset,
   return {"headset", Verdict::kGood, found};
 }
 
+Finding JudgeRuntime(const Result<std::string>& runtime) {
+  if (!runtime.ok()) {
+    return {"openxr", Verdict::kBad, runtime.message(), "the player will not start with it"};
+  }
+  return {"openxr", Verdict::kGood, "a headset, driven by " + *runtime};
+}
+
 Finding JudgeGraphics(const Result<std::string>& device) {
   if (!device.ok()) {
     return {"graphics", Verdict::kBad, device.message(),
@@ -429,6 +447,9 @@ bool RunDoctor(const DoctorOptions& options, Log& log) {
     const bool filled = options.monitor >= 0 && display.ok();
     findings.push_back(JudgeHeadset(*device.headset, device.camera,
                                     filled ? std::optional(display->size) : std::nullopt));
+  }
+  if (options.display == Display::kOpenXr) {
+    findings.push_back(JudgeRuntime(OpenRuntime(device.headset.value_or(Headset()), log)));
   }
   findings.push_back(JudgeSound(OpenSoundDevice()));
   findings.push_back(LookAtDisk(options.state));

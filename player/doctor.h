@@ -57,6 +57,8 @@ Finding JudgeSound(const Result<std::string>& out);
 // free_bytes: where the state is kept.
 Finding JudgeDisk(const Status& written, uint64_t free_bytes, const std::string& folder);
 Finding JudgePower(const show::PowerState& power);
+// runtime: of OpenXR, where a headset is to be driven by one.
+Finding JudgeRuntime(const Result<std::string>& runtime);
 // Whether the staff page's port can be listened to, and its PIN; urls: how it is asked for.
 Finding JudgeStaffPage(const Status& port, const Status& pin, const std::vector<std::string>& urls);
 

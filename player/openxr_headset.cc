@@ -53,6 +53,7 @@ class Session final : public OpenXrHeadset {
 
   Status Create(const std::string& title);
 
+  std::string runtime() const override { return runtime_; }
   show::PictureEye PictureEyeOf(Eye eye) const override { return headset_.PictureEyeOf(eye); }
   Status SetPicture(Eye eye, const render::RenderTarget& picture) override;
   void Place(const geometry::CameraModel& pinhole, SteadyClock::time_point taken) override;
@@ -83,6 +84,7 @@ class Session final : public OpenXrHeadset {
   Headset headset_;
   Log& log_;
   render::PictureCopy copy_;
+  std::string runtime_;
   XrInstance instance_ = XR_NULL_HANDLE;
   XrSystemId system_ = XR_NULL_SYSTEM_ID;
   XrSession session_ = XR_NULL_HANDLE;
@@ -145,7 +147,8 @@ Status Session::CreateInstance(const std::string& title) {
   }
   auto properties = Typed<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
   xrGetInstanceProperties(instance_, &properties);
-  log_.info("OpenXR runtime {}", properties.runtimeName);
+  runtime_ = properties.runtimeName;
+  log_.info("OpenXR runtime {}", runtime_);
   return Status();
 }
 

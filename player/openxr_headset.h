@@ -35,6 +35,9 @@ class OpenXrHeadset {
                                                      Log& log);
   virtual ~OpenXrHeadset() = default;
 
+  // What the runtime calls itself.
+  virtual std::string runtime() const = 0;
+
   // How an eye sees the picture; as the runtime last told where it is.
   virtual show::PictureEye PictureEyeOf(Eye eye) const = 0;
 

@@ -187,6 +187,8 @@ Command ParseCommandLine(int argc, const char* const* argv) {
       ->check(CLI::NonNegativeNumber);
   doctor_command->add_option("--monitor", doctor.monitor, "Number of the monitor")
       ->check(CLI::NonNegativeNumber);
+  doctor_command->add_option("--display", doctor.display, "As the player will be told")
+      ->transform(CLI::Transformer(DisplayNames()));
   CLI::Option* doctor_page =
       doctor_command->add_option("--staff-page", doctor.staff_page, "As the player will be told");
   doctor_command->add_option("--staff-pin-file", doctor.staff_pin, "Likewise")->needs(doctor_page);

@@ -102,6 +102,7 @@ struct DoctorOptions {
   std::filesystem::path staff_pin;
   int camera = 0;
   int monitor = -1;  // any
+  std::optional<Display> display;
   bool json = false;
 };
 

@@ -4,6 +4,14 @@
 #include <array>
 
 namespace lararium::render {
+namespace {
+
+constexpr Quality AtHalfRate(Quality quality) {
+  quality.half_rate = true;
+  return quality;
+}
+
+}  // namespace
 
 Quality Clamped(const Quality& quality) {
   Quality clamped = quality;
@@ -19,6 +27,16 @@ Quality Clamped(const Quality& quality) {
 }
 
 std::span<const Quality> QualityLadder() {
+  static constexpr Quality kSmall = {.samples = 1,
+                                     .full_size = false,
+                                     .layer_scale = 0.5f,
+                                     .shadow_cell = 16,
+                                     .sun_map = 512,
+                                     .sun_taps = 4,
+                                     .reflections = false,
+                                     .camera_look = false,
+                                     .detail_px = 2.0f,
+                                     .triangles = 80'000};
   static constexpr std::array<Quality, 6> kLadder = {{
       {},
       {.samples = 1, .sun_taps = 8, .detail_px = 0.75f},
@@ -37,27 +55,8 @@ std::span<const Quality> QualityLadder() {
        .reflections = false,
        .detail_px = 2.0f,
        .triangles = 100'000},
-      {.samples = 1,
-       .full_size = false,
-       .layer_scale = 0.5f,
-       .shadow_cell = 16,
-       .sun_map = 512,
-       .sun_taps = 4,
-       .reflections = false,
-       .camera_look = false,
-       .detail_px = 2.0f,
-       .triangles = 80'000},
-      {.samples = 1,
-       .full_size = false,
-       .layer_scale = 0.5f,
-       .shadow_cell = 16,
-       .sun_map = 512,
-       .sun_taps = 4,
-       .reflections = false,
-       .camera_look = false,
-       .detail_px = 2.0f,
-       .triangles = 80'000,
-       .half_rate = true},
+      kSmall,
+      AtHalfRate(kSmall),
   }};
   return kLadder;
 }

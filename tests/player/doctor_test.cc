@@ -26,6 +26,17 @@ TEST(Doctor, ACameraThatGivesImagesIsGood) {
   EXPECT_TRUE(finding.advice.empty());
 }
 
+TEST(Doctor, ARuntimeOfAHeadsetIsNamedOrSaysWhatItLacks) {
+  const Finding good = JudgeRuntime(std::string("Monado"));
+  EXPECT_EQ(good.verdict, Verdict::kGood);
+  EXPECT_THAT(good.found, HasSubstr("Monado"));
+  const Finding bad =
+      JudgeRuntime(Status::Error("OpenXR", "no headset is connected", "connect it"));
+  EXPECT_EQ(bad.verdict, Verdict::kBad);
+  EXPECT_THAT(bad.found, HasSubstr("connect it"));
+  EXPECT_THAT(bad.advice, HasSubstr("not start"));
+}
+
 TEST(Doctor, EachFaultOfACameraHasItsAdvice) {
   struct Fault {
     std::function<void(CameraProbe&)> change;

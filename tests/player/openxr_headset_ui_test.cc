@@ -156,6 +156,11 @@ TEST_F(OpenXrTest, FollowsTheSessionThroughItsStates) {
                                  "state 5", "state 6", "end session", "state 1", "state 8"));
 }
 
+TEST_F(OpenXrTest, SaysWhichRuntimeDrivesIt) {
+  ASSERT_TRUE(Open("").ok());
+  EXPECT_EQ(xr_->runtime(), "null");
+}
+
 TEST_F(OpenXrTest, EndsASessionByAskingForIt) {
   ASSERT_TRUE(Open("").ok());
   EXPECT_TRUE(Run(3));
