@@ -287,7 +287,7 @@ Status AroundView::Draw(const app::Workspace& workspace,
 }
 
 void AroundView::MeasurePoints() {
-  constexpr double kMovingBudget = 0.004;  // seconds: a quarter of a frame
+  constexpr double kMovingBudget = 0.005;  // seconds
   constexpr size_t kLeast = 2000;
   const auto seconds_of = [&](size_t points) {
     render::RenderTarget::Finish();
