@@ -1,7 +1,6 @@
 #include "player/play.h"
 
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
@@ -49,10 +48,6 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kInputInterval(10);
 constexpr std::chrono::seconds kPowerInterval(5);
 constexpr std::chrono::seconds kLongestSilence(8);
-// Of the time between two images of the camera: what the slowest stage may take.
-constexpr double kBudgetShare = 0.95;
-// Share of what the finer one costs, until it has been measured.
-constexpr double kCostOfLevel = 0.6;
 
 // Not the drama's: switches the evidence view.
 constexpr std::string_view kEvidenceKey = "f2";
@@ -566,15 +561,11 @@ Status Performance::PrepareQuality() {
     SetLevel(level);
     return Status();
   }
-  show::QualityOptions options;
-  options.expected_cost.resize(render::QualityLadder().size());
-  for (size_t i = 0; i < options.expected_cost.size(); ++i) {
-    options.expected_cost[i] = std::pow(kCostOfLevel, static_cast<double>(i));
-  }
-  options.budget_ms = kBudgetShare * 1000.0 / std::clamp(source_->frames_per_second(), 15.0, 60.0);
-  LARARIUM_RETURN_IF_ERROR(options.Validate());
-  quality_.emplace(options);
-  SetLevel(0);
+  // From the coarsest, so that no visitor waits for pictures that this machine cannot draw.
+  const size_t levels = render::QualityLadder().size();
+  quality_.emplace(show::QualityOptions::ForCamera(levels, source_->frames_per_second()),
+                   levels - 1);
+  SetLevel(quality_->level());
   return Status();
 }
 

@@ -10,6 +10,10 @@ namespace lararium::show {
 namespace {
 
 constexpr size_t kKeptSteps = 256;
+// Of the time between two images of the camera: what the slowest stage may take.
+constexpr double kBudgetShare = 0.95;
+// Share of what the finer one costs, until it has been measured.
+constexpr double kCostOfLevel = 0.6;
 constexpr double kNewest = 0.15;  // weight of a frame in the mean
 // A step up that is taken back within this many seconds was in vain.
 constexpr double kInVainSeconds = 10.0;
@@ -20,6 +24,16 @@ constexpr double kCelsiusSlack = 3.0;
 constexpr double kBatterySlack = 0.05;
 
 }  // namespace
+
+QualityOptions QualityOptions::ForCamera(size_t level_count, double frames_per_second) {
+  QualityOptions options;
+  options.expected_cost.resize(level_count);
+  for (size_t i = 0; i < level_count; ++i) {
+    options.expected_cost[i] = std::pow(kCostOfLevel, static_cast<double>(i));
+  }
+  options.budget_ms = kBudgetShare * 1000.0 / std::clamp(frames_per_second, 15.0, 60.0);
+  return options;
+}
 
 Status QualityOptions::Validate() const {
   if (expected_cost.empty() || expected_cost.front() <= 0.0 ||
@@ -52,7 +66,7 @@ QualityController::QualityController(QualityOptions options, size_t level)
     : options_(std::move(options)),
       level_(std::min(level, options_.expected_cost.size() - 1)),
       cost_(options_.expected_cost),
-      patience_(options_.patience_seconds),
+      patience_(options_.first_patience_seconds),
       frames_(options_.expected_cost.size(), 0) {
   CHECK(options_.Validate().ok());
   steps_.reserve(kKeptSteps);
@@ -109,7 +123,7 @@ bool QualityController::AddFrame(double time, double work_ms) {
   smoothed_ms_ = smoothed_ms_ ? *smoothed_ms_ + kNewest * (work_ms - *smoothed_ms_) : work_ms;
   Learn(time);
   if (stepped_up_at_ && time - *stepped_up_at_ > kInVainSeconds) {
-    patience_ = options_.patience_seconds;  // it held
+    patience_ = std::min(patience_, options_.patience_seconds);  // it held
     stepped_up_at_.reset();
   }
   if (*smoothed_ms_ > options_.budget_ms) {
@@ -122,6 +136,7 @@ bool QualityController::AddFrame(double time, double work_ms) {
       patience_ = std::min(2.0 * patience_, options_.most_patience_seconds);
       stepped_up_at_.reset();
     }
+    patience_ = std::max(patience_, options_.patience_seconds);
     // As far down as is needed, at once.
     size_t level = level_ + 1;
     while (level + 1 < level_count() && ExpectedAt(level) > options_.budget_ms) {

@@ -21,16 +21,20 @@ struct QualityOptions {
   // What a frame costs at each level, the finest first, as shares of the finest: descending. What
   // it really costs is learnt as levels are drawn.
   std::vector<double> expected_cost = {1.0, 0.7, 0.45, 0.3, 0.2};
-  double budget_ms = 36.0;        // of the slowest stage of a frame
-  double headroom = 0.85;         // share of it that a finer level may be expected to take
-  double too_long_seconds = 0.4;  // of frames over the budget before a step down
-  double settle_seconds = 0.6;    // after each step, before frames count again
-  double patience_seconds = 3.0;  // of headroom before a step up; doubled by each vain one
+  double budget_ms = 36.0;              // of the slowest stage of a frame
+  double headroom = 0.85;               // share of it that a finer level may be expected to take
+  double too_long_seconds = 0.4;        // of frames over the budget before a step down
+  double settle_seconds = 0.6;          // after each step, before frames count again
+  double patience_seconds = 3.0;        // of headroom before a step up; doubled by each vain one
+  double first_patience_seconds = 0.4;  // the same, until the first step down
   double most_patience_seconds = 120.0;
   double hot_celsius = 80.0;  // from here on coarser by a level for each further
   double celsius_per_level = 4.0;
   double low_battery = 0.15;  // share below which the finest levels are not drawn
   size_t low_battery_level = 2;
+
+  // Of a ladder of so many levels, for a camera's rate: a frame is to be ready before the next.
+  static QualityOptions ForCamera(size_t level_count, double frames_per_second);
 
   Status Validate() const;
 };

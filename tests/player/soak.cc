@@ -1,7 +1,8 @@
 // lararium_soak SHOW.larshow VIDEO [--seconds N] [--out FILE.json]
 //
-// Plays a show in a loop as the player does, on a recording, and injects faults at the seams
-// where the world comes in: the camera, its clock, the sound device, the script, the log's disk.
+// Plays a show in a loop as the player does, on a recording, as fine as the machine is quick
+// enough for, and injects faults at the seams where the world comes in: the camera, its clock,
+// the sound device, the script, the log's disk.
 // Says of each how often it was injected, how it was noticed, and how long it took until people
 // were seen again. Fails where a fault was not recovered from, or memory grew.
 
@@ -25,7 +26,9 @@
 #include "shared/core/json.h"
 #include "shared/core/random.h"
 #include "shared/render/graphics_context.h"
+#include "shared/render/quality.h"
 #include "shared/show/frame_pipeline.h"
+#include "shared/show/quality_controller.h"
 #include "shared/show/show_renderer.h"
 #include "shared/vision/pose_smoother.h"
 #include "shared/vision/tracker.h"
@@ -41,6 +44,7 @@ constexpr double kFaultSeconds = 4.0;
 constexpr double kMostRecovery = 3.0;
 constexpr double kMostGrowth = 0.02;
 constexpr double kScriptErrorSeconds = 15.0;
+constexpr int kWidth = 1280, kHeight = 720;
 
 enum class Fault { kNone, kUnplugged, kBlack, kCovered, kForeign, kClockJump, kSoundGone };
 constexpr Fault kFaults[] = {Fault::kUnplugged, Fault::kBlack,     Fault::kCovered,
@@ -278,12 +282,13 @@ Result<bool> Soak(const Options& options) {
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<show::Show> show,
                             show::Show::Create(std::move(content), {}, *log));
   show->SetLostLadder({});
+  show->SetPictureSize(kWidth, kHeight);
   LARARIUM_ASSIGN_OR_RETURN(const render::OffscreenContext context,
                             render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<show::ShowRenderer> renderer,
                             show::ShowRenderer::Create(show->content()));
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
-                            render::RenderTarget::Create(recording->width(), recording->height()));
+                            render::RenderTarget::Create(kWidth, kHeight));
 
   const Schedule schedule;
   Judge judge(schedule);
@@ -318,6 +323,12 @@ Result<bool> Soak(const Options& options) {
   // Its folder cannot be written.
   player::Kiosk kiosk("/proc/lararium", {}, *log);
 
+  const std::span<const render::Quality> ladder = render::QualityLadder();
+  show::QualityController quality(
+      show::QualityOptions::ForCamera(ladder.size(), recording->frames_per_second()),
+      ladder.size() - 1);
+  renderer->SetQuality(ladder.back());
+  show->SetQuality(ladder.back());
   show::ShowStatistics statistics;
   double warm_mib = 0.0;
   double last_mib = 0.0;
@@ -333,8 +344,15 @@ Result<bool> Soak(const Options& options) {
       if (staged == nullptr) {
         continue;
       }
+      const Clock::time_point drawing = Clock::now();
       LARARIUM_RETURN_IF_ERROR(renderer->Draw(*staged, target));
       target.Finish();
+      const double draw_ms =
+          std::chrono::duration<double, std::milli>(Clock::now() - drawing).count();
+      if (quality.AddFrame(elapsed, std::max(draw_ms, staged->stage_ms))) {
+        renderer->SetQuality(ladder[quality.level()]);
+        show->SetQuality(ladder[quality.level()]);
+      }
       if (sound != nullptr) {
         sound->Show(staged->sound);
       }
@@ -365,7 +383,13 @@ Result<bool> Soak(const Options& options) {
     good = good && outcome.recovered >= outcome.injected;
   }
   const double growth = warm_mib > 0.0 ? last_mib / warm_mib - 1.0 : 0.0;
+  statistics.quality = quality.ToJson();
   const Json tracking_json = statistics.ToJson();
+  std::printf("frames at each level of quality:");
+  for (const int64_t frames : quality.frames()) {
+    std::printf(" %lld", static_cast<long long>(frames));
+  }
+  std::printf("\n");
   std::printf(
       "%.0f s, %lld frames, camera came back %d times, sound opened %d times, %zu script "
       "errors; memory %.0f MiB after %.0f s, %.0f MiB at the end (%+.1f %%); %d frames with "

@@ -53,6 +53,22 @@ TEST(QualityController, IsAtALevelThatFitsWithinTwoSeconds) {
   }
 }
 
+TEST(QualityController, ClimbsFromTheCoarsestWithoutDelayWhereAllFit) {
+  QualityController controller({}, 4);
+  Device device;
+  Play(controller, device, 0.0, 6.0, [](double) { return 20.0; });
+  EXPECT_EQ(controller.level(), 0u);
+  EXPECT_EQ(controller.step_count(), 4);
+}
+
+TEST(QualityController, StaysAtTheCoarsestWhereNothingElseFits) {
+  QualityController controller({}, 4);
+  Device device;
+  Play(controller, device, 0.0, 60.0, [](double) { return 180.0; });
+  EXPECT_EQ(controller.level(), 4u);
+  EXPECT_EQ(controller.step_count(), 0);
+}
+
 TEST(QualityController, OneLongFrameChangesNothing) {
   QualityController controller;
   for (int i = 0; i < 300; ++i) {
