@@ -1,5 +1,13 @@
-// The camera's image where the picture has it, sRGB-encoded.
+// The camera's image where the picture has it, sRGB-encoded. RECTIFIED: it is the picture's
+// already, pixel by pixel.
 
+#ifdef RECTIFIED
+uniform sampler2D image;
+
+vec2 RawPixel() { return gl_FragCoord.xy - 0.5; }
+
+vec3 Background(vec2 raw) { return texelFetch(image, ivec2(raw), 0).rgb; }
+#else
 #include "camera.glsl"
 
 uniform bool has_image;
@@ -20,3 +28,4 @@ vec3 Background(vec2 raw) {
   bool inside = all(greaterThan(position, vec2(-1e-4))) && all(lessThan(position, vec2(1.0001)));
   return has_image && inside ? textureLod(image, position, 0.0).rgb : vec3(0.0);
 }
+#endif

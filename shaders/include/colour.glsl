@@ -1,11 +1,14 @@
-// The sRGB transfer function (IEC 61966-2-1).
+// The sRGB transfer function (IEC 61966-2-1) for 0 to 1, closer than a tenth of a step of 8 bits:
+// minimax polynomials, in place of powers that take software most of a picture's time.
 
 vec3 SrgbFromLinear(vec3 c) {
-  vec3 curve = 1.055 * pow(max(c, 0.0031308), vec3(1.0 / 2.4)) - 0.055;
+  vec3 t = sqrt(sqrt(max(c, 0.0031308)));
+  vec3 curve = ((-0.13682676 * t + 0.95257817) * t + 0.25579461) * t - 0.07176078;
   return mix(c * 12.92, curve, step(0.0031308, c));
 }
 
 vec3 LinearFromSrgb(vec3 c) {
-  vec3 curve = pow((max(c, 0.04045) + 0.055) / 1.055, vec3(2.4));
+  vec3 curve =
+      (((-0.11679469 * c + 0.52651848) * c + 0.56036774) * c + 0.02840493) * c + 0.00104624;
   return mix(c / 12.92, curve, step(0.04045, c));
 }

@@ -25,7 +25,11 @@ float open_share;
 const float kPi = 3.14159265358979;
 
 // Of a smooth dielectric at a cosine (Schlick).
-float Fresnel(float f0, float cosine) { return f0 + (1.0 - f0) * pow(1.0 - cosine, 5.0); }
+float Fresnel(float f0, float cosine) {
+  float rest = 1.0 - cosine;
+  float squared = rest * rest;
+  return f0 + (1.0 - f0) * squared * squared * rest;
+}
 
 // The share of even light that a rough dielectric reflects (Karis, "Physically Based
 // Shading on Mobile", 2014).
@@ -122,8 +126,13 @@ vec3 HairHighlight(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float rou
 // Light caught by fibres that stand off the cloth: strongest at grazing sight, and
 // where sight and light have one direction.
 vec3 Fuzz(vec3 albedo, vec3 normal, vec3 to_eye, vec3 even) {
-  float rim = pow(1.0 - max(dot(normal, to_eye), 0.0), 4.0);
-  float back = pow(max(dot(key_direction, to_eye), 0.0), 8.0);
+  float rim = 1.0 - max(dot(normal, to_eye), 0.0);
+  rim *= rim;
+  rim *= rim;
+  float back = max(dot(key_direction, to_eye), 0.0);
+  back *= back;
+  back *= back;
+  back *= back;
   return mix(albedo, vec3(1.0), 0.15) * (0.25 * rim + 0.05 * back) * even / kPi;
 }
 

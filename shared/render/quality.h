@@ -31,7 +31,8 @@ struct Quality {
   bool pixel_light = true;
   // Smooth surfaces mirror what is around; otherwise only where most of the light comes from.
   bool reflections = true;
-  // Noise, softness and motion blur of the camera.
+  // Noise, softness and motion blur of the camera; the camera's image is rectified by shaders then,
+  // which can tell its pixels, and by the processor otherwise.
   bool camera_look = true;
   // By how many pixels levels of detail may be off, as errors count (ErrorShare), and how many
   // triangles all people together may have (DetailOptions).

@@ -103,6 +103,10 @@ glm::mat3 LayerFromPicture(const Layer& layer,
                          *scene.camera_from_stage);
 }
 
+geometry::CameraModel BackgroundCamera(const RenderScene& scene) {
+  return scene.camera.Resized(scene.background.cols, scene.background.rows);
+}
+
 void ResetState() {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -143,6 +147,12 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
                             ShaderProgram::Create("full_screen.vert", "background.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
                             ShaderProgram::Create("full_screen.vert", "composite.frag"));
+  LARARIUM_ASSIGN_OR_RETURN(
+      state->rectified_background_pass,
+      ShaderProgram::Create("full_screen.vert", "background.frag", "#define RECTIFIED\n"));
+  LARARIUM_ASSIGN_OR_RETURN(
+      state->rectified_composite_pass,
+      ShaderProgram::Create("full_screen.vert", "composite.frag", "#define RECTIFIED\n"));
   LARARIUM_ASSIGN_OR_RETURN(state->enlarging_pass,
                             ShaderProgram::Create("full_screen.vert", "enlarged.frag"));
   state->no_vertices = GlVertexArray::Generate();
@@ -388,17 +398,31 @@ PictureView Renderer::State::LayerView(const RenderScene& scene,
 void Renderer::State::SetBackground(const ShaderProgram& shaders,
                                     const RenderScene& scene,
                                     const geometry::CameraModel& display) const {
-  shaders.Set("has_image", scene.background.empty() ? 0 : 1);
-  shaders.Set("display_intrinsics", Intrinsics(display));
-  if (!scene.background.empty()) {
-    const geometry::CameraModel camera =
-        scene.camera.Resized(scene.background.cols, scene.background.rows);
-    shaders.Set("camera_intrinsics", Intrinsics(camera));
-    shaders.Set("camera_distortion", Distortion(camera));
+  if (!Rectifies(scene)) {
+    shaders.Set("has_image", scene.background.empty() ? 0 : 1);
+    shaders.Set("display_intrinsics", Intrinsics(display));
+    if (!scene.background.empty()) {
+      const geometry::CameraModel camera = BackgroundCamera(scene);
+      shaders.Set("camera_intrinsics", Intrinsics(camera));
+      shaders.Set("camera_distortion", Distortion(camera));
+    }
   }
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, background_image.id());
   shaders.Set("image", 0);
+}
+
+bool Renderer::State::Rectifies(const RenderScene& scene) const {
+  return !quality.camera_look && !scene.background.empty();
+}
+
+void Renderer::State::UploadBackground(const RenderScene& scene,
+                                       const geometry::CameraModel& display) {
+  if (Rectifies(scene)) {
+    background_image.Upload(rectifier.Rectify(scene.background, BackgroundCamera(scene), display));
+  } else if (!scene.background.empty()) {
+    background_image.Upload(scene.background);
+  }
 }
 
 Result<const RenderTarget*> Renderer::State::ChoosePicture(const RenderScene& scene,
@@ -440,19 +464,21 @@ void Renderer::State::Composite(const RenderScene& scene, const RenderTarget& ta
   const ImageSize size = {target.width(), target.height()};
   const geometry::CameraModel display =
       scene.background_display.value_or(scene.display).Resized(size.width, size.height);
-  if (!scene.background.empty()) {
-    background_image.Upload(scene.background);
-  }
+  UploadBackground(scene, display);
   const PixelBounds changed = ChangedBy(scene, target);
   glBindVertexArray(no_vertices.id());
-  background_pass.Use();
-  SetBackground(background_pass, scene, display);
+  const bool rectified = Rectifies(scene);
+  const ShaderProgram& background = rectified ? rectified_background_pass : background_pass;
+  background.Use();
+  SetBackground(background, scene, display);
   for (const PixelBounds& unchanged : Around(changed, size)) {
     FillBounds(unchanged);
   }
   if (!changed.empty()) {
     const bool look = quality.camera_look && IsOn(scene.look);
-    const ShaderProgram& composite = look ? look_composite_pass : composite_pass;
+    const ShaderProgram& composite = look        ? look_composite_pass
+                                     : rectified ? rectified_composite_pass
+                                                 : composite_pass;
     composite.Use();
     SetBackground(composite, scene, display);
     SetLayer(composite, scene, target);

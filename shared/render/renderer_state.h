@@ -16,6 +16,7 @@
 #include "shared/render/model_pass.h"
 #include "shared/render/picture_view.h"
 #include "shared/render/quality.h"
+#include "shared/render/rectifier.h"
 #include "shared/render/renderer.h"
 #include "shared/render/screen_bounds.h"
 #include "shared/render/shader_program.h"
@@ -45,11 +46,14 @@ struct Renderer::State {
   SunMask sun_mask;
   ShaderProgram background_pass;
   ShaderProgram composite_pass;
+  ShaderProgram rectified_background_pass;  // of an image that is the picture's, pixel by pixel
+  ShaderProgram rectified_composite_pass;
   ShaderProgram look_composite_pass;         // with RenderScene::look
   ShaderProgram see_through_composite_pass;  // with RenderScene::see_through
   ShaderProgram enlarging_pass;
   GlVertexArray no_vertices;  // of full-screen passes
   Texture background_image;
+  Rectifier rectifier;
   std::optional<RenderTarget> small_picture;  // that is made larger
   LinearTarget people;
   Layer layer;             // drawn last
@@ -84,6 +88,9 @@ struct Renderer::State {
   void SetBackground(const ShaderProgram& shaders,
                      const RenderScene& scene,
                      const geometry::CameraModel& display) const;
+  // Of a rectified image or as it is.
+  void UploadBackground(const RenderScene& scene, const geometry::CameraModel& display);
+  bool Rectifies(const RenderScene& scene) const;
   // Where the picture is put together: the target, or a smaller one (Quality::full_size).
   Result<const RenderTarget*> ChoosePicture(const RenderScene& scene, const RenderTarget& target);
   // The picture of what is in the layer, made larger where the target is.

@@ -109,14 +109,27 @@ TEST_F(RendererTest, BackgroundPassesThroughUnchanged) {
   }
 }
 
+// Somebody hardly there is mixed with the image's light.
 TEST_F(RendererTest, EverySrgbValueSurvivesTheRoundTrip) {
+  const glm::mat4 skin(1.0f);
+  SceneHuman human = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value(),
+                      .skin = {&skin, 1}};
+  human.stage_from_actor = glm::scale(glm::mat4(1.0f), glm::vec3(50.0f));
+  human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -55.0f, 1.0f);
   RenderScene scene;
   scene.background.create(16, 256, CV_8UC3);
   for (int x = 0; x < 256; ++x) {
     scene.background.col(x).setTo(cv::Scalar(x, 255 - x, (x * 7) % 256));
   }
   scene.camera = scene.display = Pinhole(256, 16, 300.0);
+  scene.camera_from_stage = LookAlongMinusZ();
+  scene.light = UniformLight(kPi);
+  scene.humans = {&human, 1};
+  scene.people_opacity = 1e-5f;
   EXPECT_TRUE(test::ImagesAgree(Draw(scene, 256, 16), scene.background, {.max = 0, .mean = 0}));
+  scene.people_opacity = 1.0f;
+  EXPECT_FALSE(test::ImagesAgree(Draw(scene, 256, 16), scene.background, {.max = 50, .mean = 5}))
+      << "nobody is there";
 }
 
 TEST_F(RendererTest, DistortedBackgroundEqualsUndistortedReference) {
@@ -152,8 +165,12 @@ TEST_F(RendererTest, DistortedBackgroundEqualsUndistortedReference) {
   }
   // cv::undistort rounds coordinates to 1/32 pixel and leaves the border black.
   const cv::Rect inner(2, 2, 316, 236);
-  EXPECT_TRUE(test::ImagesAgree(Draw(scene, 320, 240)(inner).clone(), expected(inner).clone(),
-                                {.max = 4.0, .mean = 0.3}));
+  for (const bool by_shaders : {true, false}) {
+    renderer_->SetQuality({.camera_look = by_shaders});
+    EXPECT_TRUE(test::ImagesAgree(Draw(scene, 320, 240)(inner).clone(), expected(inner).clone(),
+                                  {.max = 4.0, .mean = 0.3}))
+        << (by_shaders ? "by shaders" : "by the processor");
+  }
 }
 
 TEST_F(RendererTest, BackgroundScalesToATargetOfAnotherSize) {

@@ -61,6 +61,19 @@ TEST_P(EveryShader, OfModelsCompilesForEverySurface) {
   }
 }
 
+TEST_P(EveryShader, OfPicturesCompilesForEveryKindOfPicture) {
+  const auto context = CreateOffscreenContext(GetParam());
+  ASSERT_TRUE(context.ok()) << context.message();
+  for (const char* kind : {"LOOK", "RECTIFIED", "SEE_THROUGH"}) {
+    const std::string defines = std::string("#define ") + kind + "\n";
+    const auto program = ShaderProgram::Create("full_screen.vert", "composite.frag", defines);
+    EXPECT_TRUE(program.ok()) << defines << program.message();
+  }
+  const auto program =
+      ShaderProgram::Create("full_screen.vert", "background.frag", "#define RECTIFIED\n");
+  EXPECT_TRUE(program.ok()) << program.message();
+}
+
 INSTANTIATE_TEST_SUITE_P(Apis,
                          EveryShader,
                          ::testing::Values(GraphicsApi::kOpenGl33, GraphicsApi::kOpenGlEs30),
