@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -42,11 +43,33 @@ void Splitter(const char* id, bool vertical, float length, float sign, float& si
   }
 }
 
-bool BeginPanel(const char* id, const ImVec2& size) {
+bool BeginPanel(const char* id, const ImVec2& size, ImGuiWindowFlags flags = 0) {
   ImGui::PushStyleColor(ImGuiCol_ChildBg, panels::Colours().panel);
-  const bool open = ImGui::BeginChild(id, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  const bool open =
+      ImGui::BeginChild(id, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | flags);
   ImGui::PopStyleColor();
   return open;
+}
+
+// The panel at hand about a picture that covers what is left of it, and not behind: where software
+// paints, what is painted over costs as much as what is seen.
+void PaintPanelAroundRest() {
+  const ImVec2 panel = ImGui::GetWindowPos();
+  const ImVec2 panel_end(panel.x + ImGui::GetWindowWidth(), panel.y + ImGui::GetWindowHeight());
+  const ImVec2 rest = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::GetContentRegionAvail();
+  const ImVec2 rest_end(rest.x + std::floor(size.x), rest.y + std::floor(size.y));
+  const ImU32 colour = ImGui::GetColorU32(panels::Colours().panel);
+  const float rounding = ImGui::GetStyle().ChildRounding;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(panel, panel_end);
+  draw.AddRectFilled(panel, ImVec2(panel_end.x, rest.y), colour, rounding,
+                     ImDrawFlags_RoundCornersTop);
+  draw.AddRectFilled(ImVec2(panel.x, rest_end.y), panel_end, colour, rounding,
+                     ImDrawFlags_RoundCornersBottom);
+  draw.AddRectFilled(ImVec2(panel.x, rest.y), ImVec2(rest.x, rest_end.y), colour);
+  draw.AddRectFilled(ImVec2(rest_end.x, rest.y), ImVec2(panel_end.x, rest_end.y), colour);
+  draw.PopClipRect();
 }
 
 }  // namespace
@@ -63,6 +86,7 @@ void Layout::ShowViewport(Workspace& workspace) {
       camera_.Show(workspace, state_);
       break;
     case panels::ViewKind::kAround:
+      PaintPanelAroundRest();
       around_->Show(workspace, state_);
       break;
     case panels::ViewKind::kPicks:
@@ -119,8 +143,9 @@ void Layout::ShowPanels(Workspace& workspace) {
   const float upper = available.y - Px(bottom) - status - 2 * Px(kSplitter);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
   const ImVec2 spacing(Px(8), Px(7));  // within the panels
-  const auto panel = [&](const char* id, const ImVec2& size, auto&& show) {
-    BeginPanel(id, size);
+  const auto panel = [&](const char* id, const ImVec2& size, auto&& show,
+                         ImGuiWindowFlags flags = 0) {
+    BeginPanel(id, size, flags);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, spacing);
     show();
     ImGui::PopStyleVar();
@@ -133,7 +158,10 @@ void Layout::ShowPanels(Workspace& workspace) {
   ImGui::SameLine();
   const float viewport =
       available.x - Px(outliner_width_) - Px(inspector_width_) - 2 * Px(kSplitter);
-  panel("viewport", ImVec2(viewport, upper), [&] { ShowViewport(workspace); });
+  const bool covered = state_.view == panels::ViewKind::kAround;
+  panel(
+      "viewport", ImVec2(viewport, upper), [&] { ShowViewport(workspace); },
+      covered ? ImGuiWindowFlags_NoBackground : 0);
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
       ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     state_.focus = panels::Focus::kViews;
@@ -166,10 +194,12 @@ void Layout::Show(Workspace& workspace, Settings& settings) {
   ImGui::SetNextWindowPos(viewport->WorkPos);
   ImGui::SetNextWindowSize(viewport->WorkSize);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(Px(8), Px(6)));
+  // The window is painted in its background's colour already.
   ImGui::Begin("Lararium", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                   ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollWithMouse);
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_MenuBar |
+                   ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
   panels::ShowMenuBar(workspace, state_);
   panels::ShowToolbar(workspace, state_);

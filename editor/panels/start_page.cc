@@ -383,7 +383,8 @@ StartChoice StartPage::Show(app::RecentProjects& recent,
                       ImVec2(0.5f * (viewport->WorkSize.x - width), Px(40)));
   ImGui::Begin("Start", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
   ImGui::BeginChild("actions", ImVec2(Px(kActions), 0));
   ShowActions(recent, has_sample, settings, choice);

@@ -30,6 +30,11 @@ class TimelinePanel {
   void HandleKeys(app::Workspace& workspace, EditorState& state);
 
  private:
+  static constexpr float kRow = 24.0f;       // logical pixels, as are others
+  static constexpr float kLeastItem = 9.0f;  // as wide as an item is at least
+  // Items without a length last no longer than that, seconds.
+  static constexpr double kLongNatural = 60.0;
+
   // What an item looks like, worked out when it is first seen.
   struct Face {
     std::string label;

@@ -104,10 +104,9 @@ std::optional<double> NearestMissing(const CoverageGuide::Cells& cells,
 bool Explains(const RelativePose& pose, const Turning& turning, const PointPairs& pairs) {
   constexpr double kMostTimes = 8.0;  // a wall seen straight on shows an eighth
   constexpr double kLeastShare = 0.6;
-  return pose.median_angle<kMostTimes *
-                           turning.median_angle&& static_cast<double>(pose.inliers.size())>
-             kLeastShare *
-         static_cast<double>(pairs.size());
+  const bool shows = pose.median_angle < kMostTimes * turning.median_angle;
+  const auto inliers = static_cast<double>(pose.inliers.size());
+  return shows && inliers > kLeastShare * static_cast<double>(pairs.size());
 }
 
 }  // namespace

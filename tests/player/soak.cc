@@ -17,6 +17,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "player/kiosk.h"
 #include "shared/audio/sound_player.h"
@@ -43,6 +44,7 @@ constexpr double kFaultSeconds = 4.0;
 // After a fault has ended, until people must be seen again.
 constexpr double kMostRecovery = 3.0;
 constexpr double kMostGrowth = 0.02;
+constexpr double kMemoryInterval = 10.0;  // seconds
 constexpr double kScriptErrorSeconds = 15.0;
 constexpr int kWidth = 1280, kHeight = 720;
 
@@ -332,6 +334,7 @@ Result<bool> Soak(const Options& options) {
   show::ShowStatistics statistics;
   double warm_mib = 0.0;
   double last_mib = 0.0;
+  std::vector<double> memory;
   size_t script_errors = 0;
   const Clock::time_point begin = Clock::now();
   const double warm_seconds = std::min(300.0, 0.5 * options.seconds);
@@ -359,6 +362,9 @@ Result<bool> Soak(const Options& options) {
       judge.Frame(*staged);
       kiosk.AfterFrame(elapsed, *staged, *show);
       pipeline.Recycle(std::move(staged));
+      if (elapsed >= static_cast<double>(memory.size()) * kMemoryInterval) {
+        memory.push_back(show::ResidentMebibytes());
+      }
       if (warm_mib == 0.0 && elapsed > warm_seconds) {
         warm_mib = show::ResidentMebibytes();
       }
@@ -401,6 +407,7 @@ Result<bool> Soak(const Options& options) {
     LARARIUM_RETURN_IF_ERROR(SaveJson(options.out, {{"faults", rows},
                                                     {"memory_warm_mib", warm_mib},
                                                     {"memory_end_mib", last_mib},
+                                                    {"memory_every_10_s_mib", memory},
                                                     {"script_errors", script_errors},
                                                     {"ghosts", judge.ghosts()},
                                                     {"statistics", tracking_json}}));

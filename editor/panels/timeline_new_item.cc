@@ -1,0 +1,89 @@
+#include "editor/panels/timeline_new_item.h"
+
+#include "editor/app/line_edits.h"
+
+namespace lararium::panels {
+
+using drama::LaneKind;
+
+namespace {
+
+// A line of the actor that the timeline does not have yet, else a new one.
+std::string LineFor(const app::Workspace& workspace, const std::string& actor) {
+  const bake::LineTable none;
+  const auto& table = workspace.document().lines;
+  const bake::LineTable& lines = table != nullptr ? *table : none;
+  for (const bake::Line& line : lines.lines) {
+    const bool named = workspace.script().text().find('"' + line.id + '"') != std::string::npos;
+    if (line.speaker == actor && !actor.empty() && !named) {
+      return line.id;
+    }
+  }
+  return app::FreeLineId(lines, actor.empty() ? "text" : actor);
+}
+
+}  // namespace
+
+Json NewFields(const app::Workspace& workspace,
+               LaneKind kind,
+               const std::string& actor,
+               double at) {
+  Json fields = {{"at", at}};
+  const app::StageWords none;
+  const app::StageWords& words =
+      workspace.drama_run() != nullptr ? workspace.drama_run()->words : none;
+  const auto first = [](const auto& list, const char* otherwise) {
+    return list.empty() ? std::string(otherwise) : list.front().name;
+  };
+  switch (kind) {
+    case LaneKind::kSpeech:
+    case LaneKind::kCaptions:
+      fields["line"] = LineFor(workspace, actor);
+      break;
+    case LaneKind::kGestures:
+    case LaneKind::kClips: {
+      const app::StageWords::Person* person = words.FindPerson(actor);
+      fields["clip"] = person != nullptr ? first(person->clips, "idle") : "idle";
+      if (kind == LaneKind::kClips) {
+        fields["length"] = 2.0;
+      }
+      break;
+    }
+    case LaneKind::kWalks:
+      fields["to"] = {{"x", 0.0}, {"z", -1.0}};
+      break;
+    case LaneKind::kUses:
+      fields["object"] = first(words.things, "object");
+      break;
+    case LaneKind::kGaze:
+      fields["target"] = "visitor";
+      fields["length"] = 3.0;
+      break;
+    case LaneKind::kExpressions:
+      fields["expression"] = "joy";
+      fields["intensity"] = 0.7;
+      fields["length"] = 3.0;
+      break;
+    case LaneKind::kLights: {
+      fields["light"] = "lamp";
+      for (const app::StageWords::Thing& thing : words.things) {
+        if (thing.burns) {
+          fields["light"] = thing.name;
+          break;
+        }
+      }
+      fields["level"] = 0.5;
+      fields["length"] = 3.0;
+      break;
+    }
+    case LaneKind::kSounds:
+      fields["sound"] = words.sounds.empty() ? "bell" : words.sounds.front();
+      break;
+    case LaneKind::kMarkers:
+      fields["name"] = "marker";
+      break;
+  }
+  return fields;
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,365 @@
+// The timeline's commands, and the keys that give them.
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "editor/panels/text.h"
+#include "editor/panels/timeline_draw.h"
+#include "editor/panels/timeline_new_item.h"
+#include "editor/panels/timeline_panel.h"
+
+namespace lararium::panels {
+
+using drama::LaneKind;
+using drama::TaskRecord;
+using drama::TimelineItem;
+using drama::TimelineLane;
+using drama::TimelineText;
+
+namespace {
+
+constexpr double kFrame = 1.0 / 30.0;  // seconds, of the keys
+constexpr double kNudge = 0.1;
+
+}  // namespace
+
+void TimelinePanel::Add(app::Workspace& workspace, LaneKind kind, const std::string& actor) {
+  ItemSet added;
+  const double at = std::round(workspace.time() * 100.0) / 100.0;
+  const bool done =
+      workspace.EditTimeline(Text(Tr("add %s"), ItemTitle(kind)), [&](TimelineText& text) {
+        return AddItem(text, kind, actor, NewFields(workspace, kind, actor, at), added);
+      });
+  if (done) {
+    selection_ = added;
+    block_.reset();
+    folded_.erase("person " + actor);
+  }
+}
+
+void TimelinePanel::Delete(app::Workspace& workspace) {
+  if (selection_.empty()) {
+    return;
+  }
+  const std::string name = NameOfSelection(workspace);
+  const bool done = workspace.EditTimeline(
+      Text(Tr("delete %s"), name.c_str()),
+      [&](TimelineText& text) { return DeleteItems(text, selection_, ripple_); });
+  if (done) {
+    selection_.clear();
+  }
+}
+
+void TimelinePanel::Copy(const app::Workspace& workspace) {
+  if (!selection_.empty()) {
+    ImGui::SetClipboardText(
+        FormatCopied(CopyItems(*workspace.script().timeline(), selection_)).c_str());
+  }
+}
+
+void TimelinePanel::Paste(app::Workspace& workspace) {
+  const char* clipboard = ImGui::GetClipboardText();
+  const auto items = clipboard != nullptr ? ParseCopied(clipboard) : std::nullopt;
+  if (!items || items->empty()) {
+    return;
+  }
+  ItemSet added;
+  const bool done = workspace.EditTimeline(Tr("paste"), [&](TimelineText& text) {
+    return PasteItems(text, *items, workspace.time(), added);
+  });
+  if (done) {
+    selection_ = added;
+  }
+}
+
+void TimelinePanel::Duplicate(app::Workspace& workspace) {
+  if (selection_.empty()) {
+    return;
+  }
+  const TimelineText& text = *workspace.script().timeline();
+  double end = 0.0;
+  for (const TimelineItem& item : selection_) {
+    end = std::max(end, Shown(workspace, item).end);
+  }
+  const std::vector<CopiedItem> copied = CopyItems(text, selection_);
+  const double at = std::max(end, SpanOf(text, selection_).begin + 0.5);
+  ItemSet added;
+  const bool done = workspace.EditTimeline(
+      Text(Tr("duplicate %s"), NameOfSelection(workspace).c_str()),
+      [&](TimelineText& changed) { return PasteItems(changed, copied, at, added); });
+  if (done) {
+    selection_ = added;
+  }
+}
+
+void TimelinePanel::Nudge(app::Workspace& workspace, double seconds) {
+  if (!selection_.empty()) {
+    workspace.EditTimeline(
+        Text(Tr("move %s"), NameOfSelection(workspace).c_str()),
+        [&](TimelineText& text) { return MoveItems(text, selection_, seconds, ripple_); });
+  }
+}
+
+void TimelinePanel::TrimToPlayhead(app::Workspace& workspace, bool begins) {
+  if (selection_.empty()) {
+    return;
+  }
+  const std::vector<double> naturals = Naturals(workspace);
+  const TimeSpan span = Shown(workspace, selection_.front());
+  const std::string name = Text(Tr("trim %s"), NameOfSelection(workspace).c_str());
+  workspace.EditTimeline(name, [&](TimelineText& text) {
+    return begins ? TrimBegins(text, selection_, naturals, workspace.time() - span.begin)
+                  : TrimEnds(text, selection_, naturals, workspace.time() - span.end, ripple_);
+  });
+}
+
+void TimelinePanel::SelectAll(const app::Workspace& workspace) {
+  selection_.clear();
+  block_.reset();
+  const auto lanes = workspace.script().timeline()->lanes();
+  for (size_t lane = 0; lane < lanes.size(); ++lane) {
+    for (size_t item = 0; item < lanes[lane].size(); ++item) {
+      selection_.push_back({lane, item});
+    }
+  }
+}
+
+// To the item so many further in time in its line, or in the next line that has any.
+void TimelinePanel::StepSelection(const app::Workspace& workspace, int items, int rows) {
+  const TimelineText& text = *workspace.script().timeline();
+  struct Place {
+    TimelineItem item;
+    double at = 0.0;
+  };
+  std::vector<std::vector<Place>> lines;
+  size_t line = 0;
+  size_t place = 0;
+  bool known = false;
+  for (const TimelineRow* row : shown_) {
+    std::vector<Place> places;
+    for (const size_t lane : row->lanes) {
+      for (size_t i = 0; i < text.lanes()[lane].size(); ++i) {
+        places.push_back({{lane, i}, text.lanes()[lane].at[i]});
+      }
+    }
+    if (places.empty()) {
+      continue;
+    }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.at < b.at; });
+    for (size_t i = 0; i < places.size(); ++i) {
+      if (!selection_.empty() && places[i].item == selection_.back()) {
+        known = true;
+        line = lines.size();
+        place = i;
+      }
+    }
+    lines.push_back(std::move(places));
+  }
+  if (lines.empty()) {
+    return;
+  }
+  double at = workspace.time();
+  if (known) {
+    at = lines[line][place].at;
+    line = static_cast<size_t>(
+        std::clamp<int>(static_cast<int>(line) + rows, 0, static_cast<int>(lines.size()) - 1));
+  }
+  const std::vector<Place>& in = lines[line];
+  if (known && rows == 0) {
+    place = static_cast<size_t>(
+        std::clamp<int>(static_cast<int>(place) + items, 0, static_cast<int>(in.size()) - 1));
+  } else {
+    place = static_cast<size_t>(std::min_element(in.begin(), in.end(),
+                                                 [at](const Place& a, const Place& b) {
+                                                   return std::abs(a.at - at) < std::abs(b.at - at);
+                                                 }) -
+                                in.begin());
+  }
+  selection_ = {in[place].item};
+  block_.reset();
+  ScrollTo(scale_, in[place].at);
+}
+
+// The playhead to the next beginning or end of anything.
+void TimelinePanel::JumpToEdge(app::Workspace& workspace, int direction) {
+  constexpr double kSame = 1e-3;
+  const double now = workspace.time();
+  double best = direction > 0 ? workspace.duration() : 0.0;
+  const auto offer = [&](double time) {
+    if (direction > 0 ? time > now + kSame && time < best : time < now - kSame && time > best) {
+      best = time;
+    }
+  };
+  if (const TimelineText* text = workspace.script().timeline()) {
+    for (const TimelineLane& lane : text->lanes()) {
+      for (size_t i = 0; i < lane.size(); ++i) {
+        offer(lane.at[i]);
+        offer(lane.at[i] + lane.length[i]);
+      }
+    }
+  }
+  if (const app::DramaRun* run = workspace.drama_run()) {
+    for (const TaskRecord& task : run->tasks) {
+      offer(task.began);
+      offer(task.ended);
+    }
+  }
+  workspace.SetPlaying(false);
+  workspace.SetTime(best);
+  ScrollTo(scale_, best);
+}
+
+void TimelinePanel::GoToScript(const app::Workspace& workspace, EditorState& state) {
+  int line = 0;
+  if (!selection_.empty() && workspace.script().timeline() != nullptr) {
+    line = static_cast<int>(workspace.script().timeline()->LineOf(selection_.front()));
+  } else if (block_ && workspace.drama_run() != nullptr) {
+    line = LineOfPlace(workspace.drama_run()->tasks[*block_].where,
+                       workspace.paths().Drama().filename().string());
+  }
+  if (line > 0) {
+    state.script_line = line;
+    state.bottom = BottomTab::kScript;
+  }
+}
+
+bool TimelinePanel::HandleSelectionKey(app::Workspace& workspace, KeyAction action) {
+  switch (action) {
+    case KeyAction::kSelectAll:
+      SelectAll(workspace);
+      return true;
+    case KeyAction::kSelectNone:
+      drag_ = {};
+      selection_.clear();
+      block_.reset();
+      return true;
+    case KeyAction::kSelectBefore:
+      StepSelection(workspace, -1, 0);
+      return true;
+    case KeyAction::kSelectAfter:
+      StepSelection(workspace, 1, 0);
+      return true;
+    case KeyAction::kSelectAbove:
+      StepSelection(workspace, 0, -1);
+      return true;
+    case KeyAction::kSelectBelow:
+      StepSelection(workspace, 0, 1);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool TimelinePanel::HandleTimeKey(app::Workspace& workspace, KeyAction action, bool shift) {
+  const auto go = [&](double time) {
+    workspace.SetPlaying(false);
+    workspace.SetTime(std::clamp(time, 0.0, std::max(workspace.duration(), workspace.time())));
+    ScrollTo(scale_, workspace.time());
+  };
+  switch (action) {
+    case KeyAction::kBack:
+      go(workspace.time() - (shift ? 1.0 : kFrame));
+      return true;
+    case KeyAction::kOn:
+      go(workspace.time() + (shift ? 1.0 : kFrame));
+      return true;
+    case KeyAction::kBegin:
+      go(0.0);
+      return true;
+    case KeyAction::kEnd:
+      go(workspace.duration());
+      return true;
+    case KeyAction::kEdgeBack:
+      JumpToEdge(workspace, -1);
+      return true;
+    case KeyAction::kEdgeOn:
+      JumpToEdge(workspace, 1);
+      return true;
+    case KeyAction::kNearer:
+      Zoom(scale_, 0.8, scale_.XOf(workspace.time()));
+      return true;
+    case KeyAction::kFurther:
+      Zoom(scale_, 1.25, scale_.XOf(workspace.time()));
+      return true;
+    case KeyAction::kFit:
+      ZoomToFit(scale_, workspace.duration());
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool TimelinePanel::HandleEditKey(app::Workspace& workspace,
+                                  EditorState& state,
+                                  KeyAction action,
+                                  bool shift) {
+  switch (action) {
+    case KeyAction::kAdd:
+      open_add_ = true;
+      return true;
+    case KeyAction::kMarker:
+      Add(workspace, LaneKind::kMarkers, "");
+      return true;
+    case KeyAction::kSnap:
+      snap_ = !snap_;
+      return true;
+    case KeyAction::kRipple:
+      ripple_ = !ripple_;
+      return true;
+    case KeyAction::kTrimBegin:
+      TrimToPlayhead(workspace, true);
+      return true;
+    case KeyAction::kTrimEnd:
+      TrimToPlayhead(workspace, false);
+      return true;
+    case KeyAction::kItemBack:
+      Nudge(workspace, shift ? -1.0 : -kNudge);
+      return true;
+    case KeyAction::kItemOn:
+      Nudge(workspace, shift ? 1.0 : kNudge);
+      return true;
+    case KeyAction::kCut:
+      Copy(workspace);
+      Delete(workspace);
+      return true;
+    case KeyAction::kCopy:
+      Copy(workspace);
+      return true;
+    case KeyAction::kPaste:
+      Paste(workspace);
+      return true;
+    case KeyAction::kDuplicate:
+      Duplicate(workspace);
+      return true;
+    case KeyAction::kDelete:
+      Delete(workspace);
+      return true;
+    case KeyAction::kGoToScript:
+      GoToScript(workspace, state);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void TimelinePanel::HandleKeys(app::Workspace& workspace, EditorState& state) {
+  if (state.focus != Focus::kTimeline || state.bottom != BottomTab::kTimeline ||
+      state.dialog != Dialog::kNone || ImGui::GetIO().WantTextInput ||
+      workspace.script().timeline() == nullptr) {
+    return;
+  }
+  Refresh(workspace);
+  std::erase_if(state.keys, [&](const KeyPress& press) {
+    const KeyAction action = ActionOf(KeyScope::kTimeline, press);
+    const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
+    return HandleTimeKey(workspace, action, shift) || HandleSelectionKey(workspace, action) ||
+           HandleEditKey(workspace, state, action, shift);
+  });
+}
+
+}  // namespace lararium::panels
