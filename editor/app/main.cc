@@ -15,6 +15,7 @@
 #include "editor/app/timeline_commands.h"
 #include "editor/app/window.h"
 #include "shared/core/log.h"
+#include "shared/core/memory.h"
 #include "shared/core/processor.h"
 
 namespace {
@@ -105,6 +106,7 @@ Result<CommandResult> Run(const CommandLine& line, Log& log) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ShareArenas();
   if (const Status status = CheckProcessor(); !status.ok()) {
     return ReportFailure(status, false);
   }

@@ -4,6 +4,8 @@
 
 namespace lararium {
 
+void ShareArenas() { ::mallopt(M_ARENA_MAX, 2); }
+
 void ReturnBlocksFrom(size_t bytes) {
   ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(bytes));
   ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(2 * bytes));

@@ -6,6 +6,11 @@
 
 namespace lararium {
 
+// All threads share two arenas, instead of one for each up to eight a core, which all grow in time
+// to the most that a thread ever wanted in it. For programs that run for long and do not allocate
+// where it is urgent; before threads begin.
+void ShareArenas();
+
 // Blocks of at least so many bytes go back to the system as soon as they are dropped: for work
 // that takes much, once. Smaller limits cost time where blocks come and go again and again.
 void ReturnBlocksFrom(size_t bytes);

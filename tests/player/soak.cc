@@ -17,6 +17,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "player/kiosk.h"
@@ -25,6 +26,8 @@
 #include "shared/capture/looped_source.h"
 #include "shared/capture/steady_camera.h"
 #include "shared/core/json.h"
+#include "shared/core/median.h"
+#include "shared/core/memory.h"
 #include "shared/core/random.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/quality.h"
@@ -247,6 +250,20 @@ class Judge {
   int ghosts_ = 0;
 };
 
+// Medians of a minute each, from when it is warm and at the end: what is taken for a moment, by
+// places that are looked for again, does not count.
+std::pair<double, double> WarmAndLast(const std::vector<double>& memory, double warm_seconds) {
+  constexpr size_t kMinute = 6;
+  const size_t warm =
+      std::min(static_cast<size_t>(warm_seconds / kMemoryInterval), memory.size() - 1);
+  const size_t count = std::min(kMinute, memory.size() - warm);
+  const auto median = [&](size_t first) {
+    const auto begin = memory.begin() + static_cast<std::ptrdiff_t>(first);
+    return Median(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count)));
+  };
+  return {median(warm), median(memory.size() - count)};
+}
+
 std::string WithErrors(std::string drama) {
   return drama + R"(
 local soak_main = main
@@ -332,8 +349,6 @@ Result<bool> Soak(const Options& options) {
   renderer->SetQuality(ladder.back());
   show->SetQuality(ladder.back());
   show::ShowStatistics statistics;
-  double warm_mib = 0.0;
-  double last_mib = 0.0;
   std::vector<double> memory;
   size_t script_errors = 0;
   const Clock::time_point begin = Clock::now();
@@ -365,14 +380,10 @@ Result<bool> Soak(const Options& options) {
       if (elapsed >= static_cast<double>(memory.size()) * kMemoryInterval) {
         memory.push_back(show::ResidentMebibytes());
       }
-      if (warm_mib == 0.0 && elapsed > warm_seconds) {
-        warm_mib = show::ResidentMebibytes();
-      }
     }
     pipeline.Stop();
     LARARIUM_RETURN_IF_ERROR(pipeline.status());
   }
-  last_mib = show::ResidentMebibytes();
   script_errors = show->drama().errors().size();
   judge.ForgetLast();
 
@@ -388,7 +399,8 @@ Result<bool> Soak(const Options& options) {
                     {"longest_s", outcome.longest}});
     good = good && outcome.recovered >= outcome.injected;
   }
-  const double growth = warm_mib > 0.0 ? last_mib / warm_mib - 1.0 : 0.0;
+  const auto [warm_mib, last_mib] = WarmAndLast(memory, warm_seconds);
+  const double growth = last_mib / warm_mib - 1.0;
   statistics.quality = quality.ToJson();
   const Json tracking_json = statistics.ToJson();
   std::printf("frames at each level of quality:");
@@ -427,6 +439,7 @@ Result<bool> Soak(const Options& options) {
 }  // namespace lararium
 
 int main(int argc, char** argv) {
+  lararium::ShareArenas();
   lararium::Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
