@@ -10,7 +10,6 @@
 #include "player/play.h"
 #include "player/staff_page.h"
 #include "shared/core/log.h"
-#include "shared/core/memory.h"
 #include "shared/core/processor.h"
 
 namespace {
@@ -40,7 +39,6 @@ Result<std::unique_ptr<StaffPage>> OpenStaffPage(const PlayOptions& options, Log
 
 int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
-  ShareArenas();
   if (const Status status = CheckProcessor(); !status.ok()) {
     std::fprintf(stderr, "%s\n", status.message().c_str());
     return 1;

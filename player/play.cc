@@ -13,6 +13,7 @@
 
 #include "player/camera_choice.h"
 #include "player/device_file.h"
+#include "player/heap.h"
 #include "player/kiosk.h"
 #include "player/openxr_headset.h"
 #include "player/osc.h"
@@ -31,7 +32,6 @@
 #include "shared/capture/steady_camera.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
-#include "shared/core/memory.h"
 #include "shared/core/parallel.h"
 #include "shared/render/quality.h"
 #include "shared/show/frame_pipeline.h"
@@ -805,11 +805,6 @@ Status Performance::Run() {
   return begin_again_ ? Status::Error("staff page", "the player is to begin again") : Status();
 }
 
-// Loading makes and drops much that is large, playing little of it again and again: what is large
-// goes back at first, and is kept for the next frame later.
-constexpr size_t kLargeInLoading = 128 << 10;
-constexpr size_t kLargeInPlaying = 32 << 20;
-
 }  // namespace
 
 Status Play(const PlayOptions& options,
@@ -825,10 +820,9 @@ Status Play(const PlayOptions& options,
     limit.emplace(options.threads);
   }
   Performance performance(options, started, log, start, heartbeat, staff_link);
-  ReturnBlocksFrom(kLargeInLoading);
+  BeginLoading();
   LARARIUM_RETURN_IF_ERROR(performance.Prepare());
-  TrimHeap();
-  ReturnBlocksFrom(kLargeInPlaying);
+  BeginPlaying();
   if (options.sandbox && options.display == Display::kOpenXr) {
     log.info("no sandbox: the headset's runtime needs the system");
   } else if (options.sandbox) {

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "player/heap.h"
 #include "player/kiosk.h"
 #include "shared/audio/sound_player.h"
 #include "shared/bundle/bundle.h"
@@ -27,7 +28,6 @@
 #include "shared/capture/steady_camera.h"
 #include "shared/core/json.h"
 #include "shared/core/median.h"
-#include "shared/core/memory.h"
 #include "shared/core/random.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/quality.h"
@@ -309,6 +309,8 @@ Result<bool> Soak(const Options& options) {
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
                             render::RenderTarget::Create(kWidth, kHeight));
 
+  player::BeginPlaying();
+
   const Schedule schedule;
   Judge judge(schedule);
   std::atomic<int> losses = 0;
@@ -439,7 +441,7 @@ Result<bool> Soak(const Options& options) {
 }  // namespace lararium
 
 int main(int argc, char** argv) {
-  lararium::ShareArenas();
+  lararium::player::BeginLoading();
   lararium::Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];

@@ -1,0 +1,25 @@
+#include "player/heap.h"
+
+#include <cstddef>
+
+#include "shared/core/memory.h"
+
+namespace lararium::player {
+namespace {
+
+constexpr size_t kLargeInLoading = 128 << 10;
+constexpr size_t kLargeInPlaying = 32 << 20;
+
+}  // namespace
+
+void BeginLoading() {
+  ShareArenas();
+  ReturnBlocksFrom(kLargeInLoading);
+}
+
+void BeginPlaying() {
+  TrimHeap();
+  ReturnBlocksFrom(kLargeInPlaying);
+}
+
+}  // namespace lararium::player
