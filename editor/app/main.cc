@@ -15,7 +15,6 @@
 #include "editor/app/timeline_commands.h"
 #include "editor/app/window.h"
 #include "shared/core/log.h"
-#include "shared/core/memory.h"
 #include "shared/core/processor.h"
 
 namespace {
@@ -106,7 +105,6 @@ Result<CommandResult> Run(const CommandLine& line, Log& log) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ShareArenas();
   if (const Status status = CheckProcessor(); !status.ok()) {
     return ReportFailure(status, false);
   }

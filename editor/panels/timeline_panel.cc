@@ -7,7 +7,6 @@
 #include <span>
 #include <utility>
 
-#include "editor/app/line_edits.h"
 #include "editor/app/timeline_fields.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"

@@ -15,6 +15,7 @@
 #include "shared/capture/frame_source.h"
 #include "shared/core/file.h"
 #include "shared/core/parallel.h"
+#include "shared/geometry/resampling.h"
 
 namespace lararium::train {
 namespace {
@@ -167,15 +168,8 @@ bool ProjectAlike(const CameraModel& a, const CameraModel& b) {
 
 // The image that camera to would have taken in place of camera from.
 cv::Mat Resample(const cv::Mat& image, const CameraModel& from, const CameraModel& to) {
-  cv::Mat places(to.height, to.width, CV_32FC2);
-  for (int y = 0; y < to.height; ++y) {
-    for (int x = 0; x < to.width; ++x) {
-      const Eigen::Vector2d place = from.PixelFromPlane(to.PlaneFromPixel(Eigen::Vector2d(x, y)));
-      places.at<cv::Vec2f>(y, x) = {static_cast<float>(place.x()), static_cast<float>(place.y())};
-    }
-  }
   cv::Mat resampled;
-  cv::remap(image, resampled, places, cv::noArray(), cv::INTER_CUBIC);
+  cv::remap(image, resampled, geometry::PixelsSeenBy(from, to), cv::noArray(), cv::INTER_CUBIC);
   return resampled;
 }
 

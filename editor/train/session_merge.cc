@@ -15,8 +15,8 @@
 #include "editor/train/session_adjustment.h"
 #include "editor/train/survey.h"
 #include "shared/core/check.h"
-#include "shared/core/parallel.h"
 #include "shared/core/random.h"
+#include "shared/geometry/resampling.h"
 #include "shared/vision/guided_matcher.h"
 #include "shared/vision/localizer.h"
 
@@ -65,17 +65,9 @@ cv::Mat Resampled(cv::Mat image, CameraModel from, const CameraModel& to) {
         std::max(1, static_cast<int>(std::lround(from.height * to.Focal() / from.Focal()))));
     cv::resize(image, image, cv::Size(from.width, from.height), 0.0, 0.0, cv::INTER_AREA);
   }
-  cv::Mat places(to.height, to.width, CV_32FC2);
-  ParallelFor(static_cast<size_t>(to.height), [&](size_t row) {
-    for (int column = 0; column < to.width; ++column) {
-      const Eigen::Vector2d p =
-          PixelIn(from, to, static_cast<float>(column), static_cast<float>(row));
-      places.at<cv::Vec2f>(static_cast<int>(row), column) =
-          cv::Vec2f(static_cast<float>(p.x()), static_cast<float>(p.y()));
-    }
-  });
   cv::Mat resampled;
-  cv::remap(image, resampled, places, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::remap(image, resampled, geometry::PixelsSeenBy(from, to), cv::noArray(), cv::INTER_LINEAR,
+            cv::BORDER_REPLICATE);
   return resampled;
 }
 

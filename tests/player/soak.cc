@@ -351,7 +351,7 @@ Result<bool> Soak(const Options& options) {
   renderer->SetQuality(ladder.back());
   show->SetQuality(ladder.back());
   show::ShowStatistics statistics;
-  std::vector<double> memory;
+  std::vector<double> memory = {show::ResidentMebibytes()};
   size_t script_errors = 0;
   const Clock::time_point begin = Clock::now();
   const double warm_seconds = std::min(300.0, 0.5 * options.seconds);
@@ -360,6 +360,9 @@ Result<bool> Soak(const Options& options) {
     double elapsed = 0.0;
     while (elapsed < options.seconds) {
       elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
+      if (elapsed >= static_cast<double>(memory.size()) * kMemoryInterval) {
+        memory.push_back(show::ResidentMebibytes());
+      }
       std::unique_ptr<show::StagedFrame> staged = pipeline.Take(std::chrono::milliseconds(20));
       if (staged == nullptr) {
         continue;
@@ -379,9 +382,6 @@ Result<bool> Soak(const Options& options) {
       judge.Frame(*staged);
       kiosk.AfterFrame(elapsed, *staged, *show);
       pipeline.Recycle(std::move(staged));
-      if (elapsed >= static_cast<double>(memory.size()) * kMemoryInterval) {
-        memory.push_back(show::ResidentMebibytes());
-      }
     }
     pipeline.Stop();
     LARARIUM_RETURN_IF_ERROR(pipeline.status());
