@@ -318,8 +318,7 @@ Finding JudgeGraphics(const Result<std::string>& device) {
     return {"graphics", Verdict::kBad, device.message(),
             "install the driver of the graphics card, or libgl1-mesa-dri"};
   }
-  const bool software = device->find("llvmpipe") != std::string::npos ||
-                        device->find("softpipe") != std::string::npos;
+  const bool software = render::DrawsOnProcessor(*device);
   return {"graphics", software ? Verdict::kWarning : Verdict::kGood, *device,
           software ? "this draws on the processor: with a graphics card's driver people are finer"
                    : ""};

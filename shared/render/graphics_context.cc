@@ -103,4 +103,9 @@ std::string GraphicsDeviceName() {
   return name == nullptr ? "unknown" : reinterpret_cast<const char*>(name);
 }
 
+bool DrawsOnProcessor(std::string_view device) {
+  return device.find("llvmpipe") != std::string_view::npos ||
+         device.find("softpipe") != std::string_view::npos;
+}
+
 }  // namespace lararium::render

@@ -3,6 +3,7 @@
 // An OpenGL context without a window. (With one: shared/render/window.h.)
 
 #include <string>
+#include <string_view>
 
 #include "shared/core/status.h"
 
@@ -37,5 +38,7 @@ Result<OffscreenContext> CreateOffscreenContext(GraphicsApi api = GraphicsApi::k
 
 // Who draws, as the driver of the current context calls it.
 std::string GraphicsDeviceName();
+// Whether that is software (Mesa's), and no graphics card.
+bool DrawsOnProcessor(std::string_view device);
 
 }  // namespace lararium::render

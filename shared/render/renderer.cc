@@ -153,8 +153,7 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
   LARARIUM_ASSIGN_OR_RETURN(
       state->rectified_composite_pass,
       ShaderProgram::Create("full_screen.vert", "composite.frag", "#define RECTIFIED\n"));
-  LARARIUM_ASSIGN_OR_RETURN(state->enlarging_pass,
-                            ShaderProgram::Create("full_screen.vert", "enlarged.frag"));
+  LARARIUM_ASSIGN_OR_RETURN(state->enlarger, Enlarger::Create());
   state->no_vertices = GlVertexArray::Generate();
   return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
@@ -531,21 +530,8 @@ void Renderer::State::PutTogether(const RenderScene& scene,
     Composite(scene, picture);
   }
   if (&picture != &target) {
-    Enlarge(picture, target);
+    enlarger.Enlarge(picture, target);
   }
-}
-
-void Renderer::State::Enlarge(const RenderTarget& picture, const RenderTarget& target) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  glViewport(0, 0, target.width(), target.height());
-  enlarging_pass.Use();
-  enlarging_pass.Set("target_size", glm::vec2(target.width(), target.height()));
-  enlarging_pass.Set("picture", 0);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, picture.texture());
-  glBindVertexArray(no_vertices.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindVertexArray(0);
 }
 
 Status Renderer::State::CheckDriver() {

@@ -9,6 +9,7 @@
 #include "shared/core/id.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/render/catcher_pass.h"
+#include "shared/render/enlarger.h"
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_mesh.h"
 #include "shared/render/linear_target.h"
@@ -50,7 +51,7 @@ struct Renderer::State {
   ShaderProgram rectified_composite_pass;
   ShaderProgram look_composite_pass;         // with RenderScene::look
   ShaderProgram see_through_composite_pass;  // with RenderScene::see_through
-  ShaderProgram enlarging_pass;
+  Enlarger enlarger;
   GlVertexArray no_vertices;  // of full-screen passes
   Texture background_image;
   Rectifier rectifier;
@@ -107,8 +108,6 @@ struct Renderer::State {
   void SetLayer(const ShaderProgram& composite,
                 const RenderScene& scene,
                 const RenderTarget& target) const;
-  // Fills the target with a picture of another size.
-  void Enlarge(const RenderTarget& picture, const RenderTarget& target) const;
   // How far away the people in the picture are on average, along the view; of those who
   // consist of a root joint and others, by the root.
   float PeopleDepth(const PictureView& view) const;

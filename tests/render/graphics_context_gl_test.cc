@@ -16,6 +16,13 @@ TEST(GraphicsContext, NamesItsDevice) {
   EXPECT_FALSE(GraphicsDeviceName().empty());
 }
 
+TEST(GraphicsContext, TellsSoftwareFromCards) {
+  EXPECT_TRUE(DrawsOnProcessor("llvmpipe (LLVM 15.0.6, 256 bits)"));
+  EXPECT_TRUE(DrawsOnProcessor("softpipe"));
+  EXPECT_FALSE(DrawsOnProcessor("Mesa Intel(R) UHD Graphics 620 (KBL GT2)"));
+  EXPECT_FALSE(DrawsOnProcessor("unknown"));
+}
+
 TEST(GraphicsContext, MovesAndComesBackAfterAnother) {
   auto first = CreateOffscreenContext();
   ASSERT_TRUE(first.ok()) << first.message();
