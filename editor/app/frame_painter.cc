@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "editor/panels/frame_cover.h"
 
 namespace lararium::app {
 namespace {
@@ -19,6 +22,25 @@ void ForEachCommand(ImDrawData& frame, const Visit& visit) {
   }
 }
 
+// Leaves out of the frame's commands what lies below the cover, and the cover itself.
+void SkipHidden(ImDrawData& frame, const panels::FrameCover& cover) {
+  for (int i = 0; i <= cover.list; ++i) {
+    ImVector<ImDrawCmd>& commands = frame.CmdLists[i]->CmdBuffer;
+    const int hidden = i < cover.list ? commands.Size : cover.command;
+    for (int k = 0; k < hidden; ++k) {
+      commands[k].ElemCount = 0;
+    }
+  }
+  ImDrawCmd& last = frame.CmdLists[cover.list]->CmdBuffer[cover.command];
+  last.IdxOffset += cover.elements;
+  last.ElemCount -= cover.elements;
+}
+
+glm::vec3 ColourOf(ImU32 packed) {
+  const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(packed);
+  return {colour.x, colour.y, colour.z};
+}
+
 }  // namespace
 
 bool FramePainter::Paint(ImDrawData& frame, const glm::vec3& background) {
@@ -30,33 +52,42 @@ bool FramePainter::Paint(ImDrawData& frame, const glm::vec3& background) {
   }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glViewport(0, 0, width_, height_);
-  clips_.clear();
-  ForEachCommand(frame, [&](const ImDrawCmd& command) { clips_.push_back(command.ClipRect); });
+  commands_.clear();
+  ForEachCommand(frame, [&](const ImDrawCmd& command) { commands_.push_back(command); });
   for (const panels::DamageRect& rect : rects) {
     PaintRect(frame, rect, background);
   }
-  auto clip = clips_.begin();
-  ForEachCommand(frame, [&](ImDrawCmd& command) { command.ClipRect = *clip++; });
+  Restore(frame);
   return true;
+}
+
+void FramePainter::Restore(ImDrawData& frame) const {
+  auto whole = commands_.begin();
+  ForEachCommand(frame, [&](ImDrawCmd& command) { command = *whole++; });
 }
 
 void FramePainter::PaintRect(ImDrawData& frame,
                              const panels::DamageRect& rect,
                              const glm::vec3& background) {
-  auto clip = clips_.begin();
+  Restore(frame);
+  const std::optional<panels::FrameCover> cover =
+      panels::FindCover(frame, rect, ImGui::GetIO().Fonts->TexID, ImGui::GetFontTexUvWhitePixel());
+  if (cover) {
+    SkipHidden(frame, *cover);
+  }
   ForEachCommand(frame, [&](ImDrawCmd& command) {
-    const ImVec4& whole = *clip++;
-    const panels::DamageRect narrow =
-        panels::Intersection({whole.x, whole.y, whole.z, whole.w}, rect);
+    const ImVec4& clip = command.ClipRect;
+    const panels::DamageRect narrow = panels::Intersection({clip.x, clip.y, clip.z, clip.w}, rect);
     command.ClipRect = ImVec4(narrow.from_x, narrow.from_y, narrow.to_x, narrow.to_y);
   });
   const ImVec2& scale = frame.FramebufferScale;
+  const glm::vec3 clear = cover ? ColourOf(cover->colour) : background;
   glEnable(GL_SCISSOR_TEST);
   glScissor(static_cast<GLint>(rect.from_x * scale.x),
             height_ - static_cast<GLint>(rect.to_y * scale.y),
             static_cast<GLsizei>((rect.to_x - rect.from_x) * scale.x),
             static_cast<GLsizei>((rect.to_y - rect.from_y) * scale.y));
-  glClearColor(background.r, background.g, background.b, 1.0f);
+  glClearColor(clear.r, clear.g, clear.b, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
   ImGui_ImplOpenGL3_RenderDrawData(&frame);

@@ -1,6 +1,7 @@
 #pragma once
 
-// Draws ImGui's frames, of each only where it differs from the one before.
+// Draws ImGui's frames, of each only where it differs from the one before, and nothing that
+// something opaque hides.
 
 #include <imgui.h>
 
@@ -27,13 +28,15 @@ class FramePainter {
 
  private:
   void SetSize(int width, int height);
+  // The frame's commands as they were.
+  void Restore(ImDrawData& frame) const;
   void PaintRect(ImDrawData& frame, const panels::DamageRect& rect, const glm::vec3& background);
 
   panels::FrameDamage damage_;
   int width_ = 0, height_ = 0;  // pixels
   render::GlTexture colour_;
   render::GlFramebuffer framebuffer_;
-  std::vector<ImVec4> clips_;  // of the frame's commands, while they are narrowed
+  std::vector<ImDrawCmd> commands_;  // the frame's, while they are narrowed
 };
 
 }  // namespace lararium::app
