@@ -19,6 +19,7 @@
 #include "player/recent_warnings.h"
 #include "player/sandbox.h"
 #include "player/staff_server.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::player {
 namespace {
@@ -40,9 +41,7 @@ std::vector<std::string> NamesOfMachine() {
   if (::gethostname(text, sizeof(text) - 1) != 0 || text[0] == '\0') {
     return {};
   }
-  std::string name = text;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  const std::string name = LowerCase(text);
   const std::string first = name.substr(0, name.find('.'));
   return {name, first, first + ".local"};
 }

@@ -11,6 +11,7 @@
 
 #include "player/staff_texts.h"
 #include "shared/core/json.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::player {
 namespace {
@@ -51,13 +52,6 @@ constexpr std::pair<const char*, const char*> kHeaders[] = {
 
 double SecondsSince(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
-}
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return lower;
 }
 
 StaffReply Refusal(int status, std::string_view why) {
@@ -223,7 +217,7 @@ bool StaffServer::IsOurHost(std::string_view host) const {
   if (host.starts_with('[')) {
     return host.find(']') != std::string_view::npos;  // a number of IPv6
   }
-  const std::string name = Lower(host.substr(0, host.find(':')));
+  const std::string name = LowerCase(host.substr(0, host.find(':')));
   in_addr number = {};
   return name == "localhost" || inet_pton(AF_INET, name.c_str(), &number) == 1 ||
          std::find(options_.names.begin(), options_.names.end(), name) != options_.names.end();
@@ -299,7 +293,7 @@ StaffReply StaffServer::Picture() {
 
 // Browsers say where the page came from that sends something. Who says nothing is no browser.
 StaffReply StaffServer::AnswerWrite(const StaffRequest& request) {
-  if (!request.origin.empty() && Lower(request.origin) != "http://" + Lower(request.host)) {
+  if (!request.origin.empty() && LowerCase(request.origin) != "http://" + LowerCase(request.host)) {
     return Refusal(403, "another page may not do this");
   }
   if (!options_.pin) {

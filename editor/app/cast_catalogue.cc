@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "editor/app/text.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::app {
 namespace {
@@ -138,13 +138,6 @@ void SplitEnds(std::string_view name, std::string_view& stem, CastSlider& slider
     slider.less = EndWord(name.substr(stem.size() + 1, bar - stem.size() - 1));
     slider.more = EndWord(name.substr(bar + 1));
   }
-}
-
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
 }
 
 // Sliders that differ only in their ends say them.

@@ -6,7 +6,6 @@
 #include <ImfInputFile.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <exception>
 #include <glm/common.hpp>
@@ -14,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "shared/core/file.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::bake {
 namespace {
@@ -225,15 +225,8 @@ void WarnOfLowRange(ProbeImage& image, double mean) {
   }
 }
 
-std::string LowerExtension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 Result<ProbeImage> ReadByExtension(const std::filesystem::path& file, Shape shape) {
-  const std::string extension = LowerExtension(file);
+  const std::string extension = LowerCase(file.extension().string());
   if (extension == ".exr") {
     return ReadExr(file, shape);
   }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "editor/bake/speech_features.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::bake {
 namespace {
@@ -59,12 +60,6 @@ std::string SpokenPhones(const SpokenText& reference, int word) {
     }
   }
   return phones;
-}
-
-std::string LowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return text;
 }
 
 // The library's decoder, quiet.

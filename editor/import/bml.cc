@@ -8,6 +8,8 @@
 #include <pugixml.hpp>
 #include <utility>
 
+#include "shared/core/lower_case.h"
+
 namespace lararium::import {
 namespace {
 
@@ -39,13 +41,6 @@ std::string_view LocalName(const pugi::xml_node& node) {
   const std::string_view name = node.name();
   const size_t colon = name.find(':');
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
-}
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
 }
 
 std::string_view Trimmed(std::string_view text) {
@@ -173,7 +168,7 @@ class BmlReader {
       return Status::Error(place_, "has no <bml> in it");
     }
     for (const pugi::xml_node& block : blocks) {
-      const bool append = Lower(block.attribute("composition").as_string()) == "append";
+      const bool append = LowerCase(block.attribute("composition").as_string()) == "append";
       LARARIUM_RETURN_IF_ERROR(ReadBlock(block, append ? std::max(last_end_, begin) : begin));
     }
     std::stable_sort(import_.items.begin(), import_.items.end(), [](const auto& a, const auto& b) {
@@ -341,7 +336,7 @@ class BmlReader {
       return "point";
     }
     return behaviour.tag == "gesture" || behaviour.tag == "head"
-               ? Lower(behaviour.node.attribute("lexeme").as_string())
+               ? LowerCase(behaviour.node.attribute("lexeme").as_string())
                : "";
   }
 
@@ -535,7 +530,7 @@ class BmlReader {
 
   // As look_at takes it; null: there is no such thing.
   Json TargetOf(const std::string& name) const {
-    const std::string plain = Lower(name);
+    const std::string plain = LowerCase(name);
     for (const char* visitor : {"", "audience", "camera", "user", "visitor"}) {
       if (plain == visitor) {
         return "visitor";
@@ -586,7 +581,7 @@ class BmlReader {
 
   void EmitPosture(const Behaviour& behaviour) {
     const std::string type =
-        Lower(behaviour.node.child("stance").attribute("type").as_string("none"));
+        LowerCase(behaviour.node.child("stance").attribute("type").as_string("none"));
     const std::string seat = behaviour.node.attribute("target").as_string();
     if (type == "standing") {
       Add(behaviour, LaneKind::kUses, {{"action", "stand"}});
@@ -615,7 +610,7 @@ class BmlReader {
                   "'" + target + "' is no object and no place like \"1.5 -2\" (x z) to walk to");
     }
     Json fields = {{"to", std::move(to)}};
-    if (Lower(behaviour.node.attribute("manner").as_string()) == "run") {
+    if (LowerCase(behaviour.node.attribute("manner").as_string()) == "run") {
       fields["speed"] = kRun;
     }
     Add(behaviour, LaneKind::kWalks, std::move(fields));
@@ -721,7 +716,7 @@ class BmlReader {
     const bool unit = std::string_view(attribute) == "au";
     const std::string_view expression =
         unit ? ExpressionOfUnit(behaviour.node.attribute("au").as_int())
-             : ExpressionOfLexeme(Lower(value));
+             : ExpressionOfLexeme(LowerCase(value));
     if (expression.empty()) {
       return Warn(behaviour.node, "there is no expression for '" + value + "'");
     }

@@ -22,6 +22,7 @@
 #include "editor/import/vrm.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/lower_case.h"
 #include "shared/human/finite.h"
 
 namespace lararium::import {
@@ -71,12 +72,6 @@ float LinearFromSrgb(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-std::string Lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 // What a material's name says about its surface.
 human::Surface SurfaceOf(const std::string& name) {
   struct Word {
@@ -92,7 +87,7 @@ human::Surface SurfaceOf(const std::string& name) {
                              {"dress", human::Surface::kCloth},   {"tunic", human::Surface::kCloth},
                              {"trouser", human::Surface::kCloth}, {"pants", human::Surface::kCloth},
                              {"toga", human::Surface::kCloth}};
-  const std::string lower = Lower(name);
+  const std::string lower = LowerCase(name);
   for (const Word& word : kWords) {
     if (lower.find(word.text) != std::string::npos) {
       return word.surface;

@@ -4,7 +4,6 @@
 #include <assimp/postprocess.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -14,6 +13,7 @@
 #include <limits>
 
 #include "shared/core/file.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::import {
 namespace {
@@ -148,9 +148,7 @@ float ModelScene::StatedMetresPerUnit() const {
 Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& file) {
   auto model = std::make_unique<ModelScene>();
   model->file = file;
-  model->extension = file.extension().string();
-  std::transform(model->extension.begin(), model->extension.end(), model->extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  model->extension = LowerCase(file.extension().string());
   LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, ReadBytes(file));
   if (bytes.empty()) {
     return Status::Error(file.string(), "the file is empty");

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "shared/core/lower_case.h"
+
 namespace lararium::import {
 namespace {
 
@@ -39,12 +41,6 @@ std::optional<size_t> IndexOf(const Json& value, size_t count) {
     return std::nullopt;
   }
   return value.get<size_t>();
-}
-
-std::string Lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 // The H-Anim joint of a bone of VRM; empty: none.
@@ -106,7 +102,7 @@ std::string PresetName(const std::string& name) {
                                                           {"lookdown", "lookDown"},
                                                           {"lookleft", "lookLeft"},
                                                           {"lookright", "lookRight"}};
-  const auto found = kOld.find(Lower(name));
+  const auto found = kOld.find(LowerCase(name));
   return found == kOld.end() ? name : found->second;
 }
 

@@ -8,6 +8,7 @@
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::panels {
 
@@ -28,7 +29,8 @@ ImVec4 ColourOf(app::Message::Level level) {
 void ShowTask(app::BackgroundTask& task) {
   const app::BackgroundTask::State state = task.state();
   std::string text = Tr(task.name().c_str());
-  if (!state.step.empty()) {
+  // What is one step is called alike.
+  if (!state.step.empty() && state.step != LowerCase(task.name())) {
     text += std::string(": ") + Tr(state.step.c_str());
   }
   if (const auto left = app::EstimateSecondsLeft(state.fraction, state.step_seconds)) {

@@ -3,7 +3,6 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include <algorithm>
 #include <array>
 #include <cfloat>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::panels {
 namespace {
@@ -77,7 +77,7 @@ class RecipePanel {
       if (SliderProperty(workspace_, Tr(slider.label), value, slider.min, slider.max,
                          Tr(slider.format))) {
         recipe_.*slider.value = static_cast<float>(value);
-        change_.Drag(InSmallLetters(Tr(slider.label)));
+        change_.Drag(LowerCase(Tr(slider.label)));
       }
     }
   }
@@ -173,7 +173,7 @@ class RecipePanel {
     const auto known = recipe_.modifiers.find(slider.modifier);
     const bool set = known != recipe_.modifiers.end();
     float value = set ? known->second : 0.0f;
-    const std::string what = InSmallLetters(Tr(group.title.c_str())) + ": " + slider.label;
+    const std::string what = LowerCase(Tr(group.title.c_str())) + ": " + slider.label;
     PropertyLabel(slider.label.c_str());
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s", slider.modifier.c_str());
@@ -263,7 +263,7 @@ class RecipePanel {
                  import::CastDyed& part,
                  std::span<const std::string> names,
                  const char* none) {
-    const std::string what = InSmallLetters(label);
+    const std::string what = LowerCase(label);
     PropertyLabel(label);
     ImGui::PushID(label);
     const float swatch = ImGui::GetFrameHeight();
@@ -324,12 +324,6 @@ class RecipePanel {
 };
 
 }  // namespace
-
-std::string InSmallLetters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 RecipeChange ShowRecipe(app::Workspace& workspace, EditorState& state, CastRecipe& recipe) {
   return RecipePanel(workspace, state, recipe).Show();

@@ -24,9 +24,6 @@ struct RecipeChange {
 // Shows the recipe and changes it.
 RecipeChange ShowRecipe(app::Workspace& workspace, EditorState& state, import::CastRecipe& recipe);
 
-// ASCII only, which is enough within the name of a command.
-std::string InSmallLetters(std::string text);
-
 // The part of it below "Clothes".
 void ShowWardrobe(app::Workspace& workspace, import::CastRecipe& recipe, RecipeChange& change);
 

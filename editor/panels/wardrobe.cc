@@ -14,6 +14,7 @@
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::panels {
 namespace {
@@ -104,8 +105,8 @@ void WordRows(Json& garment, RecipeChange& change) {
     const std::vector<std::string> words = import::GarmentWords(field.field);
     if (NameCombo("##word", word, words, Tr("as usual"))) {
       Set(garment, field.field, word);
-      change.Choose(Text(Tr("%s of the %s"), InSmallLetters(Tr(field.label)).c_str(),
-                         NameOf(garment).c_str()));
+      change.Choose(
+          Text(Tr("%s of the %s"), LowerCase(Tr(field.label)).c_str(), NameOf(garment).c_str()));
     }
     ImGui::PopID();
   }

@@ -11,6 +11,7 @@
 #include "editor/panels/angles.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
+#include "shared/core/lower_case.h"
 
 namespace lararium::panels {
 
@@ -24,9 +25,7 @@ struct FolderEntry {
 };
 
 bool HasExtension(const std::filesystem::path& file, std::span<const char* const> extensions) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = LowerCase(file.extension().string());
   return std::any_of(extensions.begin(), extensions.end(),
                      [&](const char* known) { return extension == known; });
 }

@@ -1,0 +1,15 @@
+#include "shared/core/lower_case.h"
+
+#include <algorithm>
+
+namespace lararium {
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return lower;
+}
+
+}  // namespace lararium
