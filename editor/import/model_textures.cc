@@ -1,74 +1,19 @@
 #include "editor/import/model_textures.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
 #include <exception>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "editor/import/model_gltf.h"
+#include "shared/core/image_header.h"
 
 namespace lararium::import {
 namespace {
 
 constexpr uint64_t kMaxPixels = uint64_t{1} << 26;
 constexpr int kJpegQuality = 92;
-
-struct Size {
-  uint64_t width = 0, height = 0;
-};
-
-uint64_t Big(const std::vector<std::byte>& bytes, size_t at, size_t count) {
-  uint64_t value = 0;
-  for (size_t i = 0; i < count; ++i) {
-    value = value << 8 | static_cast<uint64_t>(bytes[at + i]);
-  }
-  return value;
-}
-
-bool Starts(const std::vector<std::byte>& bytes, std::initializer_list<int> magic) {
-  return bytes.size() >= magic.size() &&
-         std::equal(magic.begin(), magic.end(), bytes.begin(),
-                    [](int a, std::byte b) { return static_cast<std::byte>(a) == b; });
-}
-
-// Walks a JPEG's segments to its frame header.
-std::optional<Size> JpegSize(const std::vector<std::byte>& bytes) {
-  for (size_t at = 2; at + 9 <= bytes.size();) {
-    if (bytes[at] != std::byte{0xff}) {
-      return std::nullopt;
-    }
-    const auto marker = static_cast<unsigned>(bytes[at + 1]);
-    if (marker == 0xff) {
-      ++at;
-      continue;
-    }
-    if (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) {
-      return Size{Big(bytes, at + 7, 2), Big(bytes, at + 5, 2)};
-    }
-    at += 2 + Big(bytes, at + 2, 2);
-  }
-  return std::nullopt;
-}
-
-std::optional<Size> SizeOf(const std::vector<std::byte>& bytes) {
-  if (Starts(bytes, {0x89, 'P', 'N', 'G'}) && bytes.size() >= 24) {
-    return Size{Big(bytes, 16, 4), Big(bytes, 20, 4)};
-  }
-  if (Starts(bytes, {0xff, 0xd8, 0xff})) {
-    return JpegSize(bytes);
-  }
-  if (Starts(bytes, {'B', 'M'}) && bytes.size() >= 26) {
-    std::array<int32_t, 2> size;
-    std::memcpy(size.data(), bytes.data() + 18, sizeof(size));
-    return Size{static_cast<uint64_t>(std::abs(int64_t{size[0]})),
-                static_cast<uint64_t>(std::abs(int64_t{size[1]}))};
-  }
-  return std::nullopt;
-}
 
 bool HasHoles(const cv::Mat& image) {
   cv::Mat alpha;
@@ -149,12 +94,12 @@ Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
                                       const std::string& name,
                                       const std::string& place) {
   const std::string at = place + ": texture '" + name + "'";
-  const auto size = SizeOf(encoded);
+  const std::optional<ImageHeader> size = ReadImageHeader(encoded);
   if (!size) {
     return Status::Error(at, "is neither PNG, JPEG nor BMP, or is damaged", "convert it to PNG");
   }
   if (size->width == 0 || size->height == 0 || size->width > 65'535 || size->height > 65'535 ||
-      size->width * size->height > kMaxPixels) {
+      uint64_t{size->width} * size->height > kMaxPixels) {
     return Status::Error(
         at, "has " + std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels",
         "scale it down");

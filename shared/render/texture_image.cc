@@ -4,61 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "shared/core/check.h"
+#include "shared/core/image_header.h"
 
 namespace lararium::render {
 namespace {
-
-constexpr std::array<uint8_t, 8> kPngMagic = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-
-uint32_t BigEndian(const uint8_t* bytes, int count) {
-  uint32_t value = 0;
-  for (int i = 0; i < count; ++i) {
-    value = value << 8 | bytes[i];
-  }
-  return value;
-}
-
-// The first chunk is the header: length, "IHDR", width, height.
-std::optional<cv::Size> PngSize(std::span<const uint8_t> bytes) {
-  if (bytes.size() < 24 || !std::equal(kPngMagic.begin(), kPngMagic.end(), bytes.begin()) ||
-      std::memcmp(bytes.data() + 12, "IHDR", 4) != 0) {
-    return std::nullopt;
-  }
-  const uint32_t width = BigEndian(bytes.data() + 16, 4);
-  const uint32_t height = BigEndian(bytes.data() + 20, 4);
-  constexpr uint32_t kMost = 0x7fffffff;
-  return cv::Size(static_cast<int>(std::min(width, kMost)),
-                  static_cast<int>(std::min(height, kMost)));
-}
-
-// Segments follow one another until the one that starts a frame.
-std::optional<cv::Size> JpegSize(std::span<const uint8_t> bytes) {
-  if (bytes.size() < 4 || bytes[0] != 0xff || bytes[1] != 0xd8) {
-    return std::nullopt;
-  }
-  size_t at = 2;
-  while (at + 9 <= bytes.size() && bytes[at] == 0xff) {
-    const uint8_t marker = bytes[at + 1];
-    if (marker == 0xff) {  // padding
-      ++at;
-      continue;
-    }
-    const bool starts_frame =
-        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (starts_frame) {
-      return cv::Size(static_cast<int>(BigEndian(&bytes[at + 7], 2)),
-                      static_cast<int>(BigEndian(&bytes[at + 5], 2)));
-    }
-    at += 2 + BigEndian(&bytes[at + 2], 2);
-  }
-  return std::nullopt;
-}
 
 // 8-bit BGRA of whatever the decoder gives: grey, colour, with alpha or without,
 // 8 or 16 bits.
@@ -110,21 +64,18 @@ Table MakePremultiplyTable() {
 }  // namespace
 
 Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::string& place) {
-  const std::span bytes(reinterpret_cast<const uint8_t*>(encoded.data()), encoded.size());
-  std::optional<cv::Size> size = PngSize(bytes);
-  if (!size) {
-    size = JpegSize(bytes);
-  }
-  if (!size || size->width <= 0 || size->height <= 0) {
+  const std::optional<ImageHeader> header = ReadImageHeader(encoded);
+  if (!header || header->format == ImageHeader::Format::kBmp || header->width == 0 ||
+      header->height == 0) {
     return Status::Error(place, "is no PNG or JPEG image", "give it another image, or none");
   }
-  if (size->width > kMaxTextureSide || size->height > kMaxTextureSide) {
+  if (std::max(header->width, header->height) > uint32_t{kMaxTextureSide}) {
     return Status::Error(place,
-                         "is an image of " + std::to_string(size->width) + "x" +
-                             std::to_string(size->height) + " pixels",
+                         "is an image of " + std::to_string(header->width) + "x" +
+                             std::to_string(header->height) + " pixels",
                          "reduce it to at most " + std::to_string(kMaxTextureSide));
   }
-  return *size;
+  return cv::Size(static_cast<int>(header->width), static_cast<int>(header->height));
 }
 
 Result<cv::Mat> DecodeTexture(std::span<const std::byte> encoded, const std::string& place) {

@@ -7,6 +7,7 @@
 
 #include "shared/core/check.h"
 #include "shared/core/file.h"
+#include "shared/core/image_header.h"
 #include "shared/core/parallel.h"
 #include "shared/vision/scene_database_generated.h"
 
@@ -136,34 +137,14 @@ Status ValidateObservations(const SceneDatabase& db) {
 
 // ------------------------------------------------------------ keyframe images
 
-// The size that a JPEG's frame header claims, so that nothing is decoded that
-// would not fit (ITU-T T.81, B.1 and B.2.2); nullopt when it is no JPEG.
-std::optional<cv::Size> JpegSize(std::span<const uint8_t> jpeg) {
-  if (jpeg.size() < 4 || jpeg[0] != 0xff || jpeg[1] != 0xd8) {
-    return std::nullopt;
-  }
-  size_t at = 2;
-  while (at + 4 <= jpeg.size() && jpeg[at] == 0xff) {
-    const uint8_t marker = jpeg[at + 1];
-    const size_t length = static_cast<size_t>(jpeg[at + 2]) << 8 | jpeg[at + 3];
-    const bool is_frame_header =
-        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (is_frame_header) {
-      if (at + 9 > jpeg.size()) {
-        return std::nullopt;
-      }
-      return cv::Size(jpeg[at + 7] << 8 | jpeg[at + 8], jpeg[at + 5] << 8 | jpeg[at + 6]);
-    }
-    at += 2 + length;
-  }
-  return std::nullopt;
-}
-
 Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const std::string& place) {
   const Status bad = Status::Error(place, "a keyframe's image is damaged", "train the place again");
   // A block of 8 x 8 pixels takes at least two bits; less is a decompression bomb.
   constexpr int64_t kPixelsPerByte = 256;
-  if (JpegSize(jpeg) != size ||
+  const std::optional<ImageHeader> header = ReadImageHeader(std::as_bytes(jpeg));
+  const ImageHeader wanted = {ImageHeader::Format::kJpeg, static_cast<uint32_t>(size.width),
+                              static_cast<uint32_t>(size.height)};
+  if (header != wanted ||
       static_cast<int64_t>(jpeg.size()) * kPixelsPerByte < static_cast<int64_t>(size.area())) {
     return bad;
   }

@@ -1,0 +1,80 @@
+#include "shared/core/image_header.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace lararium {
+namespace {
+
+using Format = ImageHeader::Format;
+
+std::optional<ImageHeader> Read(const std::string& bytes) {
+  return ReadImageHeader(std::as_bytes(std::span(bytes)));
+}
+
+std::string Text(std::initializer_list<int> bytes) {
+  std::string text;
+  for (const int byte : bytes) {
+    text += static_cast<char>(byte);
+  }
+  return text;
+}
+
+std::string Png() {
+  return "\x89PNG\r\n\x1a\n" + Text({0, 0, 0, 13}) + "IHDR" + Text({0, 0, 2, 0x80, 0, 0, 1, 0xe0});
+}
+
+// With a segment before the frame's, padding, and progressive.
+std::string Jpeg() {
+  return Text(
+      {0xff, 0xd8, 0xff, 0xe0, 0, 4, 1, 2, 0xff, 0xff, 0xff, 0xc2, 0, 11, 8, 1, 0xe0, 2, 0x80});
+}
+
+std::string Bmp(int32_t height) {
+  std::string bytes = "BM" + std::string(16, '\0') + Text({0x80, 2, 0, 0});
+  for (int i = 0; i < 4; ++i) {
+    bytes += static_cast<char>(static_cast<uint32_t>(height) >> (8 * i));
+  }
+  return bytes;
+}
+
+TEST(ImageHeader, TellsFormatAndSize) {
+  EXPECT_EQ(Read(Png()), (ImageHeader{Format::kPng, 640, 480}));
+  EXPECT_EQ(Read(Jpeg()), (ImageHeader{Format::kJpeg, 640, 480}));
+  EXPECT_EQ(Read(Bmp(480)), (ImageHeader{Format::kBmp, 640, 480}));
+  EXPECT_EQ(Read(Bmp(-480)), (ImageHeader{Format::kBmp, 640, 480})) << "the top row first";
+}
+
+TEST(ImageHeader, KnowsNothingOfWhatIsCutShort) {
+  for (const std::string& whole : {Png(), Jpeg(), Bmp(480)}) {
+    for (size_t size = 0; size < whole.size(); ++size) {
+      EXPECT_FALSE(Read(whole.substr(0, size)).has_value()) << size;
+    }
+  }
+}
+
+TEST(ImageHeader, TakesNothingElseForAnImage) {
+  EXPECT_FALSE(Read(std::string(500, '\0')).has_value());
+  EXPECT_FALSE(Read("GIF89a" + std::string(50, 'x')).has_value());
+  std::string png = Png();
+  png[12] = 'J';
+  EXPECT_FALSE(Read(png).has_value()) << "another chunk first";
+  EXPECT_FALSE(Read(Text({0xff, 0xd8}) + std::string(50, 'x')).has_value());
+}
+
+TEST(ImageHeader, ReturnsSizesThatNobodyCouldHold) {
+  std::string png = Png();
+  png[16] = '\xff';
+  EXPECT_EQ(Read(png)->width, 0xff000280u);
+  EXPECT_EQ(Read(Bmp(INT32_MIN))->height, 0x80000000u);
+}
+
+TEST(ImageHeader, EndsWhereSegmentsHaveNoLength) {
+  EXPECT_FALSE(
+      Read(Text({0xff, 0xd8, 0xff, 0xe0, 0, 0, 0xff, 0xe0, 0, 0, 0xff, 0xe0, 0, 0})).has_value());
+}
+
+}  // namespace
+}  // namespace lararium
