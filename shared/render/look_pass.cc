@@ -88,29 +88,27 @@ Smear SmearOf(const RenderScene& scene,
   return smear;
 }
 
-LookPass LookPass::Create() {
+void LookPass::MakeNoiseTile() {
   Random random(1);
   std::vector<uint8_t> texels(4 * kTile * kTile);
   for (uint8_t& texel : texels) {
     const double unit = 0.5 + 0.5 * random.Normal() / static_cast<double>(kNoiseRange);
     texel = static_cast<uint8_t>(std::clamp(std::lround(255.0 * unit), 0L, 255L));
   }
-  LookPass pass;
-  pass.noise_tile_ = GlTexture::Generate();
-  glBindTexture(GL_TEXTURE_2D, pass.noise_tile_.id());
+  noise_tile_ = GlTexture::Generate();
+  glBindTexture(GL_TEXTURE_2D, noise_tile_.id());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kTile, kTile, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                texels.data());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
-  return pass;
 }
 
 void LookPass::BindFor(const ShaderProgram& composite,
                        const CameraLook& look,
                        const Smear& smear,
-                       const PixelBounds& people) const {
+                       const PixelBounds& people) {
   composite.Set("smeared_bounds", glm::vec4(people.left, people.bottom, people.right, people.top));
   composite.Set("previous_from_pixel", smear.previous_from_pixel);
   composite.Set("shutter", smear.shutter);
@@ -124,6 +122,9 @@ void LookPass::BindFor(const ShaderProgram& composite,
   Random random(look.frame, 1);
   composite.Set("noise_offset", glm::vec2(random.Below(kTile), random.Below(kTile)));
   glActiveTexture(GL_TEXTURE0 + kUnit);
+  if (noisy && noise_tile_.id() == 0) {
+    MakeNoiseTile();
+  }
   glBindTexture(GL_TEXTURE_2D, noise_tile_.id());
   composite.Set("noise_tile", static_cast<int>(kUnit));
   glActiveTexture(GL_TEXTURE0);

@@ -33,16 +33,16 @@ class LookPass {
  public:
   static constexpr uint32_t kUnit = 10;  // texture unit of the noise
 
-  static LookPass Create();
-
   // Of the program in use. people: where they are seen, smears included.
   void BindFor(const ShaderProgram& composite,
                const CameraLook& look,
                const Smear& smear,
-               const PixelBounds& people) const;
+               const PixelBounds& people);
 
  private:
-  GlTexture noise_tile_;
+  void MakeNoiseTile();
+
+  GlTexture noise_tile_;  // made when it is first wanted
 };
 
 // Within the picture.

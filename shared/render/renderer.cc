@@ -135,7 +135,6 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
   LARARIUM_ASSIGN_OR_RETURN(state->model_pass, ModelPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->catcher_pass, CatcherPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->sun_pass, SunPass::Create());
-  state->look_pass = LookPass::Create();
   LARARIUM_ASSIGN_OR_RETURN(state->sun_mask, SunMask::Create());
   LARARIUM_ASSIGN_OR_RETURN(
       state->look_composite_pass,
@@ -490,13 +489,13 @@ void Renderer::State::Composite(const RenderScene& scene, const RenderTarget& ta
 
 void Renderer::State::SetLayer(const ShaderProgram& composite,
                                const RenderScene& scene,
-                               const RenderTarget& target) const {
+                               const RenderTarget& target) {
   composite.Set("layer_from_pixel", LayerFromPicture(layer, scene, target));
   composite.Set("people_opacity", std::min(scene.people_opacity, 1.0f));
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, people.texture());
   composite.Set("people", 1);
-  look_pass.BindFor(composite, scene.look, layer.smear,
+  look_pass.BindFor(composite, quality.camera_look ? scene.look : CameraLook(), layer.smear,
                     Widened(layer.people, layer.smear.reach, layer.view.size));
   catcher_pass.BindFor(composite, 2);
 }

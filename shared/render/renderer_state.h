@@ -107,7 +107,7 @@ struct Renderer::State {
   // Of the program in use.
   void SetLayer(const ShaderProgram& composite,
                 const RenderScene& scene,
-                const RenderTarget& target) const;
+                const RenderTarget& target);
   // How far away the people in the picture are on average, along the view; of those who
   // consist of a root joint and others, by the root.
   float PeopleDepth(const PictureView& view) const;
