@@ -31,53 +31,58 @@ void EverySecondPixel(const cv::Mat& image, cv::Mat& half) {
 }  // namespace
 
 // Resizing by areas or lines keeps c' = s (c + 0.5) - 0.5, hence the origins.
-float ScaleSpace::Start(const cv::Mat& grey, int first_octave, Octave& octave) {
-  octave.pixel_size = 1.0f;
-  octave.origin = 0.0f;
-  float sigma = kCameraSigma;
-  grey.convertTo(grey_, CV_32F, 1.0 / 255.0);
+const ScaleSpace::Sampled& ScaleSpace::Sample(const cv::Mat& grey, int first_octave) {
+  sampled_.resize(std::max(sampled_.size(), static_cast<size_t>(std::max(first_octave, 0)) + 2));
+  Sampled& plain = sampled_[1];
+  grey.convertTo(plain.image, CV_32F, 1.0 / 255.0);
+  plain.sigma = kCameraSigma;
   if (first_octave < 0) {
-    cv::resize(grey_, start_, cv::Size(2 * grey.cols, 2 * grey.rows), 0.0, 0.0, cv::INTER_LINEAR);
-    octave.pixel_size = 0.5f;
-    octave.origin = -0.25f;
-    return 2.0f * sigma;
+    Sampled& doubled = sampled_[0];
+    cv::resize(plain.image, doubled.image, cv::Size(2 * grey.cols, 2 * grey.rows), 0.0, 0.0,
+               cv::INTER_LINEAR);
+    doubled.sigma = 2.0f * plain.sigma;
+    doubled.pixel_size = 0.5f;
+    doubled.origin = -0.25f;
+    return doubled;
   }
-  start_ = grey_;
-  for (int i = 0; i < first_octave && std::min(start_.cols, start_.rows) > 1; ++i) {
-    const cv::Rect even(0, 0, start_.cols & ~1, start_.rows & ~1);
-    cv::Mat half;
-    cv::resize(start_(even), half, cv::Size(even.width / 2, even.height / 2), 0.0, 0.0,
-               cv::INTER_AREA);
-    start_ = half;
+  size_t last = 1;
+  for (int i = 0; i < first_octave; ++i, ++last) {
+    const Sampled& finer = sampled_[last];
+    if (std::min(finer.image.cols, finer.image.rows) <= 1) {
+      break;
+    }
+    Sampled& coarser = sampled_[last + 1];
+    const cv::Rect even(0, 0, finer.image.cols & ~1, finer.image.rows & ~1);
+    cv::resize(finer.image(even), coarser.image, cv::Size(even.width / 2, even.height / 2), 0.0,
+               0.0, cv::INTER_AREA);
     // The mean of two neighbours has variance 1/4 of a pixel squared.
-    sigma = 0.5f * std::sqrt(sigma * sigma + 0.25f);
-    octave.origin += 0.5f * octave.pixel_size;
-    octave.pixel_size *= 2.0f;
+    coarser.sigma = 0.5f * std::sqrt(finer.sigma * finer.sigma + 0.25f);
+    coarser.origin = finer.origin + 0.5f * finer.pixel_size;
+    coarser.pixel_size = 2.0f * finer.pixel_size;
   }
-  return sigma;
+  return sampled_[last];
 }
 
 void ScaleSpace::Build(const cv::Mat& grey, int first_octave, int scales_per_octave) {
-  Octave first;
-  const float sigma = Start(grey, first_octave, first);
-  int rows = start_.rows;
-  int columns = start_.cols;
+  const Sampled& start = Sample(grey, first_octave);
+  first_ = static_cast<size_t>(first_octave + 1);
+  octaves_.resize(std::max(octaves_.size(), first_));
+  int rows = start.image.rows;
+  int columns = start.image.cols;
   for (count_ = 0; std::min(rows, columns) >= kSmallestOctave; ++count_) {
-    if (count_ == octaves_.size()) {
-      octaves_.emplace_back();
-    }
-    Octave& octave = octaves_[count_];
+    octaves_.resize(std::max(octaves_.size(), first_ + count_ + 1));
+    Octave& octave = octaves_[first_ + count_];
     octave.gaussians.resize(scales_per_octave + 3);
     octave.differences.resize(scales_per_octave + 2);
+    octave.origin = start.origin;
     if (count_ == 0) {
-      octave.pixel_size = first.pixel_size;
-      blur_.Apply(start_, AddedSigma(sigma, kBaseSigma), octave.gaussians[0], nullptr);
+      octave.pixel_size = start.pixel_size;
+      blur_.Apply(start.image, AddedSigma(start.sigma, kBaseSigma), octave.gaussians[0], nullptr);
     } else {
-      const Octave& finer = octaves_[count_ - 1];
+      const Octave& finer = octaves_[first_ + count_ - 1];
       octave.pixel_size = 2.0f * finer.pixel_size;
       EverySecondPixel(finer.gaussians[scales_per_octave], octave.gaussians[0]);
     }
-    octave.origin = first.origin;
     for (int level = 1; level < scales_per_octave + 3; ++level) {
       const float added =
           AddedSigma(SigmaOf(level - 1, scales_per_octave), SigmaOf(level, scales_per_octave));

@@ -24,7 +24,8 @@ struct Octave {
   std::vector<cv::Mat> differences;  // CV_32FC1 [scales + 2], level l + 1 minus l
 };
 
-// Keeps its memory from image to image.
+// Keeps its memory from image to image: images of one size find it again, whichever octave each
+// begins with.
 class ScaleSpace {
  public:
   // grey: CV_8UC1, assumed blurred by 0.5 pixels. first_octave: -1 doubles the
@@ -32,17 +33,24 @@ class ScaleSpace {
   // octave would be too small to hold an extremum.
   void Build(const cv::Mat& grey, int first_octave, int scales_per_octave);
 
-  std::span<const Octave> octaves() const { return {octaves_.data(), count_}; }
+  std::span<const Octave> octaves() const { return {octaves_.data() + first_, count_}; }
 
  private:
-  // The first octave before its blur; returns the blur that it has.
-  float Start(const cv::Mat& grey, int first_octave, Octave& octave);
+  // An image as an octave begins with it.
+  struct Sampled {
+    cv::Mat image;       // CV_32FC1, 0..1
+    float sigma = 0.0f;  // the blur that it has, its own pixels
+    float pixel_size = 1.0f;
+    float origin = 0.0f;
+  };
+  const Sampled& Sample(const cv::Mat& grey, int first_octave);
 
+  // By how often the image is halved: the doubled one first, then the image itself.
   std::vector<Octave> octaves_;
+  size_t first_ = 0;
   size_t count_ = 0;
   GaussianBlur blur_;
-  cv::Mat grey_;   // CV_32FC1, 0..1
-  cv::Mat start_;  // grey_ resized to the first octave
+  std::vector<Sampled> sampled_;  // likewise
 };
 
 }  // namespace lararium::vision
