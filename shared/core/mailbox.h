@@ -16,14 +16,16 @@ namespace lararium {
 template <typename T>
 class Mailbox {
  public:
-  // Replaces a message that was not taken yet.
-  void Put(T message) {
+  // Replaces a message that was not taken yet, and gives that back: its buffers may serve again.
+  std::optional<T> Put(T message) {
+    std::optional<T> replaced(std::move(message));
     {
       const std::lock_guard lock(mutex_);
       dropped_ += slot_.has_value() ? 1 : 0;
-      slot_ = std::move(message);
+      std::swap(slot_, replaced);
     }
     filled_.notify_one();
+    return replaced;
   }
 
   // No message will follow. Take() still hands out the last one, then nullopt.

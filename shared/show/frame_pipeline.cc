@@ -111,6 +111,21 @@ std::unique_ptr<StagedFrame> RealtimePipeline::Take(std::chrono::milliseconds ti
   return staged_.TakeFor(timeout).value_or(nullptr);
 }
 
+void RealtimePipeline::Recycle(std::unique_ptr<StagedFrame> staged) {
+  const std::lock_guard lock(spare_mutex_);
+  spare_.push_back(std::move(staged));
+}
+
+std::unique_ptr<StagedFrame> RealtimePipeline::SpareFrame() {
+  const std::lock_guard lock(spare_mutex_);
+  if (spare_.empty()) {
+    return std::make_unique<StagedFrame>();
+  }
+  std::unique_ptr<StagedFrame> spare = std::move(spare_.back());
+  spare_.pop_back();
+  return spare;
+}
+
 void RealtimePipeline::Capture(const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   FrameClock clock;
@@ -144,16 +159,15 @@ void RealtimePipeline::Track(const std::stop_token& stop) {
 void RealtimePipeline::Simulate(const std::stop_token& stop) {
   FrameClock clock;
   while (std::optional<LocatedFrame> located = located_.Take(stop)) {
-    std::unique_ptr<StagedFrame> staged = drawn_.TryTake().value_or(nullptr);
-    if (staged == nullptr) {
-      staged = std::make_unique<StagedFrame>();
-    }
+    std::unique_ptr<StagedFrame> staged = SpareFrame();
     staged->arrival = located->arrival;
     staged->located = located->located;
     const double time = clock.ShowTime(located->tracked.frame);
     stages_.statistics.tracking.Add(located->tracked);
     TimedStage(stages_, std::move(located->tracked), time, *staged);
-    staged_.Put(std::move(staged));
+    if (std::optional<std::unique_ptr<StagedFrame>> skipped = staged_.Put(std::move(staged))) {
+      Recycle(std::move(*skipped));
+    }
   }
   staged_.Close();
 }

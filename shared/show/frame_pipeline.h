@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "shared/capture/frame_source.h"
 #include "shared/core/mailbox.h"
@@ -84,7 +85,7 @@ class RealtimePipeline {
   // The newest frame that is ready to be drawn; nullptr when none came in time.
   std::unique_ptr<StagedFrame> Take(std::chrono::milliseconds timeout);
   // Gives a drawn frame back, so that its buffers serve again.
-  void Recycle(std::unique_ptr<StagedFrame> staged) { drawn_.Put(std::move(staged)); }
+  void Recycle(std::unique_ptr<StagedFrame> staged);
 
   // True when the source has ended and its last frame was taken.
   bool Finished() const { return staged_.Finished(); }
@@ -108,12 +109,15 @@ class RealtimePipeline {
   void Capture(const std::stop_token& stop);
   void Track(const std::stop_token& stop);
   void Simulate(const std::stop_token& stop);
+  // One that serves again, or another.
+  std::unique_ptr<StagedFrame> SpareFrame();
 
   FrameStages stages_;
   Mailbox<CapturedFrame> captured_;
   Mailbox<LocatedFrame> located_;
   Mailbox<std::unique_ptr<StagedFrame>> staged_;
-  Mailbox<std::unique_ptr<StagedFrame>> drawn_;
+  std::mutex spare_mutex_;
+  std::vector<std::unique_ptr<StagedFrame>> spare_;  // drawn, or skipped for newer ones
   mutable std::mutex status_mutex_;
   Status status_;
   std::jthread capture_thread_;

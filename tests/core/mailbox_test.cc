@@ -17,6 +17,13 @@ TEST(Mailbox, TheNewestMessageWins) {
   EXPECT_EQ(box.TryTake(), std::nullopt);
 }
 
+TEST(Mailbox, WhatNobodyTookIsGivenBack) {
+  Mailbox<std::unique_ptr<int>> box;
+  EXPECT_EQ(box.Put(std::make_unique<int>(1)), std::nullopt);
+  EXPECT_EQ(**box.Put(std::make_unique<int>(2)), 1);
+  EXPECT_EQ(**box.TryTake(), 2);
+}
+
 TEST(Mailbox, CloseHandsOutTheLastMessageThenEnds) {
   Mailbox<int> box;
   box.Put(1);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <semaphore>
+#include <thread>
 
 #include "tests/show/small_show.h"
 
@@ -106,6 +107,25 @@ TEST_F(FramePipelineTest, RealtimeDeliversTheLastFrameAndNeverGoesBack) {
   EXPECT_EQ(last, 14);
   EXPECT_EQ(shown + static_cast<int64_t>(statistics_.dropped_frames), 15);
   EXPECT_TRUE(pipeline.status().ok());
+}
+
+TEST_F(FramePipelineTest, RealtimeStagesIntoThreeFramesHoweverSlowTheyAreDrawn) {
+  constexpr size_t kServed = 1000;  // more than there are actors
+  test::FakeSource source(30);
+  RealtimePipeline pipeline(Stages(source));
+  int fresh = 0;
+  while (!pipeline.Finished()) {
+    std::unique_ptr<StagedFrame> staged = pipeline.Take(std::chrono::milliseconds(20));
+    if (staged != nullptr) {
+      fresh += staged->actors.capacity() < kServed ? 1 : 0;
+      staged->actors.reserve(kServed);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      pipeline.Recycle(std::move(staged));
+    }
+  }
+  pipeline.Stop();
+  EXPECT_GT(statistics_.dropped_frames, 0u);
+  EXPECT_LE(fresh, 3);
 }
 
 TEST_F(FramePipelineTest, RealtimeEndsWithTheFailureOfItsSource) {
