@@ -66,28 +66,37 @@ void DefineAttributes() {
   glEnableVertexAttribArray(8);
 }
 
-void Upload(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals) {
-  const auto bytes = static_cast<GLsizeiptr>(positions.size_bytes());
-  glBufferSubData(GL_ARRAY_BUFFER, 0, bytes, positions.data());
-  glBufferSubData(GL_ARRAY_BUFFER, bytes, bytes, normals.data());
+// All of a buffer at once: where its size stays, drivers that have no memory of their own write
+// over what is there, and take none anew.
+void Upload(const GlBuffer& buffer, std::span<const glm::vec3> data, GLenum use) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), use);
 }
 
-// The two arrays share one buffer of the given size.
-GlVertexArray CreateVertexArray(const GpuModel::Part& part, const GlBuffer& vertices, GLenum use) {
+GpuModel::Vertices CreateVertices() { return {GlBuffer::Generate(), GlBuffer::Generate()}; }
+
+void Upload(const GpuModel::Vertices& vertices,
+            std::span<const glm::vec3> positions,
+            std::span<const glm::vec3> normals,
+            GLenum use) {
+  Upload(vertices.positions, positions, use);
+  Upload(vertices.normals, normals, use);
+}
+
+GlVertexArray CreateVertexArray(const GpuModel::Part& part, const GpuModel::Vertices& vertices) {
   GlVertexArray array = GlVertexArray::Generate();
   glBindVertexArray(array.id());
-  const size_t bytes = part.vertex_count * sizeof(glm::vec3);
-  glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(2 * bytes), nullptr, use);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.positions.id());
   DefineFloats(0, 3, sizeof(glm::vec3), 0);
-  DefineFloats(1, 3, sizeof(glm::vec3), bytes);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.normals.id());
+  DefineFloats(1, 3, sizeof(glm::vec3), 0);
   glBindBuffer(GL_ARRAY_BUFFER, part.attributes.id());
   DefineAttributes();
   glBindBuffer(GL_ARRAY_BUFFER, part.irradiance.id());
   DefineFloats(6, 3, sizeof(glm::vec3), 0);
   // What transfer vectors were baked with turns with these.
-  glBindBuffer(GL_ARRAY_BUFFER, part.bind_vertices.id());
-  DefineFloats(7, 3, sizeof(glm::vec3), bytes);
+  glBindBuffer(GL_ARRAY_BUFFER, part.bind_vertices.normals.id());
+  DefineFloats(7, 3, sizeof(glm::vec3), 0);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.id());
   glBindVertexArray(0);
   return array;
@@ -126,8 +135,7 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
   part.length = LongestSide(source.positions);
   part.vertex_count = source.positions.size();
   part.attributes = GlBuffer::Generate();
-  part.bind_vertices = GlBuffer::Generate();
-  part.streamed_vertices = GlBuffer::Generate();
+  part.bind_vertices = CreateVertices();
   part.indices = GlBuffer::Generate();
   part.irradiance = GlBuffer::Generate();
   glBindBuffer(GL_ARRAY_BUFFER, part.irradiance.id());
@@ -147,9 +155,8 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
   glBufferData(GL_ARRAY_BUFFER,
                static_cast<GLsizeiptr>(source.attributes.size() * sizeof(Attributes)),
                source.attributes.data(), GL_STATIC_DRAW);
-  part.bind_pose = CreateVertexArray(part, part.bind_vertices, GL_STATIC_DRAW);
-  glBindBuffer(GL_ARRAY_BUFFER, part.bind_vertices.id());
-  Upload(source.positions, source.normals);
+  Upload(part.bind_vertices, source.positions, source.normals, GL_STATIC_DRAW);
+  part.bind_pose = CreateVertexArray(part, part.bind_vertices);
   return part;
 }
 
@@ -404,25 +411,33 @@ Result<GpuModel> GpuModel::Create(const stage::Prop& prop, TexturePool& pool) {
 }
 
 void GpuModel::Stream(size_t part_index,
+                      uint64_t picture,
                       std::span<const glm::vec3> positions,
                       std::span<const glm::vec3> normals) {
   Part& part = parts[part_index];
   CHECK(positions.size() == part.vertex_count && normals.size() == part.vertex_count);
-  if (part.streamed.id() == 0) {
-    part.streamed = CreateVertexArray(part, part.streamed_vertices, GL_STREAM_DRAW);
+  const Sent sent = {picture, positions.data(), positions.size()};
+  if (part.sent_vertices == sent) {
+    return;
   }
-  glBindBuffer(GL_ARRAY_BUFFER, part.streamed_vertices.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(2 * positions.size_bytes()), nullptr,
-               GL_STREAM_DRAW);
-  Upload(positions, normals);
+  if (part.streamed.id() == 0) {
+    part.streamed_vertices = CreateVertices();
+    part.streamed = CreateVertexArray(part, part.streamed_vertices);
+  }
+  Upload(part.streamed_vertices, positions, normals, GL_STREAM_DRAW);
+  part.sent_vertices = sent;
 }
 
-void GpuModel::StreamIrradiance(size_t part_index, std::span<const glm::vec3> irradiance) {
-  const Part& part = parts[part_index];
+void GpuModel::StreamIrradiance(size_t part_index,
+                                uint64_t picture,
+                                std::span<const glm::vec3> irradiance) {
+  Part& part = parts[part_index];
   CHECK(irradiance.size() <= part.vertex_count);
-  glBindBuffer(GL_ARRAY_BUFFER, part.irradiance.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(irradiance.size_bytes()), irradiance.data(),
-               GL_STREAM_DRAW);
+  const Sent sent = {picture, irradiance.data(), irradiance.size()};
+  if (part.sent_irradiance != sent) {
+    Upload(part.irradiance, irradiance, GL_STREAM_DRAW);
+    part.sent_irradiance = sent;
+  }
 }
 
 void GpuModel::Draw(size_t part_index, float allowed_error, bool streamed) const {

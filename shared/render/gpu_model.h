@@ -43,6 +43,19 @@ class TexturePool {
 struct GpuModel {
   static constexpr int kNoTexture = -1;
 
+  struct Vertices {
+    GlBuffer positions;
+    GlBuffer normals;
+  };
+  // Where data came from, and for which picture.
+  struct Sent {
+    uint64_t picture = 0;  // 0: nothing was sent
+    const glm::vec3* data = nullptr;
+    size_t count = 0;
+
+    friend bool operator==(const Sent&, const Sent&) = default;
+  };
+
   struct Part {
     human::Surface surface = human::Surface::kPlain;
     int colour_texture = kNoTexture;  // index into textures
@@ -65,12 +78,14 @@ struct GpuModel {
     size_t first_vertex = 0;  // among those of all parts
     uint8_t prop_part = 0;    // of a prop: which of its parts this belongs to
     GlVertexArray bind_pose;
-    GlVertexArray streamed;      // positions and normals of this very draw
-    GlBuffer attributes;         // what stays: albedo, texture coordinates, skin weights
-    GlBuffer bind_vertices;      // all positions, then all normals
-    GlBuffer streamed_vertices;  // likewise
-    GlBuffer irradiance;         // of this very draw
+    GlVertexArray streamed;  // vertices of this very draw
+    GlBuffer attributes;     // what stays: albedo, texture coordinates, skin weights
+    Vertices bind_vertices;
+    Vertices streamed_vertices;
+    GlBuffer irradiance;  // of this very draw
     GlBuffer indices;
+    Sent sent_vertices;  // what the streamed buffers hold
+    Sent sent_irradiance;
 
     bool covered() const { return alpha_cutoff > 0.0f; }
   };
@@ -94,13 +109,15 @@ struct GpuModel {
   static Result<GpuModel> Create(const human::Human& human, TexturePool& pool);
   static Result<GpuModel> Create(const stage::Prop& prop, TexturePool& pool);
 
-  // Vertices for the next draw of a part; one for each of its own. The buffer's old
+  // Vertices for the next draws of a part; one for each of its own. A picture, counted from 1,
+  // draws a part in several passes: what the part holds of it is not sent again. The buffers' old
   // content is orphaned, so that nothing waits for draws under way.
   void Stream(size_t part,
+              uint64_t picture,
               std::span<const glm::vec3> positions,
               std::span<const glm::vec3> normals);
-  // Irradiance for the next draw of a part; one for each vertex that its level takes.
-  void StreamIrradiance(size_t part, std::span<const glm::vec3> irradiance);
+  // Likewise irradiance; one for each vertex that its level takes.
+  void StreamIrradiance(size_t part, uint64_t picture, std::span<const glm::vec3> irradiance);
   // The coarsest level whose error is allowed, metres. Attributes as in
   // shaders/pass/model.vert.
   void Draw(size_t part, float allowed_error, bool streamed) const;

@@ -82,14 +82,13 @@ void ScatterInSkin(PlainIrradiance& irradiance) {
   }
 }
 
-void PackDualQuaternions(std::span<const glm::mat4> skin, std::vector<glm::mat4>& packed) {
-  packed.clear();
-  for (const glm::mat4& matrix : skin) {
+void PackDualQuaternions(std::span<const glm::mat4> skin, std::span<glm::mat4> packed) {
+  std::ranges::transform(skin, packed.begin(), [](const glm::mat4& matrix) {
     const human::DualQuaternion q = human::ToDualQuaternion(matrix);
-    packed.emplace_back(glm::vec4(q.real.x, q.real.y, q.real.z, q.real.w),
-                        glm::vec4(q.dual.x, q.dual.y, q.dual.z, q.dual.w),
-                        glm::vec4(q.scale, 0.0f, 0.0f, 0.0f), glm::vec4(0.0f));
-  }
+    return glm::mat4(glm::vec4(q.real.x, q.real.y, q.real.z, q.real.w),
+                     glm::vec4(q.dual.x, q.dual.y, q.dual.z, q.dual.w),
+                     glm::vec4(q.scale, 0.0f, 0.0f, 0.0f), glm::vec4(0.0f));
+  });
 }
 
 const SceneVertices* FindVertices(const ModelDraw& draw, size_t part) {
@@ -176,18 +175,19 @@ Status ModelPass::Prepare(std::span<const ModelDraw> draws) {
 }
 
 void ModelPass::UploadSkins(std::span<const ModelDraw> draws) {
-  glBindBuffer(GL_UNIFORM_BUFFER, skin_.id());
-  glBufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(draws.size() * kSkinStride), nullptr,
-               GL_STREAM_DRAW);
+  constexpr size_t kJoints = human::Skeleton::kMaxJoints;
+  packed_.resize(std::max(packed_.size(), draws.size() * kJoints));
   for (size_t i = 0; i < draws.size(); ++i) {
-    std::span<const glm::mat4> skin = draws[i].skin;
+    const std::span<glm::mat4> packed = std::span(packed_).subspan(i * kJoints, kJoints);
     if (draws[i].model->skin == GpuModel::Skin::kDualQuaternion) {
-      PackDualQuaternions(skin, packed_);
-      skin = packed_;
+      PackDualQuaternions(draws[i].skin, packed);
+    } else {
+      std::ranges::copy(draws[i].skin, packed.begin());
     }
-    glBufferSubData(GL_UNIFORM_BUFFER, static_cast<GLintptr>(i * kSkinStride),
-                    static_cast<GLsizeiptr>(skin.size_bytes()), skin.data());
   }
+  glBindBuffer(GL_UNIFORM_BUFFER, skin_.id());
+  glBufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(packed_.size() * sizeof(glm::mat4)),
+               packed_.data(), GL_STREAM_DRAW);
 }
 
 void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const SunMask& sun_mask) {
@@ -288,12 +288,12 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   const GpuModel::Part& part = draw.model->parts[index];
   const SceneVertices* vertices = FindVertices(draw, index);
   if (vertices != nullptr) {
-    draw.model->Stream(index, vertices->positions, vertices->normals);
+    draw.model->Stream(index, picture_, vertices->positions, vertices->normals);
   }
   const bool only_depth = phase == Phase::kDepth || phase == Phase::kCaster;
   if (!draw.irradiance.empty() && !only_depth) {
     const size_t used = LevelAllowed(part.levels, draw.detail).vertices;
-    draw.model->StreamIrradiance(index, draw.irradiance.subspan(part.first_vertex, used));
+    draw.model->StreamIrradiance(index, picture_, draw.irradiance.subspan(part.first_vertex, used));
   }
   const GpuModel::Skin skin = draw.model->skin;
   Program& program = programs_[Variant{part.surface, skin, part.covered(), shading_}.index()];

@@ -48,6 +48,9 @@ class ModelPass {
  public:
   static Result<ModelPass> Create();
 
+  // Before all else of a picture: models may have moved.
+  void BeginPicture() { ++picture_; }
+
   // Into the bound target, whose depth it tests and writes. Light and camera are the
   // scene's. Programs are compiled when they are wanted first: each takes memory, and few
   // qualities are drawn at.
@@ -104,14 +107,16 @@ class ModelPass {
   std::array<Program, kVariants> programs_;
   Shading shading_ = Shading::kPixels;  // of this picture
   std::array<ShaderProgram, kCasters> casters_;
+  uint64_t picture_ = 0;
   GlBuffer skin_;  // matrices or dual quaternions of all models in the picture
   GlTexture white_;
   light::ProbeLight scene_light_;
   LampUniforms lamps_;
   std::span<const light::Lamp> scene_lamps_;
   GlTexture glossy_;
-  uint64_t glossy_number_ = 0;     // of what glossy_ holds; 0: of nothing
-  std::vector<glm::mat4> packed_;  // dual quaternions of one model, as the shader takes them
+  uint64_t glossy_number_ = 0;  // of what glossy_ holds; 0: of nothing
+  // What skin_ holds: kMaxJoints for each model; of as many as were ever drawn at once.
+  std::vector<glm::mat4> packed_;
 };
 
 }  // namespace lararium::render

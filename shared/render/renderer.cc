@@ -298,6 +298,7 @@ float Renderer::State::PropDetail(const RenderScene& scene, const SceneProp& pro
 }
 
 PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const PictureView& view) {
+  model_pass.BeginPicture();
   draws.clear();
   all_draws.clear();
   ScreenBounds bounds;
