@@ -413,6 +413,8 @@ Status Performance::OpenSource() {
 Status Performance::CreateShow(show::ShowContent content) {
   drama::DramaOptions drama;
   drama.seed = options_.seed;
+  // A player goes back to the beginning alone, and plays for days.
+  drama.past = options_.visitor_log.empty() ? drama::Past::kForgotten : drama::Past::kKept;
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
   story_length_ = show_->drama().settings().length;
   if (kiosk_) {

@@ -87,7 +87,7 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPa
                             vision::CreateTracker(show::Maps(content.places), camera, {}));
   show::SetOccluders(content.places, *worker->poses_);
   drama::DramaOptions drama;
-  drama.keep_past = true;  // whoever goes to and fro in time finds what was there
+  drama.past = drama::Past::kRepeated;  // whoever goes to and fro in time finds what was there
   LARARIUM_ASSIGN_OR_RETURN(worker->show_, show::Show::Create(std::move(content), drama, log));
   LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(worker->renderer_,

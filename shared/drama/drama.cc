@@ -75,10 +75,13 @@ class LuaDrama : public Drama {
     stage_.Reset();
     script_of_coroutines_.reset();
     recording_ = {};
+    if (forgets()) {
+      recording_.Close();
+    }
     cues_ = {};
     changes_ = 0;
     errors_ = History<ScriptError>(kMaxErrors);
-    tasks_ = History<TaskRecord>(kMaxTaskRecords);
+    tasks_ = History<TaskRecord>(forgets() ? 0 : kMaxTaskRecords);
     moments_.clear();
     save_ticks_ = kSaveTicks;
     run_ = MakeRun(std::move(sandbox));
@@ -133,12 +136,11 @@ class LuaDrama : public Drama {
                            "choose one from 0 s to 24 h");
     }
     const int64_t target = std::llround(time * kTicksPerSecond);
-    const auto behind =
-        std::upper_bound(moments_.begin(), moments_.end(), target,
-                         [](int64_t tick, const Moment& moment) { return tick < moment.tick; });
-    const Moment& moment = *(behind - 1);  // there is one of tick 0
-    if (target < run_->tick() || moment.tick > run_->tick()) {
-      if (!GoTo(moment)) {
+    const Moment* moment = MomentBefore(target);
+    if (target < run_->tick() || (moment != nullptr && moment->tick > run_->tick())) {
+      if (moment == nullptr) {
+        LARARIUM_RETURN_IF_ERROR(Begin());
+      } else if (!GoTo(*moment)) {
         // Must not be; then all is played again.
         log_.warn("{}: seeking plays the drama again from its beginning", place_);
         LARARIUM_RETURN_IF_ERROR(Begin());
@@ -196,15 +198,28 @@ class LuaDrama : public Drama {
         [this](TaskRecord record) { tasks_.Add(std::move(record)); });
   }
 
+  bool forgets() const { return options_.past == Past::kForgotten; }
+
+  // The last one that is kept, until a tick; nullptr: none is.
+  const Moment* MomentBefore(int64_t tick) const {
+    const auto behind =
+        std::upper_bound(moments_.begin(), moments_.end(), tick,
+                         [](int64_t t, const Moment& moment) { return t < moment.tick; });
+    return behind == moments_.begin() ? nullptr : &*(behind - 1);
+  }
+
   // The visitor of a tick: of the log, of the past that is kept, or as they are now, which
   // begins a new future where they did something else then.
   Visitor VisitorOf(int64_t tick) {
     const bool is_known = tick <= visited_until_;
-    if (follows_log_ || (is_known && (options_.keep_past || seeking_))) {
+    if (follows_log_ || (is_known && (options_.past == Past::kRepeated || seeking_))) {
       return visitors_.At(tick);
     }
     Visitor visitor = visitor_;
     visitor_.keys.clear();
+    if (forgets()) {
+      return visitor;
+    }
     if (is_known && visitors_.At(tick) != visitor) {
       ForgetFuture();
     }

@@ -18,13 +18,22 @@
 
 namespace lararium::drama {
 
+// What a drama knows of what was.
+enum class Past {
+  // Nothing but its errors: it takes no more memory however long it plays. Going back plays again
+  // from the beginning.
+  kForgotten,
+  // Going back is quick, and the visitor does there what they do now.
+  kKept,
+  // The visitor does again what they did, until the last moment that was played: for whoever edits.
+  kRepeated,
+};
+
 struct DramaOptions {
   uint64_t seed = 1;                    // of math.random
   size_t memory_limit = 64 << 20;       // bytes that the script may hold
   int64_t instruction_limit = 1 << 20;  // that the script may run in one tick
-  // After going back: whether the visitor does again what they did, until the last moment
-  // that was played (for whoever edits), or what they do now.
-  bool keep_past = false;
+  Past past = Past::kKept;
 
   Status Validate() const;
 };
@@ -94,13 +103,13 @@ class Drama {
   virtual void SetVisitor(const Visitor& visitor) = 0;
   // Instead of all that: a recorded visitor, from the beginning on.
   virtual void SetVisitorLog(VisitorLog log) = 0;
-  // What they have done so far.
+  // What they have done so far; of a past that is forgotten, nothing.
   virtual const VisitorLog& visitor_log() const = 0;
 
   // To the tick nearest to a time: the stage is then exactly as it was, or as if the drama
-  // had played until there. What was played before is not played again but for the last
-  // seconds before a time: the stage is restored, and the script's coroutines are run
-  // again against what they were told (recording.h).
+  // had played until there. What was played before is, unless the past is forgotten, not played
+  // again but for the last seconds before a time: the stage is restored, and the script's
+  // coroutines are run again against what they were told (recording.h).
   virtual Status Seek(double time) = 0;
 
   // Another script, sought to the same time. On an error the old one goes on.
@@ -114,7 +123,8 @@ class Drama {
   virtual int64_t played_ticks() const = 0;
   virtual double time() const = 0;                          // seconds since the beginning
   virtual std::span<const ScriptError> errors() const = 0;  // until time(), oldest first
-  // Likewise, in the order in which they ended; those that the script caught too.
+  // Likewise, in the order in which they ended; those that the script caught too. None where the
+  // past is forgotten.
   virtual std::span<const TaskRecord> tasks() const = 0;
   // Whatever was armed since the script began, once for each line and kind, whatever was
   // played since.

@@ -40,6 +40,8 @@ class Recording {
   // From here on it cannot be played again: its memory is full, or a call ended in a way
   // that cannot be repeated.
   bool closed() const { return closed_; }
+  // Nothing is recorded, until what was is forgotten.
+  void Close() { closed_ = true; }
   // How often a new future has begun.
   int changes() const { return changes_; }
 

@@ -1,6 +1,7 @@
 // Going to any moment: the stage as it was there, whoever did what in between.
 
 #include <gmock/gmock.h>
+#include <malloc.h>
 
 #include "shared/core/random.h"
 #include "tests/drama/drama_fixture.h"
@@ -89,7 +90,7 @@ Visitor VisitorAt(double time) {
 TEST_F(SeekingTest, EqualsPlayingBitForBitWhateverHappens) {
   constexpr int kSeconds = 40;
   DramaOptions options;
-  options.keep_past = true;
+  options.past = Past::kRepeated;
   const auto drama = Make(kBusy, options);
   std::vector<stage::StageSnapshot> played = {Snapshot()};
   for (int i = 1; i <= kSeconds * Drama::kTicksPerSecond; ++i) {
@@ -128,6 +129,44 @@ TEST_F(SeekingTest, PlaysNothingAgainThatWasPlayed) {
     EXPECT_LE(drama->played_ticks() - before, 2 * Drama::kTicksPerSecond) << time;
   }
   EXPECT_EQ(played, 40 * Drama::kTicksPerSecond);
+}
+
+TEST_F(SeekingTest, AForgottenPastIsPlayedAgainFromTheBeginning) {
+  DramaOptions options;
+  options.past = Past::kForgotten;
+  const auto drama = Make(kBusy, options);
+  const auto played = Play(*drama, 20);
+  EXPECT_TRUE(drama->tasks().empty());
+  for (const uint32_t tick : {700u, 0u, 2'000u, 1'999u}) {
+    ASSERT_TRUE(drama->Seek(static_cast<double>(tick) / Drama::kTicksPerSecond).ok());
+    ASSERT_TRUE(Snapshot() == played[tick]) << tick;
+  }
+  drama->SetVisitor(VisitorAt(1.0));
+  drama->Tick();
+  EXPECT_TRUE(drama->visitor_log().entries().empty());
+}
+
+TEST_F(SeekingTest, AForgottenPastTakesNoMemoryHoweverLongItWas) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer keeps the memory";
+#endif
+  // Bytes that ten minutes take, after the first.
+  const auto growth = [&](Past past) {
+    DramaOptions options;
+    options.past = past;
+    const auto drama = Make(kBusy, options);
+    const auto play = [&](int minutes) {
+      for (int i = 0; i < minutes * 60 * Drama::kTicksPerSecond; ++i) {
+        drama->SetVisitor(VisitorAt(drama->time()));
+        drama->Tick();
+      }
+      return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd);
+    };
+    const double before = play(1);
+    return play(10) - before;
+  };
+  EXPECT_LT(growth(Past::kForgotten), 200'000.0) << "of Lua, which clears up now and then";
+  EXPECT_GT(growth(Past::kKept), 2'000'000.0);
 }
 
 TEST_F(SeekingTest, AnotherVisitorMakesAnotherFuture) {

@@ -298,8 +298,10 @@ Result<bool> Soak(const Options& options) {
                             vision::CreateTracker(show::Maps(content.places), camera, tracking));
   show::SetOccluders(content.places, *poses);
   poses = vision::Smooth(std::move(poses), show::Maps(content.places), vision::Smoothing::kSoft);
+  drama::DramaOptions drama;
+  drama.past = drama::Past::kForgotten;
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<show::Show> show,
-                            show::Show::Create(std::move(content), {}, *log));
+                            show::Show::Create(std::move(content), drama, *log));
   show->SetLostLadder({});
   show->SetPictureSize(kWidth, kHeight);
   LARARIUM_ASSIGN_OR_RETURN(const render::OffscreenContext context,
