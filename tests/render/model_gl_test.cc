@@ -397,6 +397,15 @@ TEST_F(ModelTest, TwoOfOnePersonEachHaveTheirOwnVertices) {
   EXPECT_EQ(picture.at<cv::Vec3b>(40, 16), cv::Vec3b(255, 255, 255));
   EXPECT_EQ(picture.at<cv::Vec3b>(40, 40), cv::Vec3b(0, 0, 0));
   EXPECT_EQ(picture.at<cv::Vec3b>(40, 64), cv::Vec3b(255, 255, 255));
+  // Buffers serve from picture to picture: the same memory, other vertices.
+  for (std::vector<glm::vec3>& positions : moved) {
+    for (glm::vec3& position : positions) {
+      position.x -= position.x < 0.0f ? -0.6f : 0.6f;
+    }
+  }
+  const cv::Mat next = Draw(scene);
+  EXPECT_EQ(next.at<cv::Vec3b>(40, 16), cv::Vec3b(0, 0, 0));
+  EXPECT_EQ(next.at<cv::Vec3b>(40, 40), cv::Vec3b(255, 255, 255));
 }
 
 TEST_F(ModelTest, DualQuaternionsSkinAsTheCpuDoes) {
