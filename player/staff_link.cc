@@ -3,12 +3,12 @@
 #include <poll.h>
 
 #include <chrono>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <utility>
 
 #include "player/power_sensors.h"
+#include "shared/image/encode.h"
 #include "shared/show/show_statistics.h"
 
 namespace lararium::player {
@@ -106,15 +106,13 @@ void StaffLink::SendState(const StaffState& state) {
 
 void StaffLink::SendPicture(const cv::Mat& rgba) {
   cv::Mat bgr;
-  std::vector<unsigned char> jpeg;
   cv::cvtColor(rgba, bgr, cv::COLOR_RGBA2BGR);
-  try {
-    cv::imencode(".jpg", bgr, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  } catch (const cv::Exception&) {
+  const auto jpeg = image::EncodeJpeg(bgr, kJpegQuality);
+  if (!jpeg.ok()) {
     return;  // the page says that there is no picture
   }
   SendStaffMessage(link_, StaffMessage::kPicture,
-                   {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+                   {reinterpret_cast<const char*>(jpeg->data()), jpeg->size()});
 }
 
 }  // namespace lararium::player

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "editor/app/studio.h"
 #include "shared/core/file.h"
+#include "shared/image/encode.h"
 
 namespace lararium::app {
 namespace {
@@ -217,19 +217,6 @@ Result<cv::Mat> ShootSideBySide(std::span<const Sitter> sitters,
   return picture;
 }
 
-Status WritePicture(const std::filesystem::path& file, const cv::Mat& picture) {
-  std::vector<uint8_t> bytes;
-  try {
-    cv::imencode(file.extension().string(), picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 92});
-  } catch (const cv::Exception&) {
-    bytes.clear();
-  }
-  if (bytes.empty()) {
-    return Status::Error(file.string(), "no picture can be written as this", "use .png or .jpg");
-  }
-  return WriteFileAtomically(file, std::as_bytes(std::span(bytes)));
-}
-
 }  // namespace
 
 Result<CommandResult> RunPortrait(const PortraitOptions& options) {
@@ -248,7 +235,7 @@ Result<CommandResult> RunPortrait(const PortraitOptions& options) {
     const cv::Size size(options.width, options.height);
     LARARIUM_ASSIGN_OR_RETURN(picture, ShootSideBySide(sitters, view, size, *studio));
   }
-  LARARIUM_RETURN_IF_ERROR(WritePicture(options.out, picture));
+  LARARIUM_RETURN_IF_ERROR(image::WriteImage(options.out, picture));
   return CommandResult{
       "wrote " + options.out.string() + "\n",
       {{"out", options.out.string()}, {"width", picture.cols}, {"height", picture.rows}}};

@@ -6,8 +6,7 @@
 #include <cstdio>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
-#include <opencv2/core/mat.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "editor/app/camera_measure.h"
 #include "editor/bake/exr_image.h"
@@ -15,6 +14,7 @@
 #include "editor/bake/mirror_ball.h"
 #include "editor/bake/probe_match.h"
 #include "editor/bake/sun_split.h"
+#include "shared/image/decode.h"
 #include "shared/light/camera_response.h"
 
 namespace lararium::app {
@@ -170,15 +170,8 @@ Result<cv::Mat> BallPicture(const ProbeOptions& options, std::string& notes) {
     }
     return linear;
   }
-  cv::Mat bgr;
-  try {
-    bgr = cv::imread(options.files[0].string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const std::exception& error) {
-    return Status::Error(options.files[0].string(), std::string("cannot be read: ") + error.what());
-  }
-  if (bgr.empty()) {
-    return Status::Error(options.files[0].string(), "cannot be read as a photograph");
-  }
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat bgr,
+                            image::ReadImage(options.files[0], image::Channels::kBgr));
   light::CameraResponse response = light::SrgbResponse();
   if (!options.response.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(response, LoadCameraResponse(options.response));

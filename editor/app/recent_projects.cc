@@ -6,12 +6,13 @@
 #include <utility>
 
 #include "editor/app/document_fields.h"
-#include "editor/app/png_file.h"
 #include "editor/app/project.h"
 #include "editor/app/user_folders.h"
 #include "shared/bundle/sha256.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/image/decode.h"
+#include "shared/image/encode.h"
 
 namespace lararium::app {
 
@@ -137,9 +138,9 @@ Status RecentProjects::Move(const fs::path& from, const fs::path& to) {
 }
 
 std::optional<cv::Mat> LoadProjectPicture(const fs::path& project) {
-  std::optional<cv::Mat> picture = LoadPng(PictureFile(project));
-  const bool fits = picture && picture->cols <= kProjectPictureWidth;
-  return fits ? std::move(picture) : std::nullopt;
+  auto picture = image::ReadImage(PictureFile(project), image::Channels::kBgr);
+  const bool fits = picture.ok() && picture->cols <= kProjectPictureWidth;
+  return fits ? std::optional(std::move(*picture)) : std::nullopt;
 }
 
 Status SaveProjectPicture(const fs::path& project, const cv::Mat& bgr) {
@@ -152,7 +153,7 @@ Status SaveProjectPicture(const fs::path& project, const cv::Mat& bgr) {
   const fs::path file = PictureFile(project);
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  return SavePng(file, small);
+  return image::WriteImage(file, small);
 }
 
 }  // namespace lararium::app

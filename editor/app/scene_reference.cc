@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <span>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "shared/capture/frame_source.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/skinning.h"
+#include "shared/image/encode.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/render_target.h"
 #include "shared/show/show.h"
@@ -364,17 +364,6 @@ Result<bake::Environment> LoadEnvironment(const ProjectPaths& paths, const Place
       std::move(image), {geometry::ToGlm(probe.stage_from_probe), static_cast<float>(probe.scale)});
 }
 
-Status WritePicture(const std::filesystem::path& out, const cv::Mat& picture) {
-  bool written = false;
-  try {
-    written = cv::imwrite(out.string(), picture);
-  } catch (const cv::Exception&) {
-    // Not an image's name.
-  }
-  return written ? Status()
-                 : Status::Error(out.string(), "cannot be written", "name a .png or .jpg file");
-}
-
 }  // namespace
 
 Result<ReferenceView> LoadReferenceView(const ReferenceOptions& options) {
@@ -441,7 +430,7 @@ Result<CommandResult> RunSceneReference(const ReferenceOptions& options,
   const cv::Mat error = cv::abs(ours - traced) * 2.0;
   cv::Mat side_by_side;
   cv::hconcat(std::vector<cv::Mat>{Encoded(traced), drawn.picture, Encoded(error)}, side_by_side);
-  LARARIUM_RETURN_IF_ERROR(WritePicture(options.out, side_by_side));
+  LARARIUM_RETURN_IF_ERROR(image::WriteImage(options.out, side_by_side));
   const double on_virtual = RelativeError(ours, traced, coverage > 0.999);
   const double on_real = RelativeError(ours, traced, coverage < 0.001);
   CommandResult result;

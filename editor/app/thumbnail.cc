@@ -2,8 +2,9 @@
 
 #include <string>
 
-#include "editor/app/png_file.h"
 #include "shared/core/file.h"
+#include "shared/image/decode.h"
+#include "shared/image/encode.h"
 
 namespace lararium::app {
 namespace {
@@ -35,9 +36,9 @@ std::optional<cv::Mat> LoadThumbnail(const fs::path& human) {
   if (!wanted || !known.ok() || *known != *wanted) {
     return std::nullopt;
   }
-  std::optional<cv::Mat> picture = LoadPng(file);
-  const bool whole = picture && picture->cols == kThumbnailSide && picture->rows == kThumbnailSide;
-  return whole ? std::move(picture) : std::nullopt;
+  auto picture = image::ReadImage(file, image::Channels::kBgr);
+  const bool whole = picture.ok() && picture->size() == cv::Size(kThumbnailSide, kThumbnailSide);
+  return whole ? std::optional(std::move(*picture)) : std::nullopt;
 }
 
 Result<cv::Mat> MakeThumbnail(const fs::path& human, Studio& studio) {
@@ -45,7 +46,7 @@ Result<cv::Mat> MakeThumbnail(const fs::path& human, Studio& studio) {
                             studio.Shoot({.azimuth = 0.3f, .frame = StudioFrame::kBust},
                                          cv::Size(kThumbnailSide, kThumbnailSide)));
   const fs::path file = ThumbnailFile(human);
-  LARARIUM_RETURN_IF_ERROR(SavePng(file, shot.picture));
+  LARARIUM_RETURN_IF_ERROR(image::WriteImage(file, shot.picture));
   if (const std::optional<std::string> key = Key(human)) {
     LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(KeyFile(file), std::string_view(*key)));
   }

@@ -1,6 +1,8 @@
 #include "editor/bake/caption_font.h"
 
 #include <ft2build.h>
+
+#include "shared/image/encode.h"
 #include FT_FREETYPE_H
 #include FT_MODULE_H
 #include FT_SFNT_NAMES_H
@@ -11,7 +13,6 @@
 #include <iterator>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 namespace lararium::bake {
@@ -239,12 +240,7 @@ Result<CaptionFontBake> BakeCaptionFont(const std::filesystem::path& file,
 Result<CaptionFontFiles> FormatCaptionFont(const render::CaptionFont& font) {
   CaptionFontFiles files;
   files.metrics = render::FormatCaptionMetrics(font);
-  std::vector<uchar> png;
-  if (!cv::imencode(".png", font.atlas, png)) {
-    return Status::Error("caption font", "the atlas cannot be written");
-  }
-  const auto bytes = std::as_bytes(std::span(png));
-  files.atlas.assign(bytes.begin(), bytes.end());
+  LARARIUM_ASSIGN_OR_RETURN(files.atlas, image::EncodePng(font.atlas));
   return files;
 }
 

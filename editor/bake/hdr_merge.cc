@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/photo.hpp>
 
 #include "shared/capture/frame_source.h"
+#include "shared/image/decode.h"
 
 namespace lararium::bake {
 namespace {
@@ -145,14 +145,7 @@ Result<std::vector<Bracket>> ReadBrackets(std::span<const std::filesystem::path>
   std::vector<Bracket> brackets;
   for (size_t i = 0; i < files.size(); ++i) {
     Bracket bracket{files[i].string(), {}, 0.0};
-    try {
-      bracket.bgr = cv::imread(files[i].string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-    } catch (const std::exception& error) {
-      return Status::Error(bracket.name, std::string("cannot be read: ") + error.what());
-    }
-    if (bracket.bgr.empty()) {
-      return Status::Error(bracket.name, "cannot be read as a photograph", "use JPEG or PNG");
-    }
+    LARARIUM_ASSIGN_OR_RETURN(bracket.bgr, image::ReadImage(files[i], image::Channels::kBgr));
     bracket.exposure =
         exposures.empty() ? capture::ExifExposure(files[i]).value_or(0.0) : exposures[i];
     brackets.push_back(std::move(bracket));

@@ -9,9 +9,8 @@
 #include <cmath>
 #include <exception>
 #include <glm/common.hpp>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "editor/bake/radiance.h"
 #include "shared/core/file.h"
 #include "shared/core/lower_case.h"
 
@@ -78,31 +77,9 @@ Result<ProbeImage> ReadExr(const std::filesystem::path& file, Shape shape) {
 
 Result<ProbeImage> ReadRadiance(const std::filesystem::path& file, Shape shape) {
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
-  const std::string_view magic(reinterpret_cast<const char*>(bytes.data()),
-                               std::min<size_t>(bytes.size(), 2));
-  if (magic != "#?") {
-    return Status::Error(file.string(), "not a Radiance .hdr image");
-  }
-  try {
-    const cv::Mat bgr = cv::imdecode(
-        cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::byte*>(bytes.data())),
-        cv::IMREAD_ANYDEPTH | cv::IMREAD_COLOR);
-    if (bgr.empty() || bgr.type() != CV_32FC3) {
-      return Status::Error(file.string(), "cannot be read as a Radiance .hdr image");
-    }
-    LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), shape, bgr.cols, bgr.rows));
-    ProbeImage image{bgr.cols, bgr.rows, {}, {}};
-    image.pixels.reserve(bgr.total());
-    for (int row = 0; row < bgr.rows; ++row) {
-      for (int column = 0; column < bgr.cols; ++column) {
-        const cv::Vec3f& texel = bgr.at<cv::Vec3f>(row, column);
-        image.pixels.emplace_back(texel[2], texel[1], texel[0]);
-      }
-    }
-    return image;
-  } catch (const std::exception& error) {
-    return Status::Error(file.string(), std::string("cannot be read: ") + error.what());
-  }
+  LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ParseRadiance(bytes, file.string()));
+  LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), shape, image.width, image.height));
+  return image;
 }
 
 std::string PixelName(const ProbeImage& image, size_t index) {

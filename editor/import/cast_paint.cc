@@ -4,30 +4,26 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "shared/image/decode.h"
+#include "shared/image/encode.h"
+#include "shared/image/image_header.h"
 
 namespace lararium::import {
 namespace {
 
-constexpr int kMaxSide = 8192;
+constexpr uint32_t kMaxSide = 8192;
 
-Result<cv::Mat> Decode(const std::string& name, std::span<const std::byte> encoded, int flags) {
-  cv::Mat image;
-  if (!encoded.empty() && encoded.size() <= human::Texture::kMaxEncodedBytes) {
-    const cv::Mat bytes(1, static_cast<int>(encoded.size()), CV_8U,
-                        const_cast<std::byte*>(encoded.data()));
-    try {
-      image = cv::imdecode(bytes, flags);
-    } catch (const cv::Exception&) {
-      image.release();
-    }
-  }
-  if (image.empty() || image.depth() != CV_8U || image.cols > kMaxSide || image.rows > kMaxSide) {
+Result<cv::Mat> Decode(const std::string& name,
+                       std::span<const std::byte> encoded,
+                       image::Channels channels) {
+  const std::optional<image::ImageHeader> header = image::ReadImageHeader(encoded);
+  if (!header || std::max(header->width, header->height) > kMaxSide) {
     return Status::Error(name, "is no picture that can be read",
-                         "PNG or JPEG of 8 bits, at most 8192 pixels wide and high");
+                         "PNG or JPEG, at most 8192 pixels wide and high");
   }
-  return image;
+  return image::DecodeImage(encoded, channels, name);
 }
 
 cv::Mat Reduced(const cv::Mat& image, int max_size) {
@@ -44,37 +40,18 @@ cv::Mat Reduced(const cv::Mat& image, int max_size) {
 Result<cv::Mat> DecodeWithAlpha(const std::string& name,
                                 std::span<const std::byte> encoded,
                                 int max_size) {
-  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, Decode(name, encoded, cv::IMREAD_UNCHANGED));
-  if (image.channels() != 4) {
-    cv::cvtColor(image, image, image.channels() == 3 ? cv::COLOR_BGR2BGRA : cv::COLOR_GRAY2BGRA);
-  }
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, Decode(name, encoded, image::Channels::kBgra));
   return Reduced(image, max_size);
 }
 
-Result<human::Texture> Encode(const std::string& name,
-                              const cv::Mat& image,
-                              const std::string& ending,
-                              const std::vector<int>& options) {
-  std::vector<uchar> bytes;
-  try {
-    cv::imencode(ending, image, bytes, options);
-  } catch (const cv::Exception& error) {
-    return Status::Error(name, std::string("cannot be encoded: ") + error.what());
-  }
-  human::Texture texture;
-  texture.name = name;
-  texture.encoded.resize(bytes.size());
-  std::transform(bytes.begin(), bytes.end(), texture.encoded.begin(),
-                 [](uchar b) { return static_cast<std::byte>(b); });
-  return texture;
-}
-
 Result<human::Texture> EncodePng(const std::string& name, const cv::Mat& image) {
-  return Encode(name, image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 9});
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> png, image::EncodePng(image, 9));
+  return human::Texture{name, std::move(png)};
 }
 
 Result<human::Texture> EncodeJpeg(const std::string& name, const cv::Mat& image) {
-  return Encode(name, image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, 90});
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> jpeg, image::EncodeJpeg(image, 90));
+  return human::Texture{name, std::move(jpeg)};
 }
 
 // Brings the mean of what is covered to the colour, keeping light and dark.
@@ -338,7 +315,7 @@ void Burn(cv::Mat& skin, const SkinPaint& paint, cv::RNG& random) {
 Result<human::Texture> SkinTexture(const std::string& name,
                                    std::span<const std::byte> encoded,
                                    const SkinPaint& paint) {
-  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, Decode(name, encoded, cv::IMREAD_COLOR));
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, Decode(name, encoded, image::Channels::kBgr));
   cv::Mat skin;
   cv::resize(image, skin, {kSkinSize, kSkinSize}, 0.0, 0.0, cv::INTER_CUBIC);
   skin = ToLinear(skin);
@@ -405,7 +382,7 @@ Result<Coverage> CoverageOf(const std::string& name, std::span<const std::byte> 
 Result<human::Texture> OpaqueTexture(const std::string& name,
                                      std::span<const std::byte> encoded,
                                      int max_size) {
-  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, Decode(name, encoded, cv::IMREAD_COLOR));
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, Decode(name, encoded, image::Channels::kBgr));
   return EncodeJpeg(name, Reduced(image, max_size));
 }
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <exception>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "editor/import/model_gltf.h"
-#include "shared/core/image_header.h"
+#include "shared/image/decode.h"
+#include "shared/image/encode.h"
+#include "shared/image/image_header.h"
 
 namespace lararium::import {
 namespace {
@@ -23,10 +24,7 @@ bool HasHoles(const cv::Mat& image) {
   return least < 255.0;
 }
 
-std::vector<std::byte> Encode(cv::Mat image) {
-  if (image.depth() == CV_16U) {
-    image.convertTo(image, CV_8U, 1.0 / 257.0);
-  }
+Result<std::vector<std::byte>> Encode(cv::Mat image) {
   const int longer = std::max(image.cols, image.rows);
   if (longer > kMaxTextureSide) {
     const double scale = static_cast<double>(kMaxTextureSide) / longer;
@@ -34,17 +32,11 @@ std::vector<std::byte> Encode(cv::Mat image) {
                         std::max(1, cvRound(image.rows * scale)));
     cv::resize(image, image, size, 0.0, 0.0, cv::INTER_AREA);
   }
-  if (image.channels() == 4 && !HasHoles(image)) {
-    cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
+  if (HasHoles(image)) {
+    return image::EncodePng(image);
   }
-  std::vector<uchar> encoded;
-  if (image.channels() == 4) {
-    cv::imencode(".png", image, encoded);
-  } else {
-    cv::imencode(".jpg", image, encoded, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  }
-  const auto* begin = reinterpret_cast<const std::byte*>(encoded.data());
-  return {begin, begin + encoded.size()};
+  cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
+  return image::EncodeJpeg(image, kJpegQuality);
 }
 
 // File names may come with %20 for a space.
@@ -94,7 +86,7 @@ Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
                                       const std::string& name,
                                       const std::string& place) {
   const std::string at = place + ": texture '" + name + "'";
-  const std::optional<ImageHeader> size = ReadImageHeader(encoded);
+  const std::optional<image::ImageHeader> size = image::ReadImageHeader(encoded);
   if (!size) {
     return Status::Error(at, "is neither PNG, JPEG nor BMP, or is damaged", "convert it to PNG");
   }
@@ -104,22 +96,11 @@ Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
         at, "has " + std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels",
         "scale it down");
   }
-  try {
-    const cv::Mat bytes(1, static_cast<int>(encoded.size()), CV_8U,
-                        const_cast<std::byte*>(encoded.data()));
-    cv::Mat image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-    if (!image.empty() && image.channels() < 3) {
-      image = cv::imdecode(bytes, cv::IMREAD_COLOR);  // grey, with or without alpha
-    }
-    if (image.empty() || (image.depth() != CV_8U && image.depth() != CV_16U)) {
-      return Status::Error(at, "cannot be decoded", "save it again as PNG");
-    }
-    human::Texture texture{name, Encode(image)};
-    LARARIUM_RETURN_IF_ERROR(texture.Validate(place));
-    return texture;
-  } catch (const std::exception& exception) {
-    return Status::Error(at, std::string("cannot be decoded: ") + exception.what());
-  }
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, image::DecodeImage(encoded, image::Channels::kBgra, at));
+  human::Texture texture{name, {}};
+  LARARIUM_ASSIGN_OR_RETURN(texture.encoded, Encode(std::move(image)));
+  LARARIUM_RETURN_IF_ERROR(texture.Validate(place));
+  return texture;
 }
 
 }  // namespace lararium::import

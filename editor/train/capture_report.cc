@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 
 #include "editor/train/capture_analysis.h"
 #include "shared/core/file.h"
+#include "shared/image/encode.h"
 
 namespace lararium::train {
 namespace {
@@ -92,7 +92,7 @@ std::string Escape(std::string_view text) {
   return escaped;
 }
 
-std::string Base64(const std::vector<uint8_t>& bytes) {
+std::string Base64(std::span<const std::byte> bytes) {
   static constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -100,7 +100,7 @@ std::string Base64(const std::vector<uint8_t>& bytes) {
     const size_t count = std::min<size_t>(3, bytes.size() - i);
     uint32_t triple = 0;
     for (size_t j = 0; j < 3; ++j) {
-      triple = triple << 8 | (j < count ? bytes[i + j] : 0u);
+      triple = triple << 8 | (j < count ? static_cast<uint32_t>(bytes[i + j]) : 0u);
     }
     for (size_t j = 0; j < 4; ++j) {
       text += j <= count ? kDigits[triple >> (18 - 6 * j) & 63] : '=';
@@ -120,11 +120,10 @@ std::string Picture(const cv::Mat& image, int width, std::string_view alt) {
       const int height = std::max(1, image.rows * width / image.cols);
       cv::resize(image, small, cv::Size(width, height), 0, 0, cv::INTER_AREA);
     }
-    std::vector<uint8_t> jpeg;
-    if (!cv::imencode(".jpg", small, jpeg, {cv::IMWRITE_JPEG_QUALITY, 80})) {
-      return {};
-    }
-    return "<img alt=\"" + Escape(alt) + "\" src=\"data:image/jpeg;base64," + Base64(jpeg) + "\">";
+    const auto jpeg = image::EncodeJpeg(small, 80);
+    return !jpeg.ok() ? std::string()
+                      : "<img alt=\"" + Escape(alt) + "\" src=\"data:image/jpeg;base64," +
+                            Base64(*jpeg) + "\">";
   } catch (const cv::Exception&) {
     return {};
   }

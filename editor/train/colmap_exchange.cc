@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <set>
@@ -16,6 +15,8 @@
 #include "shared/core/file.h"
 #include "shared/core/parallel.h"
 #include "shared/geometry/resampling.h"
+#include "shared/image/decode.h"
+#include "shared/image/encode.h"
 
 namespace lararium::train {
 namespace {
@@ -47,8 +48,7 @@ std::string FileNameOf(const vision::Keyframe& keyframe) {
   if (path.empty() || path.is_absolute() || *path.begin() == ".." || !path.has_filename()) {
     name = capture::NumberedFrameName(keyframe.frame_index);
   }
-  static const std::set<std::string> kExtensions = {".png", ".jpg", ".jpeg",
-                                                    ".bmp", ".tif", ".tiff"};
+  static const std::set<std::string> kExtensions = {".png", ".jpg", ".jpeg"};
   return kExtensions.contains(fs::path(name).extension().string()) ? name : name + ".png";
 }
 
@@ -127,17 +127,10 @@ class HalfWrittenFolder {
 };
 
 Status WriteImage(const fs::path& file, const cv::Mat& grey) {
-  std::vector<uint8_t> bytes;
-  try {
-    if (cv::imencode(file.extension().string(), grey, bytes, {cv::IMWRITE_JPEG_QUALITY, 95})) {
-      std::error_code error;
-      fs::create_directories(file.parent_path(), error);
-      return WriteFileAtomically(file, std::as_bytes(std::span(bytes)));
-    }
-  } catch (const cv::Exception&) {
-    // Falls through: the caller learns which image.
-  }
-  return Status::Error(file.string(), "cannot be encoded as an image");
+  constexpr int kJpegQuality = 95;
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  return image::WriteImage(file, grey, kJpegQuality);
 }
 
 // ------------------------------------------------------------------- import
@@ -179,15 +172,7 @@ Result<cv::Mat> ReadImage(const fs::path& file, const ColmapCamera& camera) {
     return Status::Error(file.string(), "does not exist",
                          "name the folder of the model's images with --images");
   }
-  cv::Mat bgr;
-  try {
-    bgr = cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    bgr.release();
-  }
-  if (bgr.empty()) {
-    return Status::Error(file.string(), "cannot be read as an image", "replace it");
-  }
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat bgr, image::ReadImage(file, image::Channels::kBgr));
   const auto size = [](auto width, auto height) {
     return std::to_string(width) + "x" + std::to_string(height);
   };

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "shared/capture/frame_source.h"
 #include "shared/core/lower_case.h"
+#include "shared/image/decode.h"
 
 namespace lararium::capture {
 namespace {
@@ -53,22 +53,9 @@ bool NaturalLess(std::string_view a, std::string_view b) {
 
 bool IsImageName(const std::filesystem::path& name) {
   const std::string extension = LowerCase(name.extension().string());
-  static constexpr std::array<std::string_view, 6> kExtensions = {".png", ".jpg", ".jpeg",
-                                                                  ".bmp", ".tif", ".tiff"};
+  static constexpr std::array<std::string_view, 7> kExtensions = {".png", ".jpg",  ".jpeg", ".bmp",
+                                                                  ".tif", ".tiff", ".webp"};
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
-
-Result<cv::Mat> ReadImage(const std::filesystem::path& file) {
-  cv::Mat image;
-  try {
-    image = cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
-  if (image.empty()) {
-    return Status::Error(file.string(), "cannot be read as an image", "replace or remove it");
-  }
-  return image;
 }
 
 class ImageFolder final : public FrameSource {
@@ -85,7 +72,7 @@ class ImageFolder final : public FrameSource {
     Frame frame;
     frame.index = static_cast<int64_t>(index);
     frame.capture_time = static_cast<double>(index) / kFramesPerSecond;
-    LARARIUM_ASSIGN_OR_RETURN(frame.bgr, ReadImage(file));
+    LARARIUM_ASSIGN_OR_RETURN(frame.bgr, image::ReadImage(file, image::Channels::kBgr));
     if (frame.bgr.size() != size_) {
       return Status::Error(
           file.string(),
@@ -144,7 +131,7 @@ Result<std::vector<std::string>> ListImages(const std::filesystem::path& folder)
   }
   if (names.empty()) {
     return Status::Error(folder.string(), "holds no images",
-                         "give a folder of png, jpg, bmp or tif files");
+                         "give a folder of png, jpg, tif, webp or bmp files");
   }
   std::sort(names.begin(), names.end(), NaturalLess);
   return names;
@@ -154,7 +141,8 @@ Result<std::vector<std::string>> ListImages(const std::filesystem::path& folder)
 
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder) {
   LARARIUM_ASSIGN_OR_RETURN(std::vector<std::string> names, ListImages(folder));
-  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat first, ReadImage(folder / names.front()));
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat first,
+                            image::ReadImage(folder / names.front(), image::Channels::kBgr));
   return std::unique_ptr<FrameSource>(
       std::make_unique<ImageFolder>(folder, std::move(names), first.size()));
 }

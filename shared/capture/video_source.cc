@@ -6,12 +6,14 @@
 
 #include "shared/capture/frame_pool.h"
 #include "shared/capture/frame_source.h"
-#include "shared/capture/libav.h"
+#include "shared/image/libav.h"
 
 namespace lararium::capture {
 namespace {
 
 using geometry::Frame;
+using image::LibavMessage;
+using image::LibavPtr;
 
 // Only plain containers of video: playlists and the like would open further
 // files or addresses that the file names.

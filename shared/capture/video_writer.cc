@@ -4,9 +4,12 @@
 #include <string>
 #include <system_error>
 
-#include "shared/capture/libav.h"
+#include "shared/image/libav.h"
 
 namespace lararium::capture {
+
+using image::LibavMessage;
+using image::LibavPtr;
 
 namespace {
 

@@ -4,39 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "shared/core/check.h"
-#include "shared/core/image_header.h"
+#include "shared/image/decode.h"
+#include "shared/image/image_header.h"
 
 namespace lararium::render {
 namespace {
-
-// 8-bit BGRA of whatever the decoder gives: grey, colour, with alpha or without,
-// 8 or 16 bits.
-std::optional<cv::Mat> ToBgra(cv::Mat image) {
-  if (image.depth() == CV_16U) {
-    image.convertTo(image, CV_8U, 1.0 / 257.0);
-  }
-  if (image.depth() != CV_8U) {
-    return std::nullopt;
-  }
-  cv::Mat bgra;
-  switch (image.channels()) {
-    case 1:
-      cv::cvtColor(image, bgra, cv::COLOR_GRAY2BGRA);
-      return bgra;
-    case 3:
-      cv::cvtColor(image, bgra, cv::COLOR_BGR2BGRA);
-      return bgra;
-    case 4:
-      return image;
-    default:
-      return std::nullopt;
-  }
-}
 
 double LinearFromSrgb(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
@@ -64,8 +40,8 @@ Table MakePremultiplyTable() {
 }  // namespace
 
 Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::string& place) {
-  const std::optional<ImageHeader> header = ReadImageHeader(encoded);
-  if (!header || header->format == ImageHeader::Format::kBmp || header->width == 0 ||
+  const std::optional<image::ImageHeader> header = image::ReadImageHeader(encoded);
+  if (!header || header->format == image::ImageHeader::Format::kBmp || header->width == 0 ||
       header->height == 0) {
     return Status::Error(place, "is no PNG or JPEG image", "give it another image, or none");
   }
@@ -80,21 +56,12 @@ Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::st
 
 Result<cv::Mat> DecodeTexture(std::span<const std::byte> encoded, const std::string& place) {
   LARARIUM_ASSIGN_OR_RETURN(const cv::Size size, ReadImageSize(encoded, place));
-  cv::Mat image;
-  try {
-    const cv::Mat bytes(1, static_cast<int>(encoded.size()), CV_8U,
-                        const_cast<std::byte*>(encoded.data()));
-    image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    image.release();
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat bgra,
+                            image::DecodeImage(encoded, image::Channels::kBgra, place));
+  if (bgra.size() != size) {
+    return Status::Error(place, "is an image of two sizes", "give it another image, or none");
   }
-  const std::optional<cv::Mat> bgra =
-      image.empty() || image.size() != size ? std::nullopt : ToBgra(image);
-  if (!bgra) {
-    return Status::Error(place, "the image is damaged or cut short",
-                         "bake or export the figure again");
-  }
-  return *bgra;
+  return bgra;
 }
 
 void PremultiplySrgb(cv::Mat& bgra) {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 
 #include "shared/core/check.h"
 #include "shared/core/file.h"
-#include "shared/core/image_header.h"
 #include "shared/core/parallel.h"
+#include "shared/image/decode.h"
+#include "shared/image/encode.h"
+#include "shared/image/image_header.h"
 #include "shared/vision/scene_database_generated.h"
 
 namespace lararium::vision {
@@ -141,34 +142,27 @@ Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const s
   const Status bad = Status::Error(place, "a keyframe's image is damaged", "train the place again");
   // A block of 8 x 8 pixels takes at least two bits; less is a decompression bomb.
   constexpr int64_t kPixelsPerByte = 256;
-  const std::optional<ImageHeader> header = ReadImageHeader(std::as_bytes(jpeg));
-  const ImageHeader wanted = {ImageHeader::Format::kJpeg, static_cast<uint32_t>(size.width),
-                              static_cast<uint32_t>(size.height)};
+  const auto encoded = std::as_bytes(jpeg);
+  const std::optional<image::ImageHeader> header = image::ReadImageHeader(encoded);
+  const image::ImageHeader wanted = {image::ImageHeader::Format::kJpeg,
+                                     static_cast<uint32_t>(size.width),
+                                     static_cast<uint32_t>(size.height)};
   if (header != wanted ||
       static_cast<int64_t>(jpeg.size()) * kPixelsPerByte < static_cast<int64_t>(size.area())) {
     return bad;
   }
-  try {
-    const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8UC1,
-                        const_cast<uint8_t*>(jpeg.data()));
-    cv::Mat grey = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-    if (grey.size() != size || grey.type() != CV_8UC1) {
-      return bad;
-    }
-    return grey;
-  } catch (const cv::Exception&) {
-    return bad;
-  }
+  auto grey = image::DecodeImage(encoded, image::Channels::kGrey, place);
+  return grey.ok() && grey->size() == size ? std::move(grey) : bad;
 }
 
 // Empty without an image.
-std::vector<uint8_t> EncodeGrey(const cv::Mat& grey) {
-  std::vector<uint8_t> jpeg;
+std::vector<std::byte> EncodeGrey(const cv::Mat& grey) {
   if (grey.empty()) {
-    return jpeg;
+    return {};
   }
-  CHECK(cv::imencode(".jpg", grey, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}));
-  return jpeg;
+  auto jpeg = image::EncodeJpeg(grey, kJpegQuality);
+  CHECK(jpeg.ok());
+  return std::move(*jpeg);
 }
 
 // ------------------------------------------------------------ from file form
@@ -294,13 +288,14 @@ fb::Pose PoseTo(const geometry::Rigid3& pose) {
 
 flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<fb::Keyframe>>> WriteKeyframes(
     const SceneDatabase& db, flatbuffers::FlatBufferBuilder& builder) {
-  std::vector<std::vector<uint8_t>> images(db.keyframes.size());
+  std::vector<std::vector<std::byte>> images(db.keyframes.size());
   ParallelFor(images.size(), [&](size_t i) { images[i] = EncodeGrey(db.keyframes[i].grey); });
   std::vector<flatbuffers::Offset<fb::Keyframe>> keyframes;
   for (size_t i = 0; i < images.size(); ++i) {
     const Keyframe& keyframe = db.keyframes[i];
     const auto name = builder.CreateString(keyframe.name);
-    const auto jpeg = builder.CreateVector(images[i]);
+    const auto jpeg =
+        builder.CreateVector(reinterpret_cast<const uint8_t*>(images[i].data()), images[i].size());
     const fb::Pose pose = PoseTo(keyframe.camera_from_map);
     const fb::Gain gain(keyframe.gain[0], keyframe.gain[1], keyframe.gain[2]);
     keyframes.push_back(fb::CreateKeyframe(builder, keyframe.frame_index, name, keyframe.session,

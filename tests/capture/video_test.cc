@@ -6,15 +6,16 @@
 #include <opencv2/imgproc.hpp>
 
 #include "shared/capture/frame_source.h"
-#include "shared/capture/libav.h"
 #include "shared/capture/video_writer.h"
 #include "shared/core/file.h"
 #include "shared/core/random.h"
+#include "shared/image/libav.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::capture {
 namespace {
 
+using image::LibavPtr;
 using ::testing::HasSubstr;
 
 constexpr int kWidth = 160;

@@ -2,6 +2,7 @@
 # see this: headers leak without it.
 set(layer_core 0)
 set(layer_geometry 1)
+set(layer_image 1)
 foreach(room capture vision human light)
   set(layer_${room} 2)
 endforeach()

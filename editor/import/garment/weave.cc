@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "shared/core/random.h"
+#include "shared/image/encode.h"
 
 namespace lararium::import {
 namespace {
@@ -81,20 +81,8 @@ cv::Mat1f Relief(const WeaveLook& look, Random& random) {
 }
 
 Result<human::Texture> Encoded(const char* name, const cv::Mat& image) {
-  std::vector<uchar> bytes;
-  try {
-    if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, 88})) {
-      return Status::Error(name, "the picture of its weave cannot be written");
-    }
-  } catch (const cv::Exception& error) {
-    return Status::Error(name, error.what());
-  }
-  human::Texture texture;
-  texture.name = name;
-  texture.encoded.resize(bytes.size());
-  std::transform(bytes.begin(), bytes.end(), texture.encoded.begin(),
-                 [](uchar byte) { return static_cast<std::byte>(byte); });
-  return texture;
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> jpeg, image::EncodeJpeg(image, 88));
+  return human::Texture{name, std::move(jpeg)};
 }
 
 }  // namespace

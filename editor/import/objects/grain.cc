@@ -4,10 +4,10 @@
 #include <glm/common.hpp>
 #include <numbers>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "editor/import/objects/paint.h"
 #include "shared/core/check.h"
+#include "shared/image/encode.h"
 
 namespace lararium::import {
 namespace {
@@ -46,10 +46,9 @@ human::Texture Picture(const char* name, Shade shade) {
       image.at<cv::Vec3b>(row, column) = {byte(rgb.z), byte(rgb.y), byte(rgb.x)};
     }
   }
-  std::vector<uint8_t> encoded;
-  CHECK(cv::imencode(".jpg", image, encoded, {cv::IMWRITE_JPEG_QUALITY, 88}));
-  const auto bytes = std::as_bytes(std::span(encoded));
-  return {name, {bytes.begin(), bytes.end()}};
+  auto jpeg = image::EncodeJpeg(image, 88);
+  CHECK(jpeg.ok());
+  return {name, std::move(*jpeg)};
 }
 
 glm::vec3 Wood(float u, float v) {

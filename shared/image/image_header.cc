@@ -1,9 +1,9 @@
-#include "shared/core/image_header.h"
+#include "shared/image/image_header.h"
 
 #include <cstring>
 #include <string_view>
 
-namespace lararium {
+namespace lararium::image {
 namespace {
 
 using Bytes = std::span<const std::byte>;
@@ -85,4 +85,4 @@ std::optional<ImageHeader> ReadImageHeader(Bytes encoded) {
   return std::nullopt;
 }
 
-}  // namespace lararium
+}  // namespace lararium::image

@@ -1,6 +1,6 @@
 #pragma once
 
-// Owners of libav's objects. Private to capture.
+// Owners of libav's objects. Private to image and capture.
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -12,7 +12,7 @@ extern "C" {
 #include <memory>
 #include <string>
 
-namespace lararium::capture {
+namespace lararium::image {
 
 struct LibavDeleter {
   void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
@@ -29,4 +29,4 @@ inline std::string LibavMessage(int error) {
   return text.data();
 }
 
-}  // namespace lararium::capture
+}  // namespace lararium::image

@@ -1,11 +1,11 @@
-#include "shared/core/image_header.h"
+#include "shared/image/image_header.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-namespace lararium {
+namespace lararium::image {
 namespace {
 
 using Format = ImageHeader::Format;
@@ -77,4 +77,4 @@ TEST(ImageHeader, EndsWhereSegmentsHaveNoLength) {
 }
 
 }  // namespace
-}  // namespace lararium
+}  // namespace lararium::image

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-namespace lararium {
+namespace lararium::image {
 
 struct ImageHeader {
   enum class Format { kPng, kJpeg, kBmp };
@@ -23,4 +23,4 @@ struct ImageHeader {
 // nullopt for anything else, and where it is cut short before its size.
 std::optional<ImageHeader> ReadImageHeader(std::span<const std::byte> encoded);
 
-}  // namespace lararium
+}  // namespace lararium::image

@@ -1,0 +1,80 @@
+#include "shared/image/decode.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
+
+#include "shared/core/file.h"
+#include "shared/image/codecs.h"
+#include "shared/image/image_header.h"
+
+namespace lararium::image {
+
+bool StartsWith(Bytes bytes, size_t at, std::string_view text) {
+  return at + text.size() <= bytes.size() &&
+         std::memcmp(bytes.data() + at, text.data(), text.size()) == 0;
+}
+
+cv::Mat Converted(const cv::Mat& image, Channels channels) {
+  const bool grey = image.channels() == 1;
+  cv::Mat converted = image;
+  if (channels == Channels::kGrey && !grey) {
+    cv::cvtColor(image, converted, cv::COLOR_BGR2GRAY);
+  } else if (channels == Channels::kBgr && grey) {
+    cv::cvtColor(image, converted, cv::COLOR_GRAY2BGR);
+  } else if (channels == Channels::kBgra) {
+    cv::cvtColor(image, converted, grey ? cv::COLOR_GRAY2BGRA : cv::COLOR_BGR2BGRA);
+  }
+  return converted;
+}
+
+Status Damaged(const std::string& place, const std::string& why) {
+  return Status::Error(place, "the image is damaged or cut short (" + why + ")",
+                       "replace it, or save it again as PNG");
+}
+
+Result<cv::Mat> MakeImage(uint64_t width, uint64_t height, int type, const std::string& place) {
+  if (width == 0 || height == 0 || width > kMaxPixels || height > kMaxPixels ||
+      width * height > kMaxPixels) {
+    return Status::Error(
+        place, "is an image of " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
+        "scale it to at most " + std::to_string(kMaxPixels / 1'000'000) + " million");
+  }
+  return cv::Mat(static_cast<int>(height), static_cast<int>(width), type);
+}
+
+namespace {
+
+// Of either byte order; with offsets of 32 bits (42) or of 64 (43).
+bool IsTiff(Bytes encoded) {
+  using std::literals::string_view_literals::operator""sv;
+  static constexpr std::array kMagic = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+  return std::any_of(kMagic.begin(), kMagic.end(),
+                     [&](std::string_view magic) { return StartsWith(encoded, 0, magic); });
+}
+
+}  // namespace
+
+Result<cv::Mat> DecodeImage(Bytes encoded, Channels channels, const std::string& place) {
+  const std::optional<ImageHeader> header = ReadImageHeader(encoded);
+  if (header && header->format == ImageHeader::Format::kJpeg) {
+    return DecodeJpeg(encoded, channels, place);
+  }
+  if (header && header->format == ImageHeader::Format::kPng) {
+    return DecodePng(encoded, channels, place);
+  }
+  if (IsTiff(encoded)) {
+    return DecodeTiff(encoded, channels, place);
+  }
+  return DecodeByLibav(encoded, channels, place);
+}
+
+Result<cv::Mat> ReadImage(const std::filesystem::path& file, Channels channels) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded, ReadBytes(file));
+  return DecodeImage(encoded, channels, file.string());
+}
+
+}  // namespace lararium::image

@@ -1,0 +1,181 @@
+// libjpeg-turbo. Its errors come by longjmp, so that functions that call setjmp own nothing.
+
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+
+// clang-format off
+#include <jpeglib.h>  // needs <cstdio>
+#include <jerror.h>
+// clang-format on
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+
+#include "shared/core/check.h"
+#include "shared/image/codecs.h"
+#include "shared/image/encode.h"
+
+namespace lararium::image {
+namespace {
+
+struct Errors : jpeg_error_mgr {
+  std::jmp_buf jump;
+  std::array<char, JMSG_LENGTH_MAX> message = {};
+};
+
+[[noreturn]] void Leave(j_common_ptr info) {
+  auto* errors = static_cast<Errors*>(info->err);
+  errors->format_message(info, errors->message.data());
+  std::longjmp(errors->jump, 1);  // NOLINT(cert-err52-cpp): C frames are in between
+}
+
+// libjpeg goes on with grey where data are missing; half a picture is none. It also warns of
+// harmless things, as of bytes that some cameras leave between segments.
+void OnWarning(j_common_ptr info, int level) {
+  const int code = info->err->msg_code;
+  if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER)) {
+    Leave(info);
+  }
+}
+
+void Prepare(Errors& errors) {
+  jpeg_std_error(&errors);
+  errors.error_exit = Leave;
+  errors.emit_message = OnWarning;
+}
+
+class Reader {
+ public:
+  Reader() {
+    Prepare(errors_);
+    info_.err = &errors_;
+    progress_.progress_monitor = LimitScans;
+  }
+  ~Reader() { jpeg_destroy_decompress(&info_); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  bool Open(Bytes encoded) {
+    if (setjmp(errors_.jump) != 0) {  // NOLINT(cert-err52-cpp)
+      return false;
+    }
+    jpeg_create_decompress(&info_);
+    info_.progress = &progress_;
+    jpeg_mem_src(&info_, reinterpret_cast<const unsigned char*>(encoded.data()), encoded.size());
+    jpeg_read_header(&info_, TRUE);
+    return true;
+  }
+
+  bool Read(bool grey, cv::Mat& image) {
+    if (setjmp(errors_.jump) != 0) {  // NOLINT(cert-err52-cpp)
+      return false;
+    }
+    info_.out_color_space = grey ? JCS_GRAYSCALE : JCS_EXT_BGR;
+    jpeg_start_decompress(&info_);
+    while (info_.output_scanline < info_.output_height) {
+      JSAMPROW row = image.ptr(static_cast<int>(info_.output_scanline));
+      jpeg_read_scanlines(&info_, &row, 1);
+    }
+    jpeg_finish_decompress(&info_);
+    return true;
+  }
+
+  const jpeg_decompress_struct& info() const { return info_; }
+  std::string message() const { return errors_.message.data(); }
+
+ private:
+  // A progressive image comes in about ten scans; thousands of them, each over the whole
+  // image, would keep a reader busy for hours.
+  static void LimitScans(j_common_ptr info) {
+    constexpr int kMaxScans = 200;
+    if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number > kMaxScans) {
+      auto* errors = static_cast<Errors*>(info->err);
+      std::snprintf(errors->message.data(), errors->message.size(), "more than %d scans",
+                    kMaxScans);
+      std::longjmp(errors->jump, 1);  // NOLINT(cert-err52-cpp)
+    }
+  }
+
+  jpeg_decompress_struct info_ = {};
+  jpeg_progress_mgr progress_ = {};
+  Errors errors_ = {};
+};
+
+class Writer {
+ public:
+  Writer() {
+    Prepare(errors_);
+    info_.err = &errors_;
+  }
+  ~Writer() {
+    jpeg_destroy_compress(&info_);
+    std::free(bytes_);
+  }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  bool Write(const cv::Mat& image, int quality) {
+    if (setjmp(errors_.jump) != 0) {  // NOLINT(cert-err52-cpp)
+      return false;
+    }
+    jpeg_create_compress(&info_);
+    jpeg_mem_dest(&info_, &bytes_, &size_);
+    info_.image_width = static_cast<JDIMENSION>(image.cols);
+    info_.image_height = static_cast<JDIMENSION>(image.rows);
+    info_.input_components = image.channels();
+    info_.in_color_space = image.channels() == 1 ? JCS_GRAYSCALE : JCS_EXT_BGR;
+    jpeg_set_defaults(&info_);
+    jpeg_set_quality(&info_, quality, TRUE);
+    jpeg_start_compress(&info_, TRUE);
+    while (info_.next_scanline < info_.image_height) {
+      auto* row = const_cast<JSAMPROW>(image.ptr(static_cast<int>(info_.next_scanline)));
+      jpeg_write_scanlines(&info_, &row, 1);
+    }
+    jpeg_finish_compress(&info_);
+    return true;
+  }
+
+  Bytes bytes() const { return std::as_bytes(std::span(bytes_, size_)); }
+  std::string message() const { return errors_.message.data(); }
+
+ private:
+  jpeg_compress_struct info_ = {};
+  Errors errors_ = {};
+  unsigned char* bytes_ = nullptr;  // malloc's
+  unsigned long size_ = 0;          // NOLINT(google-runtime-int): libjpeg's type
+};
+
+}  // namespace
+
+Result<cv::Mat> DecodeJpeg(Bytes encoded, Channels channels, const std::string& place) {
+  Reader reader;
+  if (!reader.Open(encoded)) {
+    return Damaged(place, reader.message());
+  }
+  const J_COLOR_SPACE colours = reader.info().jpeg_color_space;
+  if (colours == JCS_CMYK || colours == JCS_YCCK) {
+    return Status::Error(place, "has the colours of a printer (CMYK)", "save it again as RGB");
+  }
+  const bool grey = channels == Channels::kGrey || colours == JCS_GRAYSCALE;
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
+                            MakeImage(reader.info().image_width, reader.info().image_height,
+                                      grey ? CV_8UC1 : CV_8UC3, place));
+  if (!reader.Read(grey, image)) {
+    return Damaged(place, reader.message());
+  }
+  return Converted(image, channels);
+}
+
+Result<std::vector<std::byte>> EncodeJpeg(const cv::Mat& image, int quality) {
+  CHECK(image.type() == CV_8UC1 || image.type() == CV_8UC3);
+  Writer writer;
+  if (!writer.Write(image, quality)) {
+    return Status::Error("JPEG", "cannot be written: " + writer.message());
+  }
+  return std::vector<std::byte>(writer.bytes().begin(), writer.bytes().end());
+}
+
+}  // namespace lararium::image

@@ -1,0 +1,98 @@
+// Pictures that come seldom, by the library that reads the videos.
+
+#include <algorithm>
+#include <cstring>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string_view>
+
+#include "shared/image/codecs.h"
+#include "shared/image/libav.h"
+
+namespace lararium::image {
+namespace {
+
+std::optional<AVCodecID> CodecOf(Bytes encoded) {
+  if (StartsWith(encoded, 0, "BM")) {
+    return AV_CODEC_ID_BMP;
+  }
+  if (StartsWith(encoded, 0, "RIFF") && StartsWith(encoded, 8, "WEBP")) {
+    return AV_CODEC_ID_WEBP;
+  }
+  return std::nullopt;
+}
+
+// Null where the decoder cannot be had.
+LibavPtr<AVCodecContext> OpenDecoder(AVCodecID id) {
+  const AVCodec* codec = avcodec_find_decoder(id);
+  LibavPtr<AVCodecContext> context(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
+  if (context == nullptr) {
+    return nullptr;
+  }
+  context->thread_count = 1;
+  context->max_pixels = static_cast<int64_t>(kMaxPixels);
+  context->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
+  return avcodec_open2(context.get(), codec, nullptr) == 0 ? std::move(context) : nullptr;
+}
+
+Result<LibavPtr<AVFrame>> DecodeFrame(AVCodecID id, Bytes encoded, const std::string& place) {
+  av_log_set_level(AV_LOG_FATAL);  // its errors are reported as Status
+  const LibavPtr<AVCodecContext> decoder = OpenDecoder(id);
+  LibavPtr<AVPacket> packet(av_packet_alloc());
+  LibavPtr<AVFrame> frame(av_frame_alloc());
+  if (decoder == nullptr || packet == nullptr || frame == nullptr ||
+      encoded.size() > size_t{INT32_MAX} - AV_INPUT_BUFFER_PADDING_SIZE ||
+      av_new_packet(packet.get(), static_cast<int>(encoded.size())) != 0) {
+    return Status::Error(place, "no decoder can be had for it", "save it again as PNG");
+  }
+  std::memcpy(packet->data, encoded.data(), encoded.size());
+  int error = avcodec_send_packet(decoder.get(), packet.get());
+  if (error == 0) {
+    error = avcodec_receive_frame(decoder.get(), frame.get());
+  }
+  if (error != 0 || frame->decode_error_flags != 0) {
+    return Damaged(place, error != 0 ? LibavMessage(error) : "its decoder found errors");
+  }
+  return frame;
+}
+
+Result<cv::Mat> ToMat(const AVFrame& frame, Channels channels, const std::string& place) {
+  const bool alpha = channels == Channels::kBgra;
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
+                            MakeImage(static_cast<uint64_t>(std::max(frame.width, 0)),
+                                      static_cast<uint64_t>(std::max(frame.height, 0)),
+                                      alpha ? CV_8UC4 : CV_8UC3, place));
+  const LibavPtr<SwsContext> scaler(sws_getContext(
+      frame.width, frame.height, static_cast<AVPixelFormat>(frame.format), frame.width,
+      frame.height, alpha ? AV_PIX_FMT_BGRA : AV_PIX_FMT_BGR24,
+      SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr));
+  uint8_t* const rows[] = {image.data};
+  const int stride[] = {static_cast<int>(image.step)};
+  if (scaler == nullptr || sws_scale(scaler.get(), frame.data, frame.linesize, 0, frame.height,
+                                     rows, stride) != frame.height) {
+    return Status::Error(place, "has pixels of an unknown kind", "save it again as PNG");
+  }
+  return channels == Channels::kGrey ? Converted(image, channels) : image;
+}
+
+}  // namespace
+
+Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& place) {
+  const std::optional<AVCodecID> codec = CodecOf(encoded);
+  if (!codec) {
+    return Status::Error(place, "cannot be read as an image",
+                         "give a PNG, JPEG, TIFF, WebP or BMP file");
+  }
+  // Its decoder shears what is a little too short.
+  uint32_t claimed = 0;
+  if (*codec == AV_CODEC_ID_BMP && encoded.size() >= 6) {
+    std::memcpy(&claimed, encoded.data() + 2, sizeof(claimed));
+  }
+  if (claimed > encoded.size()) {
+    return Damaged(place, "shorter than its header says");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const LibavPtr<AVFrame> frame, DecodeFrame(*codec, encoded, place));
+  return ToMat(*frame, channels, place);
+}
+
+}  // namespace lararium::image

@@ -1,0 +1,95 @@
+// libtiff, which brings every kind of TIFF to red, green, blue and alpha of 8 bits.
+
+#include <tiffio.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+
+#include "shared/image/codecs.h"
+
+namespace lararium::image {
+namespace {
+
+// A file in memory, as libtiff asks for it. Its errors go nowhere else.
+struct Memory {
+  Bytes bytes;
+  uint64_t at = 0;
+};
+
+Memory& Of(thandle_t handle) { return *static_cast<Memory*>(handle); }
+
+tmsize_t Read(thandle_t handle, void* out, tmsize_t size) {
+  Memory& memory = Of(handle);
+  const uint64_t left = memory.bytes.size() - std::min<uint64_t>(memory.at, memory.bytes.size());
+  const uint64_t count = std::min(left, static_cast<uint64_t>(std::max<tmsize_t>(size, 0)));
+  if (count > 0) {
+    std::memcpy(out, memory.bytes.data() + memory.at, count);
+  }
+  memory.at += count;
+  return static_cast<tmsize_t>(count);
+}
+
+tmsize_t Refuse(thandle_t, void*, tmsize_t) { return -1; }
+
+toff_t Seek(thandle_t handle, toff_t offset, int whence) {
+  Memory& memory = Of(handle);
+  const uint64_t from = whence == SEEK_SET   ? 0
+                        : whence == SEEK_CUR ? memory.at
+                                             : memory.bytes.size();
+  memory.at = from + offset;
+  return memory.at;
+}
+
+toff_t Size(thandle_t handle) { return Of(handle).bytes.size(); }
+
+int Close(thandle_t) { return 0; }
+
+struct Closer {
+  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
+};
+
+// The page's orientation is ignored, as EXIF's is.
+bool ReadPixels(TIFF* tiff, cv::Mat& rgba) {
+  TIFFRGBAImage page = {};
+  std::array<char, 1024> message = {};
+  if (TIFFRGBAImageBegin(&page, tiff, /*stop=*/1, message.data()) == 0) {
+    return false;
+  }
+  page.req_orientation = page.orientation;
+  const bool whole = TIFFRGBAImageGet(&page, rgba.ptr<uint32_t>(), page.width, page.height) != 0;
+  TIFFRGBAImageEnd(&page);
+  return whole;
+}
+
+}  // namespace
+
+Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& place) {
+  static const bool silent = (TIFFSetErrorHandler(nullptr), TIFFSetWarningHandler(nullptr), true);
+  static_cast<void>(silent);
+  Memory memory{encoded};
+  const std::unique_ptr<TIFF, Closer> tiff(TIFFClientOpen(
+      place.c_str(), "rm", &memory, Read, Refuse, Seek, Close, Size, nullptr, nullptr));
+  uint32_t width = 0;
+  uint32_t height = 0;
+  if (tiff == nullptr || TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width) == 0 ||
+      TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height) == 0) {
+    return Damaged(place, "no page of a TIFF");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, MakeImage(width, height, CV_8UC4, place));
+  if (!ReadPixels(tiff.get(), image)) {
+    return Damaged(place, "the pixels of a TIFF");
+  }
+  if (channels == Channels::kBgra) {
+    cv::cvtColor(image, image, cv::COLOR_RGBA2BGRA);
+    return image;
+  }
+  cv::Mat bgr;
+  cv::cvtColor(image, bgr, cv::COLOR_RGBA2BGR);
+  return Converted(bgr, channels);
+}
+
+}  // namespace lararium::image

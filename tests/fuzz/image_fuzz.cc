@@ -1,0 +1,18 @@
+// libFuzzer harness: whatever the bytes are, a picture is decoded whole or refused.
+
+#include <span>
+
+#include "shared/core/check.h"
+#include "shared/image/decode.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using lararium::image::Channels;
+  const auto bytes = std::as_bytes(std::span(data, size));
+  const auto grey = lararium::image::DecodeImage(bytes, Channels::kGrey, "fuzz: image");
+  const auto bgr = lararium::image::DecodeImage(bytes, Channels::kBgr, "fuzz: image");
+  CHECK(grey.ok() == bgr.ok());
+  if (bgr.ok()) {
+    CHECK(grey->size() == bgr->size() && grey->type() == CV_8UC1 && bgr->type() == CV_8UC3);
+  }
+  return 0;
+}
