@@ -370,6 +370,7 @@ Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
   }
   LARARIUM_RETURN_IF_ERROR(ReadDescriptors(scene, place, db));
   ReadForest(scene, db.forest);
+  db.observations.reserve(scene.observations()->size());
   for (const fb::Observation* o : *scene.observations()) {
     db.observations.push_back({o->point(), o->keyframe(), o->x(), o->y(), o->scale()});
   }
