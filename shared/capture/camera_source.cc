@@ -1,121 +1,109 @@
+#include "shared/capture/camera_source.h"
+
+#include <algorithm>
 #include <chrono>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
+#include <utility>
 
+#include "shared/capture/buffer_queue.h"
+#include "shared/capture/camera_setup.h"
+#include "shared/capture/frame_converter.h"
 #include "shared/capture/frame_pool.h"
-#include "shared/capture/frame_source.h"
 
 namespace lararium::capture {
 namespace {
 
 using geometry::Frame;
-using Clock = std::chrono::steady_clock;
+
+constexpr int kMostDamaged = 30;  // images one after the other
+constexpr double kOldest = 0.5;   // seconds; a driver that says older ones errs
+constexpr double kLeastStep = 1e-3;
+
+double Now() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
 
 class CameraSource final : public FrameSource {
  public:
-  CameraSource(std::string name, cv::VideoCapture capture)
-      : name_(std::move(name)), capture_(std::move(capture)), start_(Clock::now()) {
-    width_ = static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_WIDTH));
-    height_ = static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_HEIGHT));
-    const double rate = capture_.get(cv::CAP_PROP_FPS);
-    frames_per_second_ = rate > 0.1 && rate < 1000.0 ? rate : 30.0;
-  }
+  CameraSource(std::string name,
+               std::unique_ptr<VideoDevice> device,
+               FrameConverter converter,
+               const CameraMode& mode,
+               std::unique_ptr<BufferQueue> queue)
+      : name_(std::move(name)),
+        device_(std::move(device)),
+        converter_(std::move(converter)),
+        mode_(mode),
+        queue_(std::move(queue)) {}
 
   Result<std::optional<Frame>> Next() override {
     Frame frame;
-    frame.bgr = pool_.Take(height_, width_, CV_8UC3);
-    frame.grey = pool_.Take(height_, width_, CV_8UC1);
-    if (!Read(frame)) {
-      return Status::Error(name_, "gives no image", "check that it is connected");
+    frame.bgr = pool_.Take(height(), width(), CV_8UC3);
+    frame.grey = pool_.Take(height(), width(), CV_8UC1);
+    for (int damaged = 0; damaged < kMostDamaged; ++damaged) {
+      LARARIUM_ASSIGN_OR_RETURN(const SentImage image, queue_->Newest());
+      const double time = TimeOf(image);
+      const bool converted = converter_.Convert(mode_.format, image.bytes, frame.bgr);
+      queue_->GiveBack(image);
+      if (converted) {
+        cv::cvtColor(frame.bgr, frame.grey, cv::COLOR_BGR2GRAY);
+        frame.capture_time = last_time_ = std::max(time, last_time_ + kLeastStep);
+        frame.index = next_index_++;
+        return std::optional<Frame>(std::move(frame));
+      }
     }
-    if (frame.bgr.cols != width_ || frame.bgr.rows != height_ || frame.bgr.type() != CV_8UC3) {
-      return Status::Error(name_, "changed its image size or format", "open it again");
-    }
-    frame.index = next_index_++;
-    cv::cvtColor(frame.bgr, frame.grey, cv::COLOR_BGR2GRAY);
-    return std::optional<Frame>(std::move(frame));
+    return Status::Error(name_, "gives no image that can be read (" + converter_.Problem() + ")",
+                         "check its cable, or change the device file's \"capture\"");
   }
 
   Status Seek(int64_t) override { return Status::Error(name_, "a live camera cannot seek"); }
 
   std::optional<int64_t> frame_count() const override { return std::nullopt; }
-  int width() const override { return width_; }
-  int height() const override { return height_; }
-  double frames_per_second() const override { return frames_per_second_; }
+  int width() const override { return static_cast<int>(mode_.format.fmt.pix.width); }
+  int height() const override { return static_cast<int>(mode_.format.fmt.pix.height); }
+  double frames_per_second() const override { return mode_.frames_per_second; }
   bool live() const override { return true; }
   std::string FrameName(int64_t index) const override { return NumberedFrameName(index); }
 
  private:
-  bool Read(Frame& frame) {
-    try {
-      if (!capture_.grab()) {
-        return false;
-      }
-      frame.capture_time = std::chrono::duration<double>(Clock::now() - start_).count();
-      return capture_.retrieve(frame.bgr);
-    } catch (const cv::Exception&) {
-      return false;
-    }
+  // Seconds since the camera was opened. The driver knows when an image was taken, we only when
+  // it came.
+  double TimeOf(const SentImage& image) const {
+    const double now = Now();
+    const double taken = image.taken.value_or(now);
+    return (taken <= now && taken >= now - kOldest ? taken : now) - start_;
   }
 
   std::string name_;
-  cv::VideoCapture capture_;
-  Clock::time_point start_;
+  // Each uses those above it.
+  std::unique_ptr<VideoDevice> device_;
+  FrameConverter converter_;
+  CameraMode mode_;
+  std::unique_ptr<BufferQueue> queue_;
   FramePool pool_;
-  int width_ = 0;
-  int height_ = 0;
-  double frames_per_second_ = 30.0;
+  double start_ = Now();
+  double last_time_ = -kLeastStep;
   int64_t next_index_ = 0;
 };
 
-// Sizes and formats belong together: first the format, then the size, then the rate.
-Status Configure(const std::string& name,
-                 const CameraSettings& settings,
-                 cv::VideoCapture& capture) {
-  if (settings.format.size() == 4) {
-    const std::string& f = settings.format;
-    capture.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc(f[0], f[1], f[2], f[3]));
-  }
-  if (settings.width > 0 && settings.height > 0) {
-    capture.set(cv::CAP_PROP_FRAME_WIDTH, settings.width);
-    capture.set(cv::CAP_PROP_FRAME_HEIGHT, settings.height);
-    if (static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH)) != settings.width ||
-        static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT)) != settings.height) {
-      return Status::Error(name,
-                           "has no images of " + std::to_string(settings.width) + "x" +
-                               std::to_string(settings.height),
-                           "change the device file's \"capture\"");
-    }
-  }
-  if (settings.frames_per_second > 0.0) {
-    capture.set(cv::CAP_PROP_FPS, settings.frames_per_second);
-  }
-  if (settings.exposure_ms) {
-    // V4L2: 1 is by hand; exposure counts in tenths of a millisecond.
-    capture.set(cv::CAP_PROP_AUTO_EXPOSURE, 1.0);
-    capture.set(cv::CAP_PROP_EXPOSURE, 10.0 * *settings.exposure_ms);
-  }
-  return Status();
-}
-
 }  // namespace
+
+Result<std::unique_ptr<FrameSource>> OpenCamera(const std::string& name,
+                                                std::unique_ptr<VideoDevice> device,
+                                                const CameraSettings& settings) {
+  LARARIUM_RETURN_IF_ERROR(CheckIsCamera(name, *device));
+  LARARIUM_ASSIGN_OR_RETURN(FrameConverter converter, FrameConverter::Create(name, *device));
+  LARARIUM_ASSIGN_OR_RETURN(const CameraMode mode, SetUpCamera(name, settings, *device, converter));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<BufferQueue> queue, BufferQueue::Start(name, *device));
+  return std::unique_ptr<FrameSource>(std::make_unique<CameraSource>(
+      name, std::move(device), std::move(converter), mode, std::move(queue)));
+}
 
 Result<std::unique_ptr<FrameSource>> OpenCamera(int number, const CameraSettings& settings) {
   const std::string name = "camera " + std::to_string(number);
-  cv::VideoCapture capture;
-  bool opened = false;
-  try {
-    // OpenCV prints about devices that do not exist.
-    opened = number >= 0 && std::filesystem::exists("/dev/video" + std::to_string(number)) &&
-             capture.open(number, cv::CAP_V4L2);
-  } catch (const std::exception&) {
-    opened = false;
-  }
-  if (!opened) {
-    return Status::Error(name, "cannot be opened", "check that it is connected and not in use");
-  }
-  LARARIUM_RETURN_IF_ERROR(Configure(name, settings, capture));
-  return std::unique_ptr<FrameSource>(std::make_unique<CameraSource>(name, std::move(capture)));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<VideoDevice> device, OpenVideoDevice(name, number));
+  return OpenCamera(name, std::move(device), settings);
 }
 
 }  // namespace lararium::capture

@@ -52,17 +52,18 @@ Result<std::unique_ptr<FrameSource>> OpenVideo(const std::filesystem::path& file
 // Pixels stay as stored: EXIF orientation is ignored. 30 frames per second.
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder);
 
-// How a camera is to be run; what is not set stays as the camera has it. What it refuses is
-// refused with an error but for the exposure, which not all cameras know.
+// How a camera is to be run. What it refuses is refused with an error but for the rate: it takes
+// the nearest, which frames_per_second() tells.
 struct CameraSettings {
-  std::string format;  // four letters: "MJPG", "YUYV"; empty: any
-  int width = 0;       // pixels; 0: any
+  std::string format = {};  // four letters: "MJPG", "YUYV"; empty: the best of this size
+  int width = 0;            // pixels; 0: about 640x480
   int height = 0;
-  double frames_per_second = 0.0;     // 0: any
-  std::optional<double> exposure_ms;  // none: automatic
+  double frames_per_second = 0.0;          // 0: 30
+  std::optional<double> exposure_ms = {};  // none: as the camera has it
 };
 
-// A live V4L2 camera. Its images are decoded by whoever calls Next().
+// A live V4L2 camera: /dev/video and the number. Next() gives the newest image, decoded by whoever
+// calls; those before it and damaged ones are left out. Capture times are those of the driver.
 Result<std::unique_ptr<FrameSource>> OpenCamera(int number, const CameraSettings& settings = {});
 
 // The focal length in pixels that the EXIF data of an image file give, by its
