@@ -9,6 +9,7 @@ namespace {
 constexpr uint32_t kBuffers = 4;
 constexpr uint32_t kLeastBuffers = 2;  // one is filled while the other is read
 constexpr std::chrono::seconds kPatience(2);
+constexpr std::chrono::seconds kPatienceAtFirst(5);  // cameras begin slowly
 
 v4l2_buffer Buffer(uint32_t index) {
   v4l2_buffer buffer = Zeroed<v4l2_buffer>();
@@ -111,10 +112,11 @@ bool BufferQueue::Queue(uint32_t index) {
 void BufferQueue::GiveBack(const SentImage& image) { Queue(image.buffer); }
 
 Result<SentImage> BufferQueue::Newest() {
-  const Clock::time_point deadline = Clock::now() + kPatience;
+  const Clock::time_point deadline = Clock::now() + (came_ ? kPatience : kPatienceAtFirst);
   for (bool first = true; WaitUntil(deadline); first = false) {
     LARARIUM_ASSIGN_OR_RETURN(const std::optional<SentImage> image, Drain(!first));
     if (image) {
+      came_ = true;
       return *image;
     }
   }

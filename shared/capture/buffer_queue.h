@@ -33,7 +33,7 @@ class BufferQueue {
   BufferQueue& operator=(const BufferQueue&) = delete;
 
   // The newest image, so that nobody lags behind: older ones, and those that the driver knows to
-  // be damaged, go back. Waits for one up to two seconds.
+  // be damaged, go back. Waits for one up to two seconds, for the first one five.
   Result<SentImage> Newest();
   // The driver may fill its buffer again.
   void GiveBack(const SentImage& image);
@@ -54,6 +54,7 @@ class BufferQueue {
   VideoDevice& device_;
   std::vector<std::span<uint8_t>> buffers_;
   bool flows_ = false;
+  bool came_ = false;  // an image
 };
 
 }  // namespace lararium::capture
