@@ -22,6 +22,17 @@ std::optional<AVCodecID> CodecOf(Bytes encoded) {
   return std::nullopt;
 }
 
+// Bytes of the whole file, as it says itself. libav shears a BMP that is a little too short, and
+// makes up the rest of a WebP.
+uint64_t ClaimedSize(AVCodecID id, Bytes encoded) {
+  const size_t at = id == AV_CODEC_ID_BMP ? 2 : 4;
+  uint32_t claimed = 0;
+  if (encoded.size() >= at + sizeof(claimed)) {
+    std::memcpy(&claimed, encoded.data() + at, sizeof(claimed));
+  }
+  return id == AV_CODEC_ID_BMP ? claimed : uint64_t{claimed} + 8;
+}
+
 // Null where the decoder cannot be had.
 LibavPtr<AVCodecContext> OpenDecoder(AVCodecID id) {
   const AVCodec* codec = avcodec_find_decoder(id);
@@ -83,12 +94,7 @@ Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::strin
     return Status::Error(place, "cannot be read as an image",
                          "give a PNG, JPEG, TIFF, WebP or BMP file");
   }
-  // Its decoder shears what is a little too short.
-  uint32_t claimed = 0;
-  if (*codec == AV_CODEC_ID_BMP && encoded.size() >= 6) {
-    std::memcpy(&claimed, encoded.data() + 2, sizeof(claimed));
-  }
-  if (claimed > encoded.size()) {
+  if (ClaimedSize(*codec, encoded) > encoded.size()) {
     return Damaged(place, "shorter than its header says");
   }
   LARARIUM_ASSIGN_OR_RETURN(const LibavPtr<AVFrame> frame, DecodeFrame(*codec, encoded, place));

@@ -110,7 +110,7 @@ TEST(DecodeImage, KeepsAlphaAndGivesTheWholeOfItWhereThereIsNone) {
 
 TEST(DecodeImage, NeverGivesAPartOfAPicture) {
   const cv::Mat image = Picture(CV_8UC3);
-  for (const char* ending : {".png", ".jpg", ".bmp", ".tif"}) {
+  for (const char* ending : {".png", ".jpg", ".bmp", ".tif", ".webp"}) {
     const auto whole = Encoded(image, ending);
     // The last bytes may say nothing of the picture: JPEG's end, PNG's last chunk.
     for (size_t size = 0; size + 16 < whole.size(); ++size) {
