@@ -52,6 +52,7 @@ enum class KeyAction {
   kLight,
   kMatches,
   kOccluders,
+  kWipe,
   kSound,
   // the camera view
   kNudgeLeft,
@@ -69,7 +70,6 @@ enum class KeyAction {
   kBrighter,
   kPickGrey,
   kPickDirection,
-  kWipe,
   kStopPicking,
   // the timeline
   kBack,

@@ -169,6 +169,10 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   }
   ImGui::Separator();
   LookMenu(state.settings);
+  ImGui::Separator();
+  if (MenuItem(Tr("Before and after"), KeyAction::kWipe, state.show_wipe)) {
+    state.show_wipe = !state.show_wipe;
+  }
 }
 
 void SetGizmo(EditorState& state, GizmoMode mode) {
@@ -259,6 +263,9 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       break;
     case KeyAction::kOccluders:
       state.show_occluders = !state.show_occluders;
+      break;
+    case KeyAction::kWipe:
+      state.show_wipe = !state.show_wipe;
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());
