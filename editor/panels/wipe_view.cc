@@ -54,8 +54,10 @@ bool WipeView::Show(EditorState& state,
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   }
   const float x = origin.x + at * size.x;
-  draw.AddImage(ShownTexture(plain_), origin, ImVec2(x, origin.y + size.y), ImVec2(0, 0),
-                ImVec2(at, 1));
+  // The whole of it, clipped: pixel by pixel where the picture is.
+  draw.PushClipRect(origin, ImVec2(x, origin.y + size.y), true);
+  draw.AddImage(ShownTexture(plain_), origin, ImVec2(origin.x + size.x, origin.y + size.y));
+  draw.PopClipRect();
   DrawHandle(x, origin, size, near || dragged_, draw);
   const float y = origin.y + size.y - Px(30);
   const float before = std::max(Px(70), ImGui::CalcTextSize(Tr("Before")).x + Px(14));

@@ -37,6 +37,7 @@ blank=$(part $picture)
 wait_for 60 is_other $picture "$blank" || fail "no picture"
 sleep 8
 press F8  # the messages leave the most room above
+sleep 2
 
 # Before and after: the line stands in the middle; the person's left half is gone.
 left=14x200+636+320
@@ -45,6 +46,7 @@ left_after=$(part $left)
 right_after=$(part $right)
 press b
 wait_for 10 is_other $left "$left_after" || fail "B does not show the image alone"
+sleep 1
 import -window root "$out/wipe.png"
 left_before=$(part $left)
 drag 664 400 500 420
