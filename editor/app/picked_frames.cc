@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "editor/app/text.h"
+
 namespace lararium::app {
 
 namespace {
@@ -30,11 +32,14 @@ std::set<int64_t> PickedFrames(const PlaceDocument& place, uint32_t session) {
   return frames;
 }
 
-bool IsKeyframe(const vision::SceneDatabase& database, uint32_t session, int64_t frame) {
-  return std::any_of(database.keyframes.begin(), database.keyframes.end(),
-                     [&](const vision::Keyframe& keyframe) {
-                       return keyframe.session == session && keyframe.frame_index == frame;
-                     });
+const vision::Keyframe* FindKeyframe(const vision::SceneDatabase& database,
+                                     uint32_t session,
+                                     int64_t frame) {
+  const auto found = std::find_if(
+      database.keyframes.begin(), database.keyframes.end(), [&](const vision::Keyframe& keyframe) {
+        return keyframe.session == session && keyframe.frame_index == frame;
+      });
+  return found == database.keyframes.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -47,7 +52,7 @@ Status KeepPickedFrames(const PlaceDocument& place,
   for (const int64_t frame : PickedFrames(place, session)) {
     const auto located = std::find_if(report.located.begin(), report.located.end(),
                                       [&](const auto& l) { return l.frame_index == frame; });
-    if (located == report.located.end() || IsKeyframe(database, session, frame)) {
+    if (located == report.located.end() || FindKeyframe(database, session, frame) != nullptr) {
       continue;
     }
     LARARIUM_RETURN_IF_ERROR(source.Seek(frame));
@@ -65,6 +70,44 @@ Status KeepPickedFrames(const PlaceDocument& place,
     database.keyframes.push_back(std::move(keyframe));
   }
   return Status();
+}
+
+FrameToPick FindFrameToPick(const PreviewPicture& picture,
+                            const vision::SceneDatabase& database,
+                            bool shows_training) {
+  constexpr uint32_t kTraining = 0;  // session
+  if (!shows_training) {
+    return {std::nullopt, TrLater("Corners are picked in frames of the training recording")};
+  }
+  if (const vision::Keyframe* known = FindKeyframe(database, kTraining, picture.frame)) {
+    return {*known};
+  }
+  if (!picture.camera_from_map) {
+    return {std::nullopt, TrLater("The map does not locate this frame: pick in another one")};
+  }
+  const geometry::CameraModel& camera = database.camera;
+  if (picture.camera != camera || picture.grey.cols != camera.width ||
+      picture.grey.rows != camera.height) {
+    return {std::nullopt, TrLater("The recording is not as it was when the place was trained")};
+  }
+  vision::Keyframe keyframe;
+  keyframe.frame_index = picture.frame;
+  keyframe.name = picture.name;
+  keyframe.session = kTraining;
+  keyframe.camera_from_map = *picture.camera_from_map;
+  keyframe.grey = picture.grey;
+  return {std::move(keyframe)};
+}
+
+std::shared_ptr<const vision::SceneDatabase> WithFrame(
+    std::shared_ptr<const vision::SceneDatabase> map, const vision::Keyframe& keyframe) {
+  if (FindKeyframe(*map, keyframe.session, keyframe.frame_index) != nullptr) {
+    return map;
+  }
+  // A copy: others still look at the map as it was.
+  auto with_frame = std::make_shared<vision::SceneDatabase>(*map);
+  with_frame->keyframes.push_back(keyframe);
+  return with_frame;
 }
 
 }  // namespace lararium::app

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "editor/app/staging.h"
 #include "shared/audio/audio_out.h"
 #include "shared/audio/mixer.h"
 #include "shared/audio/sound_player.h"
@@ -21,8 +20,7 @@ namespace lararium::app {
 // All that lives on the preview's thread.
 class Preview::Worker {
  public:
-  static Result<std::unique_ptr<Worker>> Create(const ProjectPaths& paths,
-                                                const SourceDocument& source,
+  static Result<std::unique_ptr<Worker>> Create(const Opener& open,
                                                 show::ShowContent content,
                                                 Log& log);
 
@@ -73,13 +71,12 @@ class Preview::Worker {
   std::unique_ptr<audio::SoundPlayer> sound_;  // once it was asked for
 };
 
-Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const ProjectPaths& paths,
-                                                                 const SourceDocument& source,
+Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const Opener& open,
                                                                  show::ShowContent content,
                                                                  Log& log) {
   std::unique_ptr<Worker> worker(new Worker);
   worker->log_ = &log;
-  LARARIUM_ASSIGN_OR_RETURN(worker->source_, OpenSource(paths, source));
+  LARARIUM_ASSIGN_OR_RETURN(worker->source_, open());
   LARARIUM_ASSIGN_OR_RETURN(const geometry::CameraModel camera,
                             content.places.front().map->camera.ForImages(
                                 worker->source_->width(), worker->source_->height()));
@@ -131,6 +128,9 @@ PreviewPicture Preview::Worker::Describe() const {
   PreviewPicture picture;
   picture.frame = staged_.tracked.frame.index;
   picture.display = staged_.tracked.camera.DisplayPinhole();
+  picture.name = source_->FrameName(picture.frame);
+  picture.camera = staged_.tracked.camera;
+  picture.grey = staged_.tracked.frame.grey;
   picture.state = staged_.tracked.state;
   picture.reason = staged_.tracked.reason;
   picture.inliers = staged_.tracked.inliers;
@@ -228,9 +228,8 @@ std::vector<Status> Preview::Worker::TakeScriptErrors() {
   return errors;
 }
 
-Preview::Preview(ProjectPaths paths, SourceDocument source, show::ShowContent content, Log& log)
-    : paths_(std::move(paths)),
-      source_document_(std::move(source)),
+Preview::Preview(Opener open, show::ShowContent content, Log& log)
+    : open_(std::move(open)),
       content_(std::move(content)),
       log_(log),
       thread_([this](std::stop_token stop) { Run(stop); }) {}
@@ -241,8 +240,7 @@ Preview::~Preview() {
 }
 
 void Preview::Run(std::stop_token stop) {
-  Result<std::unique_ptr<Worker>> worker =
-      Worker::Create(paths_, source_document_, std::move(content_), log_);
+  Result<std::unique_ptr<Worker>> worker = Worker::Create(open_, std::move(content_), log_);
   if (!worker) {
     AddProblem(worker.status());
     failed_ = true;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <memory>
 #include <mutex>
@@ -16,6 +17,7 @@
 
 #include "editor/app/point_trails.h"
 #include "editor/app/project.h"
+#include "shared/capture/frame_source.h"
 #include "shared/core/log.h"
 #include "shared/core/mailbox.h"
 #include "shared/core/status.h"
@@ -53,6 +55,9 @@ struct PreviewPicture {
   cv::Mat plain;
   cv::Mat coverage;
   geometry::CameraModel display;  // the pinhole that it was drawn with
+  std::string name;               // of the frame, as FrameSource::FrameName
+  geometry::CameraModel camera;   // of the frame as it was taken
+  cv::Mat grey;                   // the frame as it was taken, CV_8UC1
   vision::TrackState state = vision::TrackState::kSearching;
   vision::TrackReason reason = vision::TrackReason::kNone;
   int inliers = 0;
@@ -73,8 +78,11 @@ struct PreviewSource {
 
 class Preview {
  public:
+  // Of what the pictures are; called once, on the preview's thread.
+  using Opener = std::function<Result<std::unique_ptr<capture::FrameSource>>()>;
+
   // Starts opening everything. Borrows log.
-  Preview(ProjectPaths paths, SourceDocument source, show::ShowContent content, Log& log);
+  Preview(Opener open, show::ShowContent content, Log& log);
   // Stops the thread and waits.
   ~Preview();
   Preview(const Preview&) = delete;
@@ -98,8 +106,7 @@ class Preview {
   void Run(std::stop_token stop);
   void AddProblem(Status problem);
 
-  ProjectPaths paths_;
-  SourceDocument source_document_;
+  Opener open_;
   show::ShowContent content_;
   Log& log_;
   Mailbox<PreviewRequest> requests_;

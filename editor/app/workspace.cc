@@ -82,7 +82,16 @@ Workspace::Workspace(ProjectPaths paths, ProjectDocument document, std::string s
       written_lines_(commands_.document().lines),
       cast_pictures_(paths_, CacheFolder() / "presets", baking_) {}
 
-Workspace::~Workspace() { WriteLines(); }
+Workspace::~Workspace() {
+  WriteLines();
+  tasks_ = TaskList();  // waits for what is being written
+  if (unsaved_map_ && FileStamp(unsaved_map_->file) == unsaved_map_->stamp) {
+    const Status status = vision::SaveSceneDatabase(unsaved_map_->file, *unsaved_map_->database);
+    if (!status.ok()) {
+      log_.error("{}", status.message());
+    }
+  }
+}
 
 // Takes over what a crash left, as one edit of what is saved.
 void Workspace::Recover() {
@@ -150,6 +159,7 @@ void Workspace::ShowPlace(const std::string& name) {
   preview_ = nullptr;
   preview_key_.clear();
   playing_ = false;
+  view_source_ = ViewSource::kRecording;
   map_stale_ = true;
 }
 
@@ -458,6 +468,9 @@ void Workspace::LayStageOnFloor() {
 }
 
 void Workspace::ReloadMap() {
+  if (unsaved_map_ || tasks_.Running(kKeeping)) {
+    return;  // Update() tries again
+  }
   const std::filesystem::path file = paths_.Scene(place_name_);
   std::error_code ignored;
   if (place() == nullptr || !std::filesystem::exists(file, ignored)) {
@@ -475,12 +488,14 @@ void Workspace::ReloadMap() {
     *loaded = std::make_shared<const vision::SceneDatabase>(std::move(database));
     return Status();
   };
-  const auto done = [this, loaded, measures, name = place_name_, key = TagsKey(*place())](
-                        const Status& status, bool cancelled) {
+  const auto done = [this, loaded, measures, name = place_name_, key = TagsKey(*place()),
+                     stamp = FileStamp(file)](const Status& status, bool cancelled) {
     if (!status.ok()) {
       Report(status, cancelled, "");
     } else if (name == place_name_) {
       loaded_.database = *loaded;
+      scene_stamp_ = stamp;
+      ++map_loads_;
       loaded_.measures = std::move(*measures);
       loaded_.measured = true;
       tags_key_ = key;
@@ -498,9 +513,10 @@ std::string Workspace::PreviewKey() const {
   // Drawing on would open everything anew with each corner.
   const PlaceDocument at = WithoutDrafts(*place(), *loaded_.database);
   Json key = {{"place", at.name},
-              {"scene", FileStamp(paths_.Scene(at.name))},
+              {"map", map_loads_},
               {"training", at.training.path},
-              {"preview", at.preview.path}};
+              {"preview", at.preview.path},
+              {"view", static_cast<int>(view_source_)}};
   for (const char* file : {"lines.csv", "lines.json", "paradata.json"}) {
     key["texts"].push_back(FileStamp(paths_.folder / file));
   }
@@ -578,8 +594,12 @@ void Workspace::ReloadPreview() {
     loaded_.staged = std::make_shared<const stage::Place>(content->places.front().stage);
     loaded_.baked_probes = document->FindPlace(name)->probes;
     loaded_.baked_light = loaded_.staged->probes;
-    const SourceDocument& source = place()->preview.empty() ? place()->training : place()->preview;
-    preview_ = std::make_unique<Preview>(paths_, source, std::move(*content), log_);
+    const bool training = view_source_ == ViewSource::kTraining || !has_own_recording();
+    preview_ = std::make_unique<Preview>(
+        [paths = paths_, source = training ? place()->training : place()->preview] {
+          return OpenSource(paths, source);
+        },
+        std::move(*content), log_);
     previewed_script_ = revision;
     requested_frame_ = -1;
     place_changed_ = true;
@@ -589,6 +609,71 @@ void Workspace::ReloadPreview() {
     preview_key_ = std::move(key);
   } else {
     preview_stale_ = true;  // once the task at work has ended
+  }
+}
+
+bool Workspace::has_own_recording() const {
+  return place() != nullptr && !place()->preview.empty() &&
+         (place()->preview.kind != place()->training.kind ||
+          paths_.Resolve(place()->preview.path) != paths_.Resolve(place()->training.path));
+}
+
+void Workspace::SetViewSource(ViewSource source) {
+  if (source == view_source_) {
+    return;
+  }
+  view_source_ = source;
+  playing_ = false;
+  picture_ = nullptr;
+  preview_ = nullptr;
+  preview_key_.clear();
+  preview_stale_ = true;
+}
+
+FrameToPick Workspace::frame_to_pick() const {
+  if (picture_ == nullptr || loaded_.database == nullptr) {
+    return {std::nullopt, TrLater("There is no picture yet")};
+  }
+  if (picture_->frame != frame()) {
+    return {std::nullopt, TrLater("The picture of this frame is on its way")};
+  }
+  if (tasks_.Running(kTraining)) {
+    return {std::nullopt, TrLater("The place is being trained: pick when that is done")};
+  }
+  return FindFrameToPick(*picture_, *loaded_.database,
+                         view_source_ == ViewSource::kTraining || !has_own_recording());
+}
+
+void Workspace::KeepFrame(const vision::Keyframe& keyframe) {
+  auto database = WithFrame(loaded_.database, keyframe);
+  if (database == loaded_.database) {
+    return;
+  }
+  measures_stale_ |= tasks_.Running(kMeasuring);  // of the map as it was
+  loaded_.database = std::move(database);
+  picks_key_.clear();
+  ResolvePicksAgain();
+  unsaved_map_ = {paths_.Scene(place_name_), scene_stamp_, loaded_.database};
+}
+
+void Workspace::WriteMap() {
+  if (FileStamp(unsaved_map_->file) != unsaved_map_->stamp) {
+    unsaved_map_.reset();  // it was trained again, and that is read instead
+    return;
+  }
+  const auto work = [map = *unsaved_map_](Progress&) {
+    return vision::SaveSceneDatabase(map.file, *map.database);
+  };
+  const auto done = [this, file = unsaved_map_->file](const Status& status, bool) {
+    if (!status.ok()) {
+      Tell(Message::Level::kError, status.message());
+    }
+    if (file == paths_.Scene(place_name_)) {
+      scene_stamp_ = FileStamp(file);
+    }
+  };
+  if (tasks_.Start(kKeeping, work, done)) {
+    unsaved_map_.reset();
   }
 }
 
@@ -644,6 +729,10 @@ void Workspace::RequestPicture() {
   if (preview_ == nullptr || loaded_.staged == nullptr || place() == nullptr) {
     return;
   }
+  if (!recording()) {
+    awaiting_picture_ = !preview_->failed();  // which frame it is to be is not known before
+    return;
+  }
   PreviewRequest request;
   request.frame = frame();
   request.sound = playing_ && sound_;
@@ -688,6 +777,9 @@ void Workspace::RequestPicture() {
 
 void Workspace::Update(double seconds) {
   tasks_.Poll();
+  if (unsaved_map_ && !tasks_.Running(kKeeping)) {
+    WriteMap();
+  }
   if (map_stale_) {
     ReloadMap();
   }
@@ -699,6 +791,10 @@ void Workspace::Update(double seconds) {
     preview_stale_ = true;
     cast_pictures_.SetCast(document().cast);
     LookOutside();
+    // Trained by somebody else.
+    map_stale_ |= loaded_.database != nullptr && !tasks_.Running(kTraining) &&
+                  !tasks_.Running(kOpening) && !tasks_.Running(kKeeping) && !unsaved_map_ &&
+                  FileStamp(paths_.Scene(place_name_)) != scene_stamp_;
   }
   since_script_ += seconds;
   since_lines_ += seconds;

@@ -20,6 +20,7 @@
 #include "editor/app/command_stack.h"
 #include "editor/app/drama_run.h"
 #include "editor/app/journal.h"
+#include "editor/app/picked_frames.h"
 #include "editor/app/preview.h"
 #include "editor/app/probe_picture.h"
 #include "editor/app/project.h"
@@ -68,6 +69,7 @@ class Workspace {
   static constexpr const char* kCamera = TrLater("Measuring the camera");
   static constexpr const char* kDryRun = TrLater("Running the drama");
   static constexpr const char* kChecking = TrLater("Checking");
+  static constexpr const char* kKeeping = TrLater("Writing the map");
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
@@ -95,6 +97,11 @@ class Workspace {
                  std::string_view gesture = {});
   // The stage laid on the floor that was found in the map; nothing without one.
   void LayStageOnFloor();
+  // The frame in the camera view as an image to pick in.
+  FrameToPick frame_to_pick() const;
+  // Makes it one of the map's images, where it is none yet, so that picks in it count. The map's
+  // file follows.
+  void KeepFrame(const vision::Keyframe& keyframe);
   // Edits of the drama. False, and a message, where the change fails.
   bool EditTimeline(const std::string& name,
                     const std::function<Status(drama::TimelineText&)>& change,
@@ -202,6 +209,12 @@ class Workspace {
   std::optional<PreviewSource> recording() const {
     return preview_ ? preview_->source() : std::nullopt;
   }
+  // What the camera view shows. Nothing of it is saved: each place begins with its recording.
+  enum class ViewSource { kRecording, kTraining };
+  void SetViewSource(ViewSource source);
+  ViewSource view_source() const { return view_source_; }
+  // The place names a recording for the camera view besides that of its training.
+  bool has_own_recording() const;
   // The newest picture; nullptr before the first.
   const std::shared_ptr<const PreviewPicture>& picture() const { return picture_; }
 
@@ -239,6 +252,13 @@ class Workspace {
   // What the preview is made of; it opens anew when this changes.
   std::string PreviewKey() const;
   void ReloadMap();
+  // The map with the frames that were kept, into its file.
+  struct UnsavedMap {
+    std::filesystem::path file;
+    std::string stamp;  // of the file as it was
+    std::shared_ptr<const vision::SceneDatabase> database;
+  };
+  void WriteMap();
   void ReloadPreview();
   void RequestPicture();
   // The preview shows a stage that is about to be replaced: somebody was added, say, whom the
@@ -273,6 +293,10 @@ class Workspace {
   std::shared_ptr<const train::TrainReport> training_;
   std::string preview_key_;
   bool map_stale_ = false;
+  std::optional<UnsavedMap> unsaved_map_;
+  std::string scene_stamp_;  // of the map's file as it was read or written last
+  int64_t map_loads_ = 0;    // how often a map was read
+  ViewSource view_source_ = ViewSource::kRecording;
   bool preview_stale_ = false;
   size_t stand_ins_ = 0;  // people for whom others stand in, in the preview
   std::unique_ptr<Preview> preview_;

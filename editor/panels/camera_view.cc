@@ -10,6 +10,7 @@
 
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/pick_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -266,6 +267,40 @@ void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& si
 
 }  // namespace
 
+void CameraView::ShowCorners(app::Workspace& workspace,
+                             const EditorState& state,
+                             const app::PreviewPicture& picture,
+                             const ImVec2& origin,
+                             const ImVec2& size,
+                             bool hovered,
+                             ImDrawList& draw) {
+  const app::OccluderDocument* occluder = OccluderInWork(workspace, state);
+  if (occluder != nullptr && !workspace.playing()) {
+    const app::FrameToPick frame = workspace.frame_to_pick();
+    DrawLabel(ImVec2(origin.x + Px(17), origin.y + Px(52)),
+              frame.keyframe ? CornerHint(workspace, *occluder) : Tr(frame.problem),
+              Packed(frame.keyframe ? OverPicture().text : OverPicture().warning), draw);
+    if (frame.keyframe) {
+      const ImageMap map{ToEigen(origin), size.x / static_cast<double>(picture.display.width),
+                         ImageMap::Redrawn{picture.camera, picture.display}};
+      DrawCorners(workspace, *occluder, *frame.keyframe, map, draw);
+      const ImVec2 mouse = ImGui::GetMousePos();
+      const Eigen::Vector2d pixel = map.ToPixel(ToEigen(mouse));
+      const bool inside = mouse.x >= origin.x && mouse.y >= origin.y &&
+                          mouse.x < origin.x + size.x && mouse.y < origin.y + size.y;
+      if (hovered && inside && picture.camera.Contains(pixel)) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_None);
+        DrawCross(mouse, Packed(OverPicture().text), draw);
+        draw.PushClipRectFullScreen();
+        DrawLoupe(mouse, map.ToPicture(pixel), texture_, draw);
+        draw.PopClipRect();
+        corners_.Update(workspace, *occluder, *frame.keyframe, map, draw);
+      }
+    }
+  }
+  corners_.EndDrag(workspace);
+}
+
 void CameraView::Show(app::Workspace& workspace, EditorState& state) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   ImVec2 size = ImGui::GetContentRegionAvail();
@@ -301,6 +336,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     }
     light_.Show(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
     DrawBadge(*picture, rect, draw);
+    ShowCorners(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
     draw.PopClipRect();
   }
   NudgeWithKeys(workspace, state);

@@ -34,19 +34,6 @@ constexpr std::array<AnchorEntry, 5> kAnchors = {{
     {TrLater("Length to"), TrLater("its other end"), &stage::StagePicks::length_to},
 }};
 
-struct ImageMap {
-  Vector2d origin;  // screen position of the image's top-left corner
-  double scale = 1.0;
-
-  // Integer coordinates are pixel centres.
-  Vector2d ToScreen(const Vector2d& pixel) const {
-    return origin + scale * (pixel + Vector2d(0.5, 0.5));
-  }
-  Vector2d ToPixel(const Vector2d& screen) const {
-    return (screen - origin) / scale - Vector2d(0.5, 0.5);
-  }
-};
-
 void SetPick(app::Workspace& workspace,
              int anchor_index,
              const vision::Keyframe& keyframe,
@@ -102,42 +89,6 @@ void DrawAnchors(const app::Workspace& workspace,
   }
 }
 
-// The corners of an occluder that were picked in this image, with the edges between them, and
-// rings where those that are located project to.
-void DrawCorners(const app::Workspace& workspace,
-                 const app::OccluderDocument& occluder,
-                 const vision::Keyframe& keyframe,
-                 const ImageMap& map,
-                 ImDrawList& draw) {
-  std::vector<ImVec2> outline;
-  for (size_t i = 0; i < occluder.corners.size(); ++i) {
-    if (const stage::Pick* pick = app::PickIn(occluder.corners[i], keyframe)) {
-      outline.push_back(ToImGui(map.ToScreen(pick->pixel)));
-      DrawCross(outline.back(), Packed(OverPicture().accent), draw);
-      LabelMark(outline.back(), std::to_string(i + 1), Packed(OverPicture().text), draw);
-    }
-  }
-  const bool all = outline.size() == occluder.corners.size();
-  draw.AddPolyline(outline.data(), static_cast<int>(outline.size()),
-                   Packed(OverPicture().accent, 0.8f),
-                   all && outline.size() > 2 ? ImDrawFlags_Closed : 0, Px(1.5f));
-  const vision::SceneDatabase& database = *workspace.loaded().database;
-  for (const stage::Anchor& corner : occluder.corners) {
-    if (corner.picks.size() < 2) {
-      continue;
-    }
-    const Result<stage::AnchorReport> report = stage::SolveAnchor(corner, database);
-    if (!report.ok()) {
-      continue;
-    }
-    if (const auto pixel =
-            database.camera.Project(keyframe.camera_from_map * report->point_in_map)) {
-      draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), Packed(OverPicture().warning), 0,
-                     Px(1.5f));
-    }
-  }
-}
-
 // Where check points were picked in this image, and rings where the stage says that they are: the
 // gap between the two is what visitors would see.
 void DrawCheckPicks(const app::Workspace& workspace,
@@ -164,32 +115,6 @@ void DrawCheckPicks(const app::Workspace& workspace,
       draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), packed, 0, Px(1.5f));
     }
   }
-}
-
-// What the next click does, beside the pointer.
-std::string ClickText(const app::OccluderDocument& occluder, const vision::Keyframe& keyframe) {
-  const std::optional<size_t> next = app::NextCorner(occluder, keyframe);
-  return next ? Text(Tr("corner %d"), static_cast<int>(*next) + 1) : "";
-}
-
-// A magnifier beside the pointer, so that a single pixel can be aimed at.
-void DrawLoupe(const ImVec2& pointer,
-               const Vector2d& pixel,
-               const render::Texture& texture,
-               ImDrawList& draw) {
-  const float half = Px(64);
-  constexpr float kSourceHalf = 12.0f;  // image pixels
-  const ImVec2 center(pointer.x + Px(88), pointer.y - Px(88));
-  const ImVec2 a(center.x - half, center.y - half);
-  const ImVec2 b(center.x + half, center.y + half);
-  const float u = (static_cast<float>(pixel.x()) + 0.5f) / static_cast<float>(texture.width());
-  const float v = (static_cast<float>(pixel.y()) + 0.5f) / static_cast<float>(texture.height());
-  const float du = kSourceHalf / static_cast<float>(texture.width());
-  const float dv = kSourceHalf / static_cast<float>(texture.height());
-  draw.AddRectFilled(a, b, Packed(OverPicture().window));
-  draw.AddImage(ShownTexture(texture), a, b, ImVec2(u - du, v - dv), ImVec2(u + du, v + dv));
-  draw.AddRect(a, b, Packed(OverPicture().line), 0, 0, Px(2));
-  DrawCross(center, Packed(OverPicture().accent), draw);
 }
 
 // As much of a text as fits beside what came before; all of it under the mouse.
@@ -221,14 +146,9 @@ void ShowAnchorButtons(const app::Workspace& workspace, EditorState& state) {
 }
 
 void ShowCornerHint(const app::Workspace& workspace, const app::OccluderDocument& occluder) {
-  const auto drawn = app::DrawOccluder(occluder, *workspace.loaded().database, 1.0);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(occluder.name.c_str());
-  DimTextBeside(drawn.ok()
-                    ? Text(Tr("%d corners, %.2f px off on average; drag one to move it"),
-                           static_cast<int>(occluder.corners.size()), drawn->error_px)
-                    : Tr("Click the corners of a face in turn, then the same ones in another "
-                         "image."));
+  DimTextBeside(CornerHint(workspace, occluder));
 }
 
 void ShowCheckHint(const app::Workspace& workspace, EditorState& state, const std::string& name) {
@@ -278,35 +198,6 @@ void DrawNewOccluder(app::Workspace& workspace, EditorState& state) {
   state.view = ViewKind::kPicks;
 }
 
-// A corner that is there is taken up and moved; elsewhere the next one is set.
-void PickView::DragCorner(app::Workspace& workspace,
-                          const app::OccluderDocument& occluder,
-                          const vision::Keyframe& keyframe,
-                          const Vector2d& pixel,
-                          double reach_px) {
-  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    const std::optional<size_t> near = app::CornerNear(occluder, keyframe, pixel, reach_px);
-    dragged_corner_ = near ? near : app::NextCorner(occluder, keyframe);
-    if (near || !dragged_corner_) {
-      return;  // nothing is moved by a click alone
-    }
-  } else if (!dragged_corner_ || !ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
-    return;
-  }
-  const std::string name = occluder.name;
-  const size_t corner = *dragged_corner_;
-  workspace.EditPlace(
-      Text(Tr("draw %s"), name.c_str()),
-      [&](app::PlaceDocument& place) {
-        for (app::OccluderDocument& edited : place.occluders) {
-          if (edited.name == name) {
-            app::SetCorner(edited, corner, keyframe, pixel);
-          }
-        }
-      },
-      "corner");
-}
-
 void PickView::ShowImage(app::Workspace& workspace,
                          EditorState& state,
                          const vision::Keyframe& keyframe) {
@@ -352,10 +243,7 @@ void PickView::ShowImage(app::Workspace& workspace,
     DrawCross(ImGui::GetMousePos(), Packed(OverPicture().text), draw);
     DrawLoupe(ImGui::GetMousePos(), pixel, texture_, draw);
     if (drawn != nullptr) {
-      if (const std::string text = ClickText(*drawn, keyframe); !text.empty()) {
-        LabelMark(ImGui::GetMousePos(), text, Packed(OverPicture().text), draw);
-      }
-      DragCorner(workspace, *drawn, keyframe, pixel, 8.0 / map.scale);
+      corners_.Update(workspace, *drawn, keyframe, map, draw);
     } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
       if (checked != nullptr) {
         PickCheckPoint(workspace, checked->name, keyframe, pixel);
@@ -364,10 +252,7 @@ void PickView::ShowImage(app::Workspace& workspace,
       }
     }
   }
-  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && dragged_corner_) {
-    dragged_corner_.reset();
-    workspace.EndGesture();
-  }
+  corners_.EndDrag(workspace);
   ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + size.y + Px(8)));
 }
 

@@ -3,9 +3,8 @@
 // Picking the stage: points of the place are clicked in training images, each in
 // two or more of them.
 
-#include <optional>
-
 #include "editor/app/workspace.h"
+#include "editor/panels/corner_view.h"
 #include "editor/panels/editor_state.h"
 #include "shared/render/texture.h"
 
@@ -35,14 +34,8 @@ class PickView {
  private:
   void ShowImage(app::Workspace& workspace, EditorState& state, const vision::Keyframe& keyframe);
 
-  void DragCorner(app::Workspace& workspace,
-                  const app::OccluderDocument& occluder,
-                  const vision::Keyframe& keyframe,
-                  const Eigen::Vector2d& pixel,
-                  double reach_px);
-
   render::Texture texture_;
-  std::optional<size_t> dragged_corner_;
+  CornerDrag corners_;
   const vision::Keyframe* uploaded_ = nullptr;
 };
 

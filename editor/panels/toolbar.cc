@@ -130,6 +130,24 @@ void ShowTab(EditorState& state, BottomTab tab) {
   state.focus = tab == BottomTab::kTimeline ? Focus::kTimeline : Focus::kViews;
 }
 
+// Of the view through the camera.
+void ViewSourceMenu(app::Workspace& workspace) {
+  using Source = app::Workspace::ViewSource;
+  const Source now = workspace.view_source();
+  if (!ImGui::BeginMenu(Label(Tr("The camera is"), "source").c_str(),
+                        workspace.place() != nullptr)) {
+    return;
+  }
+  if (ImGui::MenuItem(Tr("The place's recording"), nullptr, now == Source::kRecording)) {
+    workspace.SetViewSource(Source::kRecording);
+  }
+  if (ImGui::MenuItem(Tr("The training's recording"), nullptr, now == Source::kTraining,
+                      workspace.has_own_recording())) {
+    workspace.SetViewSource(Source::kTraining);
+  }
+  ImGui::EndMenu();
+}
+
 void ViewMenu(app::Workspace& workspace, EditorState& state) {
   const std::tuple<const char*, KeyAction, ViewKind> views[] = {
       {Tr("Through the camera"), KeyAction::kCameraView, ViewKind::kCamera},
@@ -173,6 +191,7 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   if (MenuItem(Tr("Before and after"), KeyAction::kWipe, state.show_wipe)) {
     state.show_wipe = !state.show_wipe;
   }
+  ViewSourceMenu(workspace);
 }
 
 void SetGizmo(EditorState& state, GizmoMode mode) {

@@ -2,20 +2,22 @@
 # Looks through the camera by real input events: the line between before and after is switched on
 # and dragged, whatever is selected.
 #
-#   camera_window_test.sh EDITOR OUTPUT_FOLDER SAMPLE_PROJECT [MAP]
+#   camera_window_test.sh EDITOR OUTPUT_FOLDER SAMPLE_PROJECT THIN_MAP [MAP]
 #
 # MAP: of the sample's place, in place of training it, which takes a minute.
 set -u
 editor=$1
 out=$2
 sample=$3
-map=${4:-}
+thin_map=$4
+map=${5:-}
 
 . "$(dirname "$0")/window.sh"
 need xvfb-run Xvfb xdotool import convert
 on_a_display "$0" "$@"
 start_clean
 project=$out/ui.lararium
+json=$project/project.json
 
 # A part of the window, WIDTHxHEIGHT+X+Y, as a number that says whether it is the same.
 part() { import -window root -crop "$1" +repage rgb:- | sha256sum | cut -c 1-16; }
@@ -30,6 +32,7 @@ else
   "$editor" train "$project" --place maquette --video "$project/places/maquette/training.mp4" \
     >> "$out/editor.log" 2>&1 || fail "cannot train the sample"
 fi
+"$thin_map" "$project/places/maquette/scene.larscene" 56 66 || fail "cannot thin the map"
 "$editor" bake "$project" >> "$out/editor.log" 2>&1 || fail "cannot bake the sample"
 open_window 700 780 "$project"
 picture=200x200+560+300  # with a person in its middle
@@ -60,5 +63,54 @@ import -window root "$out/wiped.png"
 click 944 690  # Before/after
 xdotool mousemove 700 780
 wait_for 10 is_part $left "$left_after" || fail "the button does not end it"
+
+# An occluder is drawn on frames of the training recording, which the view is told to show: the
+# frames become images of the map.
+click 107 14   # Place
+click 150 161  # Draw an occluder
+press 1
+sleep 1
+import -window root "$out/other_recording.png"
+before=$(sha256sum < "$project/places/maquette/scene.larscene")
+click 154 14  # View
+click 185 453  # The camera is
+shown=$(part $picture)
+click 460 475  # The training's recording
+xdotool mousemove 700 780
+wait_for 60 is_other $picture "$shown" || fail "the training's recording is not shown"
+sleep 10
+# The corners of the yellow wall's picture, in two frames.
+click 560 690
+sleep 2
+for corner in "708 143" "803 143" "803 264" "708 264"; do
+  click $corner
+done
+import -window root "$out/corners.png"
+click 600 690
+sleep 2
+for corner in "877 187" "968 187" "968 297" "877 297"; do
+  click $corner
+done
+xdotool mousemove 700 780
+press ctrl+s
+corner_picks() { tr -d ' \n' < "$json" | grep -o '"corners":.*"name":"face1"' |
+  grep -o '"frame":"[0-9]*.png"' | sort | uniq -c; }
+drawn() { [ "$(corner_picks | grep -c "4 \"frame\"")" -eq 2 ]; }
+wait_for 10 drawn || fail "two frames with four corners each, not: $(corner_picks)"
+kept() { [ "$(sha256sum < "$project/places/maquette/scene.larscene")" != "$before" ]; }
+wait_for 10 kept || fail "the frames did not become images of the map"
+import -window root "$out/drawn.png"
+before=$(tr -d ' \n' < "$json")
+drag 877 297 884 306  # a corner
+press ctrl+s
+moved() { [ "$(tr -d ' \n' < "$json")" != "$before" ]; }
+wait_for 10 moved || fail "the corner was not dragged"
+drawn || fail "dragging added a corner: $(corner_picks)"
+press ctrl+z
+press ctrl+s
+taken_back() { [ "$(tr -d ' \n' < "$json")" = "$before" ]; }
+wait_for 10 taken_back || fail "undo of the drag"
 quit
-echo "passed; screenshots: $out/wipe.png $out/wiped.png"
+"$editor" check "$project" > "$out/check.txt" 2>&1
+grep -q "fewer than two images" "$out/check.txt" && fail "the corners are not located: $(cat "$out/check.txt")"
+echo "passed; screenshots: $out/wipe.png $out/wiped.png $out/corners.png $out/drawn.png"

@@ -1,0 +1,120 @@
+#include "editor/panels/corner_view.h"
+
+#include <string>
+#include <vector>
+
+#include "editor/app/drawn_occluder.h"
+#include "editor/panels/gizmo_view.h"
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+
+namespace lararium::panels {
+
+using Eigen::Vector2d;
+
+void DrawCorners(const app::Workspace& workspace,
+                 const app::OccluderDocument& occluder,
+                 const vision::Keyframe& keyframe,
+                 const ImageMap& map,
+                 ImDrawList& draw) {
+  std::vector<ImVec2> outline;
+  for (size_t i = 0; i < occluder.corners.size(); ++i) {
+    if (const stage::Pick* pick = app::PickIn(occluder.corners[i], keyframe)) {
+      outline.push_back(ToImGui(map.ToScreen(pick->pixel)));
+      DrawCross(outline.back(), Packed(OverPicture().accent), draw);
+      LabelMark(outline.back(), std::to_string(i + 1), Packed(OverPicture().text), draw);
+    }
+  }
+  const bool all = outline.size() == occluder.corners.size();
+  draw.AddPolyline(outline.data(), static_cast<int>(outline.size()),
+                   Packed(OverPicture().accent, 0.8f),
+                   all && outline.size() > 2 ? ImDrawFlags_Closed : 0, Px(1.5f));
+  const vision::SceneDatabase& database = *workspace.loaded().database;
+  for (const stage::Anchor& corner : occluder.corners) {
+    if (corner.picks.size() < 2) {
+      continue;
+    }
+    const Result<stage::AnchorReport> report = stage::SolveAnchor(corner, database);
+    if (!report.ok()) {
+      continue;
+    }
+    const auto pixel = database.camera.Project(keyframe.camera_from_map * report->point_in_map);
+    if (pixel && (!map.redrawn || database.camera.Contains(*pixel))) {
+      draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), Packed(OverPicture().warning), 0,
+                     Px(1.5f));
+    }
+  }
+}
+
+void DrawLoupe(const ImVec2& pointer,
+               const Vector2d& pixel,
+               const render::Texture& texture,
+               ImDrawList& draw) {
+  const float half = Px(64);
+  constexpr float kSourceHalf = 12.0f;  // image pixels
+  const ImVec2 center(pointer.x + Px(88), pointer.y - Px(88));
+  const ImVec2 a(center.x - half, center.y - half);
+  const ImVec2 b(center.x + half, center.y + half);
+  const float u = (static_cast<float>(pixel.x()) + 0.5f) / static_cast<float>(texture.width());
+  const float v = (static_cast<float>(pixel.y()) + 0.5f) / static_cast<float>(texture.height());
+  const float du = kSourceHalf / static_cast<float>(texture.width());
+  const float dv = kSourceHalf / static_cast<float>(texture.height());
+  draw.AddRectFilled(a, b, Packed(OverPicture().window));
+  draw.AddImage(ShownTexture(texture), a, b, ImVec2(u - du, v - dv), ImVec2(u + du, v + dv));
+  draw.AddRect(a, b, Packed(OverPicture().line), 0, 0, Px(2));
+  DrawCross(center, Packed(OverPicture().accent), draw);
+}
+
+std::string CornerHint(const app::Workspace& workspace, const app::OccluderDocument& occluder) {
+  const auto drawn = app::DrawOccluder(occluder, *workspace.loaded().database, 1.0);
+  return drawn.ok() ? Text(Tr("%d corners, %.2f px off on average; drag one to move it"),
+                           static_cast<int>(occluder.corners.size()), drawn->error_px)
+                    : Tr("Click the corners of a face in turn, then the same ones in another "
+                         "image.");
+}
+
+// A corner that is there is taken up and moved; elsewhere the next one is set.
+void CornerDrag::Update(app::Workspace& workspace,
+                        const app::OccluderDocument& occluder,
+                        const vision::Keyframe& keyframe,
+                        const ImageMap& map,
+                        ImDrawList& draw) {
+  constexpr double kReach = 8.0;  // of the screen
+  const Vector2d pixel = map.ToPixel(ToEigen(ImGui::GetMousePos()));
+  if (const std::optional<size_t> next = app::NextCorner(occluder, keyframe)) {
+    LabelMark(ImGui::GetMousePos(), Text(Tr("corner %d"), static_cast<int>(*next) + 1),
+              Packed(OverPicture().text), draw);
+  }
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    const std::optional<size_t> near =
+        app::CornerNear(occluder, keyframe, pixel, kReach / map.scale);
+    dragged_corner_ = near ? near : app::NextCorner(occluder, keyframe);
+    if (near || !dragged_corner_) {
+      return;  // nothing is moved by a click alone
+    }
+  } else if (!dragged_corner_ || !ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
+    return;
+  }
+  workspace.KeepFrame(keyframe);
+  const std::string name = occluder.name;
+  const size_t corner = *dragged_corner_;
+  workspace.EditPlace(
+      Text(Tr("draw %s"), name.c_str()),
+      [&](app::PlaceDocument& place) {
+        for (app::OccluderDocument& edited : place.occluders) {
+          if (edited.name == name) {
+            app::SetCorner(edited, corner, keyframe, pixel);
+          }
+        }
+      },
+      "corner");
+}
+
+void CornerDrag::EndDrag(app::Workspace& workspace) {
+  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && dragged_corner_) {
+    dragged_corner_.reset();
+    workspace.EndGesture();
+  }
+}
+
+}  // namespace lararium::panels
