@@ -13,9 +13,16 @@
 #include "shared/render/render_target.h"
 #include "shared/show/show.h"
 #include "shared/show/show_renderer.h"
+#include "shared/vision/photometry.h"
 #include "shared/vision/tracker.h"
 
 namespace lararium::app {
+
+namespace {
+
+constexpr float kOnionTint = 0.7f;  // share of the colour in skins
+
+}  // namespace
 
 // All that lives on the preview's thread.
 class Preview::Worker {
@@ -45,6 +52,8 @@ class Preview::Worker {
   void TakeScript(std::shared_ptr<const std::string> script);
   // Adds what the picture that was just drawn is compared with.
   Status Compare(PreviewPicture& picture);
+  // Lays other moments over the picture that was just drawn; coverage: of that.
+  Status LayOnionSkin(const OnionSkin& skin, const cv::Mat& coverage, cv::Mat& picture);
   // Of the frame that was just tracked.
   void NoteTrails(int64_t frame);
   // What the frame at hand sounds like, or silence.
@@ -62,6 +71,7 @@ class Preview::Worker {
   std::vector<vision::SeenPoint> seen_;  // in the picture's pixels
   PointTrails trails_;
   show::StagedFrame staged_;
+  show::StagedFrame other_;                    // of an onion skin
   std::shared_ptr<const std::string> script_;  // as last asked for
   Status script_problem_;                      // why the one before goes on
   std::set<std::string> told_;                 // script errors
@@ -150,10 +160,33 @@ PreviewPicture Preview::Worker::Describe() const {
 }
 
 Status Preview::Worker::Compare(PreviewPicture& picture) {
-  renderer_->ReadCoverage(picture.coverage);
   staged_.camera_from_stage.reset();  // nobody is drawn without a pose
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   target_->ReadPixels(picture.plain);
+  return Status();
+}
+
+Status Preview::Worker::LayOnionSkin(const OnionSkin& skin,
+                                     const cv::Mat& coverage,
+                                     cv::Mat& picture) {
+  cv::Mat ghost, ghost_coverage;
+  for (const OnionMoment& moment : OnionMoments(skin, staged_.time)) {
+    LARARIUM_RETURN_IF_ERROR(show_->StageOther(staged_.time + moment.offset, staged_, other_));
+    RemoveUnmoved(staged_, other_);
+    if (other_.actors.empty() && other_.objects.empty()) {
+      continue;
+    }
+    render::SceneMark mark;
+    for (int c = 0; c < 3; ++c) {
+      mark.colour[c] =
+          vision::LinearFromSrgb(cv::saturate_cast<uint8_t>(255.0f * moment.colour[c]));
+    }
+    mark.share = kOnionTint;
+    LARARIUM_RETURN_IF_ERROR(renderer_->DrawGhosts(other_, mark, *target_));
+    target_->ReadPixels(ghost);
+    renderer_->ReadCoverage(ghost_coverage);
+    BlendGhost(ghost, ghost_coverage, coverage, moment.opacity, picture);
+  }
   return Status();
 }
 
@@ -209,6 +242,13 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   PreviewPicture picture = Describe();
   picture.time = request.time;
   target_->ReadPixels(picture.bgr);
+  const bool onion = request.onion && staged_.camera_from_stage;
+  if (request.compare || onion) {
+    renderer_->ReadCoverage(picture.coverage);
+  }
+  if (onion) {
+    LARARIUM_RETURN_IF_ERROR(LayOnionSkin(*request.onion, picture.coverage, picture.bgr));
+  }
   if (request.compare) {
     LARARIUM_RETURN_IF_ERROR(Compare(picture));
   }

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "editor/app/onion_skin.h"
 #include "editor/app/point_trails.h"
 #include "editor/app/project.h"
 #include "shared/capture/frame_source.h"
@@ -35,7 +36,8 @@ struct PreviewRequest {
   std::shared_ptr<const std::string> script;
   // Staged as it is now; nullptr: as it was.
   std::shared_ptr<const stage::Place> place;
-  bool compare = false;   // the picture without people, and where they are, besides
+  bool compare = false;  // the picture without people, and where they are, besides
+  std::optional<OnionSkin> onion;
   bool evidence = false;  // people and things in the colours of how certain they are
   bool sound = false;     // the recording plays, and is to be heard
 };
@@ -49,7 +51,7 @@ struct PreviewActor {
 struct PreviewPicture {
   int64_t frame = -1;
   double time = 0.0;  // of the drama, seconds
-  cv::Mat bgr;        // the composite, or the plain image without a pose
+  cv::Mat bgr;        // the composite with onion skins, or the plain image without a pose
   // Where they were asked for, else empty: the camera's image alone (bgr), and how much of
   // each pixel people and props hide (CV_8UC1).
   cv::Mat plain;

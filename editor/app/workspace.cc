@@ -737,6 +737,7 @@ void Workspace::RequestPicture() {
   request.frame = frame();
   request.sound = playing_ && sound_;
   request.time = time_;
+  request.onion = playing_ ? std::nullopt : onion_;
   // The new script is for the new stage.
   const bool wait = StageIsOutdated() && requested_text_ != nullptr;
   const int64_t revision = wait ? requested_script_ : script_.revision();
@@ -759,7 +760,8 @@ void Workspace::RequestPicture() {
     }
     loaded_.staged = staged;
   } else if (request.frame == requested_frame_ && request.time == requested_time_ &&
-             revision == requested_script_ && request.sound == requested_sound_) {
+             revision == requested_script_ && request.sound == requested_sound_ &&
+             request.onion.has_value() == requested_onion_) {
     return;
   }
   request.place = loaded_.staged;
@@ -768,6 +770,7 @@ void Workspace::RequestPicture() {
   place_changed_ = false;
   requested_frame_ = request.frame;
   requested_sound_ = request.sound;
+  requested_onion_ = request.onion.has_value();
   requested_time_ = request.time;
   requested_script_ = revision;
   requested_text_ = request.script;
@@ -1040,6 +1043,11 @@ void Workspace::MeasureCameraTraits() {
 void Workspace::SetCameraLook(bool on) {
   place_changed_ |= on != camera_look_;
   camera_look_ = on;
+}
+
+void Workspace::SetOnionSkin(const std::optional<OnionSkin>& onion) {
+  place_changed_ |= onion != onion_;
+  onion_ = onion;
 }
 
 void Workspace::SetEvidence(bool on) {

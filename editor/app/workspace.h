@@ -183,6 +183,10 @@ class Workspace {
   // Whether pictures come with what they are compared with (PreviewPicture::plain).
   void SetCompare(bool compare);
 
+  // People and things at other moments over the camera's picture; nullopt: none. While the drama
+  // plays there are none.
+  void SetOnionSkin(const std::optional<OnionSkin>& onion);
+
   // The camera view in the colours of how certain people and things are.
   bool shows_evidence() const { return evidence_; }
   void SetEvidence(bool on);
@@ -310,6 +314,8 @@ class Workspace {
   bool place_changed_ = true;
   bool camera_look_ = true;
   bool compare_ = false;
+  std::optional<OnionSkin> onion_;
+  bool requested_onion_ = false;
   bool evidence_ = false;
   bool sound_ = true;
   bool awaiting_picture_ = false;

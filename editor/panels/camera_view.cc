@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 
@@ -161,16 +162,24 @@ struct RowSwitch {
   bool EditorState::*on;
 };
 
-constexpr std::array<RowSwitch, 2> kRowSwitches = {{
+constexpr std::array<RowSwitch, 3> kRowSwitches = {{
     {TrLater("Before/after"),
      TrLater("Shows the camera's image alone to the left of a line that you drag"),
      KeyAction::kWipe, &EditorState::show_wipe},
+    {TrLater("Onion skin"), TrLater("Shows people at moments before and after, too"),
+     KeyAction::kOnion, &EditorState::show_onion},
     {TrLater("Occluders"), TrLater("Shows the occluders over the camera's picture"),
      KeyAction::kOccluders, &EditorState::show_occluders},
 }};
 
+// What the onion skin is like is behind a button of its own.
+constexpr const char* kMore = "\xe2\x80\xa6";
+constexpr float kMoreGap = 2.0f;
+
 float WidthOf(const RowSwitch& entry) {
-  return WidestButton(std::array{Tr(entry.label)}, 0.0f) + ImGui::GetStyle().ItemSpacing.x;
+  const float more =
+      entry.key == KeyAction::kOnion ? WidestButton(std::array{kMore}, 0.0f) + Px(kMoreGap) : 0.0f;
+  return WidestButton(std::array{Tr(entry.label)}, 0.0f) + more + ImGui::GetStyle().ItemSpacing.x;
 }
 
 // The last of the switches, as many as leave the slider room; the View menu has all of them.
@@ -193,8 +202,63 @@ void ShowSwitch(EditorState& state, const RowSwitch& entry) {
   }
   ImGui::PopStyleColor(2);
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", WithKey(Tr(entry.does), entry.key).c_str());
+    std::string tip = WithKey(Tr(entry.does), entry.key);
+    if (entry.key == KeyAction::kOnion) {
+      tip += std::string(".\n") + Tr("Not while the drama plays.");
+    }
+    ImGui::SetTooltip("%s", tip.c_str());
   }
+}
+
+// How many skins to one side, in their colour.
+void ShowSkinCount(const char* label, const ImVec4& colour, int& count) {
+  PropertyLabel(label);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = ImGui::GetFrameHeight();
+  ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + 0.2f * side),
+                                            ImVec2(at.x + 0.6f * side, at.y + 0.8f * side),
+                                            Packed(colour), Px(3));
+  ImGui::Dummy(ImVec2(0.6f * side, side));
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(Px(150));
+  ImGui::SliderInt((std::string("##") + label).c_str(), &count, 0, app::OnionSkin::kMost, "%d",
+                   ImGuiSliderFlags_AlwaysClamp);
+}
+
+void ShowOnionMore(app::OnionSkin& onion) {
+  ImGui::SameLine(0.0f, Px(kMoreGap));
+  if (ImGui::Button(Label(kMore, "onion").c_str())) {
+    ImGui::OpenPopup("onion skin");
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", Tr("How many skins, and how far apart"));
+  }
+  if (!ImGui::BeginPopup("onion skin")) {
+    return;
+  }
+  if (BeginProperties("onion")) {
+    ShowSkinCount(Tr("Moments before"), OverPicture().call, onion.before);
+    ShowSkinCount(Tr("Moments after"), OverPicture().warning, onion.after);
+    PropertyLabel(Tr("Apart"));
+    auto spacing = static_cast<float>(onion.spacing);
+    ImGui::SetNextItemWidth(Px(150) + 0.6f * ImGui::GetFrameHeight() +
+                            ImGui::GetStyle().ItemSpacing.x);
+    if (ImGui::SliderFloat("##apart", &spacing, static_cast<float>(app::OnionSkin::kShortest),
+                           static_cast<float>(app::OnionSkin::kLongest), Tr("%.1f s"),
+                           ImGuiSliderFlags_AlwaysClamp)) {
+      onion.spacing = std::round(10.0f * spacing) / 10.0;
+    }
+    EndProperties();
+  }
+  ImGui::EndPopup();
+}
+
+glm::vec3 ColourOf(const ImVec4& colour) { return {colour.x, colour.y, colour.z}; }
+
+void AskForOnionSkin(app::Workspace& workspace, EditorState& state) {
+  state.onion.colour_before = ColourOf(OverPicture().call);
+  state.onion.colour_after = ColourOf(OverPicture().warning);
+  workspace.SetOnionSkin(state.show_onion ? std::optional(state.onion) : std::nullopt);
 }
 
 // The frame, and its time where that leaves the slider long enough. switches: pixels to its right
@@ -244,6 +308,9 @@ void ShowTransport(app::Workspace& workspace, EditorState& state) {
   for (const RowSwitch& entry : switches) {
     ImGui::SameLine(x);
     ShowSwitch(state, entry);
+    if (entry.key == KeyAction::kOnion) {
+      ShowOnionMore(state.onion);
+    }
     x += WidthOf(entry);
   }
 }
@@ -309,6 +376,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
   bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   workspace.SetCompare(state.show_wipe || LightOverlay::ComparesPictures(workspace, state));
+  AskForOnionSkin(workspace, state);
   const std::shared_ptr<const app::PreviewPicture>& picture = workspace.picture();
   if (picture == nullptr || workspace.place() == nullptr) {
     ShowEmpty(workspace, origin, size);

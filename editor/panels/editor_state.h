@@ -10,6 +10,7 @@
 
 #include "editor/app/cast_pictures.h"
 #include "editor/app/check_points.h"
+#include "editor/app/onion_skin.h"
 #include "editor/app/project.h"
 #include "editor/app/settings.h"
 #include "editor/app/show_contents.h"
@@ -130,6 +131,8 @@ struct EditorState {
   bool show_occluders = false;  // over the camera's picture: all, not the selected one alone
   bool show_wipe = false;       // the camera's image alone to the left of wipe_at
   float wipe_at = 0.5f;         // of the picture's width
+  bool show_onion = false;      // people at other moments over the camera's picture
+  app::OnionSkin onion;         // how many, and how far apart
 
   // Picking: which anchor the next click sets, and in which keyframe.
   int anchor = 0;

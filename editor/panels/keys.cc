@@ -53,6 +53,8 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
      TrLater("Shows the occluders over the camera's picture")},
     {Scope::kViews, Action::kWipe, GLFW_KEY_B, 0, 0,
      TrLater("Shows the camera's image alone to the left of a line that you drag")},
+    {Scope::kViews, Action::kOnion, GLFW_KEY_K, 0, 0,
+     TrLater("Shows people at moments before and after, too")},
     {Scope::kViews, Action::kSound, GLFW_KEY_M, 0, 0, TrLater("Switches sound on and off")},
 
     {Scope::kCamera, Action::kNudgeLeft, GLFW_KEY_LEFT, 0, 0,

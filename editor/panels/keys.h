@@ -53,6 +53,7 @@ enum class KeyAction {
   kMatches,
   kOccluders,
   kWipe,
+  kOnion,
   kSound,
   // the camera view
   kNudgeLeft,

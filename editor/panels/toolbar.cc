@@ -191,6 +191,9 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   if (MenuItem(Tr("Before and after"), KeyAction::kWipe, state.show_wipe)) {
     state.show_wipe = !state.show_wipe;
   }
+  if (MenuItem(Tr("Onion skin"), KeyAction::kOnion, state.show_onion)) {
+    state.show_onion = !state.show_onion;
+  }
   ViewSourceMenu(workspace);
 }
 
@@ -285,6 +288,9 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       break;
     case KeyAction::kWipe:
       state.show_wipe = !state.show_wipe;
+      break;
+    case KeyAction::kOnion:
+      state.show_onion = !state.show_onion;
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());

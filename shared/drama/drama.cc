@@ -154,6 +154,20 @@ class LuaDrama : public Drama {
     return Status();
   }
 
+  Status Glance(double time, const std::function<void()>& look) override {
+    const int64_t now = run_->tick();
+    const int64_t known = std::max(played_until_, now);
+    CueLog cues = cues_;
+    LARARIUM_RETURN_IF_ERROR(Seek(time));
+    look();
+    if (played_until_ > known) {
+      LARARIUM_RETURN_IF_ERROR(Seek(TimeOf(known)));
+      ForgetFuture();
+    }
+    cues_ = std::move(cues);
+    return Seek(TimeOf(now));
+  }
+
   Status Reload(std::string_view script) override {
     LARARIUM_RETURN_IF_ERROR(CheckSize(script, place_));
     const double now = time();

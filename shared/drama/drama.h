@@ -5,6 +5,7 @@
 // speaks the words of lua/std.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -111,6 +112,10 @@ class Drama {
   // again but for the last seconds before a time: the stage is restored, and the script's
   // coroutines are run again against what they were told (recording.h).
   virtual Status Seek(double time) = 0;
+
+  // Seeks to a time, calls look and comes back, and it is as if nothing had been: what was never
+  // played before is not known afterwards either. Where it cannot be sought, look is not called.
+  virtual Status Glance(double time, const std::function<void()>& look) = 0;
 
   // Another script, sought to the same time. On an error the old one goes on.
   virtual Status Reload(std::string_view script) = 0;

@@ -70,7 +70,8 @@ void Body::Step(const stage::ActorState& state, double time, const BodyDetail& d
   std::copy(performer_.actor_from_joint().begin(), performer_.actor_from_joint().end(),
             actor_from_joint_.begin());
   const glm::mat4 stage_from_actor = stage::StageFromActor(state);
-  const float elapsed = time_ ? static_cast<float>(time - *time_) : 0.0f;
+  const float passed = time_ ? static_cast<float>(time - *time_) : 0.0f;
+  const float elapsed = std::exchange(settles_, false) ? -1.0f : passed;
   time_ = time;
   if (spring_model_.chain_count() > 0) {
     StepSprings(

@@ -50,6 +50,9 @@ class Body {
   // follow. After a gap, a leap or going back they settle at once. Allocates nothing.
   void Step(const stage::ActorState& state, double time, const BodyDetail& detail);
 
+  // In the next step hair and cloth settle at once, whatever was before.
+  void Settle() { settles_ = true; }
+
   // Of the last step.
   std::span<const glm::mat4> skin() const { return skin_; }
   human::GripFrame actor_from_palm(int side) const;
@@ -82,6 +85,7 @@ class Body {
   std::vector<glm::mat4> skin_;
   std::vector<MovingMesh> moving_;
   std::optional<double> time_;  // of the last step
+  bool settles_ = false;        // in the next one
   int head_ = -1;               // joint; -1: it has none
 };
 

@@ -579,6 +579,12 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
   const double behind = static_cast<double>(tick_) - time * kTicksPerSecond;  // 0..1 ticks
   stage::Interpolate(previous_, current_, static_cast<float>(std::clamp(1.0 - behind, 0.0, 1.0)),
                      drawn_);
+  StagePeopleAndThings(time, staged);
+  StageLines(behind, staged);
+  StageSounds(staged);
+}
+
+void Show::StagePeopleAndThings(double time, StagedFrame& staged) {
   staged.time = time;
   staged.actors.clear();
   staged.skin.clear();
@@ -591,9 +597,39 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
   StageActors(time, staged);
   StageObjects(staged);
   BlendProbes(staged);
-  StageLines(behind, staged);
   LightStage(staged);
-  StageSounds(staged);
+}
+
+Status Show::StageOther(double time, const StagedFrame& now, StagedFrame& other) {
+  other.tracked = now.tracked;
+  other.place = now.place;
+  other.camera_from_stage = now.camera_from_stage;
+  other.opacity = now.opacity;
+  other.gain = now.gain;
+  if (other_bodies_.empty()) {
+    for (const stage::ActorId id : actor_ids_) {
+      other_bodies_.emplace_back(stage_.Find(id)->model);
+    }
+  }
+  for (Body& body : other_bodies_) {
+    body.Settle();
+  }
+  // What remembers the frames before.
+  std::vector<Thing> things = things_;
+  const std::vector<BodyDetail> details = details_;
+  const std::vector<render::DetailRequest> requests = requests_;
+  const render::DetailChooser chooser = detail_chooser_;
+  bodies_.swap(other_bodies_);
+  const Status status = drama_->Glance(std::max(time, 0.0), [&] {
+    stage_.Capture(drawn_);
+    StagePeopleAndThings(drama_->time(), other);
+  });
+  bodies_.swap(other_bodies_);
+  things_ = std::move(things);
+  details_ = details;
+  requests_ = requests;
+  detail_chooser_ = chooser;
+  return status;
 }
 
 }  // namespace lararium::show

@@ -191,6 +191,11 @@ class Show {
   // and its time is then behind.
   void StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged);
 
+  // People and things as they are at another time of the drama (at least 0, to the nearest tick),
+  // seen as in the frame that StageFrame() has filled last, without lines and sounds; hair and
+  // cloth at rest. The show stays at its moment: frames after it are what they would have been.
+  Status StageOther(double time, const StagedFrame& now, StagedFrame& other);
+
  private:
   explicit Show(ShowContent content) : content_(std::move(content)) {}
 
@@ -210,6 +215,8 @@ class Show {
                          uint32_t place);
   // What of each visible actor is simulated, and how finely it is drawn, by how it is seen.
   void ChooseDetails(const StagedFrame& staged);
+  // From drawn_ and what staged says of the camera.
+  void StagePeopleAndThings(double time, StagedFrame& staged);
   // Bodies step, then write what moves; people are spread over the cores.
   void StageActors(double time, StagedFrame& staged);
   void LayOutActors(StagedFrame& staged);
@@ -236,6 +243,7 @@ class Show {
   stage::Stage stage_;
   std::vector<stage::ActorId> actor_ids_;                 // of each cast member
   std::vector<Body> bodies_;                              // likewise
+  std::vector<Body> other_bodies_;                        // likewise, of StageOther(), once used
   std::vector<BodyDetail> details_;                       // likewise
   std::vector<std::vector<render::DetailLevel>> levels_;  // likewise
   std::vector<render::DetailRequest> requests_;           // likewise

@@ -261,4 +261,29 @@ Status ShowRenderer::DrawSeeThrough(const StagedFrame& staged,
   return Status();
 }
 
+Status ShowRenderer::DrawGhosts(const StagedFrame& staged,
+                                const render::SceneMark& mark,
+                                const render::RenderTarget& target) {
+  if (!staged.camera_from_stage) {
+    return Status::Error("ghosts", "cannot be drawn without a pose");
+  }
+  render::RenderScene scene = SceneOf(staged, target.height());
+  for (render::SceneHuman& human : humans_) {
+    human.mark = mark;
+  }
+  for (render::SceneProp& prop : props_) {
+    prop.mark = mark;
+  }
+  std::vector<render::SceneOccluder> occluders(scene.occluders.begin(), scene.occluders.end());
+  for (render::SceneOccluder& occluder : occluders) {
+    occluder.receives_shadow = false;
+  }
+  scene.occluders = occluders;
+  scene.see_through = true;
+  scene.display = PictureOf(staged.tracked.camera, target.width(), target.height());
+  scene.camera_from_stage = staged.camera_from_stage;
+  layer_place_.reset();
+  return renderer_->Draw(scene, target);
+}
+
 }  // namespace lararium::show

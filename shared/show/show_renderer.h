@@ -71,6 +71,12 @@ class ShowRenderer {
                         const FreeEye& eye,
                         const render::RenderTarget& target);
 
+  // Fills the target with people and things alone, in one colour, where no occluder hides them:
+  // sRGB-encoded, times ReadCoverage(), without shadows and captions.
+  Status DrawGhosts(const StagedFrame& staged,
+                    const render::SceneMark& mark,
+                    const render::RenderTarget& target);
+
   // Of the frame drawn last: how much of each pixel people and props cover, CV_8UC1.
   void ReadCoverage(cv::Mat& coverage) const { renderer_->ReadCoverage(coverage); }
 

@@ -162,6 +162,35 @@ TEST_F(ShowRendererTest, StagingOnePlaceAnewLeavesTheOthers) {
   EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.0, 0.01);
 }
 
+TEST_F(ShowRendererTest, GhostsAreOfOneColourWhereNothingHidesThemAndChangeNoPictureAfterThem) {
+  stage::Place yard;
+  yard.occluders = {{"wall", Wall(0.0f, 9.0f, -2.0f), {}}, {"floor", Wall(-9.0f, 9.0f, -6.0f), {}}};
+  Create(glm::vec3(0.5f), {yard});
+  SetLight(glm::vec3(0.8f));
+  staged_.blockers = {{0.0f, 0.0f, -5.5f, 1.0f}};  // a shadow that falls on the floor
+  const cv::Mat before = Draw(glm::vec3(0.2f));
+  render::SceneMark mark;
+  mark.colour = {0.1f, 0.2f, 0.9f};
+  mark.share = 1.0f;
+  ASSERT_TRUE(renderer_->DrawGhosts(staged_, mark, *target_).ok());
+  const cv::Mat ghost = Read(*target_);
+  cv::Mat coverage;
+  renderer_->ReadCoverage(coverage);
+  for (int y = 0; y < coverage.rows; ++y) {
+    for (int x = 0; x < coverage.cols; ++x) {
+      const cv::Vec3b pixel = ghost.at<cv::Vec3b>(y, x);
+      if (coverage.at<uint8_t>(y, x) == 0) {
+        ASSERT_EQ(pixel, cv::Vec3b(0, 0, 0)) << x << " " << y << ": neither image nor shadow";
+      } else if (coverage.at<uint8_t>(y, x) == 255) {
+        ASSERT_GT(pixel[0], pixel[2] + 40) << x << " " << y;
+      }
+    }
+  }
+  EXPECT_EQ(coverage.at<uint8_t>(60, 50), 255);
+  EXPECT_EQ(coverage.at<uint8_t>(60, 110), 0) << "behind the wall";
+  EXPECT_TRUE(test::ImagesAgree(Draw(glm::vec3(0.2f)), before, {.max = 0.0, .mean = 0.0}));
+}
+
 // By which the middle of the ball's ellipse moves: f z / (z^2 - r^2).
 constexpr double kPixelsPerMetre = 200.0 * 4.0 / (16.0 - 1.0);
 

@@ -55,6 +55,57 @@ TEST_F(ShowTest, AnyOrderOfTimesGivesTheStateOfPlaying) {
   }
 }
 
+TEST_F(ShowTest, AnotherMomentIsStagedAsItWillBeAndLeavesNoTrace) {
+  // Where the actor is tells whether the visitor was there a moment ago.
+  ShowContent content = test::SmallContent();
+  content.drama = R"(
+    local one = actor("one")
+    function main()
+      one:place{x = 0, z = 0}
+      while true do
+        wait(0.25)
+        if visitor:is_here() then one:place{x = 7, z = 0} end
+        if not visitor:is_here() then one:place{x = -7, z = 0} end
+      end
+    end
+  )";
+  drama::DramaOptions options;
+  options.past = drama::Past::kRepeated;
+  const auto plain = Show::Create(content, options, *log_).value();
+  const auto glancing = Show::Create(content, options, *log_).value();
+  StagedFrame expected, staged, other;
+  for (int i = 0; i <= 120; ++i) {
+    vision::TrackedFrame tracked = test::FakePoses().Track({});
+    if (i >= 80) {
+      tracked.camera_from_map.reset();  // they look away
+    }
+    const double time = i <= 40 ? i / 30.0 : (i - 20) / 30.0;  // once back
+    plain->StageFrame(tracked, time, expected);
+    glancing->StageFrame(tracked, time, staged);
+    ASSERT_EQ(staged.actors.at(0).stage_from_actor, expected.actors.at(0).stage_from_actor) << i;
+    ASSERT_EQ(staged.skin, expected.skin) << i;
+    for (const double offset : {-0.5, -0.25, 0.25, 0.5, 1.5}) {
+      ASSERT_TRUE(glancing->StageOther(time + offset, staged, other).ok());
+    }
+  }
+  EXPECT_NEAR(PositionX(expected), -7.0f, 0.1f) << "the drama does not depend on the visitor";
+  EXPECT_TRUE(plain->drama().errors().empty()) << plain->drama().errors().front().message;
+  EXPECT_TRUE(glancing->drama().errors().empty());
+}
+
+TEST_F(ShowTest, AnotherMomentIsThatOfTheDrama) {
+  const std::unique_ptr<Show> show = Make();
+  const StagedFrame staged = At(*show, 0.5);
+  StagedFrame other;
+  for (const double time : {0.0, 0.25, 0.75, 0.9}) {
+    ASSERT_TRUE(show->StageOther(time, staged, other).ok());
+    EXPECT_NEAR(PositionX(other), time, 1e-4);
+    EXPECT_NEAR(other.time, time, 1e-9);
+    EXPECT_EQ(other.camera_from_stage->translation, staged.camera_from_stage->translation);
+    EXPECT_EQ(PositionX(At(*show, 0.5)), PositionX(staged));
+  }
+}
+
 TEST_F(ShowTest, ThePoseOnTheStageIsMetric) {
   const std::unique_ptr<Show> show = Make();
   const StagedFrame staged = At(*show, 0.0);
@@ -177,6 +228,7 @@ TEST_F(ShowTest, TheDramaHearsOfItsVisitor) {
     on(key("space"), function() one:place{ x = 1 } end)
     on(clock("9:30"), function() one:place{ z = 1 } end)
     function main()
+      one:place{x = 0, z = 0}
       one:place{}
       wait(0.2)
       one:place{ y = visitor:where().z }

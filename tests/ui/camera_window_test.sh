@@ -60,9 +60,34 @@ drag 500 420 900 380
 xdotool mousemove 700 780
 wait_for 10 is_part $left "$left_before" || fail "the line was not dragged back"
 import -window root "$out/wiped.png"
-click 944 690  # Before/after
+click 820 690  # Before/after
 xdotool mousemove 700 780
 wait_for 10 is_part $left "$left_after" || fail "the button does not end it"
+
+# Onion skin: somebody walks behind the counter; while the drama plays there is none.
+click 430 690  # a frame
+xdotool mousemove 700 780
+sleep 3
+walker=40x40+725+270
+without=$(part $walker)
+press k
+wait_for 10 is_other $walker "$without" || fail "K shows no onion skin"
+with=$(part $walker)
+click 972 690  # ...
+sleep 1
+import -window root "$out/onion.png"
+xdotool mousemove 1075 746 sleep 0.3 mousedown 1 sleep 0.3 mousemove 1150 746 sleep 0.3 mouseup 1
+sleep 2
+import -window root "$out/onions.png"
+press Escape
+click 700 760  # closes it
+press k
+wait_for 10 is_part $walker "$without" || fail "without onion skin the picture is another"
+click 430 690
+xdotool mousemove 700 780
+press b
+press b
+is_part $walker "$without" || fail "the picture is another after onion skins were drawn"
 
 # An occluder is drawn on frames of the training recording, which the view is told to show: the
 # frames become images of the map.
@@ -73,20 +98,20 @@ sleep 1
 import -window root "$out/other_recording.png"
 before=$(sha256sum < "$project/places/maquette/scene.larscene")
 click 154 14  # View
-click 185 453  # The camera is
+click 185 475  # The camera is
 shown=$(part $picture)
-click 460 475  # The training's recording
+click 460 497  # The training's recording
 xdotool mousemove 700 780
 wait_for 60 is_other $picture "$shown" || fail "the training's recording is not shown"
 sleep 10
 # The corners of the yellow wall's picture, in two frames.
-click 560 690
+click 504 690
 sleep 2
 for corner in "708 143" "803 143" "803 264" "708 264"; do
   click $corner
 done
 import -window root "$out/corners.png"
-click 600 690
+click 535 690
 sleep 2
 for corner in "877 187" "968 187" "968 297" "877 297"; do
   click $corner
@@ -113,4 +138,4 @@ wait_for 10 taken_back || fail "undo of the drag"
 quit
 "$editor" check "$project" > "$out/check.txt" 2>&1
 grep -q "fewer than two images" "$out/check.txt" && fail "the corners are not located: $(cat "$out/check.txt")"
-echo "passed; screenshots: $out/wipe.png $out/wiped.png $out/corners.png $out/drawn.png"
+echo "passed; screenshots: $out/wipe.png $out/wiped.png $out/onion.png $out/corners.png $out/drawn.png"
