@@ -57,17 +57,24 @@ Status MakeFolderOf(const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<std::unique_ptr<capture::FrameSource>> OpenFilmCamera(const std::string& camera) {
+std::unique_ptr<capture::FrameSource> AtItsOwnPace(
+    std::unique_ptr<capture::FrameSource> recording) {
+  return std::make_unique<PacedRecording>(std::move(recording));
+}
+
+bool IsCameraNumber(const std::string& camera) {
   constexpr size_t kMostDigits = 4;
-  const bool number = !camera.empty() && camera.size() <= kMostDigits &&
-                      camera.find_first_not_of("0123456789") == std::string::npos;
-  if (number) {
+  return !camera.empty() && camera.size() <= kMostDigits &&
+         camera.find_first_not_of("0123456789") == std::string::npos;
+}
+
+Result<std::unique_ptr<capture::FrameSource>> OpenFilmCamera(const std::string& camera) {
+  if (IsCameraNumber(camera)) {
     return capture::OpenCamera(std::stoi(camera));
   }
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<capture::FrameSource> recording,
                             capture::OpenVideo(camera));
-  return std::unique_ptr<capture::FrameSource>(
-      std::make_unique<PacedRecording>(std::move(recording)));
+  return AtItsOwnPace(std::move(recording));
 }
 
 Result<FilmMoment> Film(capture::FrameSource& camera,

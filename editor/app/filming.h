@@ -20,6 +20,12 @@
 
 namespace lararium::app {
 
+// Whether it names a camera rather than a recording: at most four digits.
+bool IsCameraNumber(const std::string& camera);
+
+// A recording whose frames come when they were taken, as if it were a camera.
+std::unique_ptr<capture::FrameSource> AtItsOwnPace(std::unique_ptr<capture::FrameSource> recording);
+
 // The camera of a number; or a recording, which comes at its own pace as if it were one.
 Result<std::unique_ptr<capture::FrameSource>> OpenFilmCamera(const std::string& camera);
 

@@ -32,7 +32,8 @@ class Preview::Worker {
                                                 Log& log);
 
   PreviewSource source() const {
-    return {end_.value_or(source_->estimated_frame_count()), source_->frames_per_second()};
+    return {end_.value_or(source_->estimated_frame_count()), source_->frames_per_second(),
+            source_->live()};
   }
 
   // nullptr for a frame beyond the end.
@@ -45,8 +46,8 @@ class Preview::Worker {
  private:
   Worker() = default;
 
-  // Brings tracked_ to a frame; the frame at hand is not tracked again. Empties
-  // it beyond the end.
+  // Brings tracked_ to a frame; the frame at hand is not tracked again. Of a live camera to the
+  // newest. Empties it beyond the end.
   Status Track(int64_t frame);
   PreviewPicture Describe() const;
   void TakeScript(std::shared_ptr<const std::string> script);
@@ -106,10 +107,11 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const Opener& o
 }
 
 Status Preview::Worker::Track(int64_t frame) {
-  if (tracked_ && tracked_->frame.index == frame) {
+  const bool live = source_->live();
+  if (!live && tracked_ && tracked_->frame.index == frame) {
     return Status();
   }
-  const bool follows = tracked_ && tracked_->frame.index + 1 == frame;
+  const bool follows = live || (tracked_ && tracked_->frame.index + 1 == frame);
   if (!follows) {
     LARARIUM_RETURN_IF_ERROR(source_->Seek(frame));
   }
@@ -120,7 +122,7 @@ Status Preview::Worker::Track(int64_t frame) {
     return Status();
   }
   tracked_ = poses_->Track(*image);
-  NoteTrails(frame);
+  NoteTrails(tracked_->frame.index);
   return Status();
 }
 
@@ -291,8 +293,16 @@ void Preview::Run(std::stop_token stop) {
     source_ = (*worker)->source();
   }
   TrimHeap();  // of what the one before left, too
-  while (const std::optional<PreviewRequest> request = requests_.Take(stop)) {
+  const bool live = (*worker)->source().live;
+  std::optional<PreviewRequest> request;
+  while ((request = NextRequest(request, live, stop))) {
     Result<std::shared_ptr<const PreviewPicture>> picture = (*worker)->Draw(*request);
+    if (live && (!picture.ok() || *picture == nullptr)) {
+      AddProblem(picture.ok() ? Status::Error("the camera", "gives no more images")
+                              : picture.status());
+      failed_ = true;
+      return;
+    }
     if (!picture.ok()) {
       AddProblem(picture.status());
     } else if (*picture != nullptr) {
@@ -305,6 +315,19 @@ void Preview::Run(std::stop_token stop) {
       source_ = (*worker)->source();
     }
   }
+}
+
+std::optional<PreviewRequest> Preview::NextRequest(const std::optional<PreviewRequest>& last,
+                                                   bool live,
+                                                   std::stop_token stop) {
+  if (!live || !last) {
+    return requests_.Take(stop);
+  }
+  if (stop.stop_requested()) {
+    return std::nullopt;
+  }
+  std::optional<PreviewRequest> newest = requests_.TryTake();
+  return newest ? std::move(newest) : last;
 }
 
 void Preview::AddProblem(Status problem) {

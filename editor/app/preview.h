@@ -1,6 +1,6 @@
 #pragma once
 
-// The camera view's picture: a recording, tracked and composited on a thread of
+// The camera view's picture: a recording or a live camera, tracked and composited on a thread of
 // its own with an OpenGL context of its own, so that the interface never waits.
 
 #include <array>
@@ -30,7 +30,7 @@
 namespace lararium::app {
 
 struct PreviewRequest {
-  int64_t frame = 0;  // of the recording
+  int64_t frame = 0;  // of the recording; a live camera gives its newest
   double time = 0.0;  // of the drama, seconds
   // The drama as it is written now; nullptr: as it was.
   std::shared_ptr<const std::string> script;
@@ -76,6 +76,7 @@ struct PreviewPicture {
 struct PreviewSource {
   int64_t frames = 0;  // an estimate until the end was seen
   double frames_per_second = 30.0;
+  bool live = false;  // a camera, which has no frames to choose from
 };
 
 class Preview {
@@ -90,14 +91,14 @@ class Preview {
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
 
-  // The newest request wins. Frames beyond the end give no picture; source()
-  // knows better afterwards.
+  // The newest request wins; of a live camera each image is drawn as was asked for last. Frames
+  // beyond the end give no picture; source() knows better afterwards.
   void Request(PreviewRequest request) { requests_.Put(std::move(request)); }
   // The newest picture, once.
   std::optional<std::shared_ptr<const PreviewPicture>> TakePicture() { return pictures_.TryTake(); }
 
   std::optional<PreviewSource> source() const;
-  // It could not be opened and will give no picture.
+  // It could not be opened, or the camera has ended, and will give no picture any more.
   bool failed() const { return failed_; }
   // What went wrong since the last call, in the recording or in the drama.
   std::vector<Status> TakeProblems();
@@ -106,6 +107,10 @@ class Preview {
   class Worker;
 
   void Run(std::stop_token stop);
+  // What is to be drawn next; nullopt: nothing any more.
+  std::optional<PreviewRequest> NextRequest(const std::optional<PreviewRequest>& last,
+                                            bool live,
+                                            std::stop_token stop);
   void AddProblem(Status problem);
 
   Opener open_;

@@ -10,6 +10,7 @@
 #include "editor/app/camera_measure.h"
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
+#include "editor/app/filming.h"
 #include "editor/app/player_trial.h"
 #include "editor/app/sounds.h"
 #include "editor/app/subcommands.h"
@@ -516,7 +517,7 @@ std::string Workspace::PreviewKey() const {
               {"map", map_loads_},
               {"training", at.training.path},
               {"preview", at.preview.path},
-              {"view", static_cast<int>(view_source_)}};
+              {"view", {static_cast<int>(view_source_), live_camera_}}};
   for (const char* file : {"lines.csv", "lines.json", "paradata.json"}) {
     key["texts"].push_back(FileStamp(paths_.folder / file));
   }
@@ -594,12 +595,7 @@ void Workspace::ReloadPreview() {
     loaded_.staged = std::make_shared<const stage::Place>(content->places.front().stage);
     loaded_.baked_probes = document->FindPlace(name)->probes;
     loaded_.baked_light = loaded_.staged->probes;
-    const bool training = view_source_ == ViewSource::kTraining || !has_own_recording();
-    preview_ = std::make_unique<Preview>(
-        [paths = paths_, source = training ? place()->training : place()->preview] {
-          return OpenSource(paths, source);
-        },
-        std::move(*content), log_);
+    preview_ = std::make_unique<Preview>(ViewOpener(), std::move(*content), log_);
     previewed_script_ = revision;
     requested_frame_ = -1;
     place_changed_ = true;
@@ -618,12 +614,30 @@ bool Workspace::has_own_recording() const {
           paths_.Resolve(place()->preview.path) != paths_.Resolve(place()->training.path));
 }
 
+Preview::Opener Workspace::ViewOpener() {
+  if (view_source_ == ViewSource::kLive) {
+    camera_presence_ = std::make_shared<CameraPresence>(true);
+    return [camera = live_camera_, presence = camera_presence_] {
+      return OpenLiveCamera(camera, presence);
+    };
+  }
+  const bool training = view_source_ == ViewSource::kTraining || !has_own_recording();
+  return [paths = paths_, source = training ? place()->training : place()->preview] {
+    return OpenSource(paths, source);
+  };
+}
+
+void Workspace::ShowLiveCamera(const std::string& camera) {
+  SetViewSource(ViewSource::kRecording);
+  live_camera_ = IsCameraNumber(camera) ? camera : paths_.Resolve(camera).string();
+  SetViewSource(ViewSource::kLive);
+}
+
 void Workspace::SetViewSource(ViewSource source) {
   if (source == view_source_) {
     return;
   }
   view_source_ = source;
-  playing_ = false;
   picture_ = nullptr;
   preview_ = nullptr;
   preview_key_.clear();
@@ -633,6 +647,9 @@ void Workspace::SetViewSource(ViewSource source) {
 FrameToPick Workspace::frame_to_pick() const {
   if (picture_ == nullptr || loaded_.database == nullptr) {
     return {std::nullopt, TrLater("There is no picture yet")};
+  }
+  if (view_source_ == ViewSource::kLive) {
+    return {std::nullopt, TrLater("A live camera's images pass: pick in the training recording")};
   }
   if (picture_->frame != frame()) {
     return {std::nullopt, TrLater("The picture of this frame is on its way")};
@@ -833,6 +850,13 @@ void Workspace::Update(double seconds) {
   if (auto picture = preview_->TakePicture()) {
     picture_ = std::move(*picture);
     awaiting_picture_ = picture_->frame != requested_frame_ || picture_->time != requested_time_;
+  }
+  if (view_source_ == ViewSource::kLive && preview_->failed()) {
+    for (const Status& problem : preview_->TakeProblems()) {
+      Tell(Message::Level::kError, problem.message());
+    }
+    SetViewSource(ViewSource::kRecording);
+    return;
   }
   const std::vector<Status> problems = preview_->TakeProblems();
   if (StageIsOutdated()) {

@@ -20,6 +20,7 @@
 #include "editor/app/command_stack.h"
 #include "editor/app/drama_run.h"
 #include "editor/app/journal.h"
+#include "editor/app/live_camera.h"
 #include "editor/app/picked_frames.h"
 #include "editor/app/preview.h"
 #include "editor/app/probe_picture.h"
@@ -214,9 +215,15 @@ class Workspace {
     return preview_ ? preview_->source() : std::nullopt;
   }
   // What the camera view shows. Nothing of it is saved: each place begins with its recording.
-  enum class ViewSource { kRecording, kTraining };
+  enum class ViewSource { kRecording, kTraining, kLive };
   void SetViewSource(ViewSource source);
   ViewSource view_source() const { return view_source_; }
+  // A live camera by its number, or a recording as if it were one (live_camera.h); the drama goes
+  // on by its own clock. Where it cannot be opened or ends, the recording is back, and a message.
+  void ShowLiveCamera(const std::string& camera);
+  const std::string& live_camera() const { return live_camera_; }
+  // False while the live camera is unplugged.
+  bool camera_is_there() const { return *camera_presence_; }
   // The place names a recording for the camera view besides that of its training.
   bool has_own_recording() const;
   // The newest picture; nullptr before the first.
@@ -229,7 +236,7 @@ class Workspace {
   // since the last call.
   void Update(double seconds);
   // Something moves without input: redraw soon.
-  bool Busy() const { return playing_ || awaiting_picture_; }
+  bool Busy() const { return playing_ || awaiting_picture_ || view_source_ == ViewSource::kLive; }
 
  private:
   Workspace(ProjectPaths paths, ProjectDocument document, std::string script, Log& log);
@@ -265,6 +272,7 @@ class Workspace {
   void WriteMap();
   void ReloadPreview();
   void RequestPicture();
+  Preview::Opener ViewOpener();
   // The preview shows a stage that is about to be replaced: somebody was added, say, whom the
   // drama names already.
   bool StageIsOutdated() const;
@@ -301,6 +309,8 @@ class Workspace {
   std::string scene_stamp_;  // of the map's file as it was read or written last
   int64_t map_loads_ = 0;    // how often a map was read
   ViewSource view_source_ = ViewSource::kRecording;
+  std::string live_camera_;
+  std::shared_ptr<CameraPresence> camera_presence_ = std::make_shared<CameraPresence>(true);
   bool preview_stale_ = false;
   size_t stand_ins_ = 0;  // people for whom others stand in, in the preview
   std::unique_ptr<Preview> preview_;

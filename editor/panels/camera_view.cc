@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <span>
 #include <string>
 
+#include "editor/app/filming.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/pick_view.h"
@@ -89,7 +91,12 @@ void DrawTrails(const app::PreviewPicture& picture, const Rect& rect, ImDrawList
 }
 
 // How well the picture is tracked; less of it where the picture is narrow.
-std::string BadgeText(const app::PreviewPicture& picture, float width) {
+std::string BadgeText(const app::Workspace& workspace,
+                      const app::PreviewPicture& picture,
+                      float width) {
+  if (!workspace.camera_is_there()) {
+    return Tr("The camera is unplugged");
+  }
   if (!picture.camera_from_stage) {
     const char* state = picture.state == vision::TrackState::kLost ? Tr("Lost") : Tr("Searching");
     const std::string text = Text("%s: %s", state, ReasonText(picture.reason));
@@ -101,9 +108,12 @@ std::string BadgeText(const app::PreviewPicture& picture, float width) {
   return ImGui::CalcTextSize(text.c_str()).x <= width ? text : Text("%s, %.0f %%", state, percent);
 }
 
-void DrawBadge(const app::PreviewPicture& picture, const Rect& rect, ImDrawList& draw) {
+void DrawBadge(const app::Workspace& workspace,
+               const app::PreviewPicture& picture,
+               const Rect& rect,
+               ImDrawList& draw) {
   const bool tracked = picture.camera_from_stage.has_value();
-  const std::string text = BadgeText(picture, rect.size.x - Px(58));
+  const std::string text = BadgeText(workspace, picture, rect.size.x - Px(58));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(rect.origin.x + Px(12), rect.origin.y + Px(12));
   draw.AddRectFilled(at, ImVec2(at.x + size.x + Px(34), at.y + size.y + Px(10)),
@@ -289,6 +299,28 @@ void ShowSlider(app::Workspace& workspace,
   }
 }
 
+// In place of the frames of a recording: what is live, and the drama's time.
+void ShowLive(app::Workspace& workspace, float switches) {
+  const float width = ImGui::GetContentRegionAvail().x - switches;
+  const float end = WidestButton(std::array{Tr("End")}, 0.0f);
+  const std::string camera =
+      app::IsCameraNumber(workspace.live_camera())
+          ? workspace.live_camera()
+          : std::filesystem::path(workspace.live_camera()).filename().string();
+  const std::string text =
+      Text(Tr("Live: camera %s, drama at %.1f s"), camera.c_str(), workspace.time());
+  ImGui::AlignTextToFramePadding();
+  const float x = ImGui::GetCursorPosX();
+  DimText(Elided(text, width - end - ImGui::GetStyle().ItemSpacing.x));
+  ImGui::SameLine(x + width - end);
+  if (ImGui::Button(Tr("End"))) {
+    workspace.SetViewSource(app::Workspace::ViewSource::kRecording);
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", Tr("Back to the place's recording"));
+  }
+}
+
 void ShowTransport(app::Workspace& workspace, EditorState& state) {
   const std::optional<app::PreviewSource> recording = workspace.recording();
   ImGui::BeginDisabled(!recording.has_value());
@@ -302,7 +334,11 @@ void ShowTransport(app::Workspace& workspace, EditorState& state) {
   for (const RowSwitch& entry : switches) {
     width += WidthOf(entry);
   }
-  ShowSlider(workspace, recording, width);
+  if (recording && recording->live) {
+    ShowLive(workspace, width);
+  } else {
+    ShowSlider(workspace, recording, width);
+  }
   ImGui::EndDisabled();
   float x = ImGui::GetContentRegionMax().x - width + ImGui::GetStyle().ItemSpacing.x;
   for (const RowSwitch& entry : switches) {
@@ -316,7 +352,9 @@ void ShowTransport(app::Workspace& workspace, EditorState& state) {
 }
 
 void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
-  const char* text = Tr("Opening the recording\xe2\x80\xa6");
+  const bool live = workspace.view_source() == app::Workspace::ViewSource::kLive;
+  const char* text =
+      live ? Tr("Opening the camera\xe2\x80\xa6") : Tr("Opening the recording\xe2\x80\xa6");
   if (workspace.place() == nullptr) {
     text = Tr("This project has no place yet. Train one from a recording.");
   } else if (workspace.loaded().database == nullptr && workspace.tasks_empty()) {
@@ -403,7 +441,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
       DrawTrails(*picture, rect, draw);
     }
     light_.Show(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
-    DrawBadge(*picture, rect, draw);
+    DrawBadge(workspace, *picture, rect, draw);
     ShowCorners(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
     draw.PopClipRect();
   }

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "editor/app/document_fields.h"
+#include "editor/app/filming.h"
 #include "editor/app/training.h"
 #include "editor/import/cast_presets.h"
 #include "editor/import/objects/object_models.h"
@@ -351,6 +352,27 @@ void ProbeDialog(app::Workspace& workspace, EditorState& state) {
   }
 }
 
+void LiveCameraDialog(app::Workspace& workspace, EditorState& state) {
+  Hint(
+      Tr("Through the camera then shows what the camera sees now, with people in it. It must be "
+         "of the lens and proportions that the place was trained with. Nothing of it is saved."));
+  std::string& camera = state.fields.camera;
+  if (BeginProperties("live")) {
+    PropertyLabel(Tr("Camera"));
+    PathField("camera", camera, workspace.paths().folder, kVideos);
+    EndProperties();
+  }
+  Hint(Tr("The camera's number, 0 for the first; or a video, to try it without one."));
+  std::string problem;
+  if (!app::IsCameraNumber(camera) && !Exists(workspace.paths(), camera)) {
+    problem = Tr("Choose a file that exists.");
+  }
+  if (DialogDone(state, Tr("Show"), problem)) {
+    workspace.ShowLiveCamera(camera);
+    state.view = ViewKind::kCamera;
+  }
+}
+
 struct DialogEntry {
   Dialog dialog;
   const char* title;
@@ -365,7 +387,8 @@ constexpr DialogEntry kDialogs[] = {
     {Dialog::kProbe, TrLater("Light probe"), ProbeDialog},
     {Dialog::kCast, TrLater("Add a person"), CastDialog},
     {Dialog::kObject, TrLater("Add an object"), ObjectDialog},
-    {Dialog::kCheckPoint, TrLater("Add a check point"), CheckPointDialog}};
+    {Dialog::kCheckPoint, TrLater("Add a check point"), CheckPointDialog},
+    {Dialog::kLiveCamera, TrLater("Live camera"), LiveCameraDialog}};
 
 }  // namespace
 

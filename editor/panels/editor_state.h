@@ -54,6 +54,7 @@ enum class Dialog {
   kObject,
   kCheckPoint,
   kFilm,
+  kLiveCamera,
   kKeys
 };
 
@@ -63,9 +64,10 @@ struct DialogFields {
   std::string name;
   std::string file;
   std::string intrinsics;
-  std::string preset;   // of a person; empty: none
-  int model = 0;        // of the built-in objects
-  bool images = false;  // the recording is a folder of images
+  std::string camera = "0";  // its number, or a recording that stands in
+  std::string preset;        // of a person; empty: none
+  int model = 0;             // of the built-in objects
+  bool images = false;       // the recording is a folder of images
   // of an export
   std::string key;                            // that signs it, a file; empty: none does
   int points = app::MapBudget().max_points;   // of each map at most

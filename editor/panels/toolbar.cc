@@ -131,7 +131,7 @@ void ShowTab(EditorState& state, BottomTab tab) {
 }
 
 // Of the view through the camera.
-void ViewSourceMenu(app::Workspace& workspace) {
+void ViewSourceMenu(app::Workspace& workspace, EditorState& state) {
   using Source = app::Workspace::ViewSource;
   const Source now = workspace.view_source();
   if (!ImGui::BeginMenu(Label(Tr("The camera is"), "source").c_str(),
@@ -144,6 +144,9 @@ void ViewSourceMenu(app::Workspace& workspace) {
   if (ImGui::MenuItem(Tr("The training's recording"), nullptr, now == Source::kTraining,
                       workspace.has_own_recording())) {
     workspace.SetViewSource(Source::kTraining);
+  }
+  if (ImGui::MenuItem(Tr("A live camera\xe2\x80\xa6"), nullptr, now == Source::kLive)) {
+    OpenDialog(state, Dialog::kLiveCamera);
   }
   ImGui::EndMenu();
 }
@@ -194,7 +197,7 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   if (MenuItem(Tr("Onion skin"), KeyAction::kOnion, state.show_onion)) {
     state.show_onion = !state.show_onion;
   }
-  ViewSourceMenu(workspace);
+  ViewSourceMenu(workspace, state);
 }
 
 void SetGizmo(EditorState& state, GizmoMode mode) {

@@ -135,7 +135,30 @@ press ctrl+z
 press ctrl+s
 taken_back() { [ "$(tr -d ' \n' < "$json")" = "$before" ]; }
 wait_for 10 taken_back || fail "undo of the drag"
+
+# A live camera, for which a recording stands in, and back.
+click 154 14   # View
+click 185 475  # The camera is
+click 460 519  # A live camera
+import -window root "$out/live_dialog.png"
+fill 720 448 "$project/places/maquette/handheld.mp4"
+shown=$(part $picture)
+click 912 535  # Show
+xdotool mousemove 700 780
+wait_for 60 is_other $picture "$shown" || fail "no live picture"
+sleep 8
+shown=$(part $picture)
+wait_for 10 is_other $picture "$shown" || fail "the live picture stands"
+import -window root "$out/live.png"
+click 746 690  # End
+xdotool mousemove 700 780
+sleep 12
+shown=$(part $picture)
+sleep 1
+is_part $picture "$shown" || fail "the recording is not back"
+import -window root "$out/back.png"
 quit
+grep -q handheld "$out/editor.log" && fail "it complained: $(cat "$out/editor.log")"
 "$editor" check "$project" > "$out/check.txt" 2>&1
 grep -q "fewer than two images" "$out/check.txt" && fail "the corners are not located: $(cat "$out/check.txt")"
-echo "passed; screenshots: $out/wipe.png $out/wiped.png $out/onion.png $out/corners.png $out/drawn.png"
+echo "passed; screenshots: $out/wipe.png $out/wiped.png $out/onion.png $out/corners.png $out/drawn.png $out/live.png"
