@@ -588,7 +588,8 @@ float EvenRadiance(const vision::SceneDatabase& map) {
 }
 
 std::optional<std::filesystem::path> FindCastLibrary() {
-  if (const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY")) {
+  if (const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
+      chosen != nullptr && *chosen != 0) {
     return std::filesystem::path(chosen);
   }
   // Builds keep it beside the folders that the programs lie in.

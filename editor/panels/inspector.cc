@@ -23,6 +23,7 @@
 #include "editor/panels/theme.h"
 #include "editor/panels/trackball_view.h"
 #include "editor/panels/widgets.h"
+#include "editor/panels/wrapped_field.h"
 
 namespace lararium::panels {
 
@@ -58,7 +59,7 @@ void ShowProject(app::Workspace& workspace) {
   }
   std::string credits = workspace.document().credits;
   PropertyLabel(Tr("Credits"));
-  if (ImGui::InputTextMultiline("##credits", &credits, ImVec2(-FLT_MIN, Px(90)))) {
+  if (WrappedField("credits", credits, 4, 16)) {
     workspace.Edit(
         Tr("credits"), [&](app::ProjectDocument& document) { document.credits = credits; },
         "credits");

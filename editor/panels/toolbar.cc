@@ -14,6 +14,7 @@
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
+#include "editor/panels/wrapped_field.h"
 
 namespace lararium::panels {
 
@@ -185,7 +186,8 @@ void SelectLight(const app::Workspace& workspace, EditorState& state) {
 
 // Of those everywhere.
 void Do(app::Workspace& workspace, EditorState& state, KeyAction action) {
-  const bool own_undo = ImGui::GetIO().WantTextInput && state.focus != Focus::kScript;
+  const bool own_undo =
+      ImGui::GetIO().WantTextInput && state.focus != Focus::kScript && !TypesIntoWrappedField();
   switch (action) {
     case KeyAction::kSave:
       workspace.Save();
