@@ -36,13 +36,28 @@ void EditOccluder(app::Workspace& workspace,
       gesture);
 }
 
-void ShowOccluderModel(app::Workspace& workspace,
-                       const EditorState& state,
-                       const app::OccluderDocument& occluder) {
+void ShowSizes(app::Workspace& workspace, const app::OccluderDocument& occluder) {
+  app::OccluderShape shape = *occluder.shape;
+  PropertyText(Tr("Shape"), Tr(app::EntryOf(shape.kind).label));
+  if (ShapeSizes(workspace, shape)) {
+    EditOccluder(
+        workspace, Text(Tr("size of %s"), occluder.name.c_str()), occluder.name,
+        [&](app::OccluderDocument& edited) { edited.shape = shape; }, "occluder size");
+  }
+}
+
+// Of a model or a shape.
+void ShowPlaced(app::Workspace& workspace,
+                const EditorState& state,
+                const app::OccluderDocument& occluder) {
   Similarity3 transform = occluder.stage_from_mesh;
   bool changed = false;
   if (BeginProperties("occluder")) {
-    PropertyText(Tr("File"), occluder.file);
+    if (occluder.shape) {
+      ShowSizes(workspace, occluder);
+    } else {
+      PropertyText(Tr("File"), occluder.file);
+    }
     changed = TransformProperties(workspace, transform);
     EndProperties();
   }
@@ -117,18 +132,56 @@ void ShowCorners(app::Workspace& workspace,
   ImGui::EndDisabled();
 }
 
+void ShowEffects(app::Workspace& workspace, const app::OccluderDocument& occluder) {
+  struct Effect {
+    bool app::OccluderDocument::*does;
+    const char* label;
+    const char* tip;
+    const char* command;
+  };
+  static constexpr Effect kEffects[] = {
+      {&app::OccluderDocument::receives_shadow, TrLater("Receives shadow"),
+       TrLater("Shadows of people are seen on it, and the light of lamps"),
+       TrLater("shadow on %s")},
+      {&app::OccluderDocument::blocks_sound, TrLater("Blocks sound"),
+       TrLater("What sounds behind it is muffled"), TrLater("sound through %s")},
+      {&app::OccluderDocument::blocks_walking, TrLater("Blocks walking"),
+       TrLater("People walk around it, at every place of the drama"), TrLater("ways through %s")}};
+  for (const Effect& effect : kEffects) {
+    bool on = occluder.*effect.does;
+    if (CheckRow(Tr(effect.label), on)) {
+      EditOccluder(workspace, Text(Tr(effect.command), occluder.name.c_str()), occluder.name,
+                   [&](app::OccluderDocument& edited) { edited.*effect.does = on; });
+    }
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s", Tr(effect.tip));
+    }
+  }
+}
+
 }  // namespace
+
+bool ShapeSizes(app::Workspace& workspace, app::OccluderShape& shape) {
+  bool changed = false;
+  for (const app::ShapeSize& size : app::EntryOf(shape.kind).sizes) {
+    const auto [least, most] = app::RangeOf(shape, size);
+    changed |=
+        NumberProperty(workspace, Tr(size.label), shape.*size.value, 0.01, least, most, "%.3f m");
+  }
+  return changed;
+}
 
 void ShowOccluder(app::Workspace& workspace,
                   EditorState& state,
                   const app::OccluderDocument& occluder) {
   Heading(occluder.name.c_str());
-  Hint(Tr("Real, and only there to hide people who stand behind it."));
+  Hint(Tr("Something real: it hides people who stand behind it."));
   if (occluder.drawn()) {
     ShowCorners(workspace, state, occluder);
   } else {
-    ShowOccluderModel(workspace, state, occluder);
+    ShowPlaced(workspace, state, occluder);
   }
+  ShowEffects(workspace, occluder);
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
                         [name = occluder.name](app::PlaceDocument& p) {

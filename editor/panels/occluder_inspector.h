@@ -5,9 +5,13 @@
 
 namespace lararium::panels {
 
-// Something real that hides people: where it is, and how it was made.
+// Something real that hides people: how it was made, where it is, and what it does.
 void ShowOccluder(app::Workspace& workspace,
                   EditorState& state,
                   const app::OccluderDocument& occluder);
+
+// The sizes of a shape, each within what the others allow, as rows of a grid. True while one
+// changes.
+bool ShapeSizes(app::Workspace& workspace, app::OccluderShape& shape);
 
 }  // namespace lararium::panels
