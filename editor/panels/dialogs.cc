@@ -181,12 +181,13 @@ void OccluderDialog(app::Workspace& workspace, EditorState& state) {
     return;
   }
   DialogFields& fields = state.fields;
-  Hint(Tr("Something real: it hides people who stand behind it."));
+  Hint(Tr("It is real, and hides who is behind it."));
   const char* const ways[] = {Tr("Shape"), Tr("Model")};
   int way = fields.own_model ? 1 : 0;
   if (Segmented("way", ways, way)) {
     fields.own_model = way == 1;
   }
+  ImGui::Dummy(ImVec2(0, Px(2)));  // which such a row does not leave below it
   const std::vector<app::OccluderDocument>& known = workspace.place()->occluders;
   const std::string usual_name = fields.own_model ? "" : FreeShapeName(known, fields.shape);
   if (BeginProperties("occluder")) {

@@ -175,7 +175,7 @@ void ShowOccluder(app::Workspace& workspace,
                   EditorState& state,
                   const app::OccluderDocument& occluder) {
   Heading(occluder.name.c_str());
-  Hint(Tr("Something real: it hides people who stand behind it."));
+  Hint(Tr("It is real, and hides who is behind it."));
   if (occluder.drawn()) {
     ShowCorners(workspace, state, occluder);
   } else {

@@ -44,12 +44,12 @@ class Occluders : public testing::Test {
 TEST_F(Occluders, AShapeIsAddedMovedSizedAndRemoved) {
   const auto added = Run({.add = "gate",
                           .shape = "arch",
-                          .sizes = {"width=4", "opening=2.5"},
+                          .sizes = {"width=4", "opening=2"},
                           .at = {1, 0, -2},
                           .turn = {90}});
   ASSERT_TRUE(added.ok()) << added.message();
-  EXPECT_THAT(added->text, HasSubstr("gate: arch, width 4, height 3, depth 0.3, opening 2.5"));
-  EXPECT_EQ(added->json["bar"][1]["shape"]["opening"], 2.5);
+  EXPECT_THAT(added->text, HasSubstr("gate: arch, width 4, height 3, depth 0.3, opening 2"));
+  EXPECT_EQ(added->json["bar"][1]["shape"]["opening"], 2.0);
   EXPECT_EQ(added->json["bar"][1]["blocks_walking"], true);
   EXPECT_EQ(Saved(1).stage_from_mesh.translation, Vector3d(1, 0, -2));
   // Turned to the left, its width lies along the stage's -z.
