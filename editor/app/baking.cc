@@ -505,7 +505,7 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
       steps.push_back(GlossyStep(paths, place, probe));
     }
     for (const OccluderDocument& occluder : place.occluders) {
-      if (!occluder.drawn()) {
+      if (occluder.kind() == OccluderDocument::Kind::kModel) {
         steps.push_back(MeshStep(paths, place, occluder));
       }
     }

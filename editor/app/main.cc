@@ -6,6 +6,7 @@
 #include "editor/app/camera_measure.h"
 #include "editor/app/check_commands.h"
 #include "editor/app/line_commands.h"
+#include "editor/app/occluder_commands.h"
 #include "editor/app/options.h"
 #include "editor/app/portrait.h"
 #include "editor/app/probe_commands.h"
@@ -61,6 +62,7 @@ struct Runner {
   Result<CommandResult> operator()(const CheckPointsOptions& options) {
     return RunCheckPoints(options);
   }
+  Result<CommandResult> operator()(const OccluderOptions& options) { return RunOccluder(options); }
   Result<CommandResult> operator()(const LinesOptions& options) { return RunLines(options); }
   Result<CommandResult> operator()(const CaptionsOptions& options) {
     return RunCaptions(options, progress);

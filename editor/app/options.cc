@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <tuple>
 
 #include "editor/app/project.h"
 #include "editor/import/cast_presets.h"
@@ -25,6 +26,7 @@ struct AllOptions {
   BakeOptions bake;
   CheckOptions check;
   CheckPointsOptions check_points;
+  OccluderOptions occluder;
   LinesOptions lines;
   CaptionsOptions captions;
   TimelineOptions timeline;
@@ -175,6 +177,51 @@ void AddCheckPoints(CLI::App& app, CheckPointsOptions& options) {
   command->add_option("--session", options.session, "Of the image; 0: the training")
       ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
       ->needs(pick);
+}
+
+void AddOccluder(CLI::App& app, OccluderOptions& options) {
+  std::vector<std::string> kinds;
+  for (const ShapeEntry& entry : ShapeEntries()) {
+    kinds.emplace_back(entry.name);
+  }
+  CLI::App* command =
+      AddSubcommand(app, "occluder", "List, add and change what hides people", options.project);
+  command->add_option("--place", options.place, "The place; all of them in the list otherwise");
+  CLI::Option_group* work = command->add_option_group("work", "Before the list");
+  CLI::Option* add = work->add_option("--add", options.add, "Add NAME, a shape or a model");
+  work->add_option("--set", options.set, "Change NAME");
+  work->add_option("--remove", options.remove, "Remove NAME");
+  work->require_option(0, 1);
+  CLI::Option* shape =
+      command->add_option("--shape", options.shape, "What is added is one of these")
+          ->check(CLI::IsMember(kinds))
+          ->needs(add);
+  command->add_option("--model", options.model, "What is added is this model")
+      ->check(CLI::ExistingFile)
+      ->needs(add)
+      ->excludes(shape);
+  CLI::Option_group* change = command->add_option_group("change", "What it is like");
+  change
+      ->add_option("--size", options.sizes,
+                   "NAME=METRES,... of a shape. box: width, height, depth; plane: width, height; "
+                   "cylinder: diameter, height; arch: width, height, depth, opening, spring (how "
+                   "high its half circle begins)")
+      ->delimiter(',');
+  change->add_option("--at", options.at, "x,y,z of the middle of its foot, stage metres")
+      ->delimiter(',')
+      ->expected(3);
+  change->add_option("--turn", options.turn, "Degrees: heading[,tilt[,roll]]")
+      ->delimiter(',')
+      ->expected(1, 3)
+      ->check(CLI::Range(-360.0, 360.0));
+  change->add_option("--scale", options.scale, "Stage metres for each unit of a model")
+      ->check(CLI::Range(1e-4, 1e4));
+  for (const auto& [name, value, text] :
+       {std::tuple{"--receives-shadow", &options.receives_shadow, "Whether shadows are seen on it"},
+        {"--blocks-sound", &options.blocks_sound, "Whether sounds are muffled behind it"},
+        {"--blocks-walking", &options.blocks_walking, "Whether people walk around it"}}) {
+    change->add_option(name, *value, text)->check(CLI::IsMember({"yes", "no"}));
+  }
 }
 
 void AddLines(CLI::App& app, AllOptions& options) {
@@ -453,6 +500,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
       ->check(CLI::ExistingFile);
 
   AddCheckPoints(app, options.check_points);
+  AddOccluder(app, options.occluder);
   AddLines(app, options);
   AddInterchange(app, options);
   AddCredits(app, options.credits);
@@ -484,6 +532,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("bake")) return options.bake;
   if (app.got_subcommand("check")) return options.check;
   if (app.got_subcommand("check-points")) return options.check_points;
+  if (app.got_subcommand("occluder")) return options.occluder;
   if (app.got_subcommand("lines")) return options.lines;
   if (app.got_subcommand("captions")) return options.captions;
   if (app.got_subcommand("timeline")) return options.timeline;
@@ -534,6 +583,21 @@ void CheckPointWork(const CheckPointsOptions& points) {
   }
 }
 
+void OccluderWork(const OccluderOptions& occluder) {
+  const bool changes = !occluder.sizes.empty() || !occluder.at.empty() || !occluder.turn.empty() ||
+                       occluder.scale || !occluder.receives_shadow.empty() ||
+                       !occluder.blocks_sound.empty() || !occluder.blocks_walking.empty();
+  if (!occluder.add.empty() && occluder.shape.empty() && occluder.model.empty()) {
+    throw CLI::ValidationError("--add", "needs what is added: --shape, or --model");
+  }
+  if (!occluder.set.empty() && !changes) {
+    throw CLI::ValidationError("--set", "needs what changes, such as --at or --size");
+  }
+  if (changes && occluder.add.empty() && occluder.set.empty()) {
+    throw CLI::ValidationError("occluder", "needs to be told which one: --add NAME or --set NAME");
+  }
+}
+
 }  // namespace
 
 std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* argv) {
@@ -551,6 +615,7 @@ std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* arg
     CheckIntrinsics(options.render.intrinsics);
     CheckSession(options.train);
     CheckPointWork(options.check_points);
+    OccluderWork(options.occluder);
     ParseSize(options.portrait_size, options.portrait);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;

@@ -102,6 +102,24 @@ struct CheckPointsOptions {
   bool lay = false;         // lays the stage of the place by the points
 };
 
+// Without a work: only the list.
+struct OccluderOptions {
+  std::filesystem::path project = {};
+  std::string place = {};               // empty: the only one; of a list: all
+  std::string add = {};                 // adds one of this name,
+  std::string shape = {};               // which is a shape of this kind,
+  std::filesystem::path model = {};     // or else this model
+  std::string set = {};                 // changes the one of this name
+  std::string remove = {};              // removes it
+  std::vector<std::string> sizes = {};  // NAME=METRES, of a shape
+  std::vector<double> at = {};          // x, y, z in metres; empty: as it is
+  std::vector<double> turn = {};        // degrees: heading, then tilt and roll; empty: as it is
+  std::optional<double> scale = {};
+  std::string receives_shadow = {};  // yes or no; empty: as it is
+  std::string blocks_sound = {};     // likewise
+  std::string blocks_walking = {};   // likewise
+};
+
 struct LinesOptions {
   std::filesystem::path project;
   std::filesystem::path import;  // .po, .csv or .json
@@ -237,6 +255,7 @@ using Subcommand = std::variant<WindowOptions,
                                 BakeOptions,
                                 CheckOptions,
                                 CheckPointsOptions,
+                                OccluderOptions,
                                 LinesOptions,
                                 CaptionsOptions,
                                 TimelineOptions,

@@ -168,15 +168,20 @@ Status ParseCorners(const JsonView& view, OccluderDocument& occluder) {
 }
 
 Result<OccluderDocument> ParseOccluder(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "file", "translation", "rotation", "scale",
-                                              "blocks_sound", "corners", "depth"}));
+  LARARIUM_RETURN_IF_ERROR(
+      CheckFields(view, {"name", "file", "translation", "rotation", "scale", "receives_shadow",
+                         "blocks_sound", "blocks_walking", "shape", "corners", "depth"}));
   OccluderDocument occluder;
   LARARIUM_ASSIGN_OR_RETURN(occluder.name, ParsePlainName(view, "name"));
-  if (view.Has("file") == view.Has("corners")) {
-    return view.Problem("must have either the \"file\" of a model or \"corners\"");
+  if (int{view.Has("file")} + int{view.Has("shape")} + int{view.Has("corners")} != 1) {
+    return view.Problem("must have either the \"file\" of a model, a \"shape\" or \"corners\"");
   }
   if (view.Has("corners")) {
     LARARIUM_RETURN_IF_ERROR(ParseCorners(view, occluder));
+  } else if (view.Has("shape")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView shape, view.Field("shape"));
+    LARARIUM_ASSIGN_OR_RETURN(occluder.shape, ParseShape(shape));
+    LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(view));
   } else {
     LARARIUM_ASSIGN_OR_RETURN(occluder.file, view.Text("file"));
     if (occluder.file.empty()) {
@@ -184,9 +189,13 @@ Result<OccluderDocument> ParseOccluder(const JsonView& view) {
     }
     LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(view));
   }
-  if (view.Has("blocks_sound")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView blocks, view.Field("blocks_sound"));
-    LARARIUM_ASSIGN_OR_RETURN(occluder.blocks_sound, blocks.Boolean());
+  for (const auto& [key, does] : {std::pair{"receives_shadow", &occluder.receives_shadow},
+                                  {"blocks_sound", &occluder.blocks_sound},
+                                  {"blocks_walking", &occluder.blocks_walking}}) {
+    if (view.Has(key)) {
+      LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+      LARARIUM_ASSIGN_OR_RETURN(*does, field.Boolean());
+    }
   }
   return occluder;
 }
@@ -411,11 +420,19 @@ Json FormatOccluder(const OccluderDocument& occluder) {
     }
     json["depth"] = occluder.depth;
   } else {
-    json["file"] = occluder.file;
+    if (occluder.shape) {
+      json["shape"] = FormatShape(*occluder.shape);
+    } else {
+      json["file"] = occluder.file;
+    }
     FormatSimilarity(occluder.stage_from_mesh, json);
   }
-  if (!occluder.blocks_sound) {
-    json["blocks_sound"] = false;
+  for (const auto& [key, does] : {std::pair{"receives_shadow", occluder.receives_shadow},
+                                  {"blocks_sound", occluder.blocks_sound},
+                                  {"blocks_walking", occluder.blocks_walking}}) {
+    if (!does) {
+      json[key] = false;
+    }
   }
   return json;
 }

@@ -14,6 +14,7 @@
 
 #include "editor/app/cast_document.h"
 #include "editor/app/object_document.h"
+#include "editor/app/occluder_shape.h"
 #include "editor/bake/line_table.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
@@ -37,19 +38,26 @@ struct SourceDocument {
   bool empty() const { return kind == Kind::kNone; }
 };
 
-// Either a model or drawn on training images.
+// Something real that hides people: a model, a shape of given sizes, or a face that was drawn on
+// training images.
 struct OccluderDocument {
+  enum class Kind { kModel, kShape, kDrawn };
   std::string name;
-  std::string file;  // a model, any format that the editor imports; empty: drawn
-  geometry::Similarity3 stage_from_mesh;  // of a model
+  std::string file;                       // of a model: any format that the editor imports
+  std::optional<OccluderShape> shape;     // of a shape
+  geometry::Similarity3 stage_from_mesh;  // of a model and a shape
+  // What it does besides hiding people.
+  bool receives_shadow = true;  // shadows of people and light of lamps are seen on it
   bool blocks_sound = true;
+  bool blocks_walking = true;
   // Of one that is drawn: the corners of its face, in their order around it, each picked in two
   // or more training images. They are located in the map at hand, so that training again keeps
   // them (drawn_occluder.h).
   std::vector<stage::Anchor> corners;
   double depth = 0.0;  // metres that it goes on behind that face; 0: the face alone
 
-  bool drawn() const { return file.empty(); }
+  Kind kind() const { return shape ? Kind::kShape : file.empty() ? Kind::kDrawn : Kind::kModel; }
+  bool drawn() const { return kind() == Kind::kDrawn; }
 };
 
 // Of the corners of one occluder.

@@ -75,6 +75,12 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
 // are not drawn to their end are not in the way.
 Result<stage::Place> StageObstacles(const ProjectPaths& paths, const PlaceDocument& place);
 
+// Brings an occluder of a place that is staged to what its document says now: where it lies, how
+// large a shape is, and what it does. The meshes of models and of what was drawn stay.
+void StageAnew(const OccluderDocument& occluder,
+               const geometry::Similarity3& map_from_stage,
+               stage::Occluder& staged);
+
 // The light of probes that were baked, turned, brightened and moved as they are now: exact,
 // and at once. Probes that were not baked, or from another file, are not there.
 std::vector<light::PlacedProbe> RelitProbes(std::span<const light::PlacedProbe> baked_light,

@@ -508,11 +508,13 @@ std::string Workspace::PreviewKey() const {
     key["sounds"].push_back({sound.name, sound.built_in ? "" : FileStamp(sound.file)});
   }
   for (const OccluderDocument& occluder : at.occluders) {
-    Json& entry = key["occluders"].emplace_back(Json::array({occluder.name, occluder.file}));
+    // What a shape measures and what else it does changes without opening anew, but for ways.
+    Json& entry = key["occluders"].emplace_back(Json::array(
+        {occluder.name, occluder.file, occluder.shape.has_value(), occluder.blocks_walking}));
     if (occluder.drawn()) {
       // A depth is in metres, the map is not.
       const double scale = loaded_.picks.map_from_picked.scale * at.picked_from_stage.scale;
-      entry.push_back({FormatOccluder(occluder), occluder.depth * scale});
+      entry.push_back({FormatOccluder(occluder)["corners"], occluder.depth * scale});
     }
   }
   for (const ProbeDocument& probe : at.probes) {
@@ -664,8 +666,7 @@ void Workspace::RequestPicture() {
           std::find_if(at.occluders.begin(), at.occluders.end(),
                        [&](const OccluderDocument& o) { return o.name == occluder.name; });
       if (known != at.occluders.end()) {
-        occluder.stage_from_mesh =
-            known->drawn() ? staged->map_from_stage.Inverse() : known->stage_from_mesh;
+        StageAnew(*known, staged->map_from_stage, occluder);
       }
     }
     loaded_.staged = staged;

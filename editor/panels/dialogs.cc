@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "editor/app/document_fields.h"
@@ -17,6 +16,7 @@
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/export_panel.h"
 #include "editor/panels/key_list.h"
+#include "editor/panels/occluder_inspector.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -145,46 +145,82 @@ bool Taken(const std::vector<Entry>& entries, const std::string& name) {
                      [&](const Entry& entry) { return entry.name == name; });
 }
 
-// Name and file of a thing to add. True when both are good and Add was chosen.
-bool NameAndFile(app::Workspace& workspace,
-                 EditorState& state,
-                 std::span<const char* const> extensions,
-                 bool file_needed,
-                 const std::function<bool(const std::string&)>& taken) {
-  DialogFields& fields = state.fields;
-  if (BeginProperties("add")) {
-    PropertyLabel(Tr("Name"));
-    ImGui::InputText("##name", &fields.name);
-    PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.paths().folder, extensions);
-    EndProperties();
-  }
-  std::string problem = NameProblem(fields.name);
-  if (problem.empty() && taken(fields.name)) {
-    problem = Tr("That name is taken.");
-  }
-  if (problem.empty() && (file_needed || !fields.file.empty()) &&
-      !Exists(workspace.paths(), fields.file)) {
-    problem = Tr("Choose a file that exists.");
-  }
-  return DialogDone(state, Tr("Add"), problem);
-}
-
 std::string DocumentPath(const app::Workspace& workspace, const std::string& typed) {
   return typed.empty() ? "" : workspace.paths().Shorten(workspace.paths().Resolve(typed));
 }
 
+// "box", "box2" and so on.
+std::string FreeShapeName(const std::vector<app::OccluderDocument>& known,
+                          const app::OccluderShape& shape) {
+  const std::string kind = app::EntryOf(shape.kind).name;
+  std::string name = kind;
+  for (int number = 2; Taken(known, name); ++number) {
+    name = kind + std::to_string(number);
+  }
+  return name;
+}
+
+// Which shape, and how large it is.
+void ShapeFields(app::Workspace& workspace, app::OccluderShape& shape) {
+  std::vector<const char*> kinds;
+  for (const app::ShapeEntry& entry : app::ShapeEntries()) {
+    kinds.push_back(Tr(entry.label));
+  }
+  PropertyLabel(Tr("Shape"));
+  int kind = static_cast<int>(shape.kind);
+  if (Segmented("shape", kinds, kind)) {
+    shape = app::ShapeEntries()[static_cast<size_t>(kind)].usual;
+  }
+  ShapeSizes(workspace, shape);
+}
+
+// A shape, or a model. What nobody named is called by its kind.
 void OccluderDialog(app::Workspace& workspace, EditorState& state) {
-  Hint(
-      Tr("A model of something real, in stage axes and metres where possible: it hides people who "
-         "stand behind it."));
-  const auto taken = [&](const std::string& name) {
-    return workspace.place() != nullptr && Taken(workspace.place()->occluders, name);
-  };
-  if (NameAndFile(workspace, state, kModels, true, taken)) {
-    app::OccluderDocument occluder;
-    occluder.name = state.fields.name;
-    occluder.file = DocumentPath(workspace, state.fields.file);
+  if (workspace.place() == nullptr) {
+    state.dialog = Dialog::kNone;
+    return;
+  }
+  DialogFields& fields = state.fields;
+  Hint(Tr("It is real, and hides who is behind it."));
+  const char* const ways[] = {Tr("Shape"), Tr("Model")};
+  int way = fields.own_model ? 1 : 0;
+  if (Segmented("way", ways, way)) {
+    fields.own_model = way == 1;
+  }
+  ImGui::Dummy(ImVec2(0, Px(2)));  // which such a row does not leave below it
+  const std::vector<app::OccluderDocument>& known = workspace.place()->occluders;
+  const std::string usual_name = fields.own_model ? "" : FreeShapeName(known, fields.shape);
+  if (BeginProperties("occluder")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
+    if (fields.own_model) {
+      PropertyLabel(Tr("File"));
+      PathField("file", fields.file, workspace.paths().folder, kModels);
+    } else {
+      ShapeFields(workspace, fields.shape);
+    }
+    EndProperties();
+  }
+  Hint(fields.own_model ? Tr("In stage axes and metres where possible.")
+                        : Tr("It is put on the stage's floor, where the camera looks."));
+  app::OccluderDocument occluder;
+  occluder.name = fields.name.empty() ? usual_name : fields.name;
+  std::string problem = NameProblem(occluder.name);
+  if (problem.empty() && Taken(known, occluder.name)) {
+    problem = Tr("That name is taken.");
+  }
+  if (problem.empty() && fields.own_model && !Exists(workspace.paths(), fields.file)) {
+    problem = Tr("Choose a file that exists.");
+  }
+  if (DialogDone(state, Tr("Add"), problem)) {
+    if (fields.own_model) {
+      occluder.file = DocumentPath(workspace, fields.file);
+    } else {
+      occluder.shape = fields.shape;
+      const auto& picture = workspace.picture();
+      occluder.stage_from_mesh.translation =
+          app::FloorBefore(picture != nullptr ? picture->camera_from_stage : std::nullopt);
+    }
     workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
                         [&](app::PlaceDocument& place) { place.occluders.push_back(occluder); });
     state.selection = {Selection::Kind::kOccluder, occluder.name};

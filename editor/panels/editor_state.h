@@ -62,9 +62,11 @@ struct DialogFields {
   std::string name;
   std::string file;
   std::string intrinsics;
-  std::string preset;   // of a person; empty: none
-  int model = 0;        // of the built-in objects
-  bool images = false;  // the recording is a folder of images
+  std::string preset;        // of a person; empty: none
+  int model = 0;             // of the built-in objects
+  bool images = false;       // the recording is a folder of images
+  bool own_model = false;    // of an occluder: a file instead of a shape
+  app::OccluderShape shape;  // of an occluder
   // of an export
   std::string key;                            // that signs it, a file; empty: none does
   int points = app::MapBudget().max_points;   // of each map at most

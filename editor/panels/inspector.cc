@@ -5,19 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "editor/app/drawn_occluder.h"
 #include "editor/panels/cast_inspector.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/light_panel.h"
 #include "editor/panels/object_inspector.h"
+#include "editor/panels/occluder_inspector.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -32,16 +31,6 @@ namespace {
 using geometry::Similarity3;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kMinScale = 1e-4;
-constexpr double kMaxScale = 1e4;
-
-bool TransformProperties(app::Workspace& workspace, Similarity3& transform) {
-  bool changed = VectorProperty(workspace, Tr("Position"), transform.translation, 0.005, "%.3f");
-  changed |= RotationProperty(workspace, Tr("Rotation"), transform.rotation);
-  changed |=
-      NumberProperty(workspace, Tr("Scale"), transform.scale, 0.005, kMinScale, kMaxScale, "%.4f");
-  return changed;
-}
 
 void ShowProject(app::Workspace& workspace) {
   Heading(Tr("Project"));
@@ -404,123 +393,6 @@ void ShowNudge(app::Workspace& workspace, const app::PlaceDocument& place) {
   if (ImGui::Button(Tr("Back to zero"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Tr("reset the nudge"),
                         [](app::PlaceDocument& p) { p.camera_nudge.setZero(); });
-  }
-}
-
-void EditOccluder(app::Workspace& workspace,
-                  const std::string& command,
-                  const std::string& name,
-                  const std::function<void(app::OccluderDocument&)>& change,
-                  std::string_view gesture = {}) {
-  workspace.EditPlace(
-      command,
-      [&](app::PlaceDocument& place) {
-        for (app::OccluderDocument& occluder : place.occluders) {
-          if (occluder.name == name) {
-            change(occluder);
-          }
-        }
-      },
-      gesture);
-}
-
-void ShowOccluderModel(app::Workspace& workspace,
-                       const EditorState& state,
-                       const app::OccluderDocument& occluder) {
-  Similarity3 transform = occluder.stage_from_mesh;
-  bool changed = false;
-  if (BeginProperties("occluder")) {
-    PropertyText(Tr("File"), occluder.file);
-    changed = TransformProperties(workspace, transform);
-    EndProperties();
-  }
-  if (changed) {
-    MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
-                 "inspector occluder");
-  }
-}
-
-// Corner, number of picks, residual.
-void ShowCornerTable(const app::OccluderDocument& occluder,
-                     const std::vector<stage::AnchorReport>& reports) {
-  if (!ImGui::BeginTable("corners", 3, ImGuiTableFlags_SizingStretchProp)) {
-    return;
-  }
-  ImGui::TableSetupColumn(Tr("Corner"), ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn(Tr("Images"), ImGuiTableColumnFlags_WidthFixed, Px(64));
-  ImGui::TableSetupColumn(Tr("Error"), ImGuiTableColumnFlags_WidthFixed, Px(76));
-  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
-  ImGui::TableHeadersRow();
-  ImGui::PopStyleColor();
-  for (size_t i = 0; i < occluder.corners.size(); ++i) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::Text("%zu", i + 1);
-    ImGui::TableNextColumn();
-    ImGui::Text("%zu", occluder.corners[i].picks.size());
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(i < reports.size() ? Text("%.2f px", reports[i].error_px).c_str() : "-");
-  }
-  ImGui::EndTable();
-}
-
-// Of an occluder that was drawn on training images.
-void ShowCorners(app::Workspace& workspace,
-                 EditorState& state,
-                 const app::OccluderDocument& occluder) {
-  const double units = workspace.loaded().picks.map_from_picked.scale *
-                       workspace.place()->picked_from_stage.scale;  // of the map in a metre
-  if (workspace.loaded().database != nullptr) {
-    const auto drawn = app::DrawOccluder(occluder, *workspace.loaded().database, units);
-    if (BeginProperties("drawn")) {
-      double depth = occluder.depth;
-      if (NumberProperty(workspace, Tr("Depth"), depth, 0.01, 0.0, app::kMaxDepth, "%.2f m")) {
-        EditOccluder(
-            workspace, Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
-            [&](app::OccluderDocument& edited) { edited.depth = depth; }, "occluder depth");
-      }
-      if (drawn.ok()) {
-        PropertyText(Tr("Error"), Text("%.2f px", drawn->error_px));
-        PropertyText(Tr("Uneven by"), Text("%.1f cm", 100.0 * drawn->unevenness / units));
-      }
-      EndProperties();
-    }
-    Hint(Tr("How far it goes on behind the face that you drew; 0: the face alone."));
-    ShowCornerTable(occluder, drawn.ok() ? drawn->corners : std::vector<stage::AnchorReport>());
-    if (!drawn.ok()) {
-      ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
-      ImGui::TextWrapped("%s", drawn.message().c_str());
-      ImGui::PopStyleColor();
-    }
-  }
-  if (state.view != ViewKind::kPicks &&
-      ImGui::Button(Tr("Draw on the training images"), ImVec2(-FLT_MIN, 0))) {
-    state.view = ViewKind::kPicks;
-  }
-  ImGui::BeginDisabled(occluder.corners.empty());
-  if (ImGui::Button(Tr("Remove the last corner"), ImVec2(-FLT_MIN, 0))) {
-    EditOccluder(workspace, Tr("remove a corner"), occluder.name,
-                 [](app::OccluderDocument& edited) { edited.corners.pop_back(); });
-  }
-  ImGui::EndDisabled();
-}
-
-void ShowOccluder(app::Workspace& workspace,
-                  EditorState& state,
-                  const app::OccluderDocument& occluder) {
-  Heading(occluder.name.c_str());
-  Hint(Tr("Real, and only there to hide people who stand behind it."));
-  if (occluder.drawn()) {
-    ShowCorners(workspace, state, occluder);
-  } else {
-    ShowOccluderModel(workspace, state, occluder);
-  }
-  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
-                        [name = occluder.name](app::PlaceDocument& p) {
-                          std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
-                        });
-    state.selection = {};
   }
 }
 

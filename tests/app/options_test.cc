@@ -102,6 +102,35 @@ TEST(EditorOptions, CheckPointsDoesOneWorkWithAllThatItNeeds) {
   EXPECT_THAT(Refusal({"check-points", "p", "--lay", "--remove", "a"}), HasSubstr("--lay"));
 }
 
+TEST(EditorOptions, OccluderDoesOneWorkWithAllThatItNeeds) {
+  const auto add = Parsed<OccluderOptions>({"occluder", "p", "--add", "gate", "--shape", "arch",
+                                            "--size", "width=3,opening=1.5", "--at", "1,0,-2.5",
+                                            "--turn", "-30", "--receives-shadow", "no"});
+  EXPECT_EQ(add.add, "gate");
+  EXPECT_EQ(add.shape, "arch");
+  EXPECT_THAT(add.sizes, ElementsAre("width=3", "opening=1.5"));
+  EXPECT_THAT(add.at, ElementsAre(1, 0, -2.5));
+  EXPECT_THAT(add.turn, ElementsAre(-30));
+  EXPECT_EQ(add.receives_shadow, "no");
+  EXPECT_EQ(add.blocks_sound, "");
+  EXPECT_FALSE(add.scale.has_value());
+  const auto set = Parsed<OccluderOptions>({"occluder", "p", "--place", "site", "--set", "gate",
+                                            "--turn", "10,-90,5", "--scale", "0.01"});
+  EXPECT_THAT(set.turn, ElementsAre(10, -90, 5));
+  EXPECT_EQ(set.scale, 0.01);
+  EXPECT_EQ(Parsed<OccluderOptions>({"occluder", "p"}).place, "");
+  EXPECT_THAT(Refusal({"occluder", "p", "--add", "a"}), HasSubstr("--shape"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--add", "a", "--shape", "cone"}), HasSubstr("cone"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--add", "a", "--model", "/none.glb"}), HasSubstr("none"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--shape", "box"}), HasSubstr("--add"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--set", "a"}), HasSubstr("--size"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--at", "1,2,3"}), HasSubstr("--set"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--remove", "a", "--at", "1,2,3"}), HasSubstr("--set"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--set", "a", "--remove", "b"}), HasSubstr("--"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--set", "a", "--blocks-sound", "maybe"}),
+              HasSubstr("maybe"));
+}
+
 TEST(EditorOptions, PointsLieBetweenAHundredAndTenMillion) {
   const std::vector<std::vector<std::string>> commands = {
       {"train", "p"}, {"prune", "p"}, {"export", "p", "--out", "a.larshow"}};

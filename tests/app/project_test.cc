@@ -42,6 +42,12 @@ ProjectDocument FullDocument() {
     drawn.corners.push_back({CornerName(i), {{3, "a.png", {x, 1}}, {9, "b.png", {x, 2}, 1}}});
   }
   place.occluders.push_back(drawn);
+  OccluderDocument gate;
+  gate.name = "gate";
+  gate.shape = OccluderShape{OccluderShape::Kind::kArch, 4.0, 3.5, 0.5, 2.0, 1.25};
+  gate.stage_from_mesh = {1.0, Eigen::Quaterniond(0, 0, 1, 0), {-1, 0, 2}};
+  gate.receives_shadow = gate.blocks_walking = false;
+  place.occluders.push_back(gate);
   place.check_picks = {
       {"counter, left", {{12, "000012.png", {1.5, 2.5}}, {40, "b.png", {3, 4}, 1}}}};
   PlaceDocument untouched;
@@ -92,7 +98,16 @@ TEST(Project, SurvivesWritingAndReading) {
   EXPECT_FALSE(loaded->places[1].camera.has_value());
   EXPECT_EQ(loaded->places[0].intrinsics, document.places[0].intrinsics);
   EXPECT_TRUE(loaded->places[1].training.empty());
-  const OccluderDocument& wall = loaded->places[0].occluders.back();
+  const OccluderDocument& counter = loaded->places[0].occluders[0];
+  EXPECT_EQ(counter.kind(), OccluderDocument::Kind::kModel);
+  EXPECT_TRUE(counter.receives_shadow && counter.blocks_sound && counter.blocks_walking);
+  const OccluderDocument& gate = loaded->places[0].occluders[2];
+  ASSERT_EQ(gate.kind(), OccluderDocument::Kind::kShape);
+  EXPECT_EQ(gate.shape->kind, OccluderShape::Kind::kArch);
+  EXPECT_EQ(gate.shape->spring, 1.25);
+  EXPECT_EQ(gate.stage_from_mesh.translation, Eigen::Vector3d(-1, 0, 2));
+  EXPECT_TRUE(!gate.receives_shadow && gate.blocks_sound && !gate.blocks_walking);
+  const OccluderDocument& wall = loaded->places[0].occluders[1];
   EXPECT_TRUE(wall.drawn());
   ASSERT_EQ(wall.corners.size(), 3u);
   EXPECT_EQ(wall.corners[2].name, "corner 3");
@@ -217,6 +232,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"corner_pixel", "/places/0/occluders/1/corners/1/0/pixel", {1e300, 0}},
                     Damage{"depth", "/places/0/occluders/1/depth", -0.1},
                     Damage{"no_model", "/places/0/occluders/0/file", ""},
+                    Damage{"model_and_shape", "/places/0/occluders/2/file", "gate.glb"},
+                    Damage{"shape", "/places/0/occluders/2/shape", "arch"},
+                    Damage{"shape_kind", "/places/0/occluders/2/shape/kind", "gate"},
+                    Damage{"shape_size", "/places/0/occluders/2/shape/opening", 4.0},
+                    Damage{"shape_girth", "/places/0/occluders/2/shape/girth", 1.0},
+                    Damage{"shape_place", "/places/0/occluders/2/translation", {1e9, 0, 0}},
+                    Damage{"shadow", "/places/0/occluders/2/receives_shadow", 1},
+                    Damage{"walking", "/places/0/occluders/2/blocks_walking", "no"},
                     Damage{"probe", "/places/0/probes/0/scale", -1.0},
                     Damage{"probe_twice", "/places/0/probes/1/name", "noon"},
                     Damage{"hour", "/places/0/probes/1/hour", 24.5},

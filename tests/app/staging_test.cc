@@ -134,6 +134,53 @@ TEST(LoadStagedMap, SaysWhatAPlaceLacks) {
   EXPECT_THAT(LoadStagedMap({folder.path()}, place).message(), HasSubstr("scene.larscene"));
 }
 
+TEST(StagePlace, ShapesNeedNoBakingAndKeepWhatTheyDo) {
+  const test::TemporaryFolder folder;
+  PlaceDocument place;
+  place.name = "tavern";
+  OccluderDocument& gate = place.occluders.emplace_back();
+  gate.name = "gate";
+  gate.shape = EntryOf(OccluderShape::Kind::kArch).usual;
+  gate.stage_from_mesh.translation = {1.0, 0.0, -2.0};
+  gate.receives_shadow = false;
+  // An obstacle at another place, too, which may not be trained.
+  for (const auto& staged :
+       {StagePlace({folder.path()}, place, {}, {}), StageObstacles({folder.path()}, place)}) {
+    ASSERT_TRUE(staged.ok()) << staged.message();
+    ASSERT_EQ(staged->occluders.size(), 1u);
+    const stage::Occluder& occluder = staged->occluders[0];
+    EXPECT_EQ(occluder.name, "gate");
+    EXPECT_EQ(occluder.mesh.positions, MakeShapeMesh(*gate.shape).positions);
+    EXPECT_EQ(occluder.stage_from_mesh.translation, Vector3d(1.0, 0.0, -2.0));
+    EXPECT_TRUE(!occluder.receives_shadow && occluder.blocks_sound && occluder.blocks_walking);
+  }
+}
+
+TEST(StageAnew, FollowsSizesPoseAndWhatItDoes) {
+  OccluderDocument counter;
+  counter.shape = OccluderShape{OccluderShape::Kind::kBox, 2.0, 1.0, 0.5};
+  counter.stage_from_mesh.scale = 0.5;
+  counter.blocks_sound = counter.blocks_walking = false;
+  stage::Occluder staged;
+  StageAnew(counter, {}, staged);
+  EXPECT_EQ(staged.mesh.positions, MakeShapeMesh(*counter.shape).positions);
+  EXPECT_EQ(staged.stage_from_mesh.scale, 0.5);
+  EXPECT_TRUE(staged.receives_shadow && !staged.blocks_sound && !staged.blocks_walking);
+
+  OccluderDocument model;
+  model.file = "counter.glb";
+  const size_t corners = staged.mesh.positions.size();
+  StageAnew(model, {}, staged);
+  EXPECT_EQ(staged.mesh.positions.size(), corners) << "the mesh of a file stays";
+  EXPECT_TRUE(staged.blocks_sound && staged.blocks_walking);
+
+  OccluderDocument drawn;
+  Similarity3 map_from_stage;
+  map_from_stage.scale = 4.0;
+  StageAnew(drawn, map_from_stage, staged);
+  EXPECT_EQ(staged.stage_from_mesh.scale, 0.25) << "drawn in the map";
+}
+
 // Frames whose every pixel is their index.
 class CountingSource : public capture::FrameSource {
  public:
