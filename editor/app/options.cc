@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "editor/app/occluder_alignment.h"
 #include "editor/app/project.h"
 #include "editor/import/cast_presets.h"
 
@@ -25,6 +26,7 @@ struct AllOptions {
   BakeOptions bake;
   CheckOptions check;
   CheckPointsOptions check_points;
+  AlignOptions align;
   LinesOptions lines;
   CaptionsOptions captions;
   TimelineOptions timeline;
@@ -175,6 +177,36 @@ void AddCheckPoints(CLI::App& app, CheckPointsOptions& options) {
   command->add_option("--session", options.session, "Of the image; 0: the training")
       ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
       ->needs(pick);
+}
+
+void AddAlign(CLI::App& app, AlignOptions& align) {
+  CLI::App* command =
+      AddSubcommand(app, "align", "Lay an occluder's model where the real thing is", align.project);
+  command->add_option("--place", align.place, "Name of the place");
+  command->add_option("--occluder", align.occluder, "Its name")->required();
+  CLI::Option* pair =
+      command->add_option("--pair", align.pair, "Add a pair: x,y,z of the model's point, as in it")
+          ->delimiter(',')
+          ->expected(3);
+  command
+      ->add_option("--pick", align.picks,
+                   "Where the point is seen in a training image, FRAME,x,y; twice or more")
+      ->needs(pair);
+  command->add_option("--session", align.session, "Of these images; 0: the training")
+      ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
+      ->needs(pair);
+  command->add_option("--remove", align.remove, "Remove a pair, by its number")
+      ->check(CLI::Range(1, static_cast<int>(kMaxModelPairs)));
+  command->add_flag("--keep-scale,!--fit-scale", align.keep_scale,
+                    "The model's scale is right, as where it is in metres; or it is found too");
+  command->add_flag("--by-points", align.by_points, "Lay the model by the pairs");
+  CLI::Option* refine =
+      command->add_flag("--refine", align.refine, "Then lay it by the map's points on its surface");
+  command->add_option("--within", align.within, "Metres from it that these are looked for, 0.3")
+      ->check(CLI::Range(kMinSearch, kMaxSearch))
+      ->needs(refine);
+  command->add_flag("--flat,!--not-flat", align.flat,
+                    "Of a drawn occluder: lay its corners onto the plane that fits them best");
 }
 
 void AddLines(CLI::App& app, AllOptions& options) {
@@ -453,6 +485,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
       ->check(CLI::ExistingFile);
 
   AddCheckPoints(app, options.check_points);
+  AddAlign(app, options.align);
   AddLines(app, options);
   AddInterchange(app, options);
   AddCredits(app, options.credits);
@@ -484,6 +517,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("bake")) return options.bake;
   if (app.got_subcommand("check")) return options.check;
   if (app.got_subcommand("check-points")) return options.check_points;
+  if (app.got_subcommand("align")) return options.align;
   if (app.got_subcommand("lines")) return options.lines;
   if (app.got_subcommand("captions")) return options.captions;
   if (app.got_subcommand("timeline")) return options.timeline;

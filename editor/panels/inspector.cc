@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "editor/app/drawn_occluder.h"
+#include "editor/app/occluder_alignment.h"
+#include "editor/panels/align_panel.h"
 #include "editor/panels/cast_inspector.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
@@ -213,7 +215,7 @@ void TakeOverOccluders(app::Workspace& workspace, const app::PlaceDocument& from
           const bool taken = std::any_of(place.occluders.begin(), place.occluders.end(),
                                          [&](const auto& o) { return o.name == occluder.name; });
           if (!occluder.drawn() && !taken) {
-            place.occluders.push_back(occluder);
+            place.occluders.push_back(app::WithoutPicks(occluder));
           }
         }
       });
@@ -424,7 +426,7 @@ void EditOccluder(app::Workspace& workspace,
 }
 
 void ShowOccluderModel(app::Workspace& workspace,
-                       const EditorState& state,
+                       EditorState& state,
                        const app::OccluderDocument& occluder) {
   Similarity3 transform = occluder.stage_from_mesh;
   bool changed = false;
@@ -437,6 +439,7 @@ void ShowOccluderModel(app::Workspace& workspace,
     MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
                  "inspector occluder");
   }
+  ShowAlignment(workspace, state, occluder);
 }
 
 // Corner, number of picks, residual.
@@ -481,6 +484,15 @@ void ShowCorners(app::Workspace& workspace,
       if (drawn.ok()) {
         PropertyText(Tr("Error"), Text("%.2f px", drawn->error_px));
         PropertyText(Tr("Uneven by"), Text("%.1f cm", 100.0 * drawn->unevenness / units));
+      }
+      bool flat = occluder.flat;
+      PropertyLabel(Tr("Flat"));
+      if (ImGui::Checkbox("##flat", &flat)) {
+        EditOccluder(workspace, Text(Tr("flatten %s"), occluder.name.c_str()), occluder.name,
+                     [&](app::OccluderDocument& edited) { edited.flat = flat; });
+      }
+      if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", Tr("Lays the corners onto the plane that fits them best"));
       }
       EndProperties();
     }
