@@ -197,16 +197,18 @@ void AddAlign(CLI::App& app, AlignOptions& align) {
       ->needs(pair);
   command->add_option("--remove", align.remove, "Remove a pair, by its number")
       ->check(CLI::Range(1, static_cast<int>(kMaxModelPairs)));
-  command->add_flag("--keep-scale,!--fit-scale", align.keep_scale,
-                    "The model's scale is right, as where it is in metres; or it is found too");
+  command->add_flag_function(
+      "--keep-scale,!--fit-scale", [&](int64_t times) { align.keep_scale = times > 0; },
+      "The model's scale is right, as where it is in metres; or it is found too");
   command->add_flag("--by-points", align.by_points, "Lay the model by the pairs");
   CLI::Option* refine =
       command->add_flag("--refine", align.refine, "Then lay it by the map's points on its surface");
   command->add_option("--within", align.within, "Metres from it that these are looked for, 0.3")
       ->check(CLI::Range(kMinSearch, kMaxSearch))
       ->needs(refine);
-  command->add_flag("--flat,!--not-flat", align.flat,
-                    "Of a drawn occluder: lay its corners onto the plane that fits them best");
+  command->add_flag_function(
+      "--flat,!--not-flat", [&](int64_t times) { align.flat = times > 0; },
+      "Of a drawn occluder: lay its corners onto the plane that fits them best, or not");
 }
 
 void AddLines(CLI::App& app, AllOptions& options) {
