@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <variant>
 
+#include "editor/app/align_commands.h"
 #include "editor/app/camera_measure.h"
 #include "editor/app/check_commands.h"
 #include "editor/app/line_commands.h"
@@ -63,6 +64,9 @@ struct Runner {
     return RunCheckPoints(options);
   }
   Result<CommandResult> operator()(const OccluderOptions& options) { return RunOccluder(options); }
+  Result<CommandResult> operator()(const AlignOptions& options) {
+    return RunAlign(options, progress);
+  }
   Result<CommandResult> operator()(const LinesOptions& options) { return RunLines(options); }
   Result<CommandResult> operator()(const CaptionsOptions& options) {
     return RunCaptions(options, progress);

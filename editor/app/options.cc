@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <tuple>
 
+#include "editor/app/occluder_alignment.h"
 #include "editor/app/project.h"
 #include "editor/import/cast_presets.h"
 
@@ -27,6 +28,7 @@ struct AllOptions {
   CheckOptions check;
   CheckPointsOptions check_points;
   OccluderOptions occluder;
+  AlignOptions align;
   LinesOptions lines;
   CaptionsOptions captions;
   TimelineOptions timeline;
@@ -222,6 +224,38 @@ void AddOccluder(CLI::App& app, OccluderOptions& options) {
         {"--blocks-walking", &options.blocks_walking, "Whether people walk around it"}}) {
     change->add_option(name, *value, text)->check(CLI::IsMember({"yes", "no"}));
   }
+}
+
+void AddAlign(CLI::App& app, AlignOptions& align) {
+  CLI::App* command =
+      AddSubcommand(app, "align", "Lay an occluder's model where the real thing is", align.project);
+  command->add_option("--place", align.place, "Name of the place");
+  command->add_option("--occluder", align.occluder, "Its name")->required();
+  CLI::Option* pair =
+      command->add_option("--pair", align.pair, "Add a pair: x,y,z of the model's point, as in it")
+          ->delimiter(',')
+          ->expected(3);
+  command
+      ->add_option("--pick", align.picks,
+                   "Where the point is seen in a training image, FRAME,x,y; twice or more")
+      ->needs(pair);
+  command->add_option("--session", align.session, "Of these images; 0: the training")
+      ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
+      ->needs(pair);
+  command->add_option("--remove", align.remove, "Remove a pair, by its number")
+      ->check(CLI::Range(1, static_cast<int>(kMaxModelPairs)));
+  command->add_flag_function(
+      "--keep-scale,!--fit-scale", [&](int64_t times) { align.keep_scale = times > 0; },
+      "The model's scale is right, as where it is in metres; or it is found too");
+  command->add_flag("--by-points", align.by_points, "Lay the model by the pairs");
+  CLI::Option* refine =
+      command->add_flag("--refine", align.refine, "Then lay it by the map's points on its surface");
+  command->add_option("--within", align.within, "Metres from it that these are looked for, 0.3")
+      ->check(CLI::Range(kMinSearch, kMaxSearch))
+      ->needs(refine);
+  command->add_flag_function(
+      "--flat,!--not-flat", [&](int64_t times) { align.flat = times > 0; },
+      "Of a drawn occluder: lay its corners onto the plane that fits them best, or not");
 }
 
 void AddLines(CLI::App& app, AllOptions& options) {
@@ -501,6 +535,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
 
   AddCheckPoints(app, options.check_points);
   AddOccluder(app, options.occluder);
+  AddAlign(app, options.align);
   AddLines(app, options);
   AddInterchange(app, options);
   AddCredits(app, options.credits);
@@ -533,6 +568,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("check")) return options.check;
   if (app.got_subcommand("check-points")) return options.check_points;
   if (app.got_subcommand("occluder")) return options.occluder;
+  if (app.got_subcommand("align")) return options.align;
   if (app.got_subcommand("lines")) return options.lines;
   if (app.got_subcommand("captions")) return options.captions;
   if (app.got_subcommand("timeline")) return options.timeline;

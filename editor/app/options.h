@@ -120,6 +120,22 @@ struct OccluderOptions {
   std::string blocks_walking = {};   // likewise
 };
 
+// All that is given is done, in this order; without any of it there is only the report.
+struct AlignOptions {
+  std::filesystem::path project = {};
+  std::string place = {};  // empty: the only one
+  std::string occluder = {};
+  std::optional<int> remove = {};       // a pair, from 1
+  std::vector<double> pair = {};        // adds one: x, y, z in the mesh's axes and unit
+  std::vector<std::string> picks = {};  // where that is seen: FRAME,x,y each
+  int session = 0;                      // of these images
+  std::optional<bool> keep_scale = {};  // whether the model's scale is right
+  bool by_points = false;               // lays the model by the pairs
+  bool refine = false;                  // then by the map's points
+  std::optional<double> within = {};    // metres of the model, for that; none: train's
+  std::optional<bool> flat = {};        // of one that was drawn: its corners onto their plane
+};
+
 struct LinesOptions {
   std::filesystem::path project;
   std::filesystem::path import;  // .po, .csv or .json
@@ -256,6 +272,7 @@ using Subcommand = std::variant<WindowOptions,
                                 CheckOptions,
                                 CheckPointsOptions,
                                 OccluderOptions,
+                                AlignOptions,
                                 LinesOptions,
                                 CaptionsOptions,
                                 TimelineOptions,

@@ -38,6 +38,17 @@ struct SourceDocument {
   bool empty() const { return kind == Kind::kNone; }
 };
 
+// A point of an occluder's model and where it was picked in the training images, to lay the model
+// by (occluder_alignment.h). Picks outlive the map, so training again keeps them.
+struct ModelPairDocument {
+  Eigen::Vector3d on_mesh = Eigen::Vector3d::Zero();  // in the mesh's axes and unit
+  stage::Anchor anchor;
+};
+inline constexpr size_t kMaxModelPairs = 64;
+
+// The name of a pair in errors: "point 1" and so on.
+std::string ModelPairName(size_t index);
+
 // Something real that hides people: a model, a shape of given sizes, or a face that was drawn on
 // training images.
 struct OccluderDocument {
@@ -55,6 +66,10 @@ struct OccluderDocument {
   // them (drawn_occluder.h).
   std::vector<stage::Anchor> corners;
   double depth = 0.0;  // metres that it goes on behind that face; 0: the face alone
+  bool flat = false;   // its corners are laid onto the plane that fits them best
+  // Of a model: what it is aligned by.
+  std::vector<ModelPairDocument> model_pairs;
+  bool keep_scale = false;  // its scale is right: aligning leaves it
 
   Kind kind() const { return shape ? Kind::kShape : file.empty() ? Kind::kDrawn : Kind::kModel; }
   bool drawn() const { return kind() == Kind::kDrawn; }

@@ -10,6 +10,7 @@
 #include "editor/app/camera_measure.h"
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
+#include "editor/app/occluder_alignment.h"
 #include "editor/app/player_trial.h"
 #include "editor/app/sounds.h"
 #include "editor/app/subcommands.h"
@@ -940,6 +941,68 @@ void Workspace::MeasureCameraTraits() {
           });
         }
       });
+}
+
+void Workspace::RefineOccluder(const std::string& name, double search_m) {
+  const std::shared_ptr<const stage::Place> staged = loaded_.staged;
+  const OccluderDocument* occluder = FindOccluder(place_name_, name);
+  if (occluder == nullptr || loaded_.database == nullptr || staged == nullptr) {
+    return;
+  }
+  const auto solid =
+      static_cast<size_t>(std::find_if(staged->occluders.begin(), staged->occluders.end(),
+                                       [&](const stage::Occluder& o) { return o.name == name; }) -
+                          staged->occluders.begin());
+  if (solid == staged->occluders.size()) {
+    return;
+  }
+  using Outcome = Result<train::RefineReport>;
+  const auto outcome = std::make_shared<Outcome>(Status::Error(name, "was not refined"));
+  const auto work = [=, document = *occluder, map = loaded_.database,
+                     map_from_stage = loaded_.picks.map_from_picked *
+                                      place()->picked_from_stage](Progress& progress) {
+    *outcome = RefineOnMap(document, staged->occluders[solid].mesh, *map, map_from_stage, search_m,
+                           progress);
+    return outcome->status();
+  };
+  const auto done = [this, outcome, name, place = place_name_, start = occluder->stage_from_mesh](
+                        const Status& status, bool cancelled) {
+    const bool found = status.ok() && !cancelled;
+    Report(status, cancelled, found ? name + ": " + RefineText(**outcome, true) : "");
+    if (cancelled) {
+      return;
+    }
+    refinement_ = {place, name, found ? (*outcome)->stage_from_mesh : start, *outcome};
+    const OccluderDocument* now = FindOccluder(place, name);
+    if (found && now != nullptr && now->stage_from_mesh == start) {
+      Edit(Text(Tr("refine %s"), name.c_str()), [&](ProjectDocument& document) {
+        for (OccluderDocument& edited : document.FindPlace(place)->occluders) {
+          if (edited.name == name) {
+            edited.stage_from_mesh = refinement_->stage_from_mesh;
+          }
+        }
+      });
+    }
+  };
+  tasks_.Start(kRefining, work, done);
+}
+
+const OccluderDocument* Workspace::FindOccluder(const std::string& place,
+                                                const std::string& name) const {
+  const PlaceDocument* at = document().FindPlace(place);
+  if (at == nullptr) {
+    return nullptr;
+  }
+  const auto found = std::find_if(at->occluders.begin(), at->occluders.end(),
+                                  [&](const OccluderDocument& o) { return o.name == name; });
+  return found == at->occluders.end() ? nullptr : &*found;
+}
+
+const Workspace::Refinement* Workspace::refinement(const OccluderDocument& occluder) const {
+  const bool applies = refinement_ && refinement_->place == place_name_ &&
+                       refinement_->occluder == occluder.name &&
+                       refinement_->stage_from_mesh == occluder.stage_from_mesh;
+  return applies ? &*refinement_ : nullptr;
 }
 
 void Workspace::SetCameraLook(bool on) {

@@ -27,6 +27,7 @@
 #include "editor/app/show_contents.h"
 #include "editor/app/staging.h"
 #include "editor/app/text.h"
+#include "editor/train/mesh_alignment.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
@@ -68,6 +69,7 @@ class Workspace {
   static constexpr const char* kCamera = TrLater("Measuring the camera");
   static constexpr const char* kDryRun = TrLater("Running the drama");
   static constexpr const char* kChecking = TrLater("Checking");
+  static constexpr const char* kRefining = TrLater("Refining on the map");
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
@@ -124,6 +126,18 @@ class Workspace {
   // Of the last training in this window; nullptr before one, or of another place.
   const train::TrainReport* last_training() const;
   void Bake();
+  // Lays the model of an occluder by the map's points within so many metres of it: an edit, once
+  // that is known, unless it was moved meanwhile. The occluder has to be staged.
+  void RefineOccluder(const std::string& occluder, double search_m);
+  // What that came to last, for an occluder that still lies as it then was laid, or as it lay
+  // where it failed; nullptr otherwise.
+  struct Refinement {
+    std::string place;
+    std::string occluder;
+    geometry::Similarity3 stage_from_mesh;
+    Result<train::RefineReport> report;
+  };
+  const Refinement* refinement(const OccluderDocument& occluder) const;
   // All that is wrong with the project as it is saved, as the subcommand check tells it.
   void Check();
   bool checked() const { return checked_; }
@@ -217,6 +231,9 @@ class Workspace {
  private:
   Workspace(ProjectPaths paths, ProjectDocument document, std::string script, Log& log);
 
+  // nullptr: there is none.
+  const OccluderDocument* FindOccluder(const std::string& place, const std::string& name) const;
+
   void Recover();
   // Undo and redo of the drama's part of a command.
   void ApplyToScript(const drama::TextEdit& edit);
@@ -300,6 +317,7 @@ class Workspace {
   double since_script_ = 0.0;  // seconds since it changed
   bool stage_changed_ = true;  // since the last run
   bool checked_ = false;
+  std::optional<Refinement> refinement_;
   std::shared_ptr<const ExportedShow> exported_;
   std::string export_problem_;
   std::vector<std::string> problems_;

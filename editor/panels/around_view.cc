@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/frame_damage.h"
 #include "editor/panels/gizmo_view.h"
@@ -367,7 +368,8 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   draw.PushClipRect(origin, corner, true);
   DrawCheckPoints(workspace, state, view, draw);
   const bool was_dragging = state.drag.has_value();
-  const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
+  const bool picking = ShowModelPoints(workspace, state, view, hovered, draw);
+  const bool busy = ShowGizmo(workspace, state, view, hovered && !picking, draw) &&
                     (state.drag.has_value() || was_dragging || !active);
   const char* keys = Tr("Drag to orbit, Shift or right drag to pan, wheel to zoom");
   const float wrap = size.x - Px(24);

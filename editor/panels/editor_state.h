@@ -10,6 +10,7 @@
 
 #include "editor/app/cast_pictures.h"
 #include "editor/app/check_points.h"
+#include "editor/app/occluder_alignment.h"
 #include "editor/app/project.h"
 #include "editor/app/settings.h"
 #include "editor/app/show_contents.h"
@@ -18,6 +19,8 @@
 #include "editor/panels/keys.h"
 #include "editor/panels/picture_textures.h"
 #include "editor/panels/view_camera.h"
+#include "shared/stage/place.h"
+#include "shared/vision/occluders.h"
 
 namespace lararium::panels {
 
@@ -92,6 +95,22 @@ struct CheckView {
   app::CheckReport report;
 };
 
+// How the model of an occluder is aligned.
+struct AlignView {
+  std::string occluder;        // that the rest is of
+  bool picking = false;        // the next click in a view takes a point of the model
+  std::optional<size_t> pair;  // whose point is clicked in the training images
+  double search_m = train::RefineOptions().search_m;
+  std::shared_ptr<const vision::OccluderTree> tree;  // of the model, as staged here:
+  std::shared_ptr<const stage::Place> tree_of;
+  // The pairs as they were worked out last, and from what.
+  std::shared_ptr<const app::ProjectDocument> document;
+  std::shared_ptr<const vision::SceneDatabase> database;
+  std::string place;
+  geometry::Similarity3 map_from_picked;
+  app::AlignmentReport report;
+};
+
 // How the light of a probe is looked at and matched.
 struct LightView {
   enum class Picking { kNothing, kGrey, kOnProbe, kOnStage };
@@ -138,6 +157,7 @@ struct EditorState {
   int keyframe = 0;
 
   CheckView check;
+  AlignView align;
   LightView light;
   CastView cast;
   std::shared_ptr<const app::CastPortrait> portrait;  // the one shown in this frame

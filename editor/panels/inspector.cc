@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/app/occluder_alignment.h"
 #include "editor/panels/cast_inspector.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
@@ -203,7 +204,7 @@ void TakeOverOccluders(app::Workspace& workspace, const app::PlaceDocument& from
           const bool taken = std::any_of(place.occluders.begin(), place.occluders.end(),
                                          [&](const auto& o) { return o.name == occluder.name; });
           if (!occluder.drawn() && !taken) {
-            place.occluders.push_back(occluder);
+            place.occluders.push_back(app::WithoutPicks(occluder));
           }
         }
       });

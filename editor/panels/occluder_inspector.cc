@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "editor/app/drawn_occluder.h"
+#include "editor/panels/align_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -48,7 +49,7 @@ void ShowSizes(app::Workspace& workspace, const app::OccluderDocument& occluder)
 
 // Of a model or a shape.
 void ShowPlaced(app::Workspace& workspace,
-                const EditorState& state,
+                EditorState& state,
                 const app::OccluderDocument& occluder) {
   Similarity3 transform = occluder.stage_from_mesh;
   bool changed = false;
@@ -64,6 +65,9 @@ void ShowPlaced(app::Workspace& workspace,
   if (changed) {
     MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
                  "inspector occluder");
+  }
+  if (occluder.kind() == app::OccluderDocument::Kind::kModel) {
+    ShowAlignment(workspace, state, occluder);
   }
 }
 
@@ -109,6 +113,15 @@ void ShowCorners(app::Workspace& workspace,
       if (drawn.ok()) {
         PropertyText(Tr("Error"), Text("%.2f px", drawn->error_px));
         PropertyText(Tr("Uneven by"), Text("%.1f cm", 100.0 * drawn->unevenness / units));
+      }
+      bool flat = occluder.flat;
+      PropertyLabel(Tr("Flat"));
+      if (ImGui::Checkbox("##flat", &flat)) {
+        EditOccluder(workspace, Text(Tr("flatten %s"), occluder.name.c_str()), occluder.name,
+                     [&](app::OccluderDocument& edited) { edited.flat = flat; });
+      }
+      if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", Tr("Lays the corners onto the plane that fits them best"));
       }
       EndProperties();
     }

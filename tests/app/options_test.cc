@@ -131,6 +131,32 @@ TEST(EditorOptions, OccluderDoesOneWorkWithAllThatItNeeds) {
               HasSubstr("maybe"));
 }
 
+TEST(EditorOptions, AlignTakesPairsWithTheirPicks) {
+  const auto added =
+      Parsed<AlignOptions>({"align", "p", "--occluder", "counter", "--place", "site", "--pair",
+                            "-1.5,0,2e3", "--pick", "0.png,10,20.5", "--pick", "8.png,30,40"});
+  EXPECT_EQ(added.occluder, "counter");
+  EXPECT_EQ(added.pair, (std::vector<double>{-1.5, 0.0, 2000.0}));
+  EXPECT_EQ(added.picks, (std::vector<std::string>{"0.png,10,20.5", "8.png,30,40"}));
+  EXPECT_FALSE(added.keep_scale.has_value());
+  EXPECT_FALSE(added.flat.has_value());
+  const auto refined = Parsed<AlignOptions>({"align", "p", "--occluder", "a", "--keep-scale",
+                                             "--by-points", "--refine", "--within", "0.1"});
+  EXPECT_TRUE(refined.by_points && refined.refine);
+  EXPECT_EQ(refined.keep_scale, true);
+  EXPECT_EQ(refined.within, 0.1);
+  EXPECT_EQ(Parsed<AlignOptions>({"align", "p", "--occluder", "a", "--fit-scale"}).keep_scale,
+            false);
+  EXPECT_EQ(Parsed<AlignOptions>({"align", "p", "--occluder", "a", "--not-flat"}).flat, false);
+  EXPECT_THAT(Refusal({"align", "p"}), HasSubstr("--occluder"));
+  EXPECT_THAT(Refusal({"align", "p", "--occluder", "a", "--pick", "0.png,1,2"}),
+              HasSubstr("--pair"));
+  EXPECT_THAT(Refusal({"align", "p", "--occluder", "a", "--within", "0.1"}), HasSubstr("--refine"));
+  EXPECT_THAT(Refusal({"align", "p", "--occluder", "a", "--refine", "--within", "-1"}),
+              HasSubstr("--within"));
+  EXPECT_THAT(Refusal({"align", "p", "--occluder", "a", "--remove", "0"}), HasSubstr("--remove"));
+}
+
 TEST(EditorOptions, PointsLieBetweenAHundredAndTenMillion) {
   const std::vector<std::vector<std::string>> commands = {
       {"train", "p"}, {"prune", "p"}, {"export", "p", "--out", "a.larshow"}};
