@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <variant>
 
+#include "editor/app/calibrating.h"
 #include "editor/app/camera_measure.h"
 #include "editor/app/check_commands.h"
 #include "editor/app/line_commands.h"
@@ -82,6 +83,9 @@ struct Runner {
   Result<CommandResult> operator()(const ProbeOptions& options) { return RunProbe(options); }
   Result<CommandResult> operator()(const CameraOptions& options) {
     return RunCamera(options, progress);
+  }
+  Result<CommandResult> operator()(const CalibrateOptions& options) {
+    return RunCalibrate(options, progress);
   }
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);

@@ -14,9 +14,8 @@ namespace {
 using Corners = std::vector<Eigen::Vector2d>;
 using Kind = CalibrationAdvice::Kind;
 
-constexpr size_t kFewestViews = 8;  // without which there is no calibration
-constexpr int kEnoughViews = 20;    // below which more are asked for
-constexpr int kHoldOutEvery = 5;    // views
+constexpr int kEnoughViews = 20;  // below which more are asked for
+constexpr int kHoldOutEvery = 5;  // views
 constexpr int64_t kImagesOfRecording = 240;
 constexpr int kSearchWidth = 800;          // of the image that the board is looked for in
 constexpr double kImpossibleFocal = 0.05;  // standard deviation, of the focal length
@@ -575,6 +574,7 @@ class Calibrator {
         cv::projectPoints(points_, rotation, translation, matrix, distortion, projected);
       } catch (const cv::Exception&) {
         view.part = Part::kRejected;
+        ++result_.rejected;
         continue;
       }
       const double error =

@@ -62,6 +62,9 @@ struct CornerGrid {
   double Covered() const;  // share of the cells
 };
 
+// Views that differ, without which there is no calibration.
+inline constexpr size_t kFewestViews = 8;
+
 // Parts of the image, three by three, row by row from the upper left.
 inline constexpr int kImageParts = 9;
 
