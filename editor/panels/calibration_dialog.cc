@@ -418,7 +418,7 @@ void CalibrationDialog::ShowResult(const app::ProjectPaths& paths, DialogFields&
   ShowNumbers(calibration);
   ImGui::EndChild();
   Warning(problem_);
-  const DialogAnswer answer = DialogButtons(Tr("Use"), "", Tr("Film again"));
+  const DialogAnswer answer = DialogButtons(Tr("Use them"), "", Tr("Film again"));
   if (answer == DialogAnswer::kCancel) {
     Clear();
   }

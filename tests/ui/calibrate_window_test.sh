@@ -1,7 +1,7 @@
 #!/bin/bash
 # Calibrates a camera in the window with a video of a chessboard, first as a recording, then as if it
 # were a live camera, from the dialog that trains a place: what was typed there stays, and the numbers
-# come into it. Then does the same in a terminal.
+# come into it. Before that the same in a terminal.
 #
 # Of result.png the dialog is docs/images/calibrate.jpg.
 #
