@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "editor/app/align_commands.h"
+#include "editor/app/calibrating.h"
 #include "editor/app/camera_measure.h"
 #include "editor/app/check_commands.h"
 #include "editor/app/line_commands.h"
@@ -88,6 +89,9 @@ struct Runner {
   Result<CommandResult> operator()(const ProbeOptions& options) { return RunProbe(options); }
   Result<CommandResult> operator()(const CameraOptions& options) {
     return RunCamera(options, progress);
+  }
+  Result<CommandResult> operator()(const CalibrateOptions& options) {
+    return RunCalibrate(options, progress);
   }
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);

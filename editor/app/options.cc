@@ -40,6 +40,8 @@ struct AllOptions {
   ReferenceOptions reference;
   ProbeOptions probe;
   CameraOptions camera;
+  CalibrateOptions calibrate;
+  std::string calibrate_board = "9x6";
   ExportOptions export_;
   KeyOptions key;
 };
@@ -506,6 +508,33 @@ void AddCamera(CLI::App& app, CameraOptions& options) {
   camera->add_flag("--forget", options.forget, "People stay sharp and clean");
 }
 
+void AddCalibrate(CLI::App& app, CalibrateOptions& options, std::string& board) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Measure a camera's intrinsics with a chessboard, and their errors");
+  command->fallthrough();
+  CLI::Option_group* source = command->add_option_group("source", "What shows the board");
+  source->add_option("--video", options.video, "Video file")->check(CLI::ExistingFile);
+  source->add_option("--images", options.images, "Folder of images")->check(CLI::ExistingDirectory);
+  source
+      ->add_option("--camera", options.camera,
+                   "The camera of this number; a video file is played as one")
+      ->check(CLI::NonNegativeNumber | CLI::ExistingFile);
+  source->add_option("--print-board", options.print_board,
+                     "None: write the board here, to print it on A4 (.svg)");
+  source->require_option(1);
+  command
+      ->add_option("--board", board,
+                   "CxR: inner corners, where four squares meet; 10 x 7 squares have 9x6")
+      ->capture_default_str();
+  command->add_option("--square", options.square, "Side of a square in metres")
+      ->check(CLI::Range(0.001, 10.0));
+  command->add_option("--seconds", options.seconds, "How long to look at the camera")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->add_option("--device-out", options.device_out,
+                      "Write the camera into this device file for the player");
+}
+
 void AddOthers(CLI::App& app, AllOptions& options) {
   CLI::App* create = AddSubcommand(app, "new", "Make an empty project", options.create.project);
   create->add_option("--title", options.create.title, "Title; the folder's name otherwise");
@@ -517,6 +546,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   AddCast(app, options.cast);
 
   AddCamera(app, options.camera);
+  AddCalibrate(app, options.calibrate, options.calibrate_board);
 
   AddSubcommand(app, "bake", "Prepare light, occluders and people", options.bake.project);
 
@@ -579,6 +609,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("reference")) return options.reference;
   if (app.got_subcommand("probe")) return options.probe;
   if (app.got_subcommand("camera")) return options.camera;
+  if (app.got_subcommand("calibrate")) return options.calibrate;
   if (app.got_subcommand("export")) return options.export_;
   if (app.got_subcommand("key")) return options.key;
   return options.window;
@@ -600,6 +631,13 @@ void ParseSize(const std::string& text, PortraitOptions& portrait) {
       std::clamp(portrait.width, 16, kLargest) != portrait.width ||
       std::clamp(portrait.height, 16, kLargest) != portrait.height) {
     throw CLI::ValidationError("--size", "takes WxH, from 16 to 4096 pixels");
+  }
+}
+
+void ParseBoard(const std::string& text, CalibrateOptions& calibrate) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%4dx%4d%c", &calibrate.columns, &calibrate.rows, &rest) != 2) {
+    throw CLI::ValidationError("--board", "takes CxR, as 9x6: the inner corners");
   }
 }
 
@@ -653,6 +691,7 @@ std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* arg
     CheckPointWork(options.check_points);
     OccluderWork(options.occluder);
     ParseSize(options.portrait_size, options.portrait);
+    ParseBoard(options.calibrate_board, options.calibrate);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;
   }

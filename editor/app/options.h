@@ -250,6 +250,20 @@ struct CameraOptions {
   bool forget = false;
 };
 
+// Of a camera, with a chessboard.
+struct CalibrateOptions {
+  // One of them, unless a board is printed.
+  std::filesystem::path video;
+  std::filesystem::path images;
+  std::string camera;  // a number, or a recording that is played as one
+  int columns = 9;     // inner corners of the board
+  int rows = 6;
+  double square = 0.0;    // of the board, metres; 0: not known
+  double seconds = 60.0;  // how long the camera is looked at
+  std::filesystem::path device_out;
+  std::filesystem::path print_board;  // .svg
+};
+
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
@@ -283,6 +297,7 @@ using Subcommand = std::variant<WindowOptions,
                                 ReferenceOptions,
                                 ProbeOptions,
                                 CameraOptions,
+                                CalibrateOptions,
                                 ExportOptions,
                                 KeyOptions>;
 

@@ -92,16 +92,18 @@ Result<app::SessionDocument> ChosenRecording(const app::Workspace& workspace,
   return recording;
 }
 
-void TrainDialog(app::Workspace& workspace, EditorState& state) {
+// True: the camera is to be calibrated.
+bool TrainDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
       Tr("Learns the place from a recording: walk sideways around it, slowly, with everything in "
          "view that visitors will see."));
+  bool calibrate = false;
   if (BeginProperties("train")) {
     PropertyLabel(Tr("Place"));
     ImGui::InputText("##place", &fields.place);
-    RecordingFields(workspace.paths().folder, fields,
-                    Tr("estimated; or fx, fy, cx, cy, k1, k2, p1, p2"));
+    calibrate =
+        RecordingFields(workspace.paths().folder, fields, Tr(kFromVideo), Tr(kFromVideoHint));
     EndProperties();
   }
   if (app::IsPlainName(fields.place)) {
@@ -112,21 +114,24 @@ void TrainDialog(app::Workspace& workspace, EditorState& state) {
   }
   if (ImGui::Button(Tr("Film it with a camera instead\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
     state.dialog = Dialog::kFilm;
-    return;
+    return false;
   }
   if (DialogDone(state, Tr("Train"), TrainProblem(workspace, fields))) {
     TrainRecording(workspace, fields);
   }
+  return calibrate;
 }
 
-void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
+// Likewise.
+bool AddSessionDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
       Tr("Merges a recording of the place in other light into the map, so that "
          "visitors are located in both. The stage stays where it is."));
+  bool calibrate = false;
   if (BeginProperties("add session")) {
-    RecordingFields(workspace.paths().folder, fields,
-                    Tr("as the map's camera; or fx, fy, cx, cy, k1, k2, p1, p2"));
+    calibrate = RecordingFields(workspace.paths().folder, fields, Tr("as the map's camera"),
+                                Tr("Empty: it was filmed with the camera of the map."));
     EndProperties();
   }
   if (DialogDone(state, Tr("Add"), RecordingProblem(workspace.paths(), fields))) {
@@ -137,6 +142,7 @@ void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
       workspace.Tell(app::Message::Level::kError, recording.message());
     }
   }
+  return calibrate;
 }
 
 template <typename Entry>
@@ -387,21 +393,28 @@ void ProbeDialog(app::Workspace& workspace, EditorState& state) {
   }
 }
 
+// One that knows no camera.
+template <void (*show)(app::Workspace&, EditorState&)>
+bool Plain(app::Workspace& workspace, EditorState& state) {
+  show(workspace, state);
+  return false;
+}
+
 struct DialogEntry {
   Dialog dialog;
   const char* title;
-  void (*show)(app::Workspace&, EditorState&);
+  bool (*show)(app::Workspace&, EditorState&);
 };
 
 constexpr DialogEntry kDialogs[] = {
     {Dialog::kTrain, TrLater("Train a place"), TrainDialog},
     {Dialog::kAddSession, TrLater("Add a session"), AddSessionDialog},
-    {Dialog::kExport, TrLater("Export the show"), ExportDialog},
-    {Dialog::kOccluder, TrLater("Add an occluder"), OccluderDialog},
-    {Dialog::kProbe, TrLater("Light probe"), ProbeDialog},
-    {Dialog::kCast, TrLater("Add a person"), CastDialog},
-    {Dialog::kObject, TrLater("Add an object"), ObjectDialog},
-    {Dialog::kCheckPoint, TrLater("Add a check point"), CheckPointDialog}};
+    {Dialog::kExport, TrLater("Export the show"), Plain<ExportDialog>},
+    {Dialog::kOccluder, TrLater("Add an occluder"), Plain<OccluderDialog>},
+    {Dialog::kProbe, TrLater("Light probe"), Plain<ProbeDialog>},
+    {Dialog::kCast, TrLater("Add a person"), Plain<CastDialog>},
+    {Dialog::kObject, TrLater("Add an object"), Plain<ObjectDialog>},
+    {Dialog::kCheckPoint, TrLater("Add a check point"), Plain<CheckPointDialog>}};
 
 }  // namespace
 
@@ -439,9 +452,10 @@ std::string RecordingProblem(const app::ProjectPaths& paths, const DialogFields&
   return "";
 }
 
-void RecordingFields(const std::filesystem::path& folder,
+bool RecordingFields(const std::filesystem::path& folder,
                      DialogFields& fields,
-                     const char* no_intrinsics) {
+                     const char* no_intrinsics,
+                     const char* no_intrinsics_hint) {
   PropertyLabel(Tr("Recording"));
   const char* const kinds[] = {Tr("Video"), Tr("Folder of images")};
   int kind = fields.images ? 1 : 0;
@@ -451,7 +465,21 @@ void RecordingFields(const std::filesystem::path& folder,
   PropertyLabel(fields.images ? Tr("Folder") : Tr("File"));
   PathField("file", fields.file, folder, fields.images ? std::span<const char* const>() : kVideos);
   PropertyLabel(Tr("Intrinsics"));
+  const char* const calibrate = Tr("Calibrate\xe2\x80\xa6");
+  const float button = WidestButton(std::array{calibrate}, 0.0f);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button -
+                          ImGui::GetStyle().ItemSpacing.x);
   ImGui::InputTextWithHint("##intrinsics", no_intrinsics, &fields.intrinsics);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s\n%s", Tr("fx, fy, cx, cy, k1, k2, p1, p2 in pixels of the recording."),
+                      no_intrinsics_hint);
+  }
+  ImGui::SameLine();
+  const bool wanted = ImGui::Button(calibrate, ImVec2(button, 0));
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", Tr("Measures them, and their errors, with a printed chessboard."));
+  }
+  return wanted;
 }
 
 void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
@@ -480,7 +508,7 @@ void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
   workspace.Train();
 }
 
-void ShowDialogs(app::Workspace& workspace, EditorState& state) {
+bool ShowDialogs(app::Workspace& workspace, EditorState& state) {
   if (state.dialog == Dialog::kKeys && !ShowKeyList(state.keys)) {
     state.dialog = Dialog::kNone;
   }
@@ -489,15 +517,17 @@ void ShowDialogs(app::Workspace& workspace, EditorState& state) {
       continue;
     }
     bool open = true;
+    bool calibrate = false;
     ShowModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
-      entry.show(workspace, state);
-      open = state.dialog == entry.dialog;
+      calibrate = entry.show(workspace, state);
+      open = state.dialog == entry.dialog && !calibrate;
     });
-    if (!open && state.dialog == entry.dialog) {  // one may lead on to another
+    if (!open && !calibrate && state.dialog == entry.dialog) {  // one may lead on to another
       state.dialog = Dialog::kNone;
     }
-    return;
+    return calibrate;
   }
+  return false;
 }
 
 }  // namespace lararium::panels

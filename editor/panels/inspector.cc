@@ -90,6 +90,10 @@ void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& datab
     focal = Text("%.1f \xc2\xb1 %.1f px", camera.fx, training->focal_deviation_px);
   }
   PropertyText(Tr("Focal"), focal);
+  if (training != nullptr && training->intrinsics_estimated && ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s",
+                      Tr("Estimated from the video itself; \xc2\xb1 is a standard deviation."));
+  }
   PropertyText(Tr("Centre"), Text("%.1f, %.1f px", camera.cx, camera.cy));
   PropertyText(Tr("Distortion"), Text("%.4f, %.4f", camera.k1, camera.k2));
 }

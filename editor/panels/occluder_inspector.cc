@@ -49,7 +49,7 @@ void ShowSizes(app::Workspace& workspace, const app::OccluderDocument& occluder)
 
 // Of a model or a shape.
 void ShowPlaced(app::Workspace& workspace,
-                EditorState& state,
+                const EditorState& state,
                 const app::OccluderDocument& occluder) {
   Similarity3 transform = occluder.stage_from_mesh;
   bool changed = false;
@@ -65,9 +65,6 @@ void ShowPlaced(app::Workspace& workspace,
   if (changed) {
     MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
                  "inspector occluder");
-  }
-  if (occluder.kind() == app::OccluderDocument::Kind::kModel) {
-    ShowAlignment(workspace, state, occluder);
   }
 }
 
@@ -195,6 +192,9 @@ void ShowOccluder(app::Workspace& workspace,
     ShowPlaced(workspace, state, occluder);
   }
   ShowEffects(workspace, occluder);
+  if (occluder.kind() == app::OccluderDocument::Kind::kModel) {
+    ShowAlignment(workspace, state, occluder);
+  }
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
                         [name = occluder.name](app::PlaceDocument& p) {

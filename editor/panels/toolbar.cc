@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "editor/app/calibrating.h"
 #include "editor/panels/light_panel.h"
 #include "editor/panels/look.h"
 #include "editor/panels/pick_view.h"
@@ -29,13 +30,6 @@ bool MenuItem(const char* label, KeyAction key, bool chosen = false, bool possib
   return ImGui::MenuItem(label, KeyText(key).c_str(), chosen, possible);
 }
 
-std::string IntrinsicsText(const geometry::CameraModel& camera) {
-  char text[256];
-  std::snprintf(text, sizeof(text), "%.9g, %.9g, %.9g, %.9g, %.9g, %.9g, %.9g, %.9g", camera.fx,
-                camera.fy, camera.cx, camera.cy, camera.k1, camera.k2, camera.p1, camera.p2);
-  return text;
-}
-
 void OpenTrainDialog(const app::Workspace& workspace, EditorState& state) {
   OpenDialog(state, Dialog::kTrain);
   state.fields.place = "place";
@@ -43,7 +37,7 @@ void OpenTrainDialog(const app::Workspace& workspace, EditorState& state) {
     state.fields.place = place->name;
     state.fields.file = place->training.path;
     state.fields.images = place->training.kind == app::SourceDocument::Kind::kImages;
-    state.fields.intrinsics = place->intrinsics ? IntrinsicsText(*place->intrinsics) : "";
+    state.fields.intrinsics = place->intrinsics ? app::IntrinsicsText(*place->intrinsics) : "";
   }
 }
 

@@ -85,6 +85,21 @@ TEST(EditorOptions, TrainWithoutARecordingTakesTheOneBefore) {
   EXPECT_FALSE(train.tag_size.has_value());
 }
 
+TEST(EditorOptions, CalibrateTakesOneSourceAndABoard) {
+  const auto calibrate = Parsed<CalibrateOptions>(
+      {"calibrate", "--camera", "1", "--board", "7x5", "--square", "0.03", "--seconds", "20"});
+  EXPECT_EQ(calibrate.camera, "1");
+  EXPECT_EQ(calibrate.columns, 7);
+  EXPECT_EQ(calibrate.rows, 5);
+  EXPECT_EQ(calibrate.square, 0.03);
+  EXPECT_EQ(calibrate.seconds, 20.0);
+  EXPECT_EQ(Parsed<CalibrateOptions>({"calibrate", "--print-board", "a.svg"}).columns, 9);
+  EXPECT_THAT(Refusal({"calibrate"}), HasSubstr("--print-board"));
+  EXPECT_THAT(Refusal({"calibrate", "--camera", "0", "--print-board", "a.svg"}),
+              HasSubstr("--print-board"));
+  EXPECT_THAT(Refusal({"calibrate", "--camera", "0", "--board", "nine"}), HasSubstr("--board"));
+}
+
 TEST(EditorOptions, CheckPointsDoesOneWorkWithAllThatItNeeds) {
   const auto set = Parsed<CheckPointsOptions>(
       {"check-points", "p", "--set", "counter, left", "--at", "-1.2,0.9,-0.4"});
