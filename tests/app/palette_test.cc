@@ -33,21 +33,21 @@ class PaletteTest : public testing::TestWithParam<Theme> {
 };
 
 TEST(RampColour, GrowsLighterFromEndToEndAndStandsOutFromTheView) {
-  constexpr ImVec4 kView = {0.075f, 0.082f, 0.094f, 1.0f};
+  const ImVec4 view = {0.075f, 0.082f, 0.094f, 1.0f};
   double before = 0.0;
   for (int i = 0; i <= 20; ++i) {
     const double luminance = Luminance(RampColour(i / 20.0));
     EXPECT_GT(luminance, before) << i;
-    EXPECT_GE(Contrast(RampColour(i / 20.0), kView), kMarks) << i;
+    EXPECT_GE(Contrast(RampColour(i / 20.0), view), kMarks) << i;
     before = luminance;
   }
   EXPECT_EQ(Luminance(RampColour(7.0)), Luminance(RampColour(1.0)));
 }
 
 TEST(SessionColour, DiffersBetweenSessionsAndStandsOutFromTheView) {
-  constexpr ImVec4 kView = {0.075f, 0.082f, 0.094f, 1.0f};
+  const ImVec4 view = {0.075f, 0.082f, 0.094f, 1.0f};
   for (uint32_t a = 0; a < kSessionColours; ++a) {
-    EXPECT_GE(Contrast(SessionColour(a), kView), kMarks) << a;
+    EXPECT_GE(Contrast(SessionColour(a), view), kMarks) << a;
     for (uint32_t b = 0; b < a; ++b) {
       const ImVec4 p = SessionColour(a);
       const ImVec4 q = SessionColour(b);

@@ -38,6 +38,8 @@ cat > "$json" << JSON
             "length_m": 1}}]}
 JSON
 "$make_room_map" "$project/places/site/scene.larscene" 1500 2 || fail "cannot make a map"
+scene=$project/places/site/scene.larscene
+before=$(stat -c %s "$scene")
 open_window 700 780 "$project"
 sleep 5
 press F8  # the messages leave the most room above
@@ -96,5 +98,19 @@ wait_for 10 in_steps || fail "the drag in steps: $(adjust translation)"
 # The added session goes, after a question.
 click 37 147
 import -window root "$out/place.png"
+click 1307 513
+import -window root "$out/question.png"
+click 1276 628
+smaller() { [ "$(stat -c %s "$scene")" -lt "$before" ]; }
+wait_for 20 smaller || fail "the map has all its sessions"
+sleep 2
+import -window root "$out/removed.png"
+forgotten() { ! grep -q evening "$json"; }
+press ctrl+s
+wait_for 10 forgotten || fail "the project still names the session"
+press ctrl+z
+press ctrl+s
+sleep 1
+forgotten || fail "undo brought a session back that the map has no more"
 quit
 echo "passed; screenshots: $out/*.png"
