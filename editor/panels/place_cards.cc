@@ -26,6 +26,14 @@ constexpr float kToolsWidth = 316.0f;  // logical pixels
 constexpr float kPointWidth = 300.0f;
 constexpr float kMargin = 10.0f;
 
+constexpr const char* kTools = "place tools";
+constexpr const char* kPointCard = "point card";
+
+// What a card was high in the last frame.
+float& CardHeight(const char* id) {
+  return *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(id), Px(40));
+}
+
 // A panel over a view, as high as what is in it was in the last frame. corner: 0 or 1 along each
 // axis, of the view.
 void ShowCard(EditorState& state,
@@ -35,7 +43,7 @@ void ShowCard(EditorState& state,
               const ImVec2& corner,
               float width,
               const std::function<void()>& content) {
-  float& height = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(id), Px(40));
+  float& height = CardHeight(id);
   const float wide = std::min(Px(width), size.x - 2 * Px(kMargin));
   const auto along = [](float from, float whole, float extent, float share) {
     return from + Px(kMargin) + share * (whole - extent - 2 * Px(kMargin));
@@ -278,7 +286,11 @@ void ShowPlaceTools(app::Workspace& workspace,
   if (workspace.place() == nullptr || workspace.loaded().statistics == nullptr) {
     return;
   }
-  ShowCard(state, "place tools", origin, size, ImVec2(0, 0), kToolsWidth, [&] {
+  const bool fits = CardHeight(kTools) + CardHeight(kPointCard) + 3 * Px(kMargin) <= size.y;
+  if (!fits && AnyChosen(workspace, state.place)) {
+    return;  // the card of what is chosen takes their place in a small view
+  }
+  ShowCard(state, kTools, origin, size, ImVec2(0, 0), kToolsWidth, [&] {
     std::array<const char*, kPointColours> labels = {};
     for (int i = 0; i < kPointColours; ++i) {
       labels[static_cast<size_t>(i)] = PointColourName(static_cast<PointColour>(i));
@@ -312,7 +324,7 @@ void ShowPointCard(app::Workspace& workspace,
   if (!AnyChosen(workspace, state.place)) {
     return;
   }
-  ShowCard(state, "point card", origin, size, ImVec2(1, 1), kPointWidth, [&] {
+  ShowCard(state, kPointCard, origin, size, ImVec2(1, 1), kPointWidth, [&] {
     if (state.place.points.size() == 1) {
       ShowPoint(workspace, state.place.points.front());
       Hint(Tr("Shift and a click on another point measures."));
