@@ -51,6 +51,7 @@ struct Runner {
   Result<CommandResult> operator()(const ExportColmapOptions& options) {
     return RunExportColmap(options);
   }
+  Result<CommandResult> operator()(const MeasureOptions& options) { return RunMeasure(options); }
   Result<CommandResult> operator()(const PruneOptions& options) {
     return RunPrune(options, progress);
   }

@@ -23,6 +23,7 @@ struct AllOptions {
   ImportColmapOptions import_colmap;
   ExportColmapOptions export_colmap;
   PruneOptions prune;
+  MeasureOptions measure;
   CastOptions cast;
   BakeOptions bake;
   CheckOptions check;
@@ -84,6 +85,11 @@ void AddTrain(CLI::App& app, TrainOptions& train) {
   AddIntrinsics(command, train.intrinsics);
   command->add_flag("--add", train.add,
                     "Merge the recording, shot in other light, into the map that is there");
+  command
+      ->add_option("--remove-session", train.remove_session,
+                   "Take an added recording out of the map and forget it: 1 is the first that was "
+                   "added")
+      ->check(CLI::Range(1, 31));
   command->add_option("--points", train.points, "Points that the map may have")
       ->check(CLI::Range(100, 10'000'000));
   command
@@ -144,6 +150,24 @@ void AddColmap(CLI::App& app, AllOptions& options) {
   write->add_option("--place", out.place, "Name of the place");
   write->add_flag("--text", out.text, "As text; binary otherwise");
   write->add_flag("--with-images", out.with_images, "Write the keyframes' images too");
+}
+
+void AddMeasure(CLI::App& app, MeasureOptions& options) {
+  CLI::App* command = AddSubcommand(
+      app, "measure", "Measure between two points of a map, and scale the stage by that",
+      options.project);
+  command->add_option("--place", options.place, "The place, if there are several");
+  command
+      ->add_option("--from", options.from, "Number of a point, as the view around the place says")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--to", options.to, "Number of the other point")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--metres", options.metres,
+                   "What the distance is in truth: scales the stage about its origin")
+      ->check(CLI::Range(0.001, 1e4));
 }
 
 void AddPrune(CLI::App& app, PruneOptions& prune) {
@@ -542,6 +566,7 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   AddTrain(app, options.train);
   AddColmap(app, options);
   AddPrune(app, options.prune);
+  AddMeasure(app, options.measure);
 
   AddCast(app, options.cast);
 
@@ -593,6 +618,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("import-colmap")) return options.import_colmap;
   if (app.got_subcommand("export-colmap")) return options.export_colmap;
   if (app.got_subcommand("prune")) return options.prune;
+  if (app.got_subcommand("measure")) return options.measure;
   if (app.got_subcommand("cast")) return options.cast;
   if (app.got_subcommand("bake")) return options.bake;
   if (app.got_subcommand("check")) return options.check;
@@ -645,6 +671,10 @@ void CheckSession(const TrainOptions& train) {
   if (train.add && train.video.empty() && train.images.empty() && train.camera.empty()) {
     throw CLI::ValidationError("--add",
                                "needs the recording to add: --video, --images or --camera");
+  }
+  const bool recorded = !train.video.empty() || !train.images.empty() || !train.camera.empty();
+  if (train.remove_session && (train.add || recorded)) {
+    throw CLI::ValidationError("--remove-session", "goes without a recording to train from");
   }
 }
 

@@ -30,10 +30,11 @@ struct TrainOptions {
   std::string camera;     // a number, or a recording that is played as one
   double seconds = 60.0;  // how long the camera records
 
-  std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
-  bool add = false;                // merge the recording into the map that is there
-  std::optional<int> points;       // of the database at most
-  std::optional<double> tag_size;  // metres: AprilTags of this size fix the scale
+  std::vector<double> intrinsics;     // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
+  bool add = false;                   // merge the recording into the map that is there
+  std::optional<int> remove_session;  // take this one out of it instead, from 1 on
+  std::optional<int> points;          // of the database at most
+  std::optional<double> tag_size;     // metres: AprilTags of this size fix the scale
   std::string tag_family = "tag36h11";
   std::filesystem::path poses_out;
   std::filesystem::path report;  // the capture report, HTML
@@ -58,6 +59,15 @@ struct PruneOptions {
   std::filesystem::path project;
   std::string place;          // empty: the only one
   std::optional<int> points;  // none: only tell what smaller maps would lose
+};
+
+// The distance of two points of a map, by their numbers.
+struct MeasureOptions {
+  std::filesystem::path project;
+  std::string place;  // empty: the only one
+  int from = 0;
+  int to = 0;
+  std::optional<double> metres;  // that it is in truth: the stage is scaled so
 };
 
 struct CastOptions {
@@ -281,6 +291,7 @@ using Subcommand = std::variant<WindowOptions,
                                 ImportColmapOptions,
                                 ExportColmapOptions,
                                 PruneOptions,
+                                MeasureOptions,
                                 CastOptions,
                                 BakeOptions,
                                 CheckOptions,

@@ -206,10 +206,9 @@ Status ParseModelPairs(const JsonView& view, OccluderDocument& occluder) {
 }
 
 Result<OccluderDocument> ParseOccluder(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"name", "file", "translation", "rotation", "scale", "receives_shadow",
-                         "blocks_sound", "blocks_walking", "shape", "corners", "depth", "flat",
-                         "model_pairs", "keep_scale"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(
+      view, {"name", "file", "translation", "rotation", "scale", "receives_shadow", "blocks_sound",
+             "blocks_walking", "shape", "corners", "depth", "flat", "model_pairs", "keep_scale"}));
   OccluderDocument occluder;
   LARARIUM_ASSIGN_OR_RETURN(occluder.name, ParsePlainName(view, "name"));
   if (int{view.Has("file")} + int{view.Has("shape")} + int{view.Has("corners")} != 1) {
@@ -506,6 +505,27 @@ stage::StagePicks EmptyPicks() {
     (picks.*anchor).name = key;
   }
   return picks;
+}
+
+void ForgetSession(PlaceDocument& place, uint32_t session) {
+  if (session == 0 || session > place.added.size()) {
+    return;
+  }
+  place.added.erase(place.added.begin() + (session - 1));
+  const auto forget = [&](stage::Anchor& anchor) {
+    std::erase_if(anchor.picks, [&](const stage::Pick& pick) { return pick.session == session; });
+    for (stage::Pick& pick : anchor.picks) {
+      pick.session -= pick.session > session ? 1 : 0;
+    }
+  };
+  for (stage::Anchor* anchor : {&place.picks.origin, &place.picks.forward, &place.picks.floor,
+                                &place.picks.length_from, &place.picks.length_to}) {
+    forget(*anchor);
+  }
+  for (OccluderDocument& occluder : place.occluders) {
+    std::for_each(occluder.corners.begin(), occluder.corners.end(), forget);
+  }
+  std::for_each(place.check_picks.begin(), place.check_picks.end(), forget);
 }
 
 const PlaceDocument* ProjectDocument::FindPlace(std::string_view name) const {

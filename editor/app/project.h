@@ -121,6 +121,10 @@ inline constexpr size_t kMaxCheckPointName = 200;  // bytes
 // A map holds at most 32 sessions.
 inline constexpr size_t kMaxAddedSessions = 31;
 
+// Of the adjustment by hand, as people may set it.
+inline constexpr double kMinStageScale = 1e-4;
+inline constexpr double kMaxStageScale = 1e4;
+
 struct PlaceDocument {
   std::string name;
   SourceDocument training;
@@ -168,6 +172,10 @@ struct ProjectDocument {
   const PlaceDocument* FindPlace(std::string_view name) const;
   PlaceDocument* FindPlace(std::string_view name);
 };
+
+// Forgets a further recording of a place, from 1 on, and what was picked in it; the numbers of
+// those after it, in picks too, move up. Nothing where there is none of that number.
+void ForgetSession(PlaceDocument& place, uint32_t session);
 
 // Where things lie in a project's folder.
 struct ProjectPaths {

@@ -167,6 +167,23 @@ void StageAnew(const OccluderDocument& occluder,
   staged.receives_shadow = occluder.receives_shadow;
 }
 
+double StageDistance(const Similarity3& map_from_stage,
+                     const Vector3d& from_in_map,
+                     const Vector3d& to_in_map) {
+  return (to_in_map - from_in_map).norm() / map_from_stage.scale;
+}
+
+Similarity3 ScaledToDistance(const Similarity3& map_from_picked,
+                             const Similarity3& picked_from_stage,
+                             const Vector3d& from_in_map,
+                             const Vector3d& to_in_map,
+                             double metres) {
+  Similarity3 scaled = picked_from_stage;
+  scaled.scale *=
+      StageDistance(map_from_picked * picked_from_stage, from_in_map, to_in_map) / metres;
+  return scaled;
+}
+
 Result<stage::Place> StagePlace(const ProjectPaths& paths,
                                 const PlaceDocument& place,
                                 const vision::SceneDatabase& map,

@@ -61,6 +61,21 @@ geometry::Similarity3 LayOnFloor(const geometry::Similarity3& map_from_picked,
                                  const geometry::Similarity3& picked_from_stage,
                                  const train::FloorPlane& floor);
 
+// The distance of two points of the map as the stage's metres have it.
+double StageDistance(const geometry::Similarity3& map_from_stage,
+                     const Eigen::Vector3d& from_in_map,
+                     const Eigen::Vector3d& to_in_map);
+
+// The adjustment by hand with which that distance is so many metres: the stage scaled about its
+// origin. It is relative to the metres of the picks or tags, and so stays right when training
+// again gives the map another unit, as long as these give the same metres again.
+// The points must be apart, metres above 0.
+geometry::Similarity3 ScaledToDistance(const geometry::Similarity3& map_from_picked,
+                                       const geometry::Similarity3& picked_from_stage,
+                                       const Eigen::Vector3d& from_in_map,
+                                       const Eigen::Vector3d& to_in_map,
+                                       double metres);
+
 // Picks, adjustment, nudge, occluders and light of a place. picks are resolved
 // already. Fails where something was not baked.
 // map: for the even light of places without a probe that can be used, and for occluders that

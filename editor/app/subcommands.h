@@ -52,6 +52,7 @@ Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
                                       Progress& progress,
                                       Log& log);
 Result<CommandResult> RunExportColmap(const ExportColmapOptions& options);
+Result<CommandResult> RunMeasure(const MeasureOptions& options);
 Result<CommandResult> RunPrune(const PruneOptions& options, Progress& progress);
 Result<CommandResult> RunCast(const CastOptions& options);
 Result<CommandResult> RunBake(const BakeOptions& options, Progress& progress);

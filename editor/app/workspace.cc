@@ -458,6 +458,32 @@ void Workspace::LayStageOnFloor() {
   }
 }
 
+void Workspace::SetDistance(uint32_t from, uint32_t to, double metres) {
+  if (place() == nullptr || loaded_.database == nullptr || !(metres > 0.0)) {
+    return;
+  }
+  const Eigen::Vector3d from_in_map = loaded_.database->points[from].cast<double>();
+  const Eigen::Vector3d to_in_map = loaded_.database->points[to].cast<double>();
+  const geometry::Similarity3& now = place()->picked_from_stage;
+  const geometry::Similarity3& map_from_picked = loaded_.picks.map_from_picked;
+  const double said = StageDistance(map_from_picked * now, from_in_map, to_in_map);
+  if (!(said > 0.0)) {
+    return;
+  }
+  const geometry::Similarity3 scaled =
+      ScaledToDistance(map_from_picked, now, from_in_map, to_in_map, metres);
+  if (!(scaled.scale >= kMinStageScale && scaled.scale <= kMaxStageScale)) {
+    Tell(Message::Level::kError, Tr("The stage was left as it is: by that distance it would be "
+                                    "impossibly large or small."));
+    return;
+  }
+  EditPlace(Tr("scale the stage"),
+            [&](PlaceDocument& edited) { edited.picked_from_stage = scaled; });
+  Tell(Message::Level::kInfo,
+       Text(Tr("The stage was scaled: its metres said %.3f m where %.3f m were typed (%+.2f %%)."),
+            said, metres, 100.0 * (said / metres - 1.0)));
+}
+
 void Workspace::ReloadMap() {
   const std::filesystem::path file = paths_.Scene(place_name_);
   std::error_code ignored;
@@ -468,20 +494,23 @@ void Workspace::ReloadMap() {
   using Database = std::shared_ptr<const vision::SceneDatabase>;
   const auto loaded = std::make_shared<Database>();
   const auto measures = std::make_shared<MapMeasures>();
+  const auto statistics = std::make_shared<train::MapStatistics>();
   const auto work = [=, place = *place()](Progress& progress) {
     progress.Report("reading the map", 0.0);
     LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
     progress.Report("looking for the floor and for tags", 0.5);
     *measures = MeasureMap(place, database);
+    *statistics = train::MeasureStatistics(database);
     *loaded = std::make_shared<const vision::SceneDatabase>(std::move(database));
     return Status();
   };
-  const auto done = [this, loaded, measures, name = place_name_, key = TagsKey(*place())](
-                        const Status& status, bool cancelled) {
+  const auto done = [this, loaded, measures, statistics, name = place_name_,
+                     key = TagsKey(*place())](const Status& status, bool cancelled) {
     if (!status.ok()) {
       Report(status, cancelled, "");
     } else if (name == place_name_) {
       loaded_.database = *loaded;
+      loaded_.statistics = statistics;
       loaded_.measures = std::move(*measures);
       loaded_.measured = true;
       tags_key_ = key;
@@ -1095,6 +1124,37 @@ void Workspace::AddSession(const SessionDocument& session) {
           }
         });
       });
+}
+
+void Workspace::RemoveSession(uint32_t session) {
+  if (place() == nullptr || session == 0 || session > place()->added.size()) {
+    return;
+  }
+  const auto removed = std::make_shared<train::RemovedSession>();
+  const auto work = [removed, paths = paths_, place = *place(), session](Progress& progress) {
+    LARARIUM_ASSIGN_OR_RETURN(*removed, RemoveFromMap(paths, place, session, progress));
+    return Status();
+  };
+  const auto done = [this, removed, session, name = place_name_](const Status& status,
+                                                                 bool cancelled) {
+    Report(status, cancelled,
+           Text(Tr("%s: a session was removed, with %d keyframes and %d points."), name.c_str(),
+                static_cast<int>(removed->keyframes), static_cast<int>(removed->points)));
+    if (!status.ok()) {
+      return;
+    }
+    commands_.Rewrite([&](ProjectDocument& document) {
+      if (PlaceDocument* place = document.FindPlace(name)) {
+        ForgetSession(*place, session);
+      }
+    });
+    training_.reset();
+    map_stale_ |= name == place_name_;
+    OnDocumentChanged();
+  };
+  if (!tasks_.Start(kTraining, work, done)) {  // which would write the same map
+    Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
+  }
 }
 
 void Workspace::Bake() {

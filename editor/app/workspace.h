@@ -27,6 +27,7 @@
 #include "editor/app/show_contents.h"
 #include "editor/app/staging.h"
 #include "editor/app/text.h"
+#include "editor/train/map_statistics.h"
 #include "editor/train/mesh_alignment.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
@@ -44,7 +45,8 @@ struct Message {
 
 // What of the place is loaded. Replaced as a whole.
 struct LoadedPlace {
-  std::shared_ptr<const vision::SceneDatabase> database;  // nullptr: not trained
+  std::shared_ptr<const vision::SceneDatabase> database;   // nullptr: not trained
+  std::shared_ptr<const train::MapStatistics> statistics;  // of the database
   MapMeasures measures;
   bool measured = false;  // measures are of this map and of the tags that the place names
   ResolvedPicks picks;
@@ -97,6 +99,9 @@ class Workspace {
                  std::string_view gesture = {});
   // The stage laid on the floor that was found in the map; nothing without one.
   void LayStageOnFloor();
+  // The stage scaled about its origin, so that two points of the map are so many metres apart.
+  // Nothing where they lie in one place or the stage would become impossibly large or small.
+  void SetDistance(uint32_t from, uint32_t to, double metres);
   // Edits of the drama. False, and a message, where the change fails.
   bool EditTimeline(const std::string& name,
                     const std::function<Status(drama::TimelineText&)>& change,
@@ -123,6 +128,10 @@ class Workspace {
   // Merges a further recording of the place at hand into its map; the document
   // names it once that has worked.
   void AddSession(const SessionDocument& session);
+  // Takes a further recording, from 1 on, out of the map of the place at hand. Once that has
+  // worked the document forgets it too, in all that undo and redo could bring back, for the map
+  // will not have it again: to be done only by whoever was asked.
+  void RemoveSession(uint32_t session);
   // Of the last training in this window; nullptr before one, or of another place.
   const train::TrainReport* last_training() const;
   void Bake();

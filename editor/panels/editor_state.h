@@ -18,6 +18,7 @@
 #include "editor/panels/gizmo.h"
 #include "editor/panels/keys.h"
 #include "editor/panels/picture_textures.h"
+#include "editor/panels/point_colours.h"
 #include "editor/panels/view_camera.h"
 #include "shared/stage/place.h"
 #include "shared/vision/occluders.h"
@@ -131,6 +132,15 @@ struct LightView {
   std::optional<glm::vec3> dragged_in_probe;  // what a drag holds on to
 };
 
+// How the view around the place shows the map, and what of it is chosen.
+struct PlaceView {
+  PointColour colours = PointColour::kPicture;
+  bool measure = false;          // a click adds a second point to the first
+  bool snap = false;             // as if Control were held, in all views
+  std::vector<uint32_t> points;  // of the map: none, one, or the two ends of what is measured
+  double metres = 0.0;           // typed, of the distance of the two; 0: nothing yet
+};
+
 // What lies below the views.
 enum class BottomTab { kTimeline, kScript, kChecks, kMessages };
 
@@ -156,6 +166,7 @@ struct EditorState {
   int anchor = 0;
   int keyframe = 0;
 
+  PlaceView place;
   CheckView check;
   AlignView align;
   LightView light;

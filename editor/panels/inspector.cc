@@ -4,10 +4,10 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +19,7 @@
 #include "editor/panels/object_inspector.h"
 #include "editor/panels/occluder_inspector.h"
 #include "editor/panels/pick_view.h"
+#include "editor/panels/place_cards.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/trackball_view.h"
@@ -65,14 +66,6 @@ std::string SourceText(const app::SourceDocument& source) {
   return source.empty() ? Tr("none") : source.path;
 }
 
-size_t CountSessions(const vision::SceneDatabase& database) {
-  std::set<uint32_t> sessions;
-  for (const vision::Keyframe& keyframe : database.keyframes) {
-    sessions.insert(keyframe.session);
-  }
-  return sessions.size();
-}
-
 void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& database) {
   const geometry::CameraModel& camera = database.camera;
   const train::TrainReport* training = workspace.last_training();
@@ -82,7 +75,6 @@ void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& datab
   }
   PropertyText(Tr("Keyframes"), std::to_string(database.keyframes.size()));
   PropertyText(Tr("Points"), std::to_string(database.points.size()));
-  PropertyText(Tr("Sessions"), std::to_string(CountSessions(database)));
   PropertyText(Tr("Error"), Text("%.3f px", database.mean_reprojection_error_px));
   PropertyText(Tr("Image"), Text("%d x %d", camera.width, camera.height));
   std::string focal = Text("%.1f, %.1f px", camera.fx, camera.fy);
@@ -130,6 +122,9 @@ void ShowScale(app::Workspace& workspace, const app::PlaceDocument& place) {
       PropertyText(Tr("for each px"), Text("\xc2\xb1 %.2f cm (%.2f %%)",
                                            100.0 * solution.length_spread * place.picks.length_m,
                                            100.0 * solution.length_spread));
+    }
+    if (place.picked_from_stage.scale != 1.0) {
+      PropertyText(Tr("By hand"), Text("\xc3\x97 %.4f", place.picked_from_stage.scale));
     }
     if (place.tags) {
       PropertyLabel(Tr("Family"));
@@ -235,14 +230,58 @@ void ShowOtherPlaces(app::Workspace& workspace, const app::PlaceDocument& place)
   Hint(Tr("Its files stay on the disk, and undo brings it back."));
 }
 
+// Asks first: the map is written without it, which nothing brings back.
+void RemoveSessionButton(app::Workspace& workspace, uint32_t session, const std::string& name) {
+  ImGui::PushID(static_cast<int>(session));
+  ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kTraining));
+  if (ImGui::Button(Tr("Remove\xe2\x80\xa6"))) {
+    ImGui::OpenPopup("remove");
+  }
+  ImGui::EndDisabled();
+  ImGui::SetNextWindowSize(ImVec2(Px(320), 0));
+  if (ImGui::BeginPopup("remove")) {
+    Heading(Text(Tr("Remove %s from the map?"), name.c_str()).c_str());
+    Hint(
+        Tr("Its keyframes go, with the points that too few others see and what was picked in its "
+           "images. Undo does not bring them back: adding the recording again does."));
+    if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+      workspace.RemoveSession(session);
+      ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+  }
+  ImGui::PopID();
+}
+
+// The recordings of which the map is made, each with what it gave.
+void ShowSessions(app::Workspace& workspace,
+                  const app::PlaceDocument& place,
+                  const train::MapStatistics& statistics) {
+  Heading(Tr("Sessions"));
+  for (uint32_t session = 0; session <= place.added.size(); ++session) {
+    const std::string name = SessionName(place, session);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(Elided(name, ImGui::GetContentRegionAvail().x).c_str());
+    if (ImGui::IsItemHovered()) {
+      const app::SourceDocument& source =
+          session == 0 ? place.training : place.added[session - 1].source;
+      ImGui::SetTooltip("%s", SourceText(source).c_str());
+    }
+    ImGui::AlignTextToFramePadding();
+    DimText(Text(Tr("%u keyframes, %u points"), statistics.session_keyframes[session],
+                 statistics.session_points[session]));
+    if (session > 0) {
+      SameLineIfFits(std::array{Tr("Remove\xe2\x80\xa6")});
+      RemoveSessionButton(workspace, session, name);
+    }
+  }
+}
+
 void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
   Heading(place.name.c_str());
   const auto database = workspace.loaded().database;
   if (BeginProperties("place")) {
     PropertyText(TrIn("recording", "Training"), SourceText(place.training));
-    for (const app::SessionDocument& session : place.added) {
-      PropertyText(Tr("Added"), SourceText(session.source));
-    }
     PropertyText(Tr("Preview"), place.preview.empty() ? Tr("the training") : place.preview.path);
     if (database != nullptr) {
       ShowMap(workspace, *database);
@@ -252,6 +291,7 @@ void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
     EndProperties();
   }
   if (database != nullptr) {
+    ShowSessions(workspace, place, *workspace.loaded().statistics);
     ShowScale(workspace, place);
     ShowFloor(workspace, place);
   }

@@ -53,6 +53,10 @@ enum class KeyAction {
   kMatches,
   kOccluders,
   kSound,
+  kPointColours,
+  kMeasure,
+  kSnapHandles,
+  kUnselect,
   // the camera view
   kNudgeLeft,
   kNudgeRight,

@@ -12,6 +12,7 @@
 #include "editor/panels/light_panel.h"
 #include "editor/panels/look.h"
 #include "editor/panels/pick_view.h"
+#include "editor/panels/place_cards.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -164,6 +165,23 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   }
   ImGui::Separator();
   LookMenu(state.settings);
+  ImGui::Separator();
+  if (ImGui::BeginMenu(Label(Tr("Colour the points by"), "point colours").c_str())) {
+    for (int i = 0; i < kPointColours; ++i) {
+      const auto colour = static_cast<PointColour>(i);
+      if (ImGui::MenuItem(PointColourName(colour), nullptr, state.place.colours == colour)) {
+        state.place.colours = colour;
+        state.view = ViewKind::kAround;
+      }
+    }
+    ImGui::EndMenu();
+  }
+  if (MenuItem(Tr("Measure"), KeyAction::kMeasure, state.place.measure)) {
+    state.place.measure = !state.place.measure;
+  }
+  if (MenuItem(Tr("Handles move in steps"), KeyAction::kSnapHandles, state.place.snap)) {
+    state.place.snap = !state.place.snap;
+  }
 }
 
 void SetGizmo(EditorState& state, GizmoMode mode) {
@@ -258,6 +276,18 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());
+      break;
+    case KeyAction::kPointColours:
+      state.place.colours = After(state.place.colours);
+      break;
+    case KeyAction::kMeasure:
+      state.place.measure = !state.place.measure;
+      break;
+    case KeyAction::kSnapHandles:
+      state.place.snap = !state.place.snap;
+      break;
+    case KeyAction::kUnselect:
+      ChooseNoPoints(state);
       break;
     default:
       break;

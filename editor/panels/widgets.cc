@@ -374,12 +374,10 @@ bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quate
 }
 
 bool TransformProperties(app::Workspace& workspace, geometry::Similarity3& transform) {
-  constexpr double kMinScale = 1e-4;
-  constexpr double kMaxScale = 1e4;
   bool changed = VectorProperty(workspace, Tr("Position"), transform.translation, 0.005, "%.3f");
   changed |= RotationProperty(workspace, Tr("Rotation"), transform.rotation);
-  changed |=
-      NumberProperty(workspace, Tr("Scale"), transform.scale, 0.005, kMinScale, kMaxScale, "%.4f");
+  changed |= NumberProperty(workspace, Tr("Scale"), transform.scale, 0.005, app::kMinStageScale,
+                            app::kMaxStageScale, "%.4f");
   return changed;
 }
 

@@ -232,6 +232,20 @@ TEST(EditorOptions, ColmapModelsAreWrittenToAnyFolderAsBinaryUnlessAsked) {
   EXPECT_THAT(Refusal({"export-colmap", "p"}), HasSubstr("DIR"));
 }
 
+TEST(EditorOptions, MeasureNamesTwoPoints) {
+  const auto options =
+      Parsed<MeasureOptions>({"measure", "p", "--from", "3", "--to", "8", "--metres", "1.2"});
+  EXPECT_EQ(options.from, 3);
+  EXPECT_EQ(options.to, 8);
+  EXPECT_EQ(options.metres, 1.2);
+  EXPECT_FALSE(Parsed<MeasureOptions>({"measure", "p", "--from", "3", "--to", "8"}).metres);
+}
+
+TEST(EditorOptions, TrainRemovesASessionOnItsOwn) {
+  EXPECT_EQ(Parsed<TrainOptions>({"train", "p", "--remove-session", "2"}).remove_session, 2);
+  EXPECT_FALSE(Parsed<TrainOptions>({"train", "p"}).remove_session.has_value());
+}
+
 TEST(EditorOptions, PruneOnlyMeasuresUnlessPointsAreNamed) {
   EXPECT_FALSE(Parsed<PruneOptions>({"prune", "p"}).points.has_value());
   EXPECT_EQ(Parsed<PruneOptions>({"prune", "p", "--place", "yard"}).place, "yard");

@@ -306,5 +306,37 @@ TEST(ProjectPaths, KeepRelativeWhatLiesInside) {
   EXPECT_EQ(paths.Resolve("/videos/a.mp4"), "/videos/a.mp4");
 }
 
+TEST(ForgetSession, LetsGoOfItsPicksAndMovesLaterSessionsUp) {
+  PlaceDocument place;
+  place.added = {{{SourceDocument::Kind::kVideo, "evening.mp4"}, {}},
+                 {{SourceDocument::Kind::kVideo, "night.mp4"}, {}},
+                 {{SourceDocument::Kind::kVideo, "rain.mp4"}, {}}};
+  const auto picked = [](uint32_t session) { return stage::Pick{5, "5", {1, 2}, session}; };
+  const stage::Anchor anchor{"", {picked(0), picked(1), picked(2), picked(3)}};
+  place.picks.floor = anchor;
+  place.picks.length_to = anchor;
+  place.occluders.resize(1);
+  place.occluders[0].corners = {anchor};
+  place.check_picks = {anchor};
+  ForgetSession(place, 2);
+  ASSERT_EQ(place.added.size(), 2u);
+  EXPECT_EQ(place.added[0].source.path, "evening.mp4");
+  EXPECT_EQ(place.added[1].source.path, "rain.mp4");
+  for (const stage::Anchor* left : {&place.picks.floor, &place.picks.length_to,
+                                    &place.occluders[0].corners[0], &place.check_picks[0]}) {
+    ASSERT_EQ(left->picks.size(), 3u);
+    EXPECT_EQ(left->picks[1].session, 1u);
+    EXPECT_EQ(left->picks[2].session, 2u);
+  }
+}
+
+TEST(ForgetSession, LeavesTheTrainingAndWhatIsNotThere) {
+  PlaceDocument place;
+  place.added.resize(1);
+  ForgetSession(place, 0);
+  ForgetSession(place, 2);
+  EXPECT_EQ(place.added.size(), 1u);
+}
+
 }  // namespace
 }  // namespace lararium::app

@@ -107,6 +107,35 @@ TEST(LayOnFloor, MakesTheStageLevelAndKeepsItsHeading) {
   EXPECT_LT(again.rotation.angularDistance(laid.rotation), 1e-7);
 }
 
+TEST(ScaledToDistance, GivesTheDistanceThatWasTypedAboutTheStagesOrigin) {
+  const Similarity3 map_from_picked = {
+      3.0, Eigen::Quaterniond(0.9, 0.1, 0.3, -0.2).normalized(), {1, 2, 3}};
+  const Similarity3 by_hand = {
+      1.1, Eigen::Quaterniond(0.8, -0.3, 0.1, 0.4).normalized(), {0.4, 1.0, -2.0}};
+  const Vector3d from(0.3, -1.0, 2.0);
+  const Vector3d to(1.3, 0.5, -0.5);
+  const Similarity3 scaled = ScaledToDistance(map_from_picked, by_hand, from, to, 1.25);
+  EXPECT_NEAR(StageDistance(map_from_picked * scaled, from, to), 1.25, 1e-12);
+  // As points of the stage have it.
+  const Similarity3 stage_from_map = (map_from_picked * scaled).Inverse();
+  EXPECT_NEAR((stage_from_map * to - stage_from_map * from).norm(), 1.25, 1e-12);
+  EXPECT_EQ(scaled.translation, by_hand.translation);
+  EXPECT_EQ(scaled.rotation.coeffs(), by_hand.rotation.coeffs());
+}
+
+TEST(ScaledToDistance, StaysRightInAMapOfAnotherUnit) {
+  // Training again: the same place 2.7 times as large, and the picks give the same metres.
+  const Similarity3 other_from_map = {
+      2.7, Eigen::Quaterniond(0.2, 0.5, -0.3, 0.7).normalized(), {5, 0, 1}};
+  const Similarity3 map_from_picked = {3.0, Eigen::Quaterniond::Identity(), {1, 2, 3}};
+  const Vector3d from(0.3, -1.0, 2.0);
+  const Vector3d to(1.3, 0.5, -0.5);
+  const Similarity3 scaled = ScaledToDistance(map_from_picked, {}, from, to, 0.8);
+  EXPECT_NEAR(StageDistance(other_from_map * map_from_picked * scaled, other_from_map * from,
+                            other_from_map * to),
+              0.8, 1e-12);
+}
+
 TEST(StageReport, MeasuresTheStageAgainstTheFloor) {
   const vision::SceneDatabase map = RoomMap(SomeGauge());
   PlaceDocument place;
