@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 
 #include "editor/panels/align_panel.h"
@@ -152,30 +153,60 @@ void NudgeWithKeys(app::Workspace& workspace, const EditorState& state) {
   }
 }
 
-// A switch at the end of the row.
-void ShowOccluderSwitch(EditorState& state) {
-  const bool on = state.show_occluders;
+// What a button at the end of the row switches.
+struct RowSwitch {
+  const char* label;
+  const char* does;
+  KeyAction key;
+  bool EditorState::*on;
+};
+
+constexpr std::array<RowSwitch, 2> kRowSwitches = {{
+    {TrLater("Before/after"),
+     TrLater("Shows the camera's image alone to the left of a line that you drag"),
+     KeyAction::kWipe, &EditorState::show_wipe},
+    {TrLater("Occluders"), TrLater("Shows the occluders over the camera's picture"),
+     KeyAction::kOccluders, &EditorState::show_occluders},
+}};
+
+float WidthOf(const RowSwitch& entry) {
+  return WidestButton(std::array{Tr(entry.label)}, 0.0f) + ImGui::GetStyle().ItemSpacing.x;
+}
+
+// The last of the switches, as many as leave the slider room; the View menu has all of them.
+std::span<const RowSwitch> SwitchesThatFit(float width) {
+  constexpr float kSlider = 150.0f;
+  size_t first = kRowSwitches.size();
+  float left = width - Px(kSlider);
+  while (first > 0 && left >= WidthOf(kRowSwitches[first - 1])) {
+    left -= WidthOf(kRowSwitches[--first]);
+  }
+  return std::span(kRowSwitches).subspan(first);
+}
+
+void ShowSwitch(EditorState& state, const RowSwitch& entry) {
+  bool& on = state.*entry.on;
   ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, on ? Colours().chosen : Colours().hover);
-  if (ImGui::Button(Tr("Occluders"))) {
-    state.show_occluders = !on;
+  if (ImGui::Button(Tr(entry.label))) {
+    on = !on;
   }
   ImGui::PopStyleColor(2);
   if (ImGui::IsItemHovered()) {
-    const char* does = Tr("Shows the occluders over the camera's picture");
-    ImGui::SetTooltip("%s", WithKey(does, KeyAction::kOccluders).c_str());
+    ImGui::SetTooltip("%s", WithKey(Tr(entry.does), entry.key).c_str());
   }
 }
 
-// The frame, and its time where that leaves the slider long enough.
-void ShowSlider(app::Workspace& workspace, const std::optional<app::PreviewSource>& recording) {
+// The frame, and its time where that leaves the slider long enough. switches: pixels to its right
+// that they take.
+void ShowSlider(app::Workspace& workspace,
+                const std::optional<app::PreviewSource>& recording,
+                float switches) {
   const int64_t last = recording ? std::max<int64_t>(recording->frames - 1, 0) : 0;
   const double seconds =
       recording ? static_cast<double>(workspace.frame()) / recording->frames_per_second : 0.0;
-  const float spacing = ImGui::GetStyle().ItemSpacing.x;
-  const float time = Px(62) + spacing;
-  float width =
-      ImGui::GetContentRegionAvail().x - spacing - WidestButton(std::array{Tr("Occluders")}, 0.0f);
+  const float time = Px(62) + ImGui::GetStyle().ItemSpacing.x;
+  float width = ImGui::GetContentRegionAvail().x - switches;
   const bool shows_time = width - time >= Px(140);
   width -= shows_time ? time : 0.0f;
   const std::string longest = Text(Tr("frame %d"), static_cast<int>(last));
@@ -202,10 +233,19 @@ void ShowTransport(app::Workspace& workspace, EditorState& state) {
     workspace.SetPlaying(!workspace.playing());
   }
   ImGui::SameLine();
-  ShowSlider(workspace, recording);
+  const std::span<const RowSwitch> switches = SwitchesThatFit(ImGui::GetContentRegionAvail().x);
+  float width = 0.0f;
+  for (const RowSwitch& entry : switches) {
+    width += WidthOf(entry);
+  }
+  ShowSlider(workspace, recording, width);
   ImGui::EndDisabled();
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - WidestButton(std::array{Tr("Occluders")}, 0.0f));
-  ShowOccluderSwitch(state);
+  float x = ImGui::GetContentRegionMax().x - width + ImGui::GetStyle().ItemSpacing.x;
+  for (const RowSwitch& entry : switches) {
+    ImGui::SameLine(x);
+    ShowSwitch(state, entry);
+    x += WidthOf(entry);
+  }
 }
 
 void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
@@ -232,8 +272,9 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
   ImVec2 size = ImGui::GetContentRegionAvail();
   size.y -= ImGui::GetFrameHeightWithSpacing() + Px(4);
   ImGui::InvisibleButton("view", size);
-  const bool hovered = ImGui::IsItemHovered();
+  bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
+  workspace.SetCompare(state.show_wipe || LightOverlay::ComparesPictures(workspace, state));
   const std::shared_ptr<const app::PreviewPicture>& picture = workspace.picture();
   if (picture == nullptr || workspace.place() == nullptr) {
     ShowEmpty(workspace, origin, size);
@@ -246,6 +287,7 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
     draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
+    hovered &= !wipe_.Show(state, *picture, rect.origin, rect.size, hovered, draw);
     const bool shows_stage = state.show_stage || state.align.picking;
     if (picture->camera_from_stage && (shows_stage || state.show_occluders)) {
       ghosts_.Show(workspace, state, PictureView(*picture, *workspace.place(), rect), draw);

@@ -7,6 +7,7 @@
 #include "editor/panels/editor_state.h"
 #include "editor/panels/ghost_view.h"
 #include "editor/panels/light_view.h"
+#include "editor/panels/wipe_view.h"
 #include "shared/render/texture.h"
 
 namespace lararium::panels {
@@ -19,6 +20,7 @@ class CameraView {
  private:
   render::Texture texture_;
   GhostView ghosts_;
+  WipeView wipe_;
   LightOverlay light_;
   const app::PreviewPicture* uploaded_ = nullptr;
 };

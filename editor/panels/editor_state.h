@@ -118,9 +118,7 @@ struct LightView {
   Picking picking = Picking::kNothing;
   bool level = true;       // drags turn about the vertical only
   bool balls = true;       // a mirror ball and a grey one stand at the probe
-  bool wipe = false;       // the camera's image alone to the left of wipe_at
   bool histogram = false;  // of the camera's image against people
-  float wipe_at = 0.5f;    // of the picture's width
   float albedo = 0.18f;    // of grey surfaces that are picked
   std::string probe;       // that the picks below are of
   std::vector<bake::GreyPatch> patches;
@@ -161,6 +159,8 @@ struct EditorState {
   bool show_points = true;      // around the place
   bool show_matches = false;    // over the camera's picture: the points that its pose stands on
   bool show_occluders = false;  // over the camera's picture: all, not the selected one alone
+  bool show_wipe = false;       // the camera's image alone to the left of wipe_at
+  float wipe_at = 0.5f;         // of the picture's width
 
   // Picking: which anchor the next click sets, and in which keyframe.
   int anchor = 0;

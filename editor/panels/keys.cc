@@ -51,6 +51,8 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
      TrLater("Shows the points that the camera is located by")},
     {Scope::kViews, Action::kOccluders, GLFW_KEY_O, 0, 0,
      TrLater("Shows the occluders over the camera's picture")},
+    {Scope::kViews, Action::kWipe, GLFW_KEY_B, 0, 0,
+     TrLater("Shows the camera's image alone to the left of a line that you drag")},
     {Scope::kViews, Action::kSound, GLFW_KEY_M, 0, 0, TrLater("Switches sound on and off")},
     {Scope::kViews, Action::kPointColours, GLFW_KEY_C, 0, 0,
      TrLater("Colours the points by something else")},
@@ -82,7 +84,6 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kLight, Action::kBrighter, 0, 0, U'=', nullptr},
     {Scope::kLight, Action::kPickGrey, GLFW_KEY_G, 0, 0, TrLater("Picks a grey surface")},
     {Scope::kLight, Action::kPickDirection, GLFW_KEY_M, 0, 0, TrLater("Matches a direction")},
-    {Scope::kLight, Action::kWipe, GLFW_KEY_B, 0, 0, TrLater("Before and after")},
     {Scope::kLight, Action::kStopPicking, GLFW_KEY_ESCAPE, 0, 0, TrLater("Picks no more")},
 
     {Scope::kTimeline, Action::kBack, GLFW_KEY_LEFT, 0, 0, TrLater("One frame back"),

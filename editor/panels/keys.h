@@ -52,6 +52,7 @@ enum class KeyAction {
   kLight,
   kMatches,
   kOccluders,
+  kWipe,
   kSound,
   kPointColours,
   kMeasure,
@@ -73,7 +74,6 @@ enum class KeyAction {
   kBrighter,
   kPickGrey,
   kPickDirection,
-  kWipe,
   kStopPicking,
   // the timeline
   kBack,

@@ -262,7 +262,7 @@ void ShowViews(app::Workspace& workspace, EditorState& state) {
   LightView& light = state.light;
   CheckRow(Tr("Balls at the probe"), light.balls);
   Tip(Tr("A mirror ball and a grey one in the camera view. Drag the mirror to turn the probe."));
-  CheckRow(Tr("Before and after  (B)"), light.wipe);
+  CheckRow(Tr("Before and after  (B)"), state.show_wipe);
   Tip(Tr("The camera's image alone to the left of a line that you drag."));
   CheckRow(Tr("Histogram"), light.histogram);
   Tip(Tr("How bright the camera's image is, and how bright people are in it."));
@@ -468,9 +468,6 @@ bool HandleLightKey(app::Workspace& workspace, EditorState& state, const KeyPres
       return true;
     case KeyAction::kPickDirection:
       BeginPicking(state, Picking::kOnProbe);
-      return true;
-    case KeyAction::kWipe:
-      state.light.wipe = !state.light.wipe;
       return true;
     case KeyAction::kStopPicking:
       state.light.picking = Picking::kNothing;

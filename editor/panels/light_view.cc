@@ -188,41 +188,9 @@ void ShowHistogram(const app::PreviewPicture& picture,
 
 }  // namespace
 
-void LightOverlay::ShowWipe(EditorState& state,
-                            const app::PreviewPicture& picture,
-                            const ImVec2& origin,
-                            const ImVec2& size,
-                            bool hovered,
-                            ImDrawList& draw) {
-  if (picture.plain.empty()) {
-    return;
-  }
-  if (uploaded_ != &picture) {
-    plain_.Upload(picture.plain);
-    uploaded_ = &picture;
-  }
-  float& at = state.light.wipe_at;
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const bool near = hovered && std::abs(mouse.x - (origin.x + at * size.x)) < Px(8);
-  if (near && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    drag_ = Drag::kWipe;
-  }
-  if (drag_ == Drag::kWipe) {
-    at = std::clamp((mouse.x - origin.x) / size.x, 0.0f, 1.0f);
-  }
-  if (near || drag_ == Drag::kWipe) {
-    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  }
-  const float x = origin.x + at * size.x;
-  draw.AddImage(ShownTexture(plain_), origin, ImVec2(x, origin.y + size.y), ImVec2(0, 0),
-                ImVec2(at, 1));
-  draw.AddLine(ImVec2(x, origin.y), ImVec2(x, origin.y + size.y), Packed(OverPicture().text),
-               Px(2));
-  const float y = origin.y + size.y - Px(30);
-  const float before = std::max(Px(70), ImGui::CalcTextSize(Tr("Before")).x + Px(14));
-  DrawLabel(ImVec2(std::max(x - before, origin.x + Px(8)), y), Tr("Before"),
-            Packed(OverPicture().text), draw);
-  DrawLabel(ImVec2(x + Px(14), y), Tr("After"), Packed(OverPicture().text), draw);
+bool LightOverlay::ComparesPictures(const app::Workspace& workspace, const EditorState& state) {
+  return SelectedProbe(workspace, state) != nullptr &&
+         (state.light.histogram || state.light.picking == Picking::kGrey);
 }
 
 void LightOverlay::Show(app::Workspace& workspace,
@@ -234,18 +202,13 @@ void LightOverlay::Show(app::Workspace& workspace,
                         ImDrawList& draw) {
   LightView& light = state.light;
   const app::ProbeDocument* probe = SelectedProbe(workspace, state);
-  workspace.SetCompare(probe != nullptr &&
-                       (light.wipe || light.histogram || light.picking == Picking::kGrey));
-  if (drag_ != Drag::kNothing && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    drag_ = Drag::kNothing;
+  if (drags_ball_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    drags_ball_ = false;
     light.dragged_in_probe.reset();
     workspace.EndGesture();
   }
   if (probe == nullptr || workspace.loaded().staged == nullptr) {
     return;
-  }
-  if (light.wipe) {
-    ShowWipe(state, picture, origin, size, hovered, draw);
   }
   if (light.histogram && !picture.plain.empty()) {
     ShowHistogram(picture, origin, size, draw);
@@ -255,8 +218,7 @@ void LightOverlay::Show(app::Workspace& workspace,
   }
   const ViewCamera view = StageView(picture, origin, size);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const bool clicked =
-      hovered && drag_ == Drag::kNothing && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
+  const bool clicked = hovered && !drags_ball_ && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
   if (light.picking == Picking::kGrey || light.picking == Picking::kOnStage) {
     draw.AddCircle(mouse, Px(9), Packed(OverPicture().accent), 0, Px(2));
     if (clicked) {
@@ -280,14 +242,14 @@ void LightOverlay::Show(app::Workspace& workspace,
     DrawBallAt(state, "mirror ball", *mirror, *image, look, app::BallSurface::kMirror, draw);
     const bool over = hovered && Over(*mirror, mouse);
     if (clicked && over) {
-      drag_ = Drag::kBall;
+      drags_ball_ = true;
       light.dragged_in_probe = glm::conjugate(look.stage_from_probe) * MirroredAt(*mirror, mouse);
     }
-    if (over || drag_ == Drag::kBall) {
+    if (over || drags_ball_) {
       draw.AddCircle(ToImGui(mirror->centre), mirror->radius, Packed(OverPicture().accent), 48,
                      Px(2));
     }
-    if (drag_ == Drag::kBall) {
+    if (drags_ball_) {
       TurnByMirror(workspace, state, *probe, *mirror);
     } else if (over) {
       ImGui::SetTooltip("%s", Tr("Drag to turn the light"));

@@ -182,6 +182,9 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   if (MenuItem(Tr("Handles move in steps"), KeyAction::kSnapHandles, state.place.snap)) {
     state.place.snap = !state.place.snap;
   }
+  if (MenuItem(Tr("Before and after"), KeyAction::kWipe, state.show_wipe)) {
+    state.show_wipe = !state.show_wipe;
+  }
 }
 
 void SetGizmo(EditorState& state, GizmoMode mode) {
@@ -273,6 +276,9 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       break;
     case KeyAction::kOccluders:
       state.show_occluders = !state.show_occluders;
+      break;
+    case KeyAction::kWipe:
+      state.show_wipe = !state.show_wipe;
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());
