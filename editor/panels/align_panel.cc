@@ -254,7 +254,9 @@ void ShowAlignment(app::Workspace& workspace,
     align.pair.reset();  // undone
   }
   ImGui::Dummy(ImVec2(0, Px(4)));
-  Heading(Tr("Align"));
+  if (!Fold(Label(Tr("Align"), "align"), !model.model_pairs.empty())) {
+    return;
+  }
   Hint(
       Tr("By points that you find on the model and in the training images, then by the map's "
          "points on its surface."));

@@ -191,10 +191,10 @@ void ShowOccluder(app::Workspace& workspace,
   } else {
     ShowPlaced(workspace, state, occluder);
   }
-  ShowEffects(workspace, occluder);
   if (occluder.kind() == app::OccluderDocument::Kind::kModel) {
     ShowAlignment(workspace, state, occluder);
   }
+  ShowEffects(workspace, occluder);
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
                         [name = occluder.name](app::PlaceDocument& p) {

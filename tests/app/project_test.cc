@@ -119,7 +119,6 @@ TEST(Project, SurvivesWritingAndReading) {
   EXPECT_EQ(wall.corners[2].picks[1].pixel, Eigen::Vector2d(20, 2));
   EXPECT_EQ(wall.depth, 0.25);
   EXPECT_TRUE(wall.flat);
-  const OccluderDocument& counter = loaded->places[0].occluders.front();
   EXPECT_TRUE(counter.keep_scale);
   ASSERT_EQ(counter.model_pairs.size(), 2u);
   EXPECT_EQ(counter.model_pairs[0].on_mesh, Eigen::Vector3d(10.5, -2.0, 4000.0));

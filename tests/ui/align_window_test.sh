@@ -59,7 +59,7 @@ sleep 1
 import -window root "$out/before.png"
 
 # A corner of the model, then the same point in two images.
-click 1263 456  # Add a point
+click 1263 440  # Add a point
 xdotool mousemove 836 438
 sleep 1
 import -window root "$out/adding.png"
@@ -71,12 +71,12 @@ import -window root "$out/picking.png"
 click 733 514
 click 802 690  # the slider, to image 8
 click 892 499
-click 1263 603  # Align by the points
+click 1263 587  # Align by the points
 press ctrl+s
 wait_for 10 off 3 || fail "the model was not laid by the points"
 import -window root "$out/aligned.png"
 laid=$(tr -d ' \n' < "$json")
-click 1263 688  # Refine on the map
+click 1263 672  # Refine on the map
 refined() { press ctrl+s; [ "$(tr -d ' \n' < "$json")" != "$laid" ]; }
 wait_for 10 refined || fail "the model was not refined"
 off 5 || fail "refining led the model away"
