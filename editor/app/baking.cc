@@ -505,7 +505,7 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
       steps.push_back(GlossyStep(paths, place, probe));
     }
     for (const OccluderDocument& occluder : place.occluders) {
-      if (!occluder.drawn()) {
+      if (occluder.kind() == OccluderDocument::Kind::kModel) {
         steps.push_back(MeshStep(paths, place, occluder));
       }
     }
@@ -588,7 +588,8 @@ float EvenRadiance(const vision::SceneDatabase& map) {
 }
 
 std::optional<std::filesystem::path> FindCastLibrary() {
-  if (const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY")) {
+  if (const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
+      chosen != nullptr && *chosen != 0) {
     return std::filesystem::path(chosen);
   }
   // Builds keep it beside the folders that the programs lie in.

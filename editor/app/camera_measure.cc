@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "editor/app/calibrating.h"
 #include "editor/app/staging.h"
 #include "shared/core/json.h"
 #include "shared/vision/image_quality.h"
@@ -56,8 +57,7 @@ std::optional<double> SharpestQuarter(std::span<const cv::Mat> images) {
 Status WriteDevice(const CameraOptions& options, const light::CameraTraits& traits) {
   return options.device_out.empty()
              ? Status()
-             : SaveJson(options.device_out,
-                        {{"schema", 1}, {"look", light::FormatCameraTraits(traits)}});
+             : SaveDeviceField(options.device_out, "look", light::FormatCameraTraits(traits));
 }
 
 Result<std::unique_ptr<capture::FrameSource>> Recording(const CameraOptions& options,

@@ -124,23 +124,11 @@ class CheckPointWorker {
     LARARIUM_RETURN_IF_ERROR(FindPoint(options_.pick).status());
     LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, Place());
     LARARIUM_ASSIGN_OR_RETURN(const vision::SceneDatabase map, LoadMap(paths_, place->name));
-    const Eigen::Vector2d pixel(options_.pixel[0], options_.pixel[1]);
-    const auto session = static_cast<uint32_t>(options_.session);
-    const auto image = std::find_if(
-        map.keyframes.begin(), map.keyframes.end(), [&](const vision::Keyframe& keyframe) {
-          return keyframe.name == options_.frame && keyframe.session == session;
-        });
-    if (image == map.keyframes.end()) {
-      return Status::Error(
-          "--frame " + options_.frame, "is no training image of the map of " + place->name,
-          map.keyframes.empty() ? "train the place" : "they begin with " + map.keyframes[0].name);
-    }
-    if (!map.camera.Contains(pixel)) {
-      return Status::Error("--pixel", "lies outside of the image",
-                           "it has " + std::to_string(map.camera.width) + " x " +
-                               std::to_string(map.camera.height) + " pixels");
-    }
-    SetCheckPick(*place, options_.pick, {image->frame_index, image->name, pixel, session});
+    LARARIUM_ASSIGN_OR_RETURN(
+        const stage::Pick pick,
+        PickInImage(map, place->name, options_.frame, static_cast<uint32_t>(options_.session),
+                    {options_.pixel[0], options_.pixel[1]}));
+    SetCheckPick(*place, options_.pick, pick);
     return Status();
   }
 

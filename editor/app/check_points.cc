@@ -20,27 +20,6 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kCentimetres = 100.0;
 constexpr double kNarrow = 4.0 / kDegrees;  // between the rays of a point's picks
 
-// Root mean square distance from the picks to where a point of the stage is seen in their images;
-// far beyond any tolerance where one does not see it at all.
-double SeenOff(const stage::Anchor& anchor,
-               const Vector3d& on_stage,
-               const vision::SceneDatabase& map,
-               const Similarity3& map_from_stage) {
-  double sum = 0.0;
-  int count = 0;
-  for (const vision::Keyframe& keyframe : map.keyframes) {
-    for (const stage::Pick& pick : anchor.picks) {
-      if (!stage::LiesIn(pick, keyframe)) {
-        continue;
-      }
-      const auto pixel = map.camera.Project(keyframe.camera_from_map * (map_from_stage * on_stage));
-      sum += pixel ? (*pixel - pick.pixel).squaredNorm() : std::pow(map.camera.width, 2);
-      ++count;
-    }
-  }
-  return std::sqrt(sum / std::max(count, 1));
-}
-
 // The frame of the pick without which the others agree.
 std::string OddFrame(const stage::Anchor& anchor,
                      const vision::SceneDatabase& map,
@@ -82,7 +61,7 @@ CheckPointReport CheckPoint(const CheckPointDocument& point,
   report.found = map_from_stage.Inverse() * report.anchor.point_in_map;
   report.distance_m = (report.found - report.on_stage).norm();
   report.deviation_m = stage::AnchorSpread(*anchor, map) / map_from_stage.scale;
-  report.distance_px = SeenOff(*anchor, report.on_stage, map, map_from_stage);
+  report.distance_px = SeenOff(*anchor, map_from_stage * report.on_stage, map);
   if (report.anchor.error_px > tolerance_px) {
     report.verdict = Verdict::kPicksDisagree;
     report.odd_frame = OddFrame(*anchor, map, tolerance_px);
@@ -133,9 +112,9 @@ std::optional<Fit> FitStage(std::span<const Compared> points,
   }
   fit.rms_m = std::sqrt(fit.rms_m);
   for (const Compared& point : points) {
-    fit.good =
-        fit.good && (point.report == left_out || SeenOff(*point.anchor, point.report->on_stage, map,
-                                                         *map_from_stage) <= tolerance_px);
+    fit.good = fit.good && (point.report == left_out ||
+                            SeenOff(*point.anchor, *map_from_stage * point.report->on_stage, map) <=
+                                tolerance_px);
   }
   return fit;
 }
@@ -232,6 +211,24 @@ const char* VerdictName(CheckReport::Verdict verdict) {
 }
 
 }  // namespace
+
+double SeenOff(const stage::Anchor& anchor,
+               const Vector3d& point_in_map,
+               const vision::SceneDatabase& map) {
+  double sum = 0.0;
+  int count = 0;
+  for (const vision::Keyframe& keyframe : map.keyframes) {
+    for (const stage::Pick& pick : anchor.picks) {
+      if (!stage::LiesIn(pick, keyframe)) {
+        continue;
+      }
+      const auto pixel = map.camera.Project(keyframe.camera_from_map * point_in_map);
+      sum += pixel ? (*pixel - pick.pixel).squaredNorm() : std::pow(map.camera.width, 2);
+      ++count;
+    }
+  }
+  return std::sqrt(sum / std::max(count, 1));
+}
 
 double CheckTolerancePx(const geometry::CameraModel& camera) { return 0.005 * camera.width; }
 

@@ -24,6 +24,12 @@ inline constexpr size_t kFewestCheckPoints = 3;
 // What visitors would notice: half a percent of the width of the place's images.
 double CheckTolerancePx(const geometry::CameraModel& camera);
 
+// Root mean square distance, pixels, from an anchor's picks to where a point of the map is seen in
+// their images; far beyond any tolerance where one does not see it at all.
+double SeenOff(const stage::Anchor& anchor,
+               const Eigen::Vector3d& point_in_map,
+               const vision::SceneDatabase& map);
+
 struct CheckPointReport {
   // kWeak: seen from almost one direction, so that nobody knows how far away it is.
   enum class Verdict { kNotPicked, kNotLocated, kPicksDisagree, kWeak, kGood, kOff };

@@ -55,6 +55,24 @@ class CommandStack {
     }
   }
 
+  // Changes the document and all that undo and redo would bring back: what has become true of
+  // the files cannot be undone. A document that was saved is not saved as it is now.
+  void Rewrite(const std::function<void(Document&)>& change) {
+    const auto rewritten = [&](const Snapshot& snapshot) {
+      Document next = *snapshot;
+      change(next);
+      return std::make_shared<const Document>(std::move(next));
+    };
+    EndGesture();
+    current_ = rewritten(current_);
+    saved_ = nullptr;
+    for (std::vector<Command>* commands : {&undo_, &redo_}) {
+      for (Command& command : *commands) {
+        command.other_side = rewritten(command.other_side);
+      }
+    }
+  }
+
   // The gesture is over: the next edit is a command of its own.
   void EndGesture() { gesture_.clear(); }
 

@@ -16,7 +16,7 @@ bool IsPlainName(std::string_view name) {
          });
 }
 
-Status CheckFields(const JsonView& view, std::initializer_list<std::string_view> known) {
+Status CheckFields(const JsonView& view, std::span<const std::string_view> known) {
   if (!view.json().is_object()) {
     return view.Problem("must be an object");
   }
@@ -27,6 +27,10 @@ Status CheckFields(const JsonView& view, std::initializer_list<std::string_view>
     }
   }
   return Status();
+}
+
+Status CheckFields(const JsonView& view, std::initializer_list<std::string_view> known) {
+  return CheckFields(view, std::span(known.begin(), known.size()));
 }
 
 Result<Eigen::Vector3d> ParseVector(const JsonView& view, std::string_view key) {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,7 @@ namespace lararium::app {
 bool IsPlainName(std::string_view name);
 
 // Fields that are not known are an error, so that saving never drops them.
+Status CheckFields(const JsonView& view, std::span<const std::string_view> known);
 Status CheckFields(const JsonView& view, std::initializer_list<std::string_view> known);
 
 inline constexpr double kMaxLength = 1e6;  // metres

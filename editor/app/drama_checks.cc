@@ -311,8 +311,10 @@ StepListener::StepListener(const stage::Stage& stage, std::span<const stage::Pla
   names_.reserve(count);  // triangles borrow them
   for (const stage::Place& place : places) {
     for (const stage::Occluder& occluder : place.occluders) {
-      AddOccluder(occluder,
-                  "'" + occluder.name + "'" + (places.size() > 1 ? " of " + place.name : ""));
+      if (occluder.blocks_walking) {
+        AddOccluder(occluder,
+                    "'" + occluder.name + "'" + (places.size() > 1 ? " of " + place.name : ""));
+      }
     }
   }
 }

@@ -222,6 +222,11 @@ Result<DrawnOccluder> DrawOccluder(const OccluderDocument& occluder,
                              CornerName(crossing->second) + " cross",
                          "pick the corners in their order around the face");
   }
+  if (occluder.flat) {
+    for (Vector3d& corner : corners) {
+      corner -= face.normal.dot(corner - face.center) * face.normal;
+    }
+  }
   if (TwiceArea(face.corners) < 0.0) {
     std::reverse(face.corners.begin(), face.corners.end());
     std::reverse(corners.begin(), corners.end());

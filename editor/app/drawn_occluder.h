@@ -19,14 +19,16 @@ struct DrawnOccluder {
   // occluders are drawn from either side.
   geometry::TriangleMesh mesh_in_map;
   std::vector<stage::AnchorReport> corners;
-  double error_px = 0.0;    // root mean square reprojection error of all picks
-  double unevenness = 0.0;  // farthest that a corner lies off the face's plane; map units
+  double error_px = 0.0;  // root mean square reprojection error of all picks
+  // Farthest that a corner lies off the plane that fits them best (least squares), before any is
+  // laid onto it; map units.
+  double unevenness = 0.0;
 };
 
-// The face and, with a depth, a prism behind it, away from where it was drawn.
-// map_units_per_metre: for the depth. Errors name the corner and what to pick: fewer than three
-// corners, one picked in fewer than two images or from almost the same direction, corners on a
-// line, edges that cross.
+// The face, flat where the document says so, and, with a depth, a prism behind it, away from where
+// it was drawn. map_units_per_metre: for the depth. Errors name the corner and what to pick: fewer
+// than three corners, one picked in fewer than two images or from almost the same direction,
+// corners on a line, edges that cross.
 Result<DrawnOccluder> DrawOccluder(const OccluderDocument& occluder,
                                    const vision::SceneDatabase& map,
                                    double map_units_per_metre);

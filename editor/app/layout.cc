@@ -204,7 +204,11 @@ void Layout::Show(Workspace& workspace, Settings& settings) {
   panels::ShowMenuBar(workspace, state_);
   panels::ShowToolbar(workspace, state_);
   ShowPanels(workspace);
-  panels::ShowDialogs(workspace, state_);
+  if (calibration_.is_open()) {
+    calibration_.Show(workspace.paths(), state_.pictures, state_.fields);
+  } else if (panels::ShowDialogs(workspace, state_)) {
+    calibration_.Open();
+  }
   film_.Show(workspace, state_);
   if (std::exchange(state_.begin_tour, false)) {
     tour_.Begin(panels::FactsOf(workspace, state_));

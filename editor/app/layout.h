@@ -7,6 +7,7 @@
 
 #include "editor/app/workspace.h"
 #include "editor/panels/around_view.h"
+#include "editor/panels/calibration_dialog.h"
 #include "editor/panels/camera_view.h"
 #include "editor/panels/editor_state.h"
 #include "editor/panels/film_dialog.h"
@@ -47,6 +48,7 @@ class Layout {
   panels::ScriptPanel script_;
   panels::MissingPanel missing_;
   panels::FilmDialog film_;
+  panels::CalibrationDialog calibration_;
   panels::Tour tour_;
   bool opened_ = false;  // a frame was shown
   // Logical pixels.

@@ -3,9 +3,12 @@
 #include <cstdio>
 #include <variant>
 
+#include "editor/app/align_commands.h"
+#include "editor/app/calibrating.h"
 #include "editor/app/camera_measure.h"
 #include "editor/app/check_commands.h"
 #include "editor/app/line_commands.h"
+#include "editor/app/occluder_commands.h"
 #include "editor/app/options.h"
 #include "editor/app/portrait.h"
 #include "editor/app/probe_commands.h"
@@ -48,6 +51,7 @@ struct Runner {
   Result<CommandResult> operator()(const ExportColmapOptions& options) {
     return RunExportColmap(options);
   }
+  Result<CommandResult> operator()(const MeasureOptions& options) { return RunMeasure(options); }
   Result<CommandResult> operator()(const PruneOptions& options) {
     return RunPrune(options, progress);
   }
@@ -60,6 +64,10 @@ struct Runner {
   }
   Result<CommandResult> operator()(const CheckPointsOptions& options) {
     return RunCheckPoints(options);
+  }
+  Result<CommandResult> operator()(const OccluderOptions& options) { return RunOccluder(options); }
+  Result<CommandResult> operator()(const AlignOptions& options) {
+    return RunAlign(options, progress);
   }
   Result<CommandResult> operator()(const LinesOptions& options) { return RunLines(options); }
   Result<CommandResult> operator()(const CaptionsOptions& options) {
@@ -82,6 +90,9 @@ struct Runner {
   Result<CommandResult> operator()(const ProbeOptions& options) { return RunProbe(options); }
   Result<CommandResult> operator()(const CameraOptions& options) {
     return RunCamera(options, progress);
+  }
+  Result<CommandResult> operator()(const CalibrateOptions& options) {
+    return RunCalibrate(options, progress);
   }
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);

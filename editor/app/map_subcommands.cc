@@ -12,9 +12,11 @@
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
 #include "editor/app/subcommands.h"
+#include "editor/app/text.h"
 #include "editor/app/training.h"
 #include "editor/train/budget.h"
 #include "editor/train/colmap_exchange.h"
+#include "editor/train/map_statistics.h"
 #include "shared/vision/poses_file.h"
 #include "shared/vision/scene_database.h"
 
@@ -216,11 +218,47 @@ std::vector<train::BudgetOptions> BudgetsFor(const SceneDatabase& database,
   return budgets;
 }
 
+// As long as the place is there, and its map has that session.
+Result<CommandResult> RemoveSession(const ProjectPaths& paths,
+                                    ProjectDocument& document,
+                                    const std::string& place_name,
+                                    int session,
+                                    Progress& progress) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, ChoosePlace(paths, document, place_name));
+  PlaceDocument& place = *document.FindPlace(name);
+  const auto number = static_cast<uint32_t>(session);
+  if (number > place.added.size()) {
+    return Status::Error("--remove-session " + std::to_string(session),
+                         "is none of the " + std::to_string(place.added.size()) +
+                             " recordings that were added to " + name,
+                         "1 is the first that was added");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const train::RemovedSession removed,
+                            RemoveFromMap(paths, place, number, progress));
+  const std::string source = place.added[number - 1].source.path;
+  ForgetSession(place, number);
+  LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
+  return CommandResult{
+      name + ": removed " + source + ", " + std::to_string(removed.keyframes) + " keyframes, " +
+          std::to_string(removed.points) + " points; " +
+          std::to_string(removed.database.points.size()) + " points stay\n",
+      {{"place", name},
+       {"removed", source},
+       {"keyframes", removed.database.keyframes.size()},
+       {"points", removed.database.points.size()},
+       {"removed_keyframes", removed.keyframes},
+       {"removed_points", removed.points},
+       {"mean_reprojection_error_px", removed.database.mean_reprojection_error_px}}};
+}
+
 }  // namespace
 
 Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, Log& log) {
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  if (options.remove_session) {
+    return RemoveSession(paths, document, options.place, *options.remove_session, progress);
+  }
   LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, PlaceToTrain(document, options.place));
   LARARIUM_RETURN_IF_ERROR(CanBeWritten(options.report));
   LARARIUM_RETURN_IF_ERROR(CanBeWritten(options.poses_out));
@@ -291,6 +329,58 @@ Result<CommandResult> RunExportColmap(const ExportColmapOptions& options) {
                        {{"out", options.model.string()},
                         {"keyframes", database.keyframes.size()},
                         {"points", database.points.size()}}};
+}
+
+Result<CommandResult> RunMeasure(const MeasureOptions& options) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, ChoosePlace(paths, document, options.place));
+  PlaceDocument& place = *document.FindPlace(name);
+  LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
+  LARARIUM_RETURN_IF_ERROR(map.picks.problem);
+  const auto count = static_cast<int>(map.database->points.size());
+  for (const int point : {options.from, options.to}) {
+    if (point >= count) {
+      return Status::Error("point " + std::to_string(point),
+                           "is none of the map's " + std::to_string(count) + " points",
+                           "count from 0");
+    }
+  }
+  const Eigen::Vector3d from =
+      map.database->points[static_cast<size_t>(options.from)].cast<double>();
+  const Eigen::Vector3d to = map.database->points[static_cast<size_t>(options.to)].cast<double>();
+  const geometry::Similarity3 map_from_stage = map.picks.map_from_picked * place.picked_from_stage;
+  const double said = StageDistance(map_from_stage, from, to);
+  if (!(said > 0.0)) {
+    return Status::Error("point " + std::to_string(options.to), "lies where the other one does",
+                         "name two points that are apart");
+  }
+  const std::optional<double> deviation = train::DistanceDeviation(
+      *map.database, train::MeasureStatistics(*map.database), static_cast<uint32_t>(options.from),
+      static_cast<uint32_t>(options.to));
+  CommandResult result{Text("%s: %.4f m", name.c_str(), said),
+                       {{"place", name}, {"distance_m", said}}};
+  if (deviation) {
+    const double metres = *deviation / map_from_stage.scale;
+    result.text += Text(" +- %.4f m", metres);
+    result.json["deviation_m"] = metres;
+  }
+  if (options.metres) {
+    place.picked_from_stage = ScaledToDistance(map.picks.map_from_picked, place.picked_from_stage,
+                                               from, to, *options.metres);
+    const double scale = place.picked_from_stage.scale;
+    if (!(scale >= kMinStageScale && scale <= kMaxStageScale)) {
+      return Status::Error("--metres", "would make the stage impossibly large or small",
+                           "measure between other points");
+    }
+    LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
+    const double residual = 100.0 * (said / *options.metres - 1.0);
+    result.text += Text(", %+.2f %% off; the stage was scaled", residual);
+    result.json["residual_percent"] = residual;
+    result.json["scale"] = scale;
+  }
+  result.text += "\n";
+  return result;
 }
 
 Result<CommandResult> RunPrune(const PruneOptions& options, Progress& progress) {

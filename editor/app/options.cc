@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <tuple>
 
+#include "editor/app/occluder_alignment.h"
 #include "editor/app/project.h"
 #include "editor/import/cast_presets.h"
 
@@ -21,10 +23,13 @@ struct AllOptions {
   ImportColmapOptions import_colmap;
   ExportColmapOptions export_colmap;
   PruneOptions prune;
+  MeasureOptions measure;
   CastOptions cast;
   BakeOptions bake;
   CheckOptions check;
   CheckPointsOptions check_points;
+  OccluderOptions occluder;
+  AlignOptions align;
   LinesOptions lines;
   CaptionsOptions captions;
   TimelineOptions timeline;
@@ -36,6 +41,8 @@ struct AllOptions {
   ReferenceOptions reference;
   ProbeOptions probe;
   CameraOptions camera;
+  CalibrateOptions calibrate;
+  std::string calibrate_board = "9x6";
   ExportOptions export_;
   KeyOptions key;
 };
@@ -78,6 +85,11 @@ void AddTrain(CLI::App& app, TrainOptions& train) {
   AddIntrinsics(command, train.intrinsics);
   command->add_flag("--add", train.add,
                     "Merge the recording, shot in other light, into the map that is there");
+  command
+      ->add_option("--remove-session", train.remove_session,
+                   "Take an added recording out of the map and forget it: 1 is the first that was "
+                   "added")
+      ->check(CLI::Range(1, 31));
   command->add_option("--points", train.points, "Points that the map may have")
       ->check(CLI::Range(100, 10'000'000));
   command
@@ -140,6 +152,24 @@ void AddColmap(CLI::App& app, AllOptions& options) {
   write->add_flag("--with-images", out.with_images, "Write the keyframes' images too");
 }
 
+void AddMeasure(CLI::App& app, MeasureOptions& options) {
+  CLI::App* command = AddSubcommand(
+      app, "measure", "Measure between two points of a map, and scale the stage by that",
+      options.project);
+  command->add_option("--place", options.place, "The place, if there are several");
+  command
+      ->add_option("--from", options.from, "Number of a point, as the view around the place says")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--to", options.to, "Number of the other point")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--metres", options.metres,
+                   "What the distance is in truth: scales the stage about its origin")
+      ->check(CLI::Range(0.001, 1e4));
+}
+
 void AddPrune(CLI::App& app, PruneOptions& prune) {
   CLI::App* command = AddSubcommand(
       app, "prune", "Make a map smaller, and tell what smaller ones lose", prune.project);
@@ -175,6 +205,83 @@ void AddCheckPoints(CLI::App& app, CheckPointsOptions& options) {
   command->add_option("--session", options.session, "Of the image; 0: the training")
       ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
       ->needs(pick);
+}
+
+void AddOccluder(CLI::App& app, OccluderOptions& options) {
+  std::vector<std::string> kinds;
+  for (const ShapeEntry& entry : ShapeEntries()) {
+    kinds.emplace_back(entry.name);
+  }
+  CLI::App* command =
+      AddSubcommand(app, "occluder", "List, add and change what hides people", options.project);
+  command->add_option("--place", options.place, "The place; all of them in the list otherwise");
+  CLI::Option_group* work = command->add_option_group("work", "Before the list");
+  CLI::Option* add = work->add_option("--add", options.add, "Add NAME, a shape or a model");
+  work->add_option("--set", options.set, "Change NAME");
+  work->add_option("--remove", options.remove, "Remove NAME");
+  work->require_option(0, 1);
+  CLI::Option* shape =
+      command->add_option("--shape", options.shape, "What is added is one of these")
+          ->check(CLI::IsMember(kinds))
+          ->needs(add);
+  command->add_option("--model", options.model, "What is added is this model")
+      ->check(CLI::ExistingFile)
+      ->needs(add)
+      ->excludes(shape);
+  CLI::Option_group* change = command->add_option_group("change", "What it is like");
+  change
+      ->add_option("--size", options.sizes,
+                   "NAME=METRES,... of a shape. box: width, height, depth; plane: width, height; "
+                   "cylinder: diameter, height; arch: width, height, depth, opening, spring (how "
+                   "high its half circle begins)")
+      ->delimiter(',');
+  change->add_option("--at", options.at, "x,y,z of the middle of its foot, stage metres")
+      ->delimiter(',')
+      ->expected(3);
+  change->add_option("--turn", options.turn, "Degrees: heading[,tilt[,roll]]")
+      ->delimiter(',')
+      ->expected(1, 3)
+      ->check(CLI::Range(-360.0, 360.0));
+  change->add_option("--scale", options.scale, "Stage metres for each unit of a model")
+      ->check(CLI::Range(1e-4, 1e4));
+  for (const auto& [name, value, text] :
+       {std::tuple{"--receives-shadow", &options.receives_shadow, "Whether shadows are seen on it"},
+        {"--blocks-sound", &options.blocks_sound, "Whether sounds are muffled behind it"},
+        {"--blocks-walking", &options.blocks_walking, "Whether people walk around it"}}) {
+    change->add_option(name, *value, text)->check(CLI::IsMember({"yes", "no"}));
+  }
+}
+
+void AddAlign(CLI::App& app, AlignOptions& align) {
+  CLI::App* command =
+      AddSubcommand(app, "align", "Lay an occluder's model where the real thing is", align.project);
+  command->add_option("--place", align.place, "Name of the place");
+  command->add_option("--occluder", align.occluder, "Its name")->required();
+  CLI::Option* pair =
+      command->add_option("--pair", align.pair, "Add a pair: x,y,z of the model's point, as in it")
+          ->delimiter(',')
+          ->expected(3);
+  command
+      ->add_option("--pick", align.picks,
+                   "Where the point is seen in a training image, FRAME,x,y; twice or more")
+      ->needs(pair);
+  command->add_option("--session", align.session, "Of these images; 0: the training")
+      ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
+      ->needs(pair);
+  command->add_option("--remove", align.remove, "Remove a pair, by its number")
+      ->check(CLI::Range(1, static_cast<int>(kMaxModelPairs)));
+  command->add_flag_function(
+      "--keep-scale,!--fit-scale", [&](int64_t times) { align.keep_scale = times > 0; },
+      "The model's scale is right, as where it is in metres; or it is found too");
+  command->add_flag("--by-points", align.by_points, "Lay the model by the pairs");
+  CLI::Option* refine =
+      command->add_flag("--refine", align.refine, "Then lay it by the map's points on its surface");
+  command->add_option("--within", align.within, "Metres from it that these are looked for, 0.3")
+      ->check(CLI::Range(kMinSearch, kMaxSearch))
+      ->needs(refine);
+  command->add_flag_function(
+      "--flat,!--not-flat", [&](int64_t times) { align.flat = times > 0; },
+      "Of a drawn occluder: lay its corners onto the plane that fits them best, or not");
 }
 
 void AddLines(CLI::App& app, AllOptions& options) {
@@ -425,6 +532,33 @@ void AddCamera(CLI::App& app, CameraOptions& options) {
   camera->add_flag("--forget", options.forget, "People stay sharp and clean");
 }
 
+void AddCalibrate(CLI::App& app, CalibrateOptions& options, std::string& board) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Measure a camera's intrinsics with a chessboard, and their errors");
+  command->fallthrough();
+  CLI::Option_group* source = command->add_option_group("source", "What shows the board");
+  source->add_option("--video", options.video, "Video file")->check(CLI::ExistingFile);
+  source->add_option("--images", options.images, "Folder of images")->check(CLI::ExistingDirectory);
+  source
+      ->add_option("--camera", options.camera,
+                   "The camera of this number; a video file is played as one")
+      ->check(CLI::NonNegativeNumber | CLI::ExistingFile);
+  source->add_option("--print-board", options.print_board,
+                     "None: write the board here, to print it on A4 (.svg)");
+  source->require_option(1);
+  command
+      ->add_option("--board", board,
+                   "CxR: inner corners, where four squares meet; 10 x 7 squares have 9x6")
+      ->capture_default_str();
+  command->add_option("--square", options.square, "Side of a square in metres")
+      ->check(CLI::Range(0.001, 10.0));
+  command->add_option("--seconds", options.seconds, "How long to look at the camera")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->add_option("--device-out", options.device_out,
+                      "Write the camera into this device file for the player");
+}
+
 void AddOthers(CLI::App& app, AllOptions& options) {
   CLI::App* create = AddSubcommand(app, "new", "Make an empty project", options.create.project);
   create->add_option("--title", options.create.title, "Title; the folder's name otherwise");
@@ -432,10 +566,12 @@ void AddOthers(CLI::App& app, AllOptions& options) {
   AddTrain(app, options.train);
   AddColmap(app, options);
   AddPrune(app, options.prune);
+  AddMeasure(app, options.measure);
 
   AddCast(app, options.cast);
 
   AddCamera(app, options.camera);
+  AddCalibrate(app, options.calibrate, options.calibrate_board);
 
   AddSubcommand(app, "bake", "Prepare light, occluders and people", options.bake.project);
 
@@ -453,6 +589,8 @@ void AddOthers(CLI::App& app, AllOptions& options) {
       ->check(CLI::ExistingFile);
 
   AddCheckPoints(app, options.check_points);
+  AddOccluder(app, options.occluder);
+  AddAlign(app, options.align);
   AddLines(app, options);
   AddInterchange(app, options);
   AddCredits(app, options.credits);
@@ -480,10 +618,13 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("import-colmap")) return options.import_colmap;
   if (app.got_subcommand("export-colmap")) return options.export_colmap;
   if (app.got_subcommand("prune")) return options.prune;
+  if (app.got_subcommand("measure")) return options.measure;
   if (app.got_subcommand("cast")) return options.cast;
   if (app.got_subcommand("bake")) return options.bake;
   if (app.got_subcommand("check")) return options.check;
   if (app.got_subcommand("check-points")) return options.check_points;
+  if (app.got_subcommand("occluder")) return options.occluder;
+  if (app.got_subcommand("align")) return options.align;
   if (app.got_subcommand("lines")) return options.lines;
   if (app.got_subcommand("captions")) return options.captions;
   if (app.got_subcommand("timeline")) return options.timeline;
@@ -494,6 +635,7 @@ Subcommand Chosen(const CLI::App& app, const AllOptions& options) {
   if (app.got_subcommand("reference")) return options.reference;
   if (app.got_subcommand("probe")) return options.probe;
   if (app.got_subcommand("camera")) return options.camera;
+  if (app.got_subcommand("calibrate")) return options.calibrate;
   if (app.got_subcommand("export")) return options.export_;
   if (app.got_subcommand("key")) return options.key;
   return options.window;
@@ -518,10 +660,21 @@ void ParseSize(const std::string& text, PortraitOptions& portrait) {
   }
 }
 
+void ParseBoard(const std::string& text, CalibrateOptions& calibrate) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%4dx%4d%c", &calibrate.columns, &calibrate.rows, &rest) != 2) {
+    throw CLI::ValidationError("--board", "takes CxR, as 9x6: the inner corners");
+  }
+}
+
 void CheckSession(const TrainOptions& train) {
   if (train.add && train.video.empty() && train.images.empty() && train.camera.empty()) {
     throw CLI::ValidationError("--add",
                                "needs the recording to add: --video, --images or --camera");
+  }
+  const bool recorded = !train.video.empty() || !train.images.empty() || !train.camera.empty();
+  if (train.remove_session && (train.add || recorded)) {
+    throw CLI::ValidationError("--remove-session", "goes without a recording to train from");
   }
 }
 
@@ -531,6 +684,21 @@ void CheckPointWork(const CheckPointsOptions& points) {
   }
   if (!points.pick.empty() && (points.frame.empty() || points.pixel.empty())) {
     throw CLI::ValidationError("--pick", "needs --frame and --pixel");
+  }
+}
+
+void OccluderWork(const OccluderOptions& occluder) {
+  const bool changes = !occluder.sizes.empty() || !occluder.at.empty() || !occluder.turn.empty() ||
+                       occluder.scale || !occluder.receives_shadow.empty() ||
+                       !occluder.blocks_sound.empty() || !occluder.blocks_walking.empty();
+  if (!occluder.add.empty() && occluder.shape.empty() && occluder.model.empty()) {
+    throw CLI::ValidationError("--add", "needs what is added: --shape, or --model");
+  }
+  if (!occluder.set.empty() && !changes) {
+    throw CLI::ValidationError("--set", "needs what changes, such as --at or --size");
+  }
+  if (changes && occluder.add.empty() && occluder.set.empty()) {
+    throw CLI::ValidationError("occluder", "needs to be told which one: --add NAME or --set NAME");
   }
 }
 
@@ -551,7 +719,9 @@ std::variant<CommandLine, int> ParseCommandLine(int argc, const char* const* arg
     CheckIntrinsics(options.render.intrinsics);
     CheckSession(options.train);
     CheckPointWork(options.check_points);
+    OccluderWork(options.occluder);
     ParseSize(options.portrait_size, options.portrait);
+    ParseBoard(options.calibrate_board, options.calibrate);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;
   }

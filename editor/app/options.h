@@ -30,10 +30,11 @@ struct TrainOptions {
   std::string camera;     // a number, or a recording that is played as one
   double seconds = 60.0;  // how long the camera records
 
-  std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
-  bool add = false;                // merge the recording into the map that is there
-  std::optional<int> points;       // of the database at most
-  std::optional<double> tag_size;  // metres: AprilTags of this size fix the scale
+  std::vector<double> intrinsics;     // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
+  bool add = false;                   // merge the recording into the map that is there
+  std::optional<int> remove_session;  // take this one out of it instead, from 1 on
+  std::optional<int> points;          // of the database at most
+  std::optional<double> tag_size;     // metres: AprilTags of this size fix the scale
   std::string tag_family = "tag36h11";
   std::filesystem::path poses_out;
   std::filesystem::path report;  // the capture report, HTML
@@ -58,6 +59,15 @@ struct PruneOptions {
   std::filesystem::path project;
   std::string place;          // empty: the only one
   std::optional<int> points;  // none: only tell what smaller maps would lose
+};
+
+// The distance of two points of a map, by their numbers.
+struct MeasureOptions {
+  std::filesystem::path project;
+  std::string place;  // empty: the only one
+  int from = 0;
+  int to = 0;
+  std::optional<double> metres;  // that it is in truth: the stage is scaled so
 };
 
 struct CastOptions {
@@ -100,6 +110,40 @@ struct CheckPointsOptions {
   std::string clear = {};   // forgets where a point was picked at the place
   std::string remove = {};  // a point, everywhere
   bool lay = false;         // lays the stage of the place by the points
+};
+
+// Without a work: only the list.
+struct OccluderOptions {
+  std::filesystem::path project = {};
+  std::string place = {};               // empty: the only one; of a list: all
+  std::string add = {};                 // adds one of this name,
+  std::string shape = {};               // which is a shape of this kind,
+  std::filesystem::path model = {};     // or else this model
+  std::string set = {};                 // changes the one of this name
+  std::string remove = {};              // removes it
+  std::vector<std::string> sizes = {};  // NAME=METRES, of a shape
+  std::vector<double> at = {};          // x, y, z in metres; empty: as it is
+  std::vector<double> turn = {};        // degrees: heading, then tilt and roll; empty: as it is
+  std::optional<double> scale = {};
+  std::string receives_shadow = {};  // yes or no; empty: as it is
+  std::string blocks_sound = {};     // likewise
+  std::string blocks_walking = {};   // likewise
+};
+
+// All that is given is done, in this order; without any of it there is only the report.
+struct AlignOptions {
+  std::filesystem::path project = {};
+  std::string place = {};  // empty: the only one
+  std::string occluder = {};
+  std::optional<int> remove = {};       // a pair, from 1
+  std::vector<double> pair = {};        // adds one: x, y, z in the mesh's axes and unit
+  std::vector<std::string> picks = {};  // where that is seen: FRAME,x,y each
+  int session = 0;                      // of these images
+  std::optional<bool> keep_scale = {};  // whether the model's scale is right
+  bool by_points = false;               // lays the model by the pairs
+  bool refine = false;                  // then by the map's points
+  std::optional<double> within = {};    // metres of the model, for that; none: train's
+  std::optional<bool> flat = {};        // of one that was drawn: its corners onto their plane
 };
 
 struct LinesOptions {
@@ -216,6 +260,20 @@ struct CameraOptions {
   bool forget = false;
 };
 
+// Of a camera, with a chessboard.
+struct CalibrateOptions {
+  // One of them, unless a board is printed.
+  std::filesystem::path video;
+  std::filesystem::path images;
+  std::string camera;  // a number, or a recording that is played as one
+  int columns = 9;     // inner corners of the board
+  int rows = 6;
+  double square = 0.0;    // of the board, metres; 0: not known
+  double seconds = 60.0;  // how long the camera is looked at
+  std::filesystem::path device_out;
+  std::filesystem::path print_board;  // .svg
+};
+
 struct ExportOptions {
   std::filesystem::path project;
   std::filesystem::path out;
@@ -233,10 +291,13 @@ using Subcommand = std::variant<WindowOptions,
                                 ImportColmapOptions,
                                 ExportColmapOptions,
                                 PruneOptions,
+                                MeasureOptions,
                                 CastOptions,
                                 BakeOptions,
                                 CheckOptions,
                                 CheckPointsOptions,
+                                OccluderOptions,
+                                AlignOptions,
                                 LinesOptions,
                                 CaptionsOptions,
                                 TimelineOptions,
@@ -247,6 +308,7 @@ using Subcommand = std::variant<WindowOptions,
                                 ReferenceOptions,
                                 ProbeOptions,
                                 CameraOptions,
+                                CalibrateOptions,
                                 ExportOptions,
                                 KeyOptions>;
 

@@ -27,6 +27,9 @@ std::set<int64_t> PickedFrames(const PlaceDocument& place, uint32_t session) {
   }
   for (const OccluderDocument& occluder : place.occluders) {
     std::for_each(occluder.corners.begin(), occluder.corners.end(), add);
+    for (const ModelPairDocument& pair : occluder.model_pairs) {
+      add(pair.anchor);
+    }
   }
   std::for_each(place.check_picks.begin(), place.check_picks.end(), add);
   return frames;

@@ -17,9 +17,9 @@
 namespace lararium::app {
 
 // Adds to the database, as keyframes without observations, the frames that were picked in (for the
-// stage, an occluder's corners or check points) and that training located, but did not choose.
-// They go after the others; images come from source, whose frames the report is about and whose
-// camera is the database's. Frames that were not located are left out.
+// stage, an occluder's corners, a model's points or check points) and that training located, but
+// did not choose. They go after the others; images come from source, whose frames the report is
+// about and whose camera is the database's. Frames that were not located are left out.
 Status KeepPickedFrames(const PlaceDocument& place,
                         uint32_t session,
                         const train::TrainReport& report,

@@ -155,6 +155,15 @@ Result<TagsDocument> ParseTags(const JsonView& view) {
   return tags;
 }
 
+// Of a view that may lack it, which means false.
+Result<bool> ParseFlag(const JsonView& view, std::string_view key) {
+  if (!view.Has(key)) {
+    return false;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+  return field.Boolean();
+}
+
 Status ParseCorners(const JsonView& view, OccluderDocument& occluder) {
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("corners"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> corners, field.Array(kMaxCorners));
@@ -164,29 +173,79 @@ Status ParseCorners(const JsonView& view, OccluderDocument& occluder) {
     LARARIUM_RETURN_IF_ERROR(ParsePickList(corner, anchor));
   }
   LARARIUM_ASSIGN_OR_RETURN(occluder.depth, view.Number("depth", 0.0, kMaxDepth));
+  LARARIUM_ASSIGN_OR_RETURN(occluder.flat, ParseFlag(view, "flat"));
+  return Status();
+}
+
+Result<ModelPairDocument> ParseModelPair(const JsonView& view) {
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"on_mesh", "picks"}));
+  ModelPairDocument pair;
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> at, view.Numbers("on_mesh", 3));
+  pair.on_mesh = {at[0], at[1], at[2]};
+  constexpr double kFarthest = 1e9;  // in whatever unit the mesh has
+  if (pair.on_mesh.cwiseAbs().maxCoeff() > kFarthest) {
+    return view.Problem("\"on_mesh\" lies beyond any model");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView picks, view.Field("picks"));
+  LARARIUM_RETURN_IF_ERROR(ParsePickList(picks, pair.anchor));
+  return pair;
+}
+
+Status ParseModelPairs(const JsonView& view, OccluderDocument& occluder) {
+  if (view.Has("model_pairs")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("model_pairs"));
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> pairs, field.Array(kMaxModelPairs));
+    for (const JsonView& entry : pairs) {
+      LARARIUM_ASSIGN_OR_RETURN(ModelPairDocument pair, ParseModelPair(entry));
+      pair.anchor.name = ModelPairName(occluder.model_pairs.size());
+      occluder.model_pairs.push_back(std::move(pair));
+    }
+  }
+  LARARIUM_ASSIGN_OR_RETURN(occluder.keep_scale, ParseFlag(view, "keep_scale"));
   return Status();
 }
 
 Result<OccluderDocument> ParseOccluder(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"name", "file", "translation", "rotation", "scale",
-                                              "blocks_sound", "corners", "depth"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(
+      view, {"name", "file", "translation", "rotation", "scale", "receives_shadow", "blocks_sound",
+             "blocks_walking", "shape", "corners", "depth", "flat", "model_pairs", "keep_scale"}));
   OccluderDocument occluder;
   LARARIUM_ASSIGN_OR_RETURN(occluder.name, ParsePlainName(view, "name"));
-  if (view.Has("file") == view.Has("corners")) {
-    return view.Problem("must have either the \"file\" of a model or \"corners\"");
+  if (int{view.Has("file")} + int{view.Has("shape")} + int{view.Has("corners")} != 1) {
+    return view.Problem("must have either the \"file\" of a model, a \"shape\" or \"corners\"");
   }
   if (view.Has("corners")) {
     LARARIUM_RETURN_IF_ERROR(ParseCorners(view, occluder));
+    if (view.Has("model_pairs") || view.Has("keep_scale")) {
+      return view.Problem("was drawn: \"model_pairs\" and \"keep_scale\" are a model's");
+    }
+  } else if (view.Has("shape")) {
+    for (const char* other : {"flat", "model_pairs", "keep_scale"}) {
+      if (view.Has(other)) {
+        return view.Problem("is a shape: \"" + std::string(other) + "\" is not for those");
+      }
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView shape, view.Field("shape"));
+    LARARIUM_ASSIGN_OR_RETURN(occluder.shape, ParseShape(shape));
+    LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(view));
   } else {
+    if (view.Has("flat")) {
+      return view.Problem("is a model: \"flat\" is of one that was drawn");
+    }
+    LARARIUM_RETURN_IF_ERROR(ParseModelPairs(view, occluder));
     LARARIUM_ASSIGN_OR_RETURN(occluder.file, view.Text("file"));
     if (occluder.file.empty()) {
       return view.Problem("\"file\" must name a model");
     }
     LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(view));
   }
-  if (view.Has("blocks_sound")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView blocks, view.Field("blocks_sound"));
-    LARARIUM_ASSIGN_OR_RETURN(occluder.blocks_sound, blocks.Boolean());
+  for (const auto& [key, does] : {std::pair{"receives_shadow", &occluder.receives_shadow},
+                                  {"blocks_sound", &occluder.blocks_sound},
+                                  {"blocks_walking", &occluder.blocks_walking}}) {
+    if (view.Has(key)) {
+      LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+      LARARIUM_ASSIGN_OR_RETURN(*does, field.Boolean());
+    }
   }
   return occluder;
 }
@@ -394,6 +453,8 @@ end
 
 std::string CornerName(size_t index) { return "corner " + std::to_string(index + 1); }
 
+std::string ModelPairName(size_t index) { return "point " + std::to_string(index + 1); }
+
 Json FormatPicks(const stage::StagePicks& picks) {
   Json json = {{"length_m", picks.length_m}};
   for (const auto& [key, anchor] : Anchors()) {
@@ -410,12 +471,30 @@ Json FormatOccluder(const OccluderDocument& occluder) {
       json["corners"].push_back(FormatPickList(corner));
     }
     json["depth"] = occluder.depth;
+    if (occluder.flat) {
+      json["flat"] = true;
+    }
   } else {
-    json["file"] = occluder.file;
+    if (occluder.shape) {
+      json["shape"] = FormatShape(*occluder.shape);
+    } else {
+      json["file"] = occluder.file;
+    }
     FormatSimilarity(occluder.stage_from_mesh, json);
+    for (const ModelPairDocument& pair : occluder.model_pairs) {
+      json["model_pairs"].push_back(
+          {{"on_mesh", FormatVector(pair.on_mesh)}, {"picks", FormatPickList(pair.anchor)}});
+    }
+    if (occluder.keep_scale) {
+      json["keep_scale"] = true;
+    }
   }
-  if (!occluder.blocks_sound) {
-    json["blocks_sound"] = false;
+  for (const auto& [key, does] : {std::pair{"receives_shadow", occluder.receives_shadow},
+                                  {"blocks_sound", occluder.blocks_sound},
+                                  {"blocks_walking", occluder.blocks_walking}}) {
+    if (!does) {
+      json[key] = false;
+    }
   }
   return json;
 }
@@ -426,6 +505,27 @@ stage::StagePicks EmptyPicks() {
     (picks.*anchor).name = key;
   }
   return picks;
+}
+
+void ForgetSession(PlaceDocument& place, uint32_t session) {
+  if (session == 0 || session > place.added.size()) {
+    return;
+  }
+  place.added.erase(place.added.begin() + (session - 1));
+  const auto forget = [&](stage::Anchor& anchor) {
+    std::erase_if(anchor.picks, [&](const stage::Pick& pick) { return pick.session == session; });
+    for (stage::Pick& pick : anchor.picks) {
+      pick.session -= pick.session > session ? 1 : 0;
+    }
+  };
+  for (stage::Anchor* anchor : {&place.picks.origin, &place.picks.forward, &place.picks.floor,
+                                &place.picks.length_from, &place.picks.length_to}) {
+    forget(*anchor);
+  }
+  for (OccluderDocument& occluder : place.occluders) {
+    std::for_each(occluder.corners.begin(), occluder.corners.end(), forget);
+  }
+  std::for_each(place.check_picks.begin(), place.check_picks.end(), forget);
 }
 
 const PlaceDocument* ProjectDocument::FindPlace(std::string_view name) const {

@@ -14,6 +14,7 @@
 
 #include "editor/app/cast_document.h"
 #include "editor/app/object_document.h"
+#include "editor/app/occluder_shape.h"
 #include "editor/bake/line_table.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
@@ -37,19 +38,41 @@ struct SourceDocument {
   bool empty() const { return kind == Kind::kNone; }
 };
 
-// Either a model or drawn on training images.
+// A point of an occluder's model and where it was picked in the training images, to lay the model
+// by (occluder_alignment.h). Picks outlive the map, so training again keeps them.
+struct ModelPairDocument {
+  Eigen::Vector3d on_mesh = Eigen::Vector3d::Zero();  // in the mesh's axes and unit
+  stage::Anchor anchor;
+};
+inline constexpr size_t kMaxModelPairs = 64;
+
+// The name of a pair in errors: "point 1" and so on.
+std::string ModelPairName(size_t index);
+
+// Something real that hides people: a model, a shape of given sizes, or a face that was drawn on
+// training images.
 struct OccluderDocument {
+  enum class Kind { kModel, kShape, kDrawn };
   std::string name;
-  std::string file;  // a model, any format that the editor imports; empty: drawn
-  geometry::Similarity3 stage_from_mesh;  // of a model
+  std::string file;                       // of a model: any format that the editor imports
+  std::optional<OccluderShape> shape;     // of a shape
+  geometry::Similarity3 stage_from_mesh;  // of a model and a shape
+  // What it does besides hiding people.
+  bool receives_shadow = true;  // shadows of people and light of lamps are seen on it
   bool blocks_sound = true;
+  bool blocks_walking = true;
   // Of one that is drawn: the corners of its face, in their order around it, each picked in two
   // or more training images. They are located in the map at hand, so that training again keeps
   // them (drawn_occluder.h).
   std::vector<stage::Anchor> corners;
   double depth = 0.0;  // metres that it goes on behind that face; 0: the face alone
+  bool flat = false;   // its corners are laid onto the plane that fits them best
+  // Of a model: what it is aligned by.
+  std::vector<ModelPairDocument> model_pairs;
+  bool keep_scale = false;  // its scale is right: aligning leaves it
 
-  bool drawn() const { return file.empty(); }
+  Kind kind() const { return shape ? Kind::kShape : file.empty() ? Kind::kDrawn : Kind::kModel; }
+  bool drawn() const { return kind() == Kind::kDrawn; }
 };
 
 // Of the corners of one occluder.
@@ -98,6 +121,10 @@ inline constexpr size_t kMaxCheckPointName = 200;  // bytes
 // A map holds at most 32 sessions.
 inline constexpr size_t kMaxAddedSessions = 31;
 
+// Of the adjustment by hand, as people may set it.
+inline constexpr double kMinStageScale = 1e-4;
+inline constexpr double kMaxStageScale = 1e4;
+
 struct PlaceDocument {
   std::string name;
   SourceDocument training;
@@ -145,6 +172,10 @@ struct ProjectDocument {
   const PlaceDocument* FindPlace(std::string_view name) const;
   PlaceDocument* FindPlace(std::string_view name);
 };
+
+// Forgets a further recording of a place, from 1 on, and what was picked in it; the numbers of
+// those after it, in picks too, move up. Nothing where there is none of that number.
+void ForgetSession(PlaceDocument& place, uint32_t session);
 
 // Where things lie in a project's folder.
 struct ProjectPaths {

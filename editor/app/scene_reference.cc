@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -24,6 +25,7 @@
 #include "shared/render/render_target.h"
 #include "shared/show/show.h"
 #include "shared/show/show_renderer.h"
+#include "shared/vision/occluders.h"
 #include "shared/vision/photometry.h"
 #include "shared/vision/poses_file.h"
 #include "shared/vision/tracker.h"
@@ -182,6 +184,36 @@ std::vector<bake::SurfaceMesh> RealSurfaces(const stage::Place& place) {
   return surfaces;
 }
 
+// 0 at pixels whose first real surface receives no shadow, 255 elsewhere.
+cv::Mat ShadowMask(const stage::Place& place, const ReferenceView& view) {
+  cv::Mat mask(view.pinhole.height, view.pinhole.width, CV_8UC1, cv::Scalar(255));
+  if (std::all_of(place.occluders.begin(), place.occluders.end(),
+                  [](const stage::Occluder& occluder) { return occluder.receives_shadow; })) {
+    return mask;
+  }
+  std::vector<vision::OccluderTree> trees;
+  for (const stage::Occluder& occluder : place.occluders) {
+    trees.emplace_back(vision::Placed(occluder.mesh, occluder.stage_from_mesh));
+  }
+  const Eigen::Quaterniond stage_from_camera = view.camera_from_stage.rotation.conjugate();
+  const Eigen::Vector3f eye = view.camera_from_stage.Center().cast<float>();
+  for (int row = 0; row < mask.rows; ++row) {
+    for (int column = 0; column < mask.cols; ++column) {
+      const Eigen::Vector2d plane =
+          view.pinhole.PlaneFromPixel({static_cast<double>(column), static_cast<double>(row)});
+      const Eigen::Vector3d way = stage_from_camera * plane.homogeneous().normalized();
+      float nearest = std::numeric_limits<float>::max();
+      for (size_t i = 0; i < trees.size(); ++i) {
+        if (const auto hit = trees[i].FirstHit(eye, way.cast<float>(), 0.0f, nearest)) {
+          nearest = hit->distance;
+          mask.at<uint8_t>(row, column) = place.occluders[i].receives_shadow ? 255 : 0;
+        }
+      }
+    }
+  }
+  return mask;
+}
+
 // Linear RGB, CV_32FC3, of an 8-bit BGR picture in sRGB.
 cv::Mat Linear(const cv::Mat& bgr) {
   cv::Mat linear(bgr.size(), CV_32FC3);
@@ -276,8 +308,9 @@ Status FitAlbedo(const cv::Mat& image,
   return Status();
 }
 
-// The picture that path tracing gives: image, linear, is the camera's.
+// The picture that path tracing gives: image, linear, is the camera's. mask: see ShadowMask.
 Result<cv::Mat> TracedPicture(const cv::Mat& image,
+                              const cv::Mat& mask,
                               const std::array<float, 3>& gain,
                               const Tracing& tracing,
                               Progress& progress,
@@ -293,7 +326,7 @@ Result<cv::Mat> TracedPicture(const cv::Mat& image,
   for (int row = 0; row < image.rows; ++row) {
     for (int column = 0; column < image.cols; ++column) {
       cv::Vec3f& pixel = picture.at<cv::Vec3f>(row, column);
-      if (tracing.has_real()) {
+      if (tracing.has_real() && mask.at<uint8_t>(row, column) != 0) {
         const glm::vec4 lit = PixelOf(with.real, image, row, column);
         const glm::vec4 open = PixelOf(without.real, image, row, column);
         for (int c = 0; lit.a > 0.0f && c < 3; ++c) {
@@ -424,8 +457,10 @@ Result<CommandResult> RunSceneReference(const ReferenceOptions& options,
     LARARIUM_RETURN_IF_ERROR(FitAlbedo(image, staged.gain, tracing, progress));
   }
   cv::Mat coverage;
-  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat traced,
-                            TracedPicture(image, staged.gain, tracing, progress, coverage));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const cv::Mat traced,
+      TracedPicture(image, ShadowMask(show->content().places.front().stage, view), staged.gain,
+                    tracing, progress, coverage));
   const cv::Mat ours = Linear(drawn.picture);
   const cv::Mat error = cv::abs(ours - traced) * 2.0;
   cv::Mat side_by_side;

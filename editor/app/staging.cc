@@ -133,6 +133,57 @@ Similarity3 LayOnFloor(const Similarity3& map_from_picked,
   return laid;
 }
 
+namespace {
+
+// metre: in units of the map.
+Result<geometry::TriangleMesh> OccluderMesh(const ProjectPaths& paths,
+                                            const PlaceDocument& place,
+                                            const OccluderDocument& occluder,
+                                            const vision::SceneDatabase& map,
+                                            double metre) {
+  switch (occluder.kind()) {
+    case OccluderDocument::Kind::kModel:
+      return LoadBakedMesh(paths, place, occluder);
+    case OccluderDocument::Kind::kShape:
+      return MakeShapeMesh(*occluder.shape);
+    case OccluderDocument::Kind::kDrawn:
+      break;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(DrawnOccluder drawn, DrawOccluder(occluder, map, metre));
+  return std::move(drawn.mesh_in_map);
+}
+
+}  // namespace
+
+void StageAnew(const OccluderDocument& occluder,
+               const Similarity3& map_from_stage,
+               stage::Occluder& staged) {
+  if (occluder.shape) {
+    staged.mesh = MakeShapeMesh(*occluder.shape);
+  }
+  staged.stage_from_mesh = occluder.drawn() ? map_from_stage.Inverse() : occluder.stage_from_mesh;
+  staged.blocks_sound = occluder.blocks_sound;
+  staged.blocks_walking = occluder.blocks_walking;
+  staged.receives_shadow = occluder.receives_shadow;
+}
+
+double StageDistance(const Similarity3& map_from_stage,
+                     const Vector3d& from_in_map,
+                     const Vector3d& to_in_map) {
+  return (to_in_map - from_in_map).norm() / map_from_stage.scale;
+}
+
+Similarity3 ScaledToDistance(const Similarity3& map_from_picked,
+                             const Similarity3& picked_from_stage,
+                             const Vector3d& from_in_map,
+                             const Vector3d& to_in_map,
+                             double metres) {
+  Similarity3 scaled = picked_from_stage;
+  scaled.scale *=
+      StageDistance(map_from_picked * picked_from_stage, from_in_map, to_in_map) / metres;
+  return scaled;
+}
+
 Result<stage::Place> StagePlace(const ProjectPaths& paths,
                                 const PlaceDocument& place,
                                 const vision::SceneDatabase& map,
@@ -143,19 +194,16 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
   staged.camera_nudge = place.camera_nudge;
   staged.camera = place.camera;
   for (const OccluderDocument& occluder : place.occluders) {
-    if (occluder.drawn()) {
-      if (map.keyframes.empty()) {
-        continue;
-      }
-      LARARIUM_ASSIGN_OR_RETURN(DrawnOccluder drawn,
-                                DrawOccluder(occluder, map, staged.map_from_stage.scale));
-      staged.occluders.push_back({occluder.name, std::move(drawn.mesh_in_map),
-                                  staged.map_from_stage.Inverse(), occluder.blocks_sound});
+    if (occluder.drawn() && map.keyframes.empty()) {
       continue;
     }
-    LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh mesh, LoadBakedMesh(paths, place, occluder));
-    staged.occluders.push_back(
-        {occluder.name, std::move(mesh), occluder.stage_from_mesh, occluder.blocks_sound});
+    LARARIUM_ASSIGN_OR_RETURN(
+        geometry::TriangleMesh mesh,
+        OccluderMesh(paths, place, occluder, map, staged.map_from_stage.scale));
+    stage::Occluder& made = staged.occluders.emplace_back();
+    made.name = occluder.name;
+    made.mesh = std::move(mesh);
+    StageAnew(occluder, staged.map_from_stage, made);
   }
   LARARIUM_ASSIGN_OR_RETURN(staged.probes, LoadBakedProbes(paths, place, EvenRadiance(map)));
   staged.acoustics = place.acoustics;

@@ -61,6 +61,21 @@ geometry::Similarity3 LayOnFloor(const geometry::Similarity3& map_from_picked,
                                  const geometry::Similarity3& picked_from_stage,
                                  const train::FloorPlane& floor);
 
+// The distance of two points of the map as the stage's metres have it.
+double StageDistance(const geometry::Similarity3& map_from_stage,
+                     const Eigen::Vector3d& from_in_map,
+                     const Eigen::Vector3d& to_in_map);
+
+// The adjustment by hand with which that distance is so many metres: the stage scaled about its
+// origin. It is relative to the metres of the picks or tags, and so stays right when training
+// again gives the map another unit, as long as these give the same metres again.
+// The points must be apart, metres above 0.
+geometry::Similarity3 ScaledToDistance(const geometry::Similarity3& map_from_picked,
+                                       const geometry::Similarity3& picked_from_stage,
+                                       const Eigen::Vector3d& from_in_map,
+                                       const Eigen::Vector3d& to_in_map,
+                                       double metres);
+
 // Picks, adjustment, nudge, occluders and light of a place. picks are resolved
 // already. Fails where something was not baked.
 // map: for the even light of places without a probe that can be used, and for occluders that
@@ -74,6 +89,12 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
 // read only where occluders were drawn, and missed where the place is not trained. Occluders that
 // are not drawn to their end are not in the way.
 Result<stage::Place> StageObstacles(const ProjectPaths& paths, const PlaceDocument& place);
+
+// Brings an occluder of a place that is staged to what its document says now: where it lies, how
+// large a shape is, and what it does. The meshes of models and of what was drawn stay.
+void StageAnew(const OccluderDocument& occluder,
+               const geometry::Similarity3& map_from_stage,
+               stage::Occluder& staged);
 
 // The light of probes that were baked, turned, brightened and moved as they are now: exact,
 // and at once. Probes that were not baked, or from another file, are not there.

@@ -153,6 +153,28 @@ Result<std::string> ChoosePlace(const ProjectPaths& paths,
   return document.places.front().name;
 }
 
+Result<stage::Pick> PickInImage(const vision::SceneDatabase& map,
+                                const std::string& place,
+                                const std::string& frame,
+                                uint32_t session,
+                                const Eigen::Vector2d& pixel) {
+  const auto image = std::find_if(map.keyframes.begin(), map.keyframes.end(),
+                                  [&](const vision::Keyframe& keyframe) {
+                                    return keyframe.name == frame && keyframe.session == session;
+                                  });
+  if (image == map.keyframes.end()) {
+    return Status::Error(
+        frame, "is no training image of the map of " + place,
+        map.keyframes.empty() ? "train the place" : "they begin with " + map.keyframes[0].name);
+  }
+  if (!map.camera.Contains(pixel)) {
+    return Status::Error(frame, "the pixel lies outside of the image",
+                         "it has " + std::to_string(map.camera.width) + " x " +
+                             std::to_string(map.camera.height) + " pixels");
+  }
+  return stage::Pick{image->frame_index, image->name, pixel, session};
+}
+
 Result<CommandResult> RunNew(const NewOptions& options) {
   const ProjectPaths paths{options.project};
   const std::filesystem::path folder = options.project.lexically_normal();

@@ -124,6 +124,26 @@ Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
   return Finish(paths, place, session.source, std::move(result), options);
 }
 
+Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
+                                            const PlaceDocument& place,
+                                            uint32_t session,
+                                            Progress& progress) {
+  progress.Report("removing a session", 0.0);
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase map, LoadMap(paths, place.name));
+  if (train::NextSession(map) != place.added.size() + 1) {
+    return Status::Error(paths.Scene(place.name).string(),
+                         "has other sessions than the project names", "train the place again");
+  }
+  progress.Report("removing a session", 0.3);
+  LARARIUM_ASSIGN_OR_RETURN(train::RemovedSession removed, train::RemoveSession(map, session));
+  if (progress.Cancelled()) {
+    return Status::Error(place.name, "cancelled");
+  }
+  progress.Report("removing a session", 0.8);
+  LARARIUM_RETURN_IF_ERROR(SaveMap(paths, place, removed.database));
+  return removed;
+}
+
 Status SaveMap(const ProjectPaths& paths,
                const PlaceDocument& place,
                const SceneDatabase& database) {

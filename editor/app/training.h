@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "editor/app/project.h"
+#include "editor/train/session_removal.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
 #include "shared/core/progress.h"
@@ -39,6 +40,13 @@ Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
                                         const TrainingOptions& options,
                                         Progress& progress,
                                         Log& log);
+
+// Takes a further recording of the place, from 1 on, out of its map and writes it, atomically.
+// The document is left as it is (ForgetSession()).
+Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
+                                            const PlaceDocument& place,
+                                            uint32_t session,
+                                            Progress& progress);
 
 // Writes a map as the place's, atomically.
 Status SaveMap(const ProjectPaths& paths,

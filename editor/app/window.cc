@@ -16,6 +16,7 @@
 #include "editor/app/window_content.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/theme.h"
+#include "editor/panels/wrapped_text.h"
 #include "shared/core/memory.h"
 #include "shared/render/window.h"
 
@@ -36,6 +37,10 @@ class Interface {
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+    // What is copied out of a field that wraps has no row breaks.
+    ImGui::GetIO().SetClipboardTextFn = [](void* of, const char* text) {
+      glfwSetClipboardString(static_cast<GLFWwindow*>(of), panels::UnwrapText(text).c_str());
+    };
     ImGui_ImplOpenGL3_Init("#version 330 core");
   }
 

@@ -11,6 +11,7 @@
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
 #include "editor/app/filming.h"
+#include "editor/app/occluder_alignment.h"
 #include "editor/app/player_trial.h"
 #include "editor/app/sounds.h"
 #include "editor/app/subcommands.h"
@@ -468,6 +469,32 @@ void Workspace::LayStageOnFloor() {
   }
 }
 
+void Workspace::SetDistance(uint32_t from, uint32_t to, double metres) {
+  if (place() == nullptr || loaded_.database == nullptr || !(metres > 0.0)) {
+    return;
+  }
+  const Eigen::Vector3d from_in_map = loaded_.database->points[from].cast<double>();
+  const Eigen::Vector3d to_in_map = loaded_.database->points[to].cast<double>();
+  const geometry::Similarity3& now = place()->picked_from_stage;
+  const geometry::Similarity3& map_from_picked = loaded_.picks.map_from_picked;
+  const double said = StageDistance(map_from_picked * now, from_in_map, to_in_map);
+  if (!(said > 0.0)) {
+    return;
+  }
+  const geometry::Similarity3 scaled =
+      ScaledToDistance(map_from_picked, now, from_in_map, to_in_map, metres);
+  if (!(scaled.scale >= kMinStageScale && scaled.scale <= kMaxStageScale)) {
+    Tell(Message::Level::kError, Tr("The stage was left as it is: by that distance it would be "
+                                    "impossibly large or small."));
+    return;
+  }
+  EditPlace(Tr("scale the stage"),
+            [&](PlaceDocument& edited) { edited.picked_from_stage = scaled; });
+  Tell(Message::Level::kInfo,
+       Text(Tr("The stage was scaled: its metres said %.3f m where %.3f m were typed (%+.2f %%)."),
+            said, metres, 100.0 * (said / metres - 1.0)));
+}
+
 void Workspace::ReloadMap() {
   if (unsaved_map_ || tasks_.Running(kKeeping)) {
     return;  // Update() tries again
@@ -481,15 +508,18 @@ void Workspace::ReloadMap() {
   using Database = std::shared_ptr<const vision::SceneDatabase>;
   const auto loaded = std::make_shared<Database>();
   const auto measures = std::make_shared<MapMeasures>();
+  const auto statistics = std::make_shared<train::MapStatistics>();
   const auto work = [=, place = *place()](Progress& progress) {
     progress.Report("reading the map", 0.0);
     LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
     progress.Report("looking for the floor and for tags", 0.5);
     *measures = MeasureMap(place, database);
+    *statistics = train::MeasureStatistics(database);
     *loaded = std::make_shared<const vision::SceneDatabase>(std::move(database));
     return Status();
   };
-  const auto done = [this, loaded, measures, name = place_name_, key = TagsKey(*place()),
+  const auto done = [this, loaded, measures, statistics, name = place_name_,
+                     key = TagsKey(*place()),
                      stamp = FileStamp(file)](const Status& status, bool cancelled) {
     if (!status.ok()) {
       Report(status, cancelled, "");
@@ -497,6 +527,7 @@ void Workspace::ReloadMap() {
       loaded_.database = *loaded;
       scene_stamp_ = stamp;
       ++map_loads_;
+      loaded_.statistics = statistics;
       loaded_.measures = std::move(*measures);
       loaded_.measured = true;
       tags_key_ = key;
@@ -525,11 +556,13 @@ std::string Workspace::PreviewKey() const {
     key["sounds"].push_back({sound.name, sound.built_in ? "" : FileStamp(sound.file)});
   }
   for (const OccluderDocument& occluder : at.occluders) {
-    Json& entry = key["occluders"].emplace_back(Json::array({occluder.name, occluder.file}));
+    // What a shape measures and what else it does changes without opening anew, but for ways.
+    Json& entry = key["occluders"].emplace_back(Json::array(
+        {occluder.name, occluder.file, occluder.shape.has_value(), occluder.blocks_walking}));
     if (occluder.drawn()) {
       // A depth is in metres, the map is not.
       const double scale = loaded_.picks.map_from_picked.scale * at.picked_from_stage.scale;
-      entry.push_back({FormatOccluder(occluder), occluder.depth * scale});
+      entry.push_back({FormatOccluder(occluder)["corners"], occluder.depth * scale});
     }
   }
   for (const ProbeDocument& probe : at.probes) {
@@ -771,8 +804,7 @@ void Workspace::RequestPicture() {
           std::find_if(at.occluders.begin(), at.occluders.end(),
                        [&](const OccluderDocument& o) { return o.name == occluder.name; });
       if (known != at.occluders.end()) {
-        occluder.stage_from_mesh =
-            known->drawn() ? staged->map_from_stage.Inverse() : known->stage_from_mesh;
+        StageAnew(*known, staged->map_from_stage, occluder);
       }
     }
     loaded_.staged = staged;
@@ -1064,6 +1096,68 @@ void Workspace::MeasureCameraTraits() {
       });
 }
 
+void Workspace::RefineOccluder(const std::string& name, double search_m) {
+  const std::shared_ptr<const stage::Place> staged = loaded_.staged;
+  const OccluderDocument* occluder = FindOccluder(place_name_, name);
+  if (occluder == nullptr || loaded_.database == nullptr || staged == nullptr) {
+    return;
+  }
+  const auto solid =
+      static_cast<size_t>(std::find_if(staged->occluders.begin(), staged->occluders.end(),
+                                       [&](const stage::Occluder& o) { return o.name == name; }) -
+                          staged->occluders.begin());
+  if (solid == staged->occluders.size()) {
+    return;
+  }
+  using Outcome = Result<train::RefineReport>;
+  const auto outcome = std::make_shared<Outcome>(Status::Error(name, "was not refined"));
+  const auto work = [=, document = *occluder, map = loaded_.database,
+                     map_from_stage = loaded_.picks.map_from_picked *
+                                      place()->picked_from_stage](Progress& progress) {
+    *outcome = RefineOnMap(document, staged->occluders[solid].mesh, *map, map_from_stage, search_m,
+                           progress);
+    return outcome->status();
+  };
+  const auto done = [this, outcome, name, place = place_name_, start = occluder->stage_from_mesh](
+                        const Status& status, bool cancelled) {
+    const bool found = status.ok() && !cancelled;
+    Report(status, cancelled, found ? name + ": " + RefineText(**outcome, true) : "");
+    if (cancelled) {
+      return;
+    }
+    refinement_ = {place, name, found ? (*outcome)->stage_from_mesh : start, *outcome};
+    const OccluderDocument* now = FindOccluder(place, name);
+    if (found && now != nullptr && now->stage_from_mesh == start) {
+      Edit(Text(Tr("refine %s"), name.c_str()), [&](ProjectDocument& document) {
+        for (OccluderDocument& edited : document.FindPlace(place)->occluders) {
+          if (edited.name == name) {
+            edited.stage_from_mesh = refinement_->stage_from_mesh;
+          }
+        }
+      });
+    }
+  };
+  tasks_.Start(kRefining, work, done);
+}
+
+const OccluderDocument* Workspace::FindOccluder(const std::string& place,
+                                                const std::string& name) const {
+  const PlaceDocument* at = document().FindPlace(place);
+  if (at == nullptr) {
+    return nullptr;
+  }
+  const auto found = std::find_if(at->occluders.begin(), at->occluders.end(),
+                                  [&](const OccluderDocument& o) { return o.name == name; });
+  return found == at->occluders.end() ? nullptr : &*found;
+}
+
+const Workspace::Refinement* Workspace::refinement(const OccluderDocument& occluder) const {
+  const bool applies = refinement_ && refinement_->place == place_name_ &&
+                       refinement_->occluder == occluder.name &&
+                       refinement_->stage_from_mesh == occluder.stage_from_mesh;
+  return applies ? &*refinement_ : nullptr;
+}
+
 void Workspace::SetCameraLook(bool on) {
   place_changed_ |= on != camera_look_;
   camera_look_ = on;
@@ -1159,6 +1253,37 @@ void Workspace::AddSession(const SessionDocument& session) {
           }
         });
       });
+}
+
+void Workspace::RemoveSession(uint32_t session) {
+  if (place() == nullptr || session == 0 || session > place()->added.size()) {
+    return;
+  }
+  const auto removed = std::make_shared<train::RemovedSession>();
+  const auto work = [removed, paths = paths_, place = *place(), session](Progress& progress) {
+    LARARIUM_ASSIGN_OR_RETURN(*removed, RemoveFromMap(paths, place, session, progress));
+    return Status();
+  };
+  const auto done = [this, removed, session, name = place_name_](const Status& status,
+                                                                 bool cancelled) {
+    Report(status, cancelled,
+           Text(Tr("%s: a session was removed, with %d keyframes and %d points."), name.c_str(),
+                static_cast<int>(removed->keyframes), static_cast<int>(removed->points)));
+    if (!status.ok()) {
+      return;
+    }
+    commands_.Rewrite([&](ProjectDocument& document) {
+      if (PlaceDocument* place = document.FindPlace(name)) {
+        ForgetSession(*place, session);
+      }
+    });
+    training_.reset();
+    map_stale_ |= name == place_name_;
+    OnDocumentChanged();
+  };
+  if (!tasks_.Start(kTraining, work, done)) {  // which would write the same map
+    Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
+  }
 }
 
 void Workspace::Bake() {

@@ -29,6 +29,8 @@
 #include "editor/app/show_contents.h"
 #include "editor/app/staging.h"
 #include "editor/app/text.h"
+#include "editor/train/map_statistics.h"
+#include "editor/train/mesh_alignment.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
@@ -45,7 +47,8 @@ struct Message {
 
 // What of the place is loaded. Replaced as a whole.
 struct LoadedPlace {
-  std::shared_ptr<const vision::SceneDatabase> database;  // nullptr: not trained
+  std::shared_ptr<const vision::SceneDatabase> database;   // nullptr: not trained
+  std::shared_ptr<const train::MapStatistics> statistics;  // of the database
   MapMeasures measures;
   bool measured = false;  // measures are of this map and of the tags that the place names
   ResolvedPicks picks;
@@ -71,6 +74,7 @@ class Workspace {
   static constexpr const char* kDryRun = TrLater("Running the drama");
   static constexpr const char* kChecking = TrLater("Checking");
   static constexpr const char* kKeeping = TrLater("Writing the map");
+  static constexpr const char* kRefining = TrLater("Refining on the map");
 
   // Reads the project, and what a crash left unsaved. Borrows log.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
@@ -103,6 +107,9 @@ class Workspace {
   // Makes it one of the map's images, where it is none yet, so that picks in it count. The map's
   // file follows.
   void KeepFrame(const vision::Keyframe& keyframe);
+  // The stage scaled about its origin, so that two points of the map are so many metres apart.
+  // Nothing where they lie in one place or the stage would become impossibly large or small.
+  void SetDistance(uint32_t from, uint32_t to, double metres);
   // Edits of the drama. False, and a message, where the change fails.
   bool EditTimeline(const std::string& name,
                     const std::function<Status(drama::TimelineText&)>& change,
@@ -129,9 +136,25 @@ class Workspace {
   // Merges a further recording of the place at hand into its map; the document
   // names it once that has worked.
   void AddSession(const SessionDocument& session);
+  // Takes a further recording, from 1 on, out of the map of the place at hand. Once that has
+  // worked the document forgets it too, in all that undo and redo could bring back, for the map
+  // will not have it again: to be done only by whoever was asked.
+  void RemoveSession(uint32_t session);
   // Of the last training in this window; nullptr before one, or of another place.
   const train::TrainReport* last_training() const;
   void Bake();
+  // Lays the model of an occluder by the map's points within so many metres of it: an edit, once
+  // that is known, unless it was moved meanwhile. The occluder has to be staged.
+  void RefineOccluder(const std::string& occluder, double search_m);
+  // What that came to last, for an occluder that still lies as it then was laid, or as it lay
+  // where it failed; nullptr otherwise.
+  struct Refinement {
+    std::string place;
+    std::string occluder;
+    geometry::Similarity3 stage_from_mesh;
+    Result<train::RefineReport> report;
+  };
+  const Refinement* refinement(const OccluderDocument& occluder) const;
   // All that is wrong with the project as it is saved, as the subcommand check tells it.
   void Check();
   bool checked() const { return checked_; }
@@ -241,6 +264,9 @@ class Workspace {
  private:
   Workspace(ProjectPaths paths, ProjectDocument document, std::string script, Log& log);
 
+  // nullptr: there is none.
+  const OccluderDocument* FindOccluder(const std::string& place, const std::string& name) const;
+
   void Recover();
   // Undo and redo of the drama's part of a command.
   void ApplyToScript(const drama::TextEdit& edit);
@@ -340,6 +366,7 @@ class Workspace {
   double since_script_ = 0.0;  // seconds since it changed
   bool stage_changed_ = true;  // since the last run
   bool checked_ = false;
+  std::optional<Refinement> refinement_;
   std::shared_ptr<const ExportedShow> exported_;
   std::string export_problem_;
   std::vector<std::string> problems_;

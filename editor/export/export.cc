@@ -51,8 +51,9 @@ Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
     const std::string member =
         folder + "occluder" + std::to_string(entry.occluders.size()) + ".larmesh";
     packing.members.push_back({member, packing.made.back()});
-    entry.occluders.push_back(
-        {occluder.name, member, occluder.stage_from_mesh, occluder.blocks_sound});
+    entry.occluders.push_back({occluder.name, member, occluder.stage_from_mesh,
+                               occluder.blocks_sound, occluder.blocks_walking,
+                               occluder.receives_shadow});
   }
   for (const light::GlossyMap& glossy : content.glossy) {
     entry.glossy.emplace_back();

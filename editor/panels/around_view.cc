@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <utility>
 
+#include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/frame_damage.h"
 #include "editor/panels/gizmo_view.h"
@@ -32,25 +34,11 @@ constexpr glm::u8vec4 kGridColour(62, 67, 77, 255);
 constexpr glm::u8vec4 kFloorColour(110, 170, 150, 28);
 constexpr glm::u8vec4 kLiveColour(217, 107, 73, 255);
 
+constexpr double kFrustumDepth = 0.12;  // metres
+constexpr float kPointPx = 2.5f;        // logical pixels across
+
 glm::u8vec4 Bytes(const ImVec4& c, float alpha = 1.0f) {
   return glm::u8vec4(glm::vec4(c.x, c.y, c.z, alpha) * 255.0f + 0.5f);
-}
-
-// Each point as grey as its first sight in a training image.
-std::vector<uint8_t> PointShades(const vision::SceneDatabase& database) {
-  constexpr uint8_t kUnseen = 128;
-  std::vector<uint8_t> shades(database.points.size(), kUnseen);
-  std::vector<bool> seen(database.points.size(), false);
-  for (const vision::Observation& observation : database.observations) {
-    const cv::Mat& grey = database.keyframes[observation.keyframe].grey;
-    const int x = static_cast<int>(std::lround(observation.x));
-    const int y = static_cast<int>(std::lround(observation.y));
-    if (!seen[observation.point] && x >= 0 && y >= 0 && x < grey.cols && y < grey.rows) {
-      seen[observation.point] = true;
-      shades[observation.point] = grey.at<uint8_t>(y, x);
-    }
-  }
-  return shades;
 }
 
 void AddLine(std::vector<render::OverlayLine>& lines,
@@ -61,22 +49,11 @@ void AddLine(std::vector<render::OverlayLine>& lines,
 }
 
 void AddFrustum(std::vector<render::OverlayLine>& lines,
-                const geometry::CameraModel& camera,
-                const Rigid3& camera_from_world,
-                double depth,
+                const Frustum& frustum,
                 glm::u8vec4 packed) {
-  const Rigid3 world_from_camera = camera_from_world.Inverse();
-  const double half_x = 0.5 * camera.width / camera.fx * depth;
-  const double half_y = 0.5 * camera.height / camera.fy * depth;
-  const Vector3d eye = world_from_camera.translation;
-  const Vector3d corners[] = {{-half_x, -half_y, depth},
-                              {half_x, -half_y, depth},
-                              {half_x, half_y, depth},
-                              {-half_x, half_y, depth}};
   for (int i = 0; i < 4; ++i) {
-    const Vector3d corner = world_from_camera * corners[i];
-    AddLine(lines, eye, corner, packed);
-    AddLine(lines, corner, world_from_camera * corners[(i + 1) % 4], packed);
+    AddLine(lines, frustum.eye, frustum.corners[i], packed);
+    AddLine(lines, frustum.corners[i], frustum.corners[(i + 1) % 4], packed);
   }
 }
 
@@ -105,43 +82,79 @@ AroundView::AroundView(std::unique_ptr<render::Overlay> overlay) : overlay_(std:
 
 AroundView::~AroundView() = default;
 
-void AroundView::UpdateMap(const app::LoadedPlace& loaded) {
+void AroundView::UpdateMap(const app::LoadedPlace& loaded, EditorState& state) {
   if (loaded.database == database_ && loaded.picks.map_from_picked == map_from_picked_) {
     return;
   }
-  framed_ = framed_ && loaded.database == database_;
+  if (loaded.database != database_) {
+    framed_ = false;
+    ChooseNoPoints(state);
+  }
   database_ = loaded.database;
   map_from_picked_ = loaded.picks.map_from_picked;
   points_.clear();
-  cameras_.clear();
-  outdated_ = true;
+  order_.clear();
+  keyframes_.clear();
+  colours_.reset();
   moving_points_.reset();
   if (database_ == nullptr) {
     return;
   }
   const Similarity3 picked_from_map = map_from_picked_.Inverse();
-  const std::vector<uint8_t> shades = PointShades(*database_);
-  for (size_t i = 0; i < shades.size(); ++i) {
-    // Lifted a little, so that dark points stand out from the background.
-    const auto shade = static_cast<uint8_t>(70 + shades[i] * 185 / 255);
-    const Vector3d at = picked_from_map * database_->points[i].cast<double>();
-    points_.push_back({geometry::ToGlm(at), glm::u8vec4(shade, shade, shade, 255)});
+  for (const Eigen::Vector3f& point : database_->points) {
+    order_.push_back(static_cast<uint32_t>(points_.size()));
+    points_.push_back((picked_from_map * point.cast<double>()).cast<float>());
   }
-  std::shuffle(points_.begin(), points_.end(), std::mt19937(1));
-  constexpr double kFrustumDepth = 0.12;  // metres
+  std::shuffle(order_.begin(), order_.end(), std::mt19937(1));
   constexpr size_t kMaxFrusta = 60;
   const size_t step = database_->keyframes.size() / kMaxFrusta + 1;
-  std::optional<Vector3d> previous;
-  for (size_t i = 0; i < database_->keyframes.size(); ++i) {
+  for (uint32_t k = 0; k < database_->keyframes.size(); ++k) {
     const Rigid3 camera_from_picked =
-        geometry::CameraFromB(database_->keyframes[i].camera_from_map, map_from_picked_);
-    const Vector3d center = camera_from_picked.Center();
-    if (previous) {
-      AddLine(cameras_, *previous, center, kPathColour);
+        geometry::CameraFromB(database_->keyframes[k].camera_from_map, map_from_picked_);
+    Camera& camera = keyframes_.emplace_back(Camera{k, camera_from_picked.Center(), {}});
+    if (k % step == 0) {
+      camera.frustum.emplace(database_->camera, camera_from_picked, kFrustumDepth);
     }
-    previous = center;
-    if (i % step == 0) {
-      AddFrustum(cameras_, database_->camera, camera_from_picked, kFrustumDepth, kCameraColour);
+  }
+}
+
+void AroundView::UpdateColours(const app::LoadedPlace& loaded, PointColour colours) {
+  if (colours_ == colours) {
+    return;
+  }
+  colours_ = colours;
+  outdated_ = true;
+  if (uploaded_) {
+    overlay_->RemovePoints(*uploaded_);
+    uploaded_.reset();
+  }
+  cameras_.clear();
+  if (database_ == nullptr) {
+    return;
+  }
+  const std::vector<glm::u8vec4> of_points = ColoursOf(*loaded.statistics, colours);
+  std::vector<render::OverlayPoint> points;
+  points.reserve(order_.size());
+  for (const uint32_t point : order_) {
+    const Eigen::Vector3f& at = points_[point];
+    points.push_back({glm::vec3(at.x(), at.y(), at.z()), of_points[point]});
+  }
+  uploaded_ = overlay_->AddPoints(points);
+  AddCameras(loaded, colours);
+}
+
+// The path of each session and its frusta.
+void AroundView::AddCameras(const app::LoadedPlace& loaded, PointColour colours) {
+  const auto session = [&](size_t k) { return loaded.database->keyframes[k].session; };
+  for (size_t k = 0; k < keyframes_.size(); ++k) {
+    const bool by_session = colours == PointColour::kSessions;
+    if (k > 0 && session(k) == session(k - 1)) {
+      AddLine(cameras_, keyframes_[k - 1].center, keyframes_[k].center,
+              by_session ? Bytes(SessionColour(session(k)), 0.6f) : kPathColour);
+    }
+    if (keyframes_[k].frustum) {
+      AddFrustum(cameras_, *keyframes_[k].frustum,
+                 by_session ? Bytes(SessionColour(session(k))) : kCameraColour);
     }
   }
 }
@@ -262,10 +275,9 @@ Status AroundView::Draw(const app::Workspace& workspace,
     AddStage(scene_.lines, place->picked_from_stage);
     const auto& picture = workspace.picture();
     if (picture != nullptr && picture->camera_from_stage) {
-      AddFrustum(
-          scene_.lines, picture->display,
-          geometry::CameraFromB(*picture->camera_from_stage, place->picked_from_stage.Inverse()),
-          0.35, kLiveColour);
+      const Rigid3 camera_from_world =
+          geometry::CameraFromB(*picture->camera_from_stage, place->picked_from_stage.Inverse());
+      AddFrustum(scene_.lines, Frustum(picture->display, camera_from_world, 0.35), kLiveColour);
     }
     AddFloor(workspace.loaded());
     AddMeshes(workspace, state);
@@ -308,8 +320,9 @@ void AroundView::DrawScene(size_t points) {
   if (scene_.has_place) {
     overlay_->DrawLines(scene_.lines, 1.5f * scene_.pixel);
     overlay_->DrawLines(cameras_, scene_.pixel);
-    if (scene_.points) {
-      overlay_->DrawPoints(std::span(points_).first(points), 2.5f * scene_.pixel);
+    if (scene_.points && uploaded_) {
+      const Status status = overlay_->DrawPoints(*uploaded_, points, kPointPx * scene_.pixel);
+      CHECK(status.ok());  // they are our own
     }
     for (const MeshDraw& mesh : scene_.meshes) {
       const Status status = overlay_->DrawMesh(mesh.mesh, mesh.world_from_mesh, mesh.colour);
@@ -319,13 +332,77 @@ void AroundView::DrawScene(size_t points) {
   overlay_->End();
 }
 
+std::optional<uint32_t> AroundView::KeyframeBelow(const ViewCamera& view,
+                                                  const Eigen::Vector2d& pixel) const {
+  const double kCenterPx = Px(7);
+  const double kLinePx = Px(4);
+  std::optional<uint32_t> below;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Camera& camera : keyframes_) {
+    const std::optional<Eigen::Vector2d> center = view.Project(camera.center);
+    const double depth = (view.camera_from_world * camera.center).z();
+    if (!center || depth >= nearest) {
+      continue;
+    }
+    if ((*center - pixel).norm() < kCenterPx ||
+        (camera.frustum && DistancePx(*camera.frustum, view, pixel) < kLinePx)) {
+      nearest = depth;
+      below = camera.keyframe;
+    }
+  }
+  return below;
+}
+
+void AroundView::Point(app::Workspace& workspace,
+                       EditorState& state,
+                       const ViewCamera& view,
+                       bool hovered,
+                       ImDrawList& draw) {
+  const Eigen::Vector2d pointer = ToEigen(ImGui::GetMousePos());
+  const bool pressed = pressed_.has_value();
+  const bool clicked = pressed && !ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
+                       (pointer - *pressed_).norm() < Px(kClickPx);
+  if (pressed && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    pressed_.reset();
+  }
+  if (database_ == nullptr || !hovered || (pressed && !clicked)) {
+    return;
+  }
+  std::optional<uint32_t> keyframe;
+  if (!state.place.measure && !ImGui::GetIO().KeyShift) {
+    keyframe = KeyframeBelow(view, pointer);
+  }
+  if (keyframe && clicked) {
+    state.keyframe = static_cast<int>(*keyframe);
+    state.view = ViewKind::kPicks;
+  } else if (keyframe) {
+    const vision::Keyframe& shown = database_->keyframes[*keyframe];
+    const Frustum frustum(database_->camera,
+                          geometry::CameraFromB(shown.camera_from_map, map_from_picked_),
+                          kFrustumDepth);
+    for (int i = 0; i < 4; ++i) {
+      const ImU32 packed = Packed(OverPicture().accent);
+      DrawWorldLine(view, frustum.eye, frustum.corners[i], packed, Px(2), draw);
+      DrawWorldLine(view, frustum.corners[i], frustum.corners[(i + 1) % 4], packed, Px(2), draw);
+    }
+    card_.Show(workspace, state, *keyframe);
+  } else if (clicked) {
+    const bool add =
+        ImGui::GetIO().KeyShift || (state.place.measure && state.place.points.size() == 1);
+    const std::optional<uint32_t> point =
+        state.show_points ? PointBelow(points_, view, pointer, Px(kPointPx), Px(8)) : std::nullopt;
+    ChoosePoint(point, add, state.place.points);
+    state.place.metres = 0.0;
+  }
+}
+
 void AroundView::Interact(EditorState& state,
                           bool hovered,
-                          bool gizmo_busy,
+                          bool active,
                           const Eigen::Vector2d& size) {
   const ImGuiIO& io = ImGui::GetIO();
   const Eigen::Vector2d delta = ToEigen(io.MouseDelta);
-  if (ImGui::IsItemActive() && !gizmo_busy) {
+  if (active) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !io.KeyShift) {
       state.orbit.Orbit(delta, size.x());
     } else {
@@ -338,7 +415,8 @@ void AroundView::Interact(EditorState& state,
 }
 
 void AroundView::Show(app::Workspace& workspace, EditorState& state) {
-  UpdateMap(workspace.loaded());
+  UpdateMap(workspace.loaded(), state);
+  UpdateColours(workspace.loaded(), state.place.colours);
   UpdateOccluders(workspace);
   UpdateActors(workspace);
   if (!framed_ && database_ != nullptr) {
@@ -357,6 +435,9 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
                              ImGuiButtonFlags_MouseButtonMiddle);
   const bool hovered = ImGui::IsItemHovered();
   const bool active = ImGui::IsItemActive();
+  if (ImGui::IsItemActivated() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    pressed_ = ToEigen(ImGui::GetMousePos());
+  }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (const Status status = Draw(workspace, state, view, width, height); !status.ok()) {
     draw.AddText(origin, Packed(OverPicture().error), status.message().c_str());
@@ -367,8 +448,14 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   draw.PushClipRect(origin, corner, true);
   DrawCheckPoints(workspace, state, view, draw);
   const bool was_dragging = state.drag.has_value();
-  const bool busy = ShowGizmo(workspace, state, view, hovered, draw) &&
+  const bool picking = ShowModelPoints(workspace, state, view, hovered, draw);
+  const bool busy = ShowGizmo(workspace, state, view, hovered && !picking, draw) &&
                     (state.drag.has_value() || was_dragging || !active);
+  if (busy) {
+    pressed_.reset();
+  }
+  Point(workspace, state, view, hovered && !busy, draw);
+  DrawChosenPoints(workspace, state, view, draw);
   const char* keys = Tr("Drag to orbit, Shift or right drag to pan, wheel to zoom");
   const float wrap = size.x - Px(24);
   const float tall = ImGui::CalcTextSize(keys, nullptr, false, wrap).y;
@@ -376,7 +463,10 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
                ImVec2(origin.x + Px(12), corner.y - Px(10) - tall), Packed(OverPicture().dim), keys,
                nullptr, wrap);
   draw.PopClipRect();
-  Interact(state, hovered, busy, ToEigen(size));
+  Interact(state, hovered, active && !busy, ToEigen(size));
+  const ImVec2 area(static_cast<float>(width), static_cast<float>(height));
+  ShowPlaceTools(workspace, state, origin, area);
+  ShowPointCard(workspace, state, origin, area);
 }
 
 }  // namespace lararium::panels

@@ -2,7 +2,7 @@
 
 // Around the place: the map's points, the cameras that filmed it, the stage, the
 // occluders and the actors, seen from anywhere. The world is the stage that the
-// picks give.
+// picks give. Points and cameras tell of themselves where they are clicked or pointed at.
 
 #include <memory>
 #include <optional>
@@ -11,6 +11,8 @@
 
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
+#include "editor/panels/place_cards.h"
+#include "editor/panels/place_picking.h"
 #include "shared/render/overlay.h"
 #include "shared/render/render_target.h"
 
@@ -29,7 +31,9 @@ class AroundView {
   explicit AroundView(std::unique_ptr<render::Overlay> overlay);
 
   // Brings what is uploaded up to date with what is loaded.
-  void UpdateMap(const app::LoadedPlace& loaded);
+  void UpdateMap(const app::LoadedPlace& loaded, EditorState& state);
+  void UpdateColours(const app::LoadedPlace& loaded, PointColour colours);
+  void AddCameras(const app::LoadedPlace& loaded, PointColour colours);
   void UpdateOccluders(const app::Workspace& workspace);
   void UpdateActors(const app::Workspace& workspace);
 
@@ -45,15 +49,35 @@ class AroundView {
   void DrawScene(size_t points);
   // How many points may be drawn while the view moves, by how long they take here.
   void MeasurePoints();
-  void Interact(EditorState& state, bool hovered, bool gizmo_busy, const Eigen::Vector2d& size);
+  // The keyframe whose centre or frustum lies below the pointer.
+  std::optional<uint32_t> KeyframeBelow(const ViewCamera& view, const Eigen::Vector2d& pixel) const;
+  // Points at keyframes; a click on one, or on a point of the map.
+  void Point(app::Workspace& workspace,
+             EditorState& state,
+             const ViewCamera& view,
+             bool hovered,
+             ImDrawList& draw);
+  void Interact(EditorState& state, bool hovered, bool active, const Eigen::Vector2d& size);
 
   std::unique_ptr<render::Overlay> overlay_;
   std::optional<render::RenderTarget> target_;
 
   std::shared_ptr<const vision::SceneDatabase> database_;
   geometry::Similarity3 map_from_picked_;
-  std::vector<render::OverlayPoint> points_;  // in random order: the first ones stand for all
+  std::vector<Eigen::Vector3f> points_;  // of the map, in the world
+  std::vector<uint32_t> order_;          // in which they are drawn: the first ones stand for all
+  std::optional<PointColour> colours_;   // that are uploaded
+  std::optional<render::PointsHandle> uploaded_;
+  struct Camera {
+    uint32_t keyframe;
+    Eigen::Vector3d center;
+    std::optional<Frustum> frustum;  // drawn for some of them
+  };
+  std::vector<Camera> keyframes_;
   std::vector<render::OverlayLine> cameras_;
+  KeyframeCard card_;
+  // Where a press began that may become a click.
+  std::optional<Eigen::Vector2d> pressed_;
 
   struct MeshDraw {
     render::MeshHandle mesh;

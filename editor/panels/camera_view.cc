@@ -11,6 +11,7 @@
 #include <string>
 
 #include "editor/app/filming.h"
+#include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/pick_view.h"
@@ -428,14 +429,16 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
     draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
     hovered &= !wipe_.Show(state, *picture, rect.origin, rect.size, hovered, draw);
-    if (picture->camera_from_stage && (state.show_stage || state.show_occluders)) {
+    const bool shows_stage = state.show_stage || state.align.picking;
+    if (picture->camera_from_stage && (shows_stage || state.show_occluders)) {
       ghosts_.Show(workspace, state, PictureView(*picture, *workspace.place(), rect), draw);
     }
-    if (picture->camera_from_stage && state.show_stage) {
+    if (picture->camera_from_stage && shows_stage) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
       DrawStage(workspace, view, draw);
       DrawCheckPoints(workspace, state, view, draw);
-      ShowGizmo(workspace, state, view, hovered, draw);
+      const bool picking = ShowModelPoints(workspace, state, view, hovered, draw);
+      ShowGizmo(workspace, state, view, hovered && !picking, draw);
     }
     if (state.show_matches) {
       DrawTrails(*picture, rect, draw);

@@ -18,8 +18,8 @@ namespace lararium::panels {
 namespace {
 
 bool ShowPlainFigure(app::Workspace& workspace, app::CastDocument& member) {
-  bool changed = NumberProperty(workspace, Tr("Height"), member.height, 0.005, app::kMinHeight,
-                                app::kMaxHeight, "%.2f m");
+  bool changed = NumberProperty(workspace, TrIn("person", "Height"), member.height, 0.005,
+                                app::kMinHeight, app::kMaxHeight, "%.2f m");
   changed |= ColourProperty(workspace, Tr("Tunic"), member.tunic);
   return changed;
 }

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "editor/app/document_fields.h"
@@ -18,6 +17,7 @@
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/export_panel.h"
 #include "editor/panels/key_list.h"
+#include "editor/panels/occluder_inspector.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -93,16 +93,18 @@ Result<app::SessionDocument> ChosenRecording(const app::Workspace& workspace,
   return recording;
 }
 
-void TrainDialog(app::Workspace& workspace, EditorState& state) {
+// True: the camera is to be calibrated.
+bool TrainDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
       Tr("Learns the place from a recording: walk sideways around it, slowly, with everything in "
          "view that visitors will see."));
+  bool calibrate = false;
   if (BeginProperties("train")) {
     PropertyLabel(Tr("Place"));
     ImGui::InputText("##place", &fields.place);
-    RecordingFields(workspace.paths().folder, fields,
-                    Tr("estimated; or fx, fy, cx, cy, k1, k2, p1, p2"));
+    calibrate =
+        RecordingFields(workspace.paths().folder, fields, Tr(kFromVideo), Tr(kFromVideoHint));
     EndProperties();
   }
   if (app::IsPlainName(fields.place)) {
@@ -113,21 +115,24 @@ void TrainDialog(app::Workspace& workspace, EditorState& state) {
   }
   if (ImGui::Button(Tr("Film it with a camera instead\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
     state.dialog = Dialog::kFilm;
-    return;
+    return false;
   }
   if (DialogDone(state, Tr("Train"), TrainProblem(workspace, fields))) {
     TrainRecording(workspace, fields);
   }
+  return calibrate;
 }
 
-void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
+// Likewise.
+bool AddSessionDialog(app::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
       Tr("Merges a recording of the place in other light into the map, so that "
          "visitors are located in both. The stage stays where it is."));
+  bool calibrate = false;
   if (BeginProperties("add session")) {
-    RecordingFields(workspace.paths().folder, fields,
-                    Tr("as the map's camera; or fx, fy, cx, cy, k1, k2, p1, p2"));
+    calibrate = RecordingFields(workspace.paths().folder, fields, Tr("as the map's camera"),
+                                Tr("Empty: it was filmed with the camera of the map."));
     EndProperties();
   }
   if (DialogDone(state, Tr("Add"), RecordingProblem(workspace.paths(), fields))) {
@@ -138,6 +143,7 @@ void AddSessionDialog(app::Workspace& workspace, EditorState& state) {
       workspace.Tell(app::Message::Level::kError, recording.message());
     }
   }
+  return calibrate;
 }
 
 template <typename Entry>
@@ -146,46 +152,82 @@ bool Taken(const std::vector<Entry>& entries, const std::string& name) {
                      [&](const Entry& entry) { return entry.name == name; });
 }
 
-// Name and file of a thing to add. True when both are good and Add was chosen.
-bool NameAndFile(app::Workspace& workspace,
-                 EditorState& state,
-                 std::span<const char* const> extensions,
-                 bool file_needed,
-                 const std::function<bool(const std::string&)>& taken) {
-  DialogFields& fields = state.fields;
-  if (BeginProperties("add")) {
-    PropertyLabel(Tr("Name"));
-    ImGui::InputText("##name", &fields.name);
-    PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.paths().folder, extensions);
-    EndProperties();
-  }
-  std::string problem = NameProblem(fields.name);
-  if (problem.empty() && taken(fields.name)) {
-    problem = Tr("That name is taken.");
-  }
-  if (problem.empty() && (file_needed || !fields.file.empty()) &&
-      !Exists(workspace.paths(), fields.file)) {
-    problem = Tr("Choose a file that exists.");
-  }
-  return DialogDone(state, Tr("Add"), problem);
-}
-
 std::string DocumentPath(const app::Workspace& workspace, const std::string& typed) {
   return typed.empty() ? "" : workspace.paths().Shorten(workspace.paths().Resolve(typed));
 }
 
+// "box", "box2" and so on.
+std::string FreeShapeName(const std::vector<app::OccluderDocument>& known,
+                          const app::OccluderShape& shape) {
+  const std::string kind = app::EntryOf(shape.kind).name;
+  std::string name = kind;
+  for (int number = 2; Taken(known, name); ++number) {
+    name = kind + std::to_string(number);
+  }
+  return name;
+}
+
+// Which shape, and how large it is.
+void ShapeFields(app::Workspace& workspace, app::OccluderShape& shape) {
+  std::vector<const char*> kinds;
+  for (const app::ShapeEntry& entry : app::ShapeEntries()) {
+    kinds.push_back(Tr(entry.label));
+  }
+  PropertyLabel(Tr("Shape"));
+  int kind = static_cast<int>(shape.kind);
+  if (Segmented("shape", kinds, kind)) {
+    shape = app::ShapeEntries()[static_cast<size_t>(kind)].usual;
+  }
+  ShapeSizes(workspace, shape);
+}
+
+// A shape, or a model. What nobody named is called by its kind.
 void OccluderDialog(app::Workspace& workspace, EditorState& state) {
-  Hint(
-      Tr("A model of something real, in stage axes and metres where possible: it hides people who "
-         "stand behind it."));
-  const auto taken = [&](const std::string& name) {
-    return workspace.place() != nullptr && Taken(workspace.place()->occluders, name);
-  };
-  if (NameAndFile(workspace, state, kModels, true, taken)) {
-    app::OccluderDocument occluder;
-    occluder.name = state.fields.name;
-    occluder.file = DocumentPath(workspace, state.fields.file);
+  if (workspace.place() == nullptr) {
+    state.dialog = Dialog::kNone;
+    return;
+  }
+  DialogFields& fields = state.fields;
+  Hint(Tr("It is real, and hides who is behind it."));
+  const char* const ways[] = {Tr("Shape"), Tr("Model")};
+  int way = fields.own_model ? 1 : 0;
+  if (Segmented("way", ways, way)) {
+    fields.own_model = way == 1;
+  }
+  ImGui::Dummy(ImVec2(0, Px(2)));  // which such a row does not leave below it
+  const std::vector<app::OccluderDocument>& known = workspace.place()->occluders;
+  const std::string usual_name = fields.own_model ? "" : FreeShapeName(known, fields.shape);
+  if (BeginProperties("occluder")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
+    if (fields.own_model) {
+      PropertyLabel(Tr("File"));
+      PathField("file", fields.file, workspace.paths().folder, kModels);
+    } else {
+      ShapeFields(workspace, fields.shape);
+    }
+    EndProperties();
+  }
+  Hint(fields.own_model ? Tr("In stage axes and metres where possible.")
+                        : Tr("It is put on the stage's floor, where the camera looks."));
+  app::OccluderDocument occluder;
+  occluder.name = fields.name.empty() ? usual_name : fields.name;
+  std::string problem = NameProblem(occluder.name);
+  if (problem.empty() && Taken(known, occluder.name)) {
+    problem = Tr("That name is taken.");
+  }
+  if (problem.empty() && fields.own_model && !Exists(workspace.paths(), fields.file)) {
+    problem = Tr("Choose a file that exists.");
+  }
+  if (DialogDone(state, Tr("Add"), problem)) {
+    if (fields.own_model) {
+      occluder.file = DocumentPath(workspace, fields.file);
+    } else {
+      occluder.shape = fields.shape;
+      const auto& picture = workspace.picture();
+      occluder.stage_from_mesh.translation =
+          app::FloorBefore(picture != nullptr ? picture->camera_from_stage : std::nullopt);
+    }
     workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
                         [&](app::PlaceDocument& place) { place.occluders.push_back(occluder); });
     state.selection = {Selection::Kind::kOccluder, occluder.name};
@@ -373,22 +415,29 @@ void LiveCameraDialog(app::Workspace& workspace, EditorState& state) {
   }
 }
 
+// One that knows no camera.
+template <void (*show)(app::Workspace&, EditorState&)>
+bool Plain(app::Workspace& workspace, EditorState& state) {
+  show(workspace, state);
+  return false;
+}
+
 struct DialogEntry {
   Dialog dialog;
   const char* title;
-  void (*show)(app::Workspace&, EditorState&);
+  bool (*show)(app::Workspace&, EditorState&);
 };
 
 constexpr DialogEntry kDialogs[] = {
     {Dialog::kTrain, TrLater("Train a place"), TrainDialog},
     {Dialog::kAddSession, TrLater("Add a session"), AddSessionDialog},
-    {Dialog::kExport, TrLater("Export the show"), ExportDialog},
-    {Dialog::kOccluder, TrLater("Add an occluder"), OccluderDialog},
-    {Dialog::kProbe, TrLater("Light probe"), ProbeDialog},
-    {Dialog::kCast, TrLater("Add a person"), CastDialog},
-    {Dialog::kObject, TrLater("Add an object"), ObjectDialog},
-    {Dialog::kCheckPoint, TrLater("Add a check point"), CheckPointDialog},
-    {Dialog::kLiveCamera, TrLater("Live camera"), LiveCameraDialog}};
+    {Dialog::kExport, TrLater("Export the show"), Plain<ExportDialog>},
+    {Dialog::kOccluder, TrLater("Add an occluder"), Plain<OccluderDialog>},
+    {Dialog::kProbe, TrLater("Light probe"), Plain<ProbeDialog>},
+    {Dialog::kCast, TrLater("Add a person"), Plain<CastDialog>},
+    {Dialog::kObject, TrLater("Add an object"), Plain<ObjectDialog>},
+    {Dialog::kCheckPoint, TrLater("Add a check point"), Plain<CheckPointDialog>},
+    {Dialog::kLiveCamera, TrLater("Live camera"), Plain<LiveCameraDialog>}};
 
 }  // namespace
 
@@ -426,9 +475,10 @@ std::string RecordingProblem(const app::ProjectPaths& paths, const DialogFields&
   return "";
 }
 
-void RecordingFields(const std::filesystem::path& folder,
+bool RecordingFields(const std::filesystem::path& folder,
                      DialogFields& fields,
-                     const char* no_intrinsics) {
+                     const char* no_intrinsics,
+                     const char* no_intrinsics_hint) {
   PropertyLabel(Tr("Recording"));
   const char* const kinds[] = {Tr("Video"), Tr("Folder of images")};
   int kind = fields.images ? 1 : 0;
@@ -438,7 +488,21 @@ void RecordingFields(const std::filesystem::path& folder,
   PropertyLabel(fields.images ? Tr("Folder") : Tr("File"));
   PathField("file", fields.file, folder, fields.images ? std::span<const char* const>() : kVideos);
   PropertyLabel(Tr("Intrinsics"));
+  const char* const calibrate = Tr("Calibrate\xe2\x80\xa6");
+  const float button = WidestButton(std::array{calibrate}, 0.0f);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button -
+                          ImGui::GetStyle().ItemSpacing.x);
   ImGui::InputTextWithHint("##intrinsics", no_intrinsics, &fields.intrinsics);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s\n%s", Tr("fx, fy, cx, cy, k1, k2, p1, p2 in pixels of the recording."),
+                      no_intrinsics_hint);
+  }
+  ImGui::SameLine();
+  const bool wanted = ImGui::Button(calibrate, ImVec2(button, 0));
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", Tr("Measures them, and their errors, with a printed chessboard."));
+  }
+  return wanted;
 }
 
 void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
@@ -467,7 +531,7 @@ void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
   workspace.Train();
 }
 
-void ShowDialogs(app::Workspace& workspace, EditorState& state) {
+bool ShowDialogs(app::Workspace& workspace, EditorState& state) {
   if (state.dialog == Dialog::kKeys && !ShowKeyList(state.keys)) {
     state.dialog = Dialog::kNone;
   }
@@ -476,15 +540,17 @@ void ShowDialogs(app::Workspace& workspace, EditorState& state) {
       continue;
     }
     bool open = true;
+    bool calibrate = false;
     ShowModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
-      entry.show(workspace, state);
-      open = state.dialog == entry.dialog;
+      calibrate = entry.show(workspace, state);
+      open = state.dialog == entry.dialog && !calibrate;
     });
-    if (!open && state.dialog == entry.dialog) {  // one may lead on to another
+    if (!open && !calibrate && state.dialog == entry.dialog) {  // one may lead on to another
       state.dialog = Dialog::kNone;
     }
-    return;
+    return calibrate;
   }
+  return false;
 }
 
 }  // namespace lararium::panels

@@ -10,6 +10,7 @@
 
 #include "editor/app/cast_pictures.h"
 #include "editor/app/check_points.h"
+#include "editor/app/occluder_alignment.h"
 #include "editor/app/onion_skin.h"
 #include "editor/app/project.h"
 #include "editor/app/settings.h"
@@ -18,7 +19,10 @@
 #include "editor/panels/gizmo.h"
 #include "editor/panels/keys.h"
 #include "editor/panels/picture_textures.h"
+#include "editor/panels/point_colours.h"
 #include "editor/panels/view_camera.h"
+#include "shared/stage/place.h"
+#include "shared/vision/occluders.h"
 
 namespace lararium::panels {
 
@@ -68,6 +72,8 @@ struct DialogFields {
   std::string preset;        // of a person; empty: none
   int model = 0;             // of the built-in objects
   bool images = false;       // the recording is a folder of images
+  bool own_model = false;    // of an occluder: a file instead of a shape
+  app::OccluderShape shape;  // of an occluder
   // of an export
   std::string key;                            // that signs it, a file; empty: none does
   int points = app::MapBudget().max_points;   // of each map at most
@@ -93,6 +99,22 @@ struct CheckView {
   app::CheckReport report;
 };
 
+// How the model of an occluder is aligned.
+struct AlignView {
+  std::string occluder;        // that the rest is of
+  bool picking = false;        // the next click in a view takes a point of the model
+  std::optional<size_t> pair;  // whose point is clicked in the training images
+  double search_m = train::RefineOptions().search_m;
+  std::shared_ptr<const vision::OccluderTree> tree;  // of the model, as staged here:
+  std::shared_ptr<const stage::Place> tree_of;
+  // The pairs as they were worked out last, and from what.
+  std::shared_ptr<const app::ProjectDocument> document;
+  std::shared_ptr<const vision::SceneDatabase> database;
+  std::string place;
+  geometry::Similarity3 map_from_picked;
+  app::AlignmentReport report;
+};
+
 // How the light of a probe is looked at and matched.
 struct LightView {
   enum class Picking { kNothing, kGrey, kOnProbe, kOnStage };
@@ -109,6 +131,15 @@ struct LightView {
   std::optional<bake::DirectionMatch> direction_match;
   std::string problem;                        // of the last pick; empty: none
   std::optional<glm::vec3> dragged_in_probe;  // what a drag holds on to
+};
+
+// How the view around the place shows the map, and what of it is chosen.
+struct PlaceView {
+  PointColour colours = PointColour::kPicture;
+  bool measure = false;          // a click adds a second point to the first
+  bool snap = false;             // as if Control were held, in all views
+  std::vector<uint32_t> points;  // of the map: none, one, or the two ends of what is measured
+  double metres = 0.0;           // typed, of the distance of the two; 0: nothing yet
 };
 
 // What lies below the views.
@@ -140,7 +171,9 @@ struct EditorState {
   int anchor = 0;
   int keyframe = 0;
 
+  PlaceView place;
   CheckView check;
+  AlignView align;
   LightView light;
   CastView cast;
   std::shared_ptr<const app::CastPortrait> portrait;  // the one shown in this frame

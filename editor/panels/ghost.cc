@@ -40,7 +40,19 @@ Vector3d TwiceArea(const std::vector<Vector3d>& corners, const std::array<uint32
   return (corners[face[1]] - corners[face[0]]).cross(corners[face[2]] - corners[face[0]]);
 }
 
-// Edges of one face only, and those whose faces differ in direction, however they are wound.
+// Where a face goes on from its edge at two of its corners: across the edge, within the face.
+Vector3d AcrossEdge(const std::vector<Vector3d>& corners,
+                    const std::array<uint32_t, 3>& face,
+                    uint32_t from,
+                    uint32_t to) {
+  const uint32_t apex = face[0] ^ face[1] ^ face[2] ^ from ^ to;  // the third one
+  const Vector3d along = (corners[to] - corners[from]).normalized();
+  const Vector3d to_apex = corners[apex] - corners[from];
+  return (to_apex - along.dot(to_apex) * along).normalized();
+}
+
+// Edges beyond which no face goes on, as of a single one or of two that lie on each other, and
+// those whose faces differ in direction, however they are wound.
 void FindEdges(Ghost& ghost) {
   std::map<std::pair<uint32_t, uint32_t>, std::vector<size_t>> faces_of;
   for (size_t i = 0; i < ghost.faces.size(); ++i) {
@@ -50,12 +62,18 @@ void FindEdges(Ghost& ghost) {
     }
   }
   for (const auto& [edge, faces] : faces_of) {
-    const Vector3d first = TwiceArea(ghost.corners, ghost.faces[faces.front()]).normalized();
-    const bool bends = std::any_of(faces.begin() + 1, faces.end(), [&](size_t face) {
-      const Vector3d other = TwiceArea(ghost.corners, ghost.faces[face]).normalized();
-      return std::abs(first.dot(other)) < kBend;
-    });
-    if (faces.size() == 1 || bends) {
+    const auto across = [&](size_t face) {
+      return AcrossEdge(ghost.corners, ghost.faces[face], edge.first, edge.second);
+    };
+    const Vector3d first = across(faces.front());
+    bool bends = false;
+    bool goes_on = false;
+    for (size_t i = 1; i < faces.size(); ++i) {
+      const double cosine = first.dot(across(faces[i]));
+      bends |= std::abs(cosine) < kBend;
+      goes_on |= cosine <= -kBend;
+    }
+    if (bends || !goes_on) {
       ghost.edges.push_back({edge.first, edge.second});
     }
   }

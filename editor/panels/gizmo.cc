@@ -25,13 +25,6 @@ bool IsArrow(GizmoHandle handle) {
          handle == GizmoHandle::kMoveZ;
 }
 
-double DistanceToSegment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
-  const Vector2d along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0.0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (point - (a + t * along)).norm();
-}
-
 // Of a convex outline in either order.
 bool Inside(const std::vector<Vector2d>& corners, const Vector2d& point) {
   bool any_left = false;
@@ -63,6 +56,13 @@ double DistanceToOutline(GizmoHandle handle,
 }
 
 }  // namespace
+
+double DistanceToSegment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
+  const Vector2d along = b - a;
+  const double length = along.squaredNorm();
+  const double t = length > 0.0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (point - (a + t * along)).norm();
+}
 
 int AxisOf(GizmoHandle handle) {
   switch (handle) {
@@ -218,20 +218,57 @@ std::optional<Vector3d> GizmoDrag::Parameter(const ViewCamera& view, const Vecto
   return hit ? std::optional<Vector3d>(*hit - origin) : std::nullopt;
 }
 
-geometry::Similarity3 GizmoDrag::Update(const ViewCamera& view, const Vector2d& pixel) {
+std::optional<Vector3d> GizmoDrag::WayTo(const GizmoSnap::Plane& plane) const {
+  constexpr double kSteep = 0.5;  // sine of the angle with the plane
+  const Vector3d axis = start_.rotation * Vector3d::Unit(AxisOf(handle_));
+  const double along = plane.normal.dot(axis);
+  const Vector3d way = IsArrow(handle_) ? Vector3d(along * axis) : plane.normal - along * axis;
+  return way.norm() > kSteep ? std::optional<Vector3d>(way.normalized()) : std::nullopt;
+}
+
+Vector3d GizmoDrag::SnappedMove(const Vector3d& move, const GizmoSnap& snap) const {
+  Vector3d snapped = move;
+  if (snap.move > 0.0) {
+    const Vector3d in_axes = start_.rotation.conjugate() * move;
+    snapped = start_.rotation * (snap.move * (in_axes / snap.move).array().round().matrix());
+  }
+  if (!snap.floor) {
+    return snapped;
+  }
+  const GizmoSnap::Plane& floor = *snap.floor;
+  const auto height = [&](const Vector3d& moved) {
+    return floor.normal.dot(start_.translation + moved - floor.point);
+  };
+  const std::optional<Vector3d> way = WayTo(floor);
+  if (way && std::abs(height(move)) < floor.reach) {
+    snapped -= height(snapped) / way->dot(floor.normal) * *way;
+  }
+  return snapped;
+}
+
+geometry::Similarity3 GizmoDrag::Update(const ViewCamera& view,
+                                        const Vector2d& pixel,
+                                        const GizmoSnap& snap) {
   const std::optional<Vector3d> parameter = Parameter(view, pixel);
   if (!parameter) {
     return last_;
   }
   geometry::Similarity3 result = start_;
   if (handle_ == GizmoHandle::kScale) {
-    result.scale = start_.scale * parameter->x() / start_parameter_.x();
+    double factor = parameter->x() / start_parameter_.x();
+    if (snap.scale > 0.0) {
+      factor = snap.scale * std::max(std::round(factor / snap.scale), 1.0);
+    }
+    result.scale = start_.scale * factor;
   } else if (IsArrow(handle_) || IsPlane(handle_)) {
-    result.translation = start_.translation + *parameter - start_parameter_;
+    result.translation = start_.translation + SnappedMove(*parameter - start_parameter_, snap);
   } else {
     const Vector3d axis = start_.rotation * Vector3d::Unit(AxisOf(handle_));
-    const double angle =
+    double angle =
         std::atan2(axis.dot(start_parameter_.cross(*parameter)), start_parameter_.dot(*parameter));
+    if (snap.turn > 0.0) {
+      angle = snap.turn * std::round(angle / snap.turn);
+    }
     result.rotation = (Eigen::AngleAxisd(angle, axis) * start_.rotation).normalized();
   }
   last_ = result;

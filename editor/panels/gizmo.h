@@ -30,6 +30,10 @@ enum class GizmoHandle {
 // The axis 0..2 that a handle moves along, turns about, or (planes) stands across.
 int AxisOf(GizmoHandle handle);
 
+double DistanceToSegment(const Eigen::Vector2d& point,
+                         const Eigen::Vector2d& a,
+                         const Eigen::Vector2d& b);
+
 // Signed length along a unit axis through origin of its point nearest to the
 // ray; nullopt where the ray is parallel to the axis or the point lies behind.
 std::optional<double> NearestOnAxis(const Ray& ray,
@@ -69,6 +73,21 @@ std::optional<GizmoHandle> PickHandle(const GizmoLayout& layout,
                                       const ViewCamera& view,
                                       const Eigen::Vector2d& pixel);
 
+// The steps of a drag from where it began. World units of a thing whose axes are turned but not
+// scaled; 0: no steps.
+struct GizmoSnap {
+  double move = 0.0;   // along each axis that a handle moves
+  double turn = 0.0;   // radians
+  double scale = 0.0;  // share of the scale at the beginning
+  // Moves that lead up or down stop where the thing's origin meets this plane.
+  struct Plane {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitY();  // unit
+    double reach = 0.0;                                 // how near it has to be
+  };
+  std::optional<Plane> floor;
+};
+
 // One drag of a handle. Each position of the pointer gives the thing's transform
 // anew from where the drag began, so that nothing drifts.
 class GizmoDrag {
@@ -81,7 +100,9 @@ class GizmoDrag {
 
   // world_from_thing with the pointer at pixel; the last one that made sense
   // where the ray misses.
-  geometry::Similarity3 Update(const ViewCamera& view, const Eigen::Vector2d& pixel);
+  geometry::Similarity3 Update(const ViewCamera& view,
+                               const Eigen::Vector2d& pixel,
+                               const GizmoSnap& snap = {});
 
   GizmoHandle handle() const { return handle_; }
 
@@ -92,6 +113,10 @@ class GizmoDrag {
   // Parameter of the handle below a pixel: a length, an angle, a point.
   std::optional<Eigen::Vector3d> Parameter(const ViewCamera& view,
                                            const Eigen::Vector2d& pixel) const;
+  Eigen::Vector3d SnappedMove(const Eigen::Vector3d& move, const GizmoSnap& snap) const;
+  // The direction of moves of this handle that leads to the plane most steeply; nullopt where
+  // they go along it rather than to it.
+  std::optional<Eigen::Vector3d> WayTo(const GizmoSnap::Plane& plane) const;
 
   GizmoHandle handle_;
   geometry::Similarity3 start_;

@@ -1,6 +1,7 @@
 #include "editor/panels/gizmo_view.h"
 
 #include <algorithm>
+#include <numbers>
 #include <vector>
 
 #include "editor/panels/text.h"
@@ -118,6 +119,36 @@ void MoveSelected(app::Workspace& workspace,
   }
 }
 
+namespace {
+
+// Ctrl while dragging, or the switch in the view around the place.
+GizmoSnap SnapOf(const app::Workspace& workspace,
+                 const EditorState& state,
+                 const ViewCamera& view,
+                 const Vector3d& origin) {
+  if (!state.place.snap && !ImGui::GetIO().KeyCtrl) {
+    return {};
+  }
+  constexpr double kStep = 0.05;      // metres of the stage
+  constexpr double kFineStep = 0.01;  // with Shift
+  GizmoSnap snap;
+  snap.move =
+      (ImGui::GetIO().KeyShift ? kFineStep : kStep) * workspace.place()->picked_from_stage.scale;
+  snap.turn = 5.0 / 180.0 * std::numbers::pi;
+  snap.scale = 0.05;
+  const app::LoadedPlace& loaded = workspace.loaded();
+  if (loaded.measures.floor) {
+    constexpr double kReachPx = 8.0;
+    const Similarity3 world_from_map = loaded.picks.map_from_picked.Inverse();
+    snap.floor = {world_from_map * loaded.measures.floor->center,
+                  world_from_map.rotation * loaded.measures.floor->normal,
+                  Px(kReachPx) * view.UnitsPerPixel(origin)};
+  }
+  return snap;
+}
+
+}  // namespace
+
 bool ShowGizmo(app::Workspace& workspace,
                EditorState& state,
                const ViewCamera& view,
@@ -141,7 +172,8 @@ bool ShowGizmo(app::Workspace& workspace,
   }
   if (state.drag && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     if (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f) {
-      MoveSelected(workspace, state.selection, state.drag->Update(view, pointer), "gizmo");
+      const GizmoSnap snap = SnapOf(workspace, state, view, transform->translation);
+      MoveSelected(workspace, state.selection, state.drag->Update(view, pointer, snap), "gizmo");
     }
   } else if (state.drag) {
     state.drag.reset();

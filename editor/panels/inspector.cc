@@ -4,25 +4,27 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <numbers>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "editor/app/drawn_occluder.h"
+#include "editor/app/occluder_alignment.h"
 #include "editor/panels/cast_inspector.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/light_panel.h"
 #include "editor/panels/object_inspector.h"
+#include "editor/panels/occluder_inspector.h"
 #include "editor/panels/pick_view.h"
+#include "editor/panels/place_cards.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/trackball_view.h"
 #include "editor/panels/widgets.h"
+#include "editor/panels/wrapped_field.h"
 
 namespace lararium::panels {
 
@@ -31,16 +33,6 @@ namespace {
 using geometry::Similarity3;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kMinScale = 1e-4;
-constexpr double kMaxScale = 1e4;
-
-bool TransformProperties(app::Workspace& workspace, Similarity3& transform) {
-  bool changed = VectorProperty(workspace, Tr("Position"), transform.translation, 0.005, "%.3f");
-  changed |= RotationProperty(workspace, Tr("Rotation"), transform.rotation);
-  changed |=
-      NumberProperty(workspace, Tr("Scale"), transform.scale, 0.005, kMinScale, kMaxScale, "%.4f");
-  return changed;
-}
 
 void ShowProject(app::Workspace& workspace) {
   Heading(Tr("Project"));
@@ -58,7 +50,7 @@ void ShowProject(app::Workspace& workspace) {
   }
   std::string credits = workspace.document().credits;
   PropertyLabel(Tr("Credits"));
-  if (ImGui::InputTextMultiline("##credits", &credits, ImVec2(-FLT_MIN, Px(90)))) {
+  if (WrappedField("credits", credits, 4, 16)) {
     workspace.Edit(
         Tr("credits"), [&](app::ProjectDocument& document) { document.credits = credits; },
         "credits");
@@ -74,14 +66,6 @@ std::string SourceText(const app::SourceDocument& source) {
   return source.empty() ? Tr("none") : source.path;
 }
 
-size_t CountSessions(const vision::SceneDatabase& database) {
-  std::set<uint32_t> sessions;
-  for (const vision::Keyframe& keyframe : database.keyframes) {
-    sessions.insert(keyframe.session);
-  }
-  return sessions.size();
-}
-
 void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& database) {
   const geometry::CameraModel& camera = database.camera;
   const train::TrainReport* training = workspace.last_training();
@@ -91,7 +75,6 @@ void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& datab
   }
   PropertyText(Tr("Keyframes"), std::to_string(database.keyframes.size()));
   PropertyText(Tr("Points"), std::to_string(database.points.size()));
-  PropertyText(Tr("Sessions"), std::to_string(CountSessions(database)));
   PropertyText(Tr("Error"), Text("%.3f px", database.mean_reprojection_error_px));
   PropertyText(Tr("Image"), Text("%d x %d", camera.width, camera.height));
   std::string focal = Text("%.1f, %.1f px", camera.fx, camera.fy);
@@ -99,6 +82,10 @@ void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& datab
     focal = Text("%.1f \xc2\xb1 %.1f px", camera.fx, training->focal_deviation_px);
   }
   PropertyText(Tr("Focal"), focal);
+  if (training != nullptr && training->intrinsics_estimated && ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s",
+                      Tr("Estimated from the video itself; \xc2\xb1 is a standard deviation."));
+  }
   PropertyText(Tr("Centre"), Text("%.1f, %.1f px", camera.cx, camera.cy));
   PropertyText(Tr("Distortion"), Text("%.4f, %.4f", camera.k1, camera.k2));
 }
@@ -135,6 +122,9 @@ void ShowScale(app::Workspace& workspace, const app::PlaceDocument& place) {
       PropertyText(Tr("for each px"), Text("\xc2\xb1 %.2f cm (%.2f %%)",
                                            100.0 * solution.length_spread * place.picks.length_m,
                                            100.0 * solution.length_spread));
+    }
+    if (place.picked_from_stage.scale != 1.0) {
+      PropertyText(Tr("By hand"), Text("\xc3\x97 %.4f", place.picked_from_stage.scale));
     }
     if (place.tags) {
       PropertyLabel(Tr("Family"));
@@ -213,7 +203,7 @@ void TakeOverOccluders(app::Workspace& workspace, const app::PlaceDocument& from
           const bool taken = std::any_of(place.occluders.begin(), place.occluders.end(),
                                          [&](const auto& o) { return o.name == occluder.name; });
           if (!occluder.drawn() && !taken) {
-            place.occluders.push_back(occluder);
+            place.occluders.push_back(app::WithoutPicks(occluder));
           }
         }
       });
@@ -240,14 +230,58 @@ void ShowOtherPlaces(app::Workspace& workspace, const app::PlaceDocument& place)
   Hint(Tr("Its files stay on the disk, and undo brings it back."));
 }
 
+// Asks first: the map is written without it, which nothing brings back.
+void RemoveSessionButton(app::Workspace& workspace, uint32_t session, const std::string& name) {
+  ImGui::PushID(static_cast<int>(session));
+  ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kTraining));
+  if (ImGui::Button(Tr("Remove\xe2\x80\xa6"))) {
+    ImGui::OpenPopup("remove");
+  }
+  ImGui::EndDisabled();
+  ImGui::SetNextWindowSize(ImVec2(Px(320), 0));
+  if (ImGui::BeginPopup("remove")) {
+    Heading(Text(Tr("Remove %s from the map?"), name.c_str()).c_str());
+    Hint(
+        Tr("Its keyframes go, with the points that too few others see and what was picked in its "
+           "images. Undo does not bring them back: adding the recording again does."));
+    if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+      workspace.RemoveSession(session);
+      ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+  }
+  ImGui::PopID();
+}
+
+// The recordings of which the map is made, each with what it gave.
+void ShowSessions(app::Workspace& workspace,
+                  const app::PlaceDocument& place,
+                  const train::MapStatistics& statistics) {
+  Heading(Tr("Sessions"));
+  for (uint32_t session = 0; session <= place.added.size(); ++session) {
+    const std::string name = SessionName(place, session);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(Elided(name, ImGui::GetContentRegionAvail().x).c_str());
+    if (ImGui::IsItemHovered()) {
+      const app::SourceDocument& source =
+          session == 0 ? place.training : place.added[session - 1].source;
+      ImGui::SetTooltip("%s", SourceText(source).c_str());
+    }
+    ImGui::AlignTextToFramePadding();
+    DimText(Text(Tr("%u keyframes, %u points"), statistics.session_keyframes[session],
+                 statistics.session_points[session]));
+    if (session > 0) {
+      SameLineIfFits(std::array{Tr("Remove\xe2\x80\xa6")});
+      RemoveSessionButton(workspace, session, name);
+    }
+  }
+}
+
 void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
   Heading(place.name.c_str());
   const auto database = workspace.loaded().database;
   if (BeginProperties("place")) {
     PropertyText(TrIn("recording", "Training"), SourceText(place.training));
-    for (const app::SessionDocument& session : place.added) {
-      PropertyText(Tr("Added"), SourceText(session.source));
-    }
     PropertyText(Tr("Preview"), place.preview.empty() ? Tr("the training") : place.preview.path);
     if (database != nullptr) {
       ShowMap(workspace, *database);
@@ -257,6 +291,7 @@ void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
     EndProperties();
   }
   if (database != nullptr) {
+    ShowSessions(workspace, place, *workspace.loaded().statistics);
     ShowScale(workspace, place);
     ShowFloor(workspace, place);
   }
@@ -403,123 +438,6 @@ void ShowNudge(app::Workspace& workspace, const app::PlaceDocument& place) {
   if (ImGui::Button(Tr("Back to zero"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Tr("reset the nudge"),
                         [](app::PlaceDocument& p) { p.camera_nudge.setZero(); });
-  }
-}
-
-void EditOccluder(app::Workspace& workspace,
-                  const std::string& command,
-                  const std::string& name,
-                  const std::function<void(app::OccluderDocument&)>& change,
-                  std::string_view gesture = {}) {
-  workspace.EditPlace(
-      command,
-      [&](app::PlaceDocument& place) {
-        for (app::OccluderDocument& occluder : place.occluders) {
-          if (occluder.name == name) {
-            change(occluder);
-          }
-        }
-      },
-      gesture);
-}
-
-void ShowOccluderModel(app::Workspace& workspace,
-                       const EditorState& state,
-                       const app::OccluderDocument& occluder) {
-  Similarity3 transform = occluder.stage_from_mesh;
-  bool changed = false;
-  if (BeginProperties("occluder")) {
-    PropertyText(Tr("File"), occluder.file);
-    changed = TransformProperties(workspace, transform);
-    EndProperties();
-  }
-  if (changed) {
-    MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
-                 "inspector occluder");
-  }
-}
-
-// Corner, number of picks, residual.
-void ShowCornerTable(const app::OccluderDocument& occluder,
-                     const std::vector<stage::AnchorReport>& reports) {
-  if (!ImGui::BeginTable("corners", 3, ImGuiTableFlags_SizingStretchProp)) {
-    return;
-  }
-  ImGui::TableSetupColumn(Tr("Corner"), ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn(Tr("Images"), ImGuiTableColumnFlags_WidthFixed, Px(64));
-  ImGui::TableSetupColumn(Tr("Error"), ImGuiTableColumnFlags_WidthFixed, Px(76));
-  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
-  ImGui::TableHeadersRow();
-  ImGui::PopStyleColor();
-  for (size_t i = 0; i < occluder.corners.size(); ++i) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::Text("%zu", i + 1);
-    ImGui::TableNextColumn();
-    ImGui::Text("%zu", occluder.corners[i].picks.size());
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(i < reports.size() ? Text("%.2f px", reports[i].error_px).c_str() : "-");
-  }
-  ImGui::EndTable();
-}
-
-// Of an occluder that was drawn on training images.
-void ShowCorners(app::Workspace& workspace,
-                 EditorState& state,
-                 const app::OccluderDocument& occluder) {
-  const double units = workspace.loaded().picks.map_from_picked.scale *
-                       workspace.place()->picked_from_stage.scale;  // of the map in a metre
-  if (workspace.loaded().database != nullptr) {
-    const auto drawn = app::DrawOccluder(occluder, *workspace.loaded().database, units);
-    if (BeginProperties("drawn")) {
-      double depth = occluder.depth;
-      if (NumberProperty(workspace, Tr("Depth"), depth, 0.01, 0.0, app::kMaxDepth, "%.2f m")) {
-        EditOccluder(
-            workspace, Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
-            [&](app::OccluderDocument& edited) { edited.depth = depth; }, "occluder depth");
-      }
-      if (drawn.ok()) {
-        PropertyText(Tr("Error"), Text("%.2f px", drawn->error_px));
-        PropertyText(Tr("Uneven by"), Text("%.1f cm", 100.0 * drawn->unevenness / units));
-      }
-      EndProperties();
-    }
-    Hint(Tr("How far it goes on behind the face that you drew; 0: the face alone."));
-    ShowCornerTable(occluder, drawn.ok() ? drawn->corners : std::vector<stage::AnchorReport>());
-    if (!drawn.ok()) {
-      ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
-      ImGui::TextWrapped("%s", drawn.message().c_str());
-      ImGui::PopStyleColor();
-    }
-  }
-  if (state.view != ViewKind::kPicks &&
-      ImGui::Button(Tr("Draw on the training images"), ImVec2(-FLT_MIN, 0))) {
-    state.view = ViewKind::kPicks;
-  }
-  ImGui::BeginDisabled(occluder.corners.empty());
-  if (ImGui::Button(Tr("Remove the last corner"), ImVec2(-FLT_MIN, 0))) {
-    EditOccluder(workspace, Tr("remove a corner"), occluder.name,
-                 [](app::OccluderDocument& edited) { edited.corners.pop_back(); });
-  }
-  ImGui::EndDisabled();
-}
-
-void ShowOccluder(app::Workspace& workspace,
-                  EditorState& state,
-                  const app::OccluderDocument& occluder) {
-  Heading(occluder.name.c_str());
-  Hint(Tr("Real, and only there to hide people who stand behind it."));
-  if (occluder.drawn()) {
-    ShowCorners(workspace, state, occluder);
-  } else {
-    ShowOccluderModel(workspace, state, occluder);
-  }
-  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
-                        [name = occluder.name](app::PlaceDocument& p) {
-                          std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
-                        });
-    state.selection = {};
   }
 }
 

@@ -55,6 +55,10 @@ enum class KeyAction {
   kWipe,
   kOnion,
   kSound,
+  kPointColours,
+  kMeasure,
+  kSnapHandles,
+  kUnselect,
   // the camera view
   kNudgeLeft,
   kNudgeRight,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace lararium::panels {
 
@@ -46,6 +47,22 @@ const Palette kLight = {.accent = Rgb(0xb84f2b),
                         .call = Rgb(0x0d5a9e)};
 
 }  // namespace
+
+ImVec4 SessionColour(uint32_t session) {
+  static const ImVec4 kColours[kSessionColours] = {Rgb(0x56b4e9), Rgb(0xe69f00), Rgb(0x1fb58c),
+                                                   Rgb(0xf0e442), Rgb(0xd98cb9), Rgb(0xe8672c),
+                                                   Rgb(0x6f86e0), Rgb(0xa5854f)};
+  return kColours[session % kSessionColours];
+}
+
+ImVec4 RampColour(double t) {
+  static const ImVec4 kSteps[] = {Rgb(0x3f6cb0), Rgb(0x6c86a6), Rgb(0x94a08f), Rgb(0xc4bf68),
+                                  Rgb(0xffe94a)};
+  constexpr int kLast = static_cast<int>(std::size(kSteps)) - 1;
+  const double at = std::clamp(t, 0.0, 1.0) * kLast;
+  const int step = std::min(static_cast<int>(at), kLast - 1);
+  return Over(WithAlpha(kSteps[step + 1], static_cast<float>(at - step)), kSteps[step]);
+}
 
 const Palette& PaletteOf(Theme theme) { return theme == Theme::kLight ? kLight : kDark; }
 

@@ -5,6 +5,8 @@
 
 #include <imgui.h>
 
+#include <cstdint>
+
 #include "editor/app/settings.h"
 
 namespace lararium::panels {
@@ -40,6 +42,18 @@ inline const Palette& OverPicture() { return PaletteOf(Theme::kDark); }
 // X, Y, Z.
 inline const ImVec4 kAxisColours[3] = {
     {0.878f, 0.365f, 0.365f, 1.0f}, {0.482f, 0.757f, 0.388f, 1.0f}, {0.369f, 0.592f, 0.918f, 1.0f}};
+
+// Of a training session, in the view around the place: told apart by people who see colours
+// differently, too (after Okabe & Ito, Color Universal Design, 2002). They come again after the
+// eighth.
+ImVec4 SessionColour(uint32_t session);
+inline constexpr uint32_t kSessionColours = 8;
+// Of what several sessions saw.
+inline const ImVec4 kSeveralColour = {0.86f, 0.87f, 0.89f, 1.0f};
+
+// From little (0) to much (1), clamped: blue over grey to yellow, ever lighter, so that it reads
+// without telling hues apart.
+ImVec4 RampColour(double t);
 
 // How a colour that lets some of the ground through looks on it. front.w: how opaque it is.
 ImVec4 Over(const ImVec4& front, const ImVec4& ground);

@@ -11,6 +11,8 @@
 
 #include "editor/app/check_points.h"
 #include "editor/app/drawn_occluder.h"
+#include "editor/app/occluder_alignment.h"
+#include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
@@ -117,6 +119,47 @@ void DrawCheckPicks(const app::Workspace& workspace,
   }
 }
 
+void PickModelPoint(app::Workspace& workspace,
+                    const ModelPairInWork& work,
+                    const vision::Keyframe& keyframe,
+                    const Vector2d& pixel) {
+  const stage::Pick pick{keyframe.frame_index, keyframe.name, pixel, keyframe.session};
+  const std::string name = work.occluder->name;
+  workspace.EditPlace(Text(Tr("pick %s"), name.c_str()),
+                      [&, pair = work.pair](app::PlaceDocument& place) {
+                        for (app::OccluderDocument& occluder : place.occluders) {
+                          if (occluder.name == name) {
+                            app::SetModelPick(occluder, pair, pick);
+                          }
+                        }
+                      });
+}
+
+// Where points of a model were picked in this image, and rings where they are seen as it lies.
+void DrawModelPicks(const app::Workspace& workspace,
+                    const ModelPairInWork& work,
+                    const vision::Keyframe& keyframe,
+                    const ImageMap& map,
+                    ImDrawList& draw) {
+  const geometry::Similarity3 map_from_mesh = workspace.loaded().picks.map_from_picked *
+                                              workspace.place()->picked_from_stage *
+                                              work.occluder->stage_from_mesh;
+  const std::vector<app::ModelPairDocument>& pairs = work.occluder->model_pairs;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const ImU32 packed = Packed(i == work.pair ? OverPicture().accent : OverPicture().warning);
+    if (const stage::Pick* pick = app::PickIn(pairs[i].anchor, keyframe)) {
+      const ImVec2 at = ToImGui(map.ToScreen(pick->pixel));
+      DrawCross(at, packed, draw);
+      LabelMark(at, std::to_string(i + 1), packed, draw);
+    }
+    const auto pixel = workspace.loaded().database->camera.Project(
+        keyframe.camera_from_map * (map_from_mesh * pairs[i].on_mesh));
+    if (pixel) {
+      draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), packed, 0, Px(1.5f));
+    }
+  }
+}
+
 // As much of a text as fits beside what came before; all of it under the mouse.
 void DimTextBeside(const std::string& text) {
   ImGui::SameLine(0.0f, Px(14));
@@ -163,6 +206,20 @@ void ShowCheckHint(const app::Workspace& workspace, EditorState& state, const st
               : Tr("Click it in this image, then in one taken from elsewhere."));
     }
   }
+}
+
+void ShowModelHint(const app::Workspace& workspace,
+                   EditorState& state,
+                   const ModelPairInWork& work) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(
+      Text(Tr("%s, point %d"), work.occluder->name.c_str(), static_cast<int>(work.pair) + 1)
+          .c_str());
+  const app::ModelPairReport& pair = Alignment(workspace, state, *work.occluder).pairs[work.pair];
+  DimTextBeside(pair.located && pair.anchor.picks > 1
+                    ? Text(Tr("%d picks agree to %.2f px; the ring is where the model has it"),
+                           pair.anchor.picks, pair.anchor.error_px)
+                    : Tr("Click it in this image, then in one taken from elsewhere."));
 }
 
 }  // namespace
@@ -229,10 +286,13 @@ void PickView::ShowImage(app::Workspace& workspace,
   // What lies beside the image stays off the controls.
   draw.PushClipRect(corner, ImVec2(corner.x + size.x, corner.y + size.y), true);
   const app::CheckPointDocument* checked = SelectedCheckPoint(workspace, state);
+  const ModelPairInWork modelled = PairInWork(workspace, state);
   if (drawn != nullptr) {
     DrawCorners(workspace, *drawn, keyframe, map, draw);
   } else if (checked != nullptr) {
     DrawCheckPicks(workspace, state, keyframe, map, draw);
+  } else if (modelled.occluder != nullptr) {
+    DrawModelPicks(workspace, modelled, keyframe, map, draw);
   } else {
     DrawAnchors(workspace, state, keyframe, map, draw);
   }
@@ -247,6 +307,8 @@ void PickView::ShowImage(app::Workspace& workspace,
     } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
       if (checked != nullptr) {
         PickCheckPoint(workspace, checked->name, keyframe, pixel);
+      } else if (modelled.occluder != nullptr) {
+        PickModelPoint(workspace, modelled, keyframe, pixel);
       } else {
         SetPick(workspace, state.anchor, keyframe, pixel);
       }
@@ -267,6 +329,8 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
     ShowCornerHint(workspace, *drawn);
   } else if (const app::CheckPointDocument* checked = SelectedCheckPoint(workspace, state)) {
     ShowCheckHint(workspace, state, checked->name);
+  } else if (const ModelPairInWork work = PairInWork(workspace, state); work.occluder != nullptr) {
+    ShowModelHint(workspace, state, work);
   } else {
     ShowAnchorButtons(workspace, state);
   }

@@ -91,8 +91,8 @@ class RecipePanel {
       ShowSliders(kWomanSliders);
     }
     double height = recipe_.height.value_or(1.7f);
-    if (SliderProperty(workspace_, Tr("Height"), height, app::kMinHeight, app::kMaxHeight,
-                       "%.2f m")) {
+    if (SliderProperty(workspace_, TrIn("person", "Height"), height, app::kMinHeight,
+                       app::kMaxHeight, "%.2f m")) {
       recipe_.height = static_cast<float>(height);
       change_.Drag(Tr("height"));
     }

@@ -289,7 +289,9 @@ void StartPage::NewDialog(StartChoice& choice) {
     ImGui::InputText("##name", &fields_.name);
     PropertyLabel(Tr("In the folder"));
     PathField("folder", folder_, app::HomeFolder(), {});
-    RecordingFields(folder_, fields_, Tr("estimated; or fx, fy, cx, cy, k1, k2, p1, p2"));
+    if (RecordingFields(folder_, fields_, Tr(kFromVideo), Tr(kFromVideoHint))) {
+      calibration_.Open();
+    }
     EndProperties();
   }
   const fs::path parent = app::HomeFolder() / folder_;
@@ -351,6 +353,10 @@ void StartPage::ShowDialog(app::RecentProjects& recent,
   if (dialog_ == Open::kNothing || dialog_ == Open::kKeys) {
     return;
   }
+  if (calibration_.is_open()) {
+    calibration_.Show({app::HomeFolder() / folder_}, pictures_, fields_);
+    return;
+  }
   const char* title = dialog_ == Open::kNew       ? Tr("New from video")
                       : dialog_ == Open::kProject ? Tr("Open a project")
                                                   : Tr("Locate the project");
@@ -361,9 +367,9 @@ void StartPage::ShowDialog(app::RecentProjects& recent,
     } else {
       ProjectDialog(recent, choice);
     }
-    open = dialog_ != Open::kNothing;
+    open = dialog_ != Open::kNothing && !calibration_.is_open();
   });
-  if (!open) {
+  if (!open && !calibration_.is_open()) {
     dialog_ = Open::kNothing;
   }
 }

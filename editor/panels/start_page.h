@@ -11,6 +11,7 @@
 #include <string>
 
 #include "editor/app/recent_projects.h"
+#include "editor/panels/calibration_dialog.h"
 #include "editor/panels/editor_state.h"
 #include "editor/panels/picture_textures.h"
 
@@ -69,6 +70,7 @@ class StartPage {
   PictureTextures pictures_;
   Open dialog_ = Open::kNothing;
   DialogFields fields_;
+  CalibrationDialog calibration_;
   std::string folder_;             // that a new project goes into, or a project is looked for in
   std::filesystem::path missing_;  // that is being located
   std::string problem_;

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "editor/panels/wrapped_text.h"
+
 namespace lararium::panels {
 
 namespace {
@@ -37,6 +39,10 @@ Fonts LoadFonts(float scale) {
     ImFontConfig config;
     config.SizePixels = kTextPx * scale;
     fonts.regular = ImGui::GetIO().Fonts->AddFontDefault(&config);
+  }
+  for (const char32_t sign : {kRowEnd, kRowBegin}) {  // empty, and no wider than nothing
+    ImGui::GetIO().Fonts->AddCustomRectFontGlyph(fonts.regular, static_cast<ImWchar>(sign), 1, 1,
+                                                 0.0f);
   }
   // Behind that of the interface, which ImGui takes to be the first.
   fonts.strong = LoadFont("Inter-SemiBold.otf", kTextPx * scale);

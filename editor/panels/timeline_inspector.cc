@@ -16,6 +16,7 @@
 #include "editor/panels/timeline_maths.h"
 #include "editor/panels/timeline_rows.h"
 #include "editor/panels/widgets.h"
+#include "editor/panels/wrapped_field.h"
 #include "shared/human/face.h"
 #include "shared/stage/caption_file.h"
 
@@ -250,7 +251,7 @@ void UseFields(Item& item) {
   }
 }
 
-// What the line says in one language, two rows high.
+// What the line says in one language.
 void LineText(Item& item, const bake::LineTable& table, const std::string& language) {
   const std::string id = item.TextOr("line", "");
   const bake::Line* line = table.Find(id);
@@ -260,8 +261,7 @@ void LineText(Item& item, const bake::LineTable& table, const std::string& langu
   }
   PropertyLabel(language.c_str());
   ImGui::PushID(language.c_str());
-  const float height = 2 * ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().FramePadding.y;
-  if (ImGui::InputTextMultiline("##says", &text, ImVec2(-FLT_MIN, height))) {
+  if (WrappedField("says", text, 2, 6)) {
     item.workspace.EditLines(Text(Tr("write %s"), id.c_str()),
                              app::WithText(table, id, item.actor, language, text),
                              "line " + id + " " + language);

@@ -8,12 +8,15 @@
 #include <string>
 #include <tuple>
 
+#include "editor/app/calibrating.h"
 #include "editor/panels/light_panel.h"
 #include "editor/panels/look.h"
 #include "editor/panels/pick_view.h"
+#include "editor/panels/place_cards.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
+#include "editor/panels/wrapped_field.h"
 
 namespace lararium::panels {
 
@@ -28,13 +31,6 @@ bool MenuItem(const char* label, KeyAction key, bool chosen = false, bool possib
   return ImGui::MenuItem(label, KeyText(key).c_str(), chosen, possible);
 }
 
-std::string IntrinsicsText(const geometry::CameraModel& camera) {
-  char text[256];
-  std::snprintf(text, sizeof(text), "%.9g, %.9g, %.9g, %.9g, %.9g, %.9g, %.9g, %.9g", camera.fx,
-                camera.fy, camera.cx, camera.cy, camera.k1, camera.k2, camera.p1, camera.p2);
-  return text;
-}
-
 void OpenTrainDialog(const app::Workspace& workspace, EditorState& state) {
   OpenDialog(state, Dialog::kTrain);
   state.fields.place = "place";
@@ -42,7 +38,7 @@ void OpenTrainDialog(const app::Workspace& workspace, EditorState& state) {
     state.fields.place = place->name;
     state.fields.file = place->training.path;
     state.fields.images = place->training.kind == app::SourceDocument::Kind::kImages;
-    state.fields.intrinsics = place->intrinsics ? IntrinsicsText(*place->intrinsics) : "";
+    state.fields.intrinsics = place->intrinsics ? app::IntrinsicsText(*place->intrinsics) : "";
   }
 }
 
@@ -191,6 +187,23 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   ImGui::Separator();
   LookMenu(state.settings);
   ImGui::Separator();
+  if (ImGui::BeginMenu(Label(Tr("Colour the points by"), "point colours").c_str())) {
+    for (int i = 0; i < kPointColours; ++i) {
+      const auto colour = static_cast<PointColour>(i);
+      if (ImGui::MenuItem(PointColourName(colour), nullptr, state.place.colours == colour)) {
+        state.place.colours = colour;
+        state.view = ViewKind::kAround;
+      }
+    }
+    ImGui::EndMenu();
+  }
+  if (MenuItem(Tr("Measure"), KeyAction::kMeasure, state.place.measure)) {
+    state.place.measure = !state.place.measure;
+  }
+  if (MenuItem(Tr("Handles move in steps"), KeyAction::kSnapHandles, state.place.snap)) {
+    state.place.snap = !state.place.snap;
+  }
+  ImGui::Separator();
   if (MenuItem(Tr("Before and after"), KeyAction::kWipe, state.show_wipe)) {
     state.show_wipe = !state.show_wipe;
   }
@@ -214,7 +227,8 @@ void SelectLight(const app::Workspace& workspace, EditorState& state) {
 
 // Of those everywhere.
 void Do(app::Workspace& workspace, EditorState& state, KeyAction action) {
-  const bool own_undo = ImGui::GetIO().WantTextInput && state.focus != Focus::kScript;
+  const bool own_undo =
+      ImGui::GetIO().WantTextInput && state.focus != Focus::kScript && !TypesIntoWrappedField();
   switch (action) {
     case KeyAction::kSave:
       workspace.Save();
@@ -297,6 +311,18 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());
+      break;
+    case KeyAction::kPointColours:
+      state.place.colours = After(state.place.colours);
+      break;
+    case KeyAction::kMeasure:
+      state.place.measure = !state.place.measure;
+      break;
+    case KeyAction::kSnapHandles:
+      state.place.snap = !state.place.snap;
+      break;
+    case KeyAction::kUnselect:
+      ChooseNoPoints(state);
       break;
     default:
       break;

@@ -373,6 +373,14 @@ bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quate
   return true;
 }
 
+bool TransformProperties(app::Workspace& workspace, geometry::Similarity3& transform) {
+  bool changed = VectorProperty(workspace, Tr("Position"), transform.translation, 0.005, "%.3f");
+  changed |= RotationProperty(workspace, Tr("Rotation"), transform.rotation);
+  changed |= NumberProperty(workspace, Tr("Scale"), transform.scale, 0.005, app::kMinStageScale,
+                            app::kMaxStageScale, "%.4f");
+  return changed;
+}
+
 bool ColourProperty(app::Workspace& workspace, const char* label, Eigen::Vector3d& albedo) {
   PropertyLabel(label);
   const auto encode = [](double linear) {

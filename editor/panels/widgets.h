@@ -12,6 +12,7 @@
 #include <string>
 
 #include "editor/app/workspace.h"
+#include "shared/geometry/transform.h"
 
 namespace lararium::panels {
 
@@ -86,6 +87,9 @@ bool VectorProperty(app::Workspace& workspace,
                     const char* format);
 // Degrees of heading (about Y), tilt (about X), roll (about Z).
 bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quaterniond& rotation);
+
+// Position, rotation and scale: three rows.
+bool TransformProperties(app::Workspace& workspace, geometry::Similarity3& transform);
 
 // A linear RGB albedo, shown and typed as the sRGB colour that people know.
 bool ColourProperty(app::Workspace& workspace, const char* label, Eigen::Vector3d& albedo);

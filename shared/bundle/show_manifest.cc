@@ -207,9 +207,13 @@ Result<OccluderEntry> ParseOccluder(const JsonView& json) {
   LARARIUM_ASSIGN_OR_RETURN(occluder.name, json.Text("name", kMaxName));
   LARARIUM_ASSIGN_OR_RETURN(occluder.mesh, ParseMemberName(json, "mesh"));
   LARARIUM_ASSIGN_OR_RETURN(occluder.stage_from_mesh, ParseSimilarity(json, "stage_from_mesh"));
-  if (json.Has("blocks_sound")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView blocks, json.Field("blocks_sound"));
-    LARARIUM_ASSIGN_OR_RETURN(occluder.blocks_sound, blocks.Boolean());
+  for (const auto& [key, does] : {std::pair{"blocks_sound", &occluder.blocks_sound},
+                                  {"blocks_walking", &occluder.blocks_walking},
+                                  {"receives_shadow", &occluder.receives_shadow}}) {
+    if (json.Has(key)) {
+      LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field(key));
+      LARARIUM_ASSIGN_OR_RETURN(*does, field.Boolean());
+    }
   }
   return occluder;
 }
@@ -477,7 +481,9 @@ std::string FormatShowManifest(const ShowManifest& manifest) {
       occluders.push_back({{"name", occluder.name},
                            {"mesh", occluder.mesh},
                            {"stage_from_mesh", FormatSimilarity(occluder.stage_from_mesh)},
-                           {"blocks_sound", occluder.blocks_sound}});
+                           {"blocks_sound", occluder.blocks_sound},
+                           {"blocks_walking", occluder.blocks_walking},
+                           {"receives_shadow", occluder.receives_shadow}});
     }
     const Eigen::Vector3d& nudge = place.camera_nudge;
     json["places"].push_back({{"name", place.name},

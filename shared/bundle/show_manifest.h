@@ -30,7 +30,9 @@ struct OccluderEntry {
   std::string name;
   std::string mesh;  // member, .larmesh
   geometry::Similarity3 stage_from_mesh;
-  bool blocks_sound = true;
+  bool blocks_sound = true;  // these three as of stage::Occluder; a bundle may lack the fields
+  bool blocks_walking = true;
+  bool receives_shadow = true;
 };
 
 struct PlaceEntry {

@@ -2,8 +2,11 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
+#include <utility>
 
 #include "shared/core/check.h"
 #include "shared/geometry/glm_convert.h"
@@ -17,7 +20,7 @@ namespace {
 
 static_assert(sizeof(OverlayPoint) == 16 && sizeof(OverlayLine) == 28);
 
-// Vertices that change from frame to frame.
+// Vertices, which may change from frame to frame.
 struct Stream {
   GlVertexArray vertex_array = GlVertexArray::Generate();
   GlBuffer buffer = GlBuffer::Generate();
@@ -27,10 +30,9 @@ struct Stream {
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
   }
   template <typename T>
-  void Upload(std::span<const T> items) const {
+  void Upload(std::span<const T> items, GLenum usage = GL_STREAM_DRAW) const {
     Bind();
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size_bytes()), items.data(),
-                 GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size_bytes()), items.data(), usage);
   }
 };
 
@@ -71,8 +73,16 @@ void SetDepth(OverlayDepth depth, bool write) {
 
 }  // namespace
 
+struct OverlayPoints {
+  std::optional<Stream> vertices;
+  size_t count = 0;
+};
+
 struct Overlay::State {
+  void DrawBoundPoints(size_t count, float size_px) const;
+
   SlotMap<GpuMesh> meshes;
+  SlotMap<OverlayPoints> point_sets;
   ShaderProgram point_pass;
   ShaderProgram line_pass;
   ShaderProgram mesh_pass;
@@ -104,6 +114,14 @@ MeshHandle Overlay::AddMesh(const geometry::TriangleMesh& mesh) {
 }
 
 void Overlay::RemoveMesh(MeshHandle mesh) { state_->meshes.Remove(mesh); }
+
+PointsHandle Overlay::AddPoints(std::span<const OverlayPoint> points) {
+  OverlayPoints set{PointStream(), points.size()};
+  set.vertices->Upload(points, GL_STATIC_DRAW);
+  return state_->point_sets.Add(std::move(set));
+}
+
+void Overlay::RemovePoints(PointsHandle points) { state_->point_sets.Remove(points); }
 
 void Overlay::Begin(const OverlayView& view, const RenderTarget& target) {
   CHECK(!state_->drawing);
@@ -142,10 +160,26 @@ void Overlay::DrawPoints(std::span<const OverlayPoint> points, float size_px, Ov
   CHECK(state_->drawing);
   SetDepth(depth, true);
   state_->points.Upload(points);
-  state_->point_pass.Use();
-  state_->point_pass.Set("clip_from_stage", state_->clip_from_stage);
-  state_->point_pass.Set("size_px", size_px);
-  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(points.size()));
+  state_->DrawBoundPoints(points.size(), size_px);
+}
+
+Status Overlay::DrawPoints(PointsHandle points, size_t count, float size_px, OverlayDepth depth) {
+  CHECK(state_->drawing);
+  const OverlayPoints* set = state_->point_sets.Find(points);
+  if (set == nullptr) {
+    return Status::Error("overlay", "the points were removed");
+  }
+  SetDepth(depth, true);
+  set->vertices->Bind();
+  state_->DrawBoundPoints(std::min(count, set->count), size_px);
+  return Status();
+}
+
+void Overlay::State::DrawBoundPoints(size_t count, float size_px) const {
+  point_pass.Use();
+  point_pass.Set("clip_from_stage", clip_from_stage);
+  point_pass.Set("size_px", size_px);
+  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
 }
 
 void Overlay::DrawLines(std::span<const OverlayLine> lines, float width_px, OverlayDepth depth) {

@@ -49,6 +49,9 @@ struct OverlayLine {
   friend bool operator==(const OverlayLine&, const OverlayLine&) = default;
 };
 
+struct OverlayPoints;
+using PointsHandle = Id<OverlayPoints>;
+
 enum class OverlayDepth {
   kTest,   // hidden by nearer overlays
   kOnTop,  // always seen: gizmos
@@ -66,12 +69,21 @@ class Overlay {
   MeshHandle AddMesh(const geometry::TriangleMesh& mesh);
   void RemoveMesh(MeshHandle mesh);
 
+  // Points that stay as they are from picture to picture.
+  PointsHandle AddPoints(std::span<const OverlayPoint> points);
+  void RemovePoints(PointsHandle points);
+
   // Begin, any number of Draw..., End; the target is borrowed in between.
   void Begin(const OverlayView& view, const RenderTarget& target);
   // Round, size_px across.
   void DrawPoints(std::span<const OverlayPoint> points,
                   float size_px,
                   OverlayDepth depth = OverlayDepth::kTest);
+  // The first so many of them; at most all.
+  Status DrawPoints(PointsHandle points,
+                    size_t count,
+                    float size_px,
+                    OverlayDepth depth = OverlayDepth::kTest);
   void DrawLines(std::span<const OverlayLine> lines,
                  float width_px,
                  OverlayDepth depth = OverlayDepth::kTest);

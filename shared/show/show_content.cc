@@ -41,8 +41,9 @@ Result<stage::Place> LoadStage(const bundle::Bundle& bundle, const bundle::Place
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(occluder.mesh));
     LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh mesh,
                               stage::ParseMesh(bytes, bundle.place() + ": " + occluder.mesh));
-    place.occluders.push_back(
-        {occluder.name, std::move(mesh), occluder.stage_from_mesh, occluder.blocks_sound});
+    place.occluders.push_back({occluder.name, std::move(mesh), occluder.stage_from_mesh,
+                               occluder.blocks_sound, occluder.blocks_walking,
+                               occluder.receives_shadow});
   }
   return place;
 }

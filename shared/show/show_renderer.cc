@@ -55,8 +55,9 @@ void ShowRenderer::SetPlace(size_t index, const stage::Place& place) {
   }
   scene.occluders.clear();
   for (const stage::Occluder& occluder : place.occluders) {
-    scene.occluders.push_back(
-        {renderer_->AddMesh(occluder.mesh), geometry::ToGlm(occluder.stage_from_mesh)});
+    scene.occluders.push_back({renderer_->AddMesh(occluder.mesh),
+                               geometry::ToGlm(occluder.stage_from_mesh),
+                               occluder.receives_shadow});
   }
   scene.camera = place.camera;
 }

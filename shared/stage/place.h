@@ -16,12 +16,14 @@
 
 namespace lararium::stage {
 
-// Something real that hides what is behind it; drawn into depth only.
+// Something real that hides what is behind it; drawn into depth only. What else it does:
 struct Occluder {
   std::string name;
   geometry::TriangleMesh mesh;
   geometry::Similarity3 stage_from_mesh;  // the mesh may be modelled in any unit
   bool blocks_sound = true;
+  bool blocks_walking = true;   // nobody walks through it
+  bool receives_shadow = true;  // people darken it, and the drama's lamps brighten it
 };
 
 struct Place {

@@ -151,7 +151,9 @@ Status Stage::SetFloor(const NavigationOptions& options, std::span<const stage::
   solids_.clear();
   for (const stage::Place& place : places) {
     for (const Occluder& occluder : place.occluders) {
-      solids_.emplace_back(occluder.mesh, occluder.stage_from_mesh);
+      if (occluder.blocks_walking) {
+        solids_.emplace_back(occluder.mesh, occluder.stage_from_mesh);
+      }
     }
   }
   floor_changed_ = true;

@@ -28,6 +28,36 @@ float EntryOf(const Vector3f& eye,
   return enter <= leave ? enter : std::numeric_limits<float>::infinity();
 }
 
+// Of the segment from a along an edge; the nearest point to one.
+Vector3f NearestOnEdge(const Vector3f& point, const Vector3f& a, const Vector3f& edge) {
+  const float where = edge.dot(point - a) / edge.squaredNorm();
+  return a + std::clamp(where, 0.0f, 1.0f) * edge;
+}
+
+// The nearest point of a triangle: the foot of the perpendicular where that lies within, otherwise
+// on one of the edges.
+Vector3f NearestOnTriangle(const Vector3f& point,
+                           const Vector3f& corner,
+                           const Vector3f& edge1,
+                           const Vector3f& edge2,
+                           const Vector3f& normal) {
+  const Vector3f foot = point - normal.dot(point - corner) * normal;
+  const Vector3f from = foot - corner;
+  const float area = edge1.cross(edge2).dot(normal);  // twice that, positive
+  const float u = from.cross(edge2).dot(normal) / area;
+  const float v = edge1.cross(from).dot(normal) / area;
+  if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f) {
+    return foot;
+  }
+  const std::array<Vector3f, 3> candidates = {NearestOnEdge(point, corner, edge1),
+                                              NearestOnEdge(point, corner, edge2),
+                                              NearestOnEdge(point, corner + edge1, edge2 - edge1)};
+  return *std::min_element(candidates.begin(), candidates.end(),
+                           [&](const Vector3f& a, const Vector3f& b) {
+                             return (a - point).squaredNorm() < (b - point).squaredNorm();
+                           });
+}
+
 }  // namespace
 
 OccluderMesh Placed(const geometry::TriangleMesh& mesh,
@@ -169,6 +199,47 @@ std::optional<OccluderTree::Hit> OccluderTree::FirstHit(const Vector3f& eye,
     return false;
   });
   return first;
+}
+
+std::optional<OccluderTree::Nearest> OccluderTree::NearestTo(const Vector3f& point,
+                                                             float within) const {
+  std::optional<Nearest> nearest;
+  float least = within * within;
+  const auto distance_to = [&](uint32_t at) {  // squared
+    const Node& node = nodes_[at];
+    return (point - point.cwiseMax(node.least).cwiseMin(node.most)).squaredNorm();
+  };
+  std::array<uint32_t, kDeepest> stack;
+  size_t waiting = 0;
+  if (!nodes_.empty()) {
+    stack[waiting++] = 0;
+  }
+  while (waiting > 0) {
+    const uint32_t at = stack[--waiting];
+    const Node& node = nodes_[at];
+    if (!(distance_to(at) < least)) {
+      continue;
+    }
+    if (node.count == 0) {
+      // The nearer half is looked at first.
+      const bool left_first = distance_to(at + 1) <= distance_to(node.begin);
+      stack[waiting++] = left_first ? node.begin : at + 1;
+      stack[waiting++] = left_first ? at + 1 : node.begin;
+      continue;
+    }
+    for (const Triangle& t : std::span(triangles_).subspan(node.begin, node.count)) {
+      const Vector3f foot = NearestOnTriangle(point, t.corner, t.edge1, t.edge2, t.normal);
+      const float distance = (foot - point).squaredNorm();
+      if (distance < least) {
+        least = distance;
+        nearest = {0.0f, foot, t.normal};
+      }
+    }
+  }
+  if (nearest) {
+    nearest->distance = std::sqrt(least);
+  }
+  return nearest;
 }
 
 void OccluderSet::Set(std::span<const OccluderMesh> meshes) {

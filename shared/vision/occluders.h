@@ -40,6 +40,14 @@ class OccluderTree {
                               float nearest,
                               float farthest) const;
 
+  struct Nearest {
+    float distance = 0.0f;
+    Eigen::Vector3f point;
+    Eigen::Vector3f normal;  // unit, of its triangle, of either side
+  };
+  // The nearest point of all triangles; nullopt: none is nearer than `within`.
+  std::optional<Nearest> NearestTo(const Eigen::Vector3f& point, float within) const;
+
   // Whether a triangle lies between, and the point farther than bias behind the
   // triangle's plane: what lies on a surface, or nearly, is not hidden by it.
   bool Hides(const Eigen::Vector3f& eye, const Eigen::Vector3f& point, float bias) const;

@@ -41,6 +41,26 @@ TEST(CommandStack, ANewEditDropsWhatWasUndone) {
   EXPECT_FALSE(stack.CanRedo());
 }
 
+TEST(CommandStack, WhatIsRewrittenIsSoInAllThatUndoAndRedoBringBack) {
+  Stack stack("x");
+  Append(stack, "a");
+  Append(stack, "x");
+  Append(stack, "b");
+  stack.Undo();
+  stack.MarkSaved();
+  stack.Rewrite([](std::string& document) { std::erase(document, 'x'); });
+  EXPECT_EQ(stack.document(), "a");
+  EXPECT_TRUE(stack.dirty());
+  stack.Redo();
+  EXPECT_EQ(stack.document(), "ab");
+  stack.Undo();
+  stack.Undo();
+  EXPECT_EQ(stack.document(), "a");
+  stack.Undo();
+  EXPECT_EQ(stack.document(), "");
+  EXPECT_TRUE(stack.dirty());
+}
+
 TEST(CommandStack, OneGestureIsOneCommand) {
   Stack stack("");
   Append(stack, "a");

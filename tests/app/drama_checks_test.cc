@@ -16,6 +16,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class DramaChecksTest : public drama::DramaTest {
@@ -54,9 +55,10 @@ class DramaChecksTest : public drama::DramaTest {
   std::vector<std::string> Steps() { return steps_->Problems(script_, "drama.lua", tasks_); }
 
   // A wall across the stage, at z from -1 to -1.2.
-  static std::vector<stage::Place> Places() {
+  std::vector<stage::Place> Places() const {
     stage::Occluder wall;
     wall.name = "wall";
+    wall.blocks_walking = wall_blocks_walking_;
     const stage::PropMesh box = test::MakeBox({-3.0f, 0.0f, -1.2f}, {3.0f, 2.0f, -1.0f});
     wall.mesh.positions = box.positions;
     wall.mesh.indices = box.indices;
@@ -65,6 +67,7 @@ class DramaChecksTest : public drama::DramaTest {
     return places;
   }
 
+  bool wall_blocks_walking_ = true;
   std::string script_;
   std::unique_ptr<drama::Drama> drama_;
   std::unique_ptr<StepListener> steps_;
@@ -163,6 +166,16 @@ TEST_F(DramaChecksTest, WaysThroughWallsAreTold) {
       {at = 1, length = 4, clip = "walk", to = {x = 0, z = -3}},
     }})");
   EXPECT_THAT(Steps(), Contains(StartsWith("drama.lua:4: guest walks through 'wall' (at ")));
+}
+
+TEST_F(DramaChecksTest, WhatDoesNotBlockWalkingIsNotInTheWay) {
+  wall_blocks_walking_ = false;
+  Run(R"(
+    track{actor = "guest", clips = {
+      {at = 0, length = 1, clip = "idle", from = {x = 0, z = 1}},
+      {at = 1, length = 4, clip = "walk", to = {x = 0, z = -3}},
+    }})");
+  EXPECT_THAT(Steps(), Not(Contains(HasSubstr("'wall'"))));
 }
 
 TEST_F(DramaChecksTest, StandingInAWallAndLeapsAreTold) {

@@ -81,6 +81,36 @@ TEST_F(DrawnOccluderTest, CornersLieWhereTheyWerePicked) {
   EXPECT_NEAR(Area(drawn->mesh_in_map), 0.8 * 0.5, 1e-6);
 }
 
+TEST_F(DrawnOccluderTest, AFlatOneLiesOnThePlaneThatFitsItsCornersBest) {
+  std::vector<Vector3d> corners = face_;
+  corners[1].z() += 0.05;
+  corners[3].z() += 0.02;
+  OccluderDocument occluder = Draw(corners);
+  occluder.depth = 0.3;
+  const auto uneven = DrawOccluder(occluder, map_, 1.0);
+  occluder.flat = true;
+  const auto flat = DrawOccluder(occluder, map_, 1.0);
+  ASSERT_TRUE(uneven.ok() && flat.ok()) << uneven.message() << flat.message();
+  EXPECT_GT(uneven->unevenness, 0.01);
+  EXPECT_EQ(flat->unevenness, uneven->unevenness);  // how far they had to be moved
+  const auto corner = [](const DrawnOccluder& drawn, size_t i) {
+    return geometry::ToEigen(drawn.mesh_in_map.positions[i]);
+  };
+  const auto off_plane = [&](const DrawnOccluder& drawn) {
+    const Vector3d normal = (corner(drawn, 1) - corner(drawn, 0))
+                                .cross(corner(drawn, 2) - corner(drawn, 0))
+                                .normalized();
+    return std::abs(normal.dot(corner(drawn, 3) - corner(drawn, 0)));
+  };
+  EXPECT_GT(off_plane(*uneven), 0.02);
+  EXPECT_LT(off_plane(*flat), 1e-6);
+  double farthest = 0.0;
+  for (size_t i = 0; i < 4; ++i) {
+    farthest = std::max(farthest, (corner(*flat, i) - corner(*uneven, i)).norm());
+  }
+  EXPECT_NEAR(farthest, uneven->unevenness, 1e-6);
+}
+
 TEST_F(DrawnOccluderTest, PicksThatDisagreeAreTold) {
   OccluderDocument occluder = Draw(face_);
   Pick(occluder, 2, face_[2], {5}, Vector2d(0.0, 3.0));

@@ -101,6 +101,14 @@ TEST(Ghost, WhatLiesBehindTheCameraIsCutOff) {
   }
 }
 
+TEST(Ghost, ASheetOfTwoSidesIsOutlined) {
+  geometry::TriangleMesh sheet;
+  sheet.positions = {{-1, 0, 0}, {1, 0, 0}, {1, 2, 0}, {-1, 2, 0}};
+  sheet.indices = {0, 1, 2, 0, 2, 3, 1, 0, 3, 1, 3, 2};
+  const std::vector<std::array<uint32_t, 2>> rim = {{0, 1}, {0, 3}, {1, 2}, {2, 3}};
+  EXPECT_EQ(MakeGhost(sheet).edges, rim);
+}
+
 TEST(Ghost, StandingWithinASolidShowsItsWallsAhead) {
   const std::vector<GhostFace> faces = FacesOf(Cube());
   EXPECT_FALSE(faces.empty());

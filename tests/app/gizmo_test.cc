@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace lararium::panels {
 namespace {
@@ -144,6 +145,120 @@ TEST(GizmoDrag, ScaleFollowsTheDistanceFromTheCentre) {
   EXPECT_TRUE(scaled.translation.isApprox(start.translation));
   EXPECT_NEAR(drag->Update(view, middle).scale, 2.0 * start.scale, 1e-9)
       << "the centre gives no scale: the last one holds";
+}
+
+GizmoSnap MoveSteps(double step) {
+  GizmoSnap snap;
+  snap.move = step;
+  return snap;
+}
+
+// A drag of an arrow by so much along its axis.
+Similarity3 Dragged(GizmoHandle handle, double by, const GizmoSnap& snap) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector3d axis = start.rotation * Vector3d::Unit(AxisOf(handle));
+  std::optional<GizmoDrag> drag =
+      GizmoDrag::Begin(handle, start, view, *view.Project(start.translation + 0.1 * axis));
+  return drag->Update(view, *view.Project(start.translation + (0.1 + by) * axis), snap);
+}
+
+TEST(GizmoSnap, AnArrowMovesInSteps) {
+  const Similarity3 start = SomeThing();
+  const Vector3d axis = start.rotation * Vector3d::UnitX();
+  for (const auto& [by, expected] :
+       {std::pair{0.12, 0.10}, {0.13, 0.15}, {-0.31, -0.30}, {0.02, 0.0}}) {
+    const Similarity3 moved = Dragged(GizmoHandle::kMoveX, by, MoveSteps(0.05));
+    EXPECT_TRUE(moved.translation.isApprox(start.translation + expected * axis, 1e-9)) << by;
+  }
+}
+
+TEST(GizmoSnap, APlaneMovesInStepsAlongBothOfItsAxes) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector3d x = start.rotation * Vector3d::UnitX();
+  const Vector3d z = start.rotation * Vector3d::UnitZ();
+  std::optional<GizmoDrag> drag =
+      GizmoDrag::Begin(GizmoHandle::kMoveZx, start, view, *view.Project(start.translation));
+  ASSERT_TRUE(drag.has_value());
+  const Similarity3 moved =
+      drag->Update(view, *view.Project(start.translation + 0.317 * x - 0.184 * z), MoveSteps(0.01));
+  EXPECT_TRUE(moved.translation.isApprox(start.translation + 0.32 * x - 0.18 * z, 1e-9));
+}
+
+TEST(GizmoSnap, ARingTurnsInSteps) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector3d axis = start.rotation * Vector3d::UnitZ();
+  const auto on_ring = [&](double angle) {
+    const Vector3d in_thing(0.3 * std::cos(angle), 0.3 * std::sin(angle), 0.0);
+    return *view.Project(start.translation + start.rotation * in_thing);
+  };
+  const double step = 5.0 / 180.0 * std::numbers::pi;
+  GizmoSnap snap;
+  snap.turn = step;
+  std::optional<GizmoDrag> drag = GizmoDrag::Begin(GizmoHandle::kTurnZ, start, view, on_ring(0.4));
+  ASSERT_TRUE(drag.has_value());
+  const Similarity3 turned = drag->Update(view, on_ring(0.4 + 6.4 * step), snap);
+  const Eigen::AngleAxisd turn(turned.rotation * start.rotation.conjugate());
+  EXPECT_NEAR(turn.angle() * turn.axis().dot(axis), 6.0 * step, 1e-9);
+}
+
+TEST(GizmoSnap, ScalesByStepsAndNeverToNothing) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector2d middle = *view.Project(start.translation);
+  std::optional<GizmoDrag> drag =
+      GizmoDrag::Begin(GizmoHandle::kScale, start, view, middle + Vector2d(100.0, 0.0));
+  ASSERT_TRUE(drag.has_value());
+  GizmoSnap snap;
+  snap.scale = 0.05;
+  EXPECT_NEAR(drag->Update(view, middle + Vector2d(0.0, 132.0), snap).scale, 1.3 * start.scale,
+              1e-9);
+  EXPECT_NEAR(drag->Update(view, middle + Vector2d(2.1, 0.0), snap).scale, 0.05 * start.scale,
+              1e-9);
+}
+
+// The plane that is so far from the thing's origin along its Y axis, which is a little tilted
+// against the plane's normal.
+GizmoSnap FloorBelow(double depth, double reach) {
+  const Similarity3 start = SomeThing();
+  const Vector3d y = start.rotation * Vector3d::UnitY();
+  const Vector3d normal = Eigen::AngleAxisd(0.1, start.rotation * Vector3d::UnitX()) * y;
+  GizmoSnap snap = MoveSteps(0.05);
+  snap.floor = GizmoSnap::Plane{start.translation - depth * y, normal, reach};
+  return snap;
+}
+
+TEST(GizmoSnap, StopsAtTheFloorBetweenSteps) {
+  const Similarity3 start = SomeThing();
+  const Vector3d y = start.rotation * Vector3d::UnitY();
+  const GizmoSnap snap = FloorBelow(0.237, 0.02);
+  const Similarity3 laid = Dragged(GizmoHandle::kMoveY, -0.228, snap);
+  EXPECT_TRUE(laid.translation.isApprox(start.translation - 0.237 * y, 1e-9));
+  // Too far from it, steps are all there is.
+  const Similarity3 above = Dragged(GizmoHandle::kMoveY, -0.21, snap);
+  EXPECT_TRUE(above.translation.isApprox(start.translation - 0.2 * y, 1e-9));
+}
+
+TEST(GizmoSnap, APlaneThatLeadsToTheFloorStopsThereAndKeepsItsStepsAlongIt) {
+  const ViewCamera view = SomeView();
+  const Similarity3 start = SomeThing();
+  const Vector3d x = start.rotation * Vector3d::UnitX();
+  const Vector3d y = start.rotation * Vector3d::UnitY();
+  std::optional<GizmoDrag> drag =
+      GizmoDrag::Begin(GizmoHandle::kMoveXy, start, view, *view.Project(start.translation));
+  ASSERT_TRUE(drag.has_value());
+  const Similarity3 moved = drag->Update(
+      view, *view.Project(start.translation + 0.112 * x - 0.23 * y), FloorBelow(0.237, 0.02));
+  EXPECT_TRUE(moved.translation.isApprox(start.translation + 0.1 * x - 0.237 * y, 1e-9));
+}
+
+TEST(GizmoSnap, MovesAlongTheFloorAreNotPulledToIt) {
+  const Similarity3 start = SomeThing();
+  const Vector3d x = start.rotation * Vector3d::UnitX();
+  const Similarity3 moved = Dragged(GizmoHandle::kMoveX, 0.1, FloorBelow(0.01, 0.02));
+  EXPECT_TRUE(moved.translation.isApprox(start.translation + 0.1 * x, 1e-9));
 }
 
 TEST(GizmoDrag, ComingBackToTheBeginningRestoresTheTransform) {

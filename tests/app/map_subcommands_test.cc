@@ -294,5 +294,63 @@ TEST_F(MapSubcommands, TrainingRefusesFoldersThatAreNotThereBeforeItStarts) {
   EXPECT_THAT(RunTrain(options, progress_, *log_).message(), HasSubstr("nowhere: is not a folder"));
 }
 
+TEST_F(MapSubcommands, MeasureScalesTheStageByAKnownDistance) {
+  const SceneDatabase db = test::MakeSceneDatabase(test::MakeSyntheticWorld({}));
+  const ProjectPaths paths = MakeProject("measured.lararium", &db);
+  MeasureOptions options;
+  options.project = paths.folder;
+  options.from = 3;
+  options.to = 11;
+  Result<CommandResult> result = RunMeasure(options);
+  ASSERT_TRUE(result.ok()) << result.message();
+  const double said = result->json["distance_m"].get<double>();
+  EXPECT_EQ(LoadProject(paths)->places[0].picked_from_stage.scale, 1.0);
+  options.metres = 1.25 * said;
+  result = RunMeasure(options);
+  ASSERT_TRUE(result.ok()) << result.message();
+  EXPECT_NEAR(result->json["residual_percent"].get<double>(), -20.0, 1e-6);
+  EXPECT_NEAR(LoadProject(paths)->places[0].picked_from_stage.scale, 0.8, 1e-9);
+  options.metres.reset();
+  EXPECT_NEAR(RunMeasure(options)->json["distance_m"].get<double>(), 1.25 * said, 1e-6);
+  options.to = 3;
+  EXPECT_THAT(RunMeasure(options).status().message(), HasSubstr("where the other one does"));
+  options.to = 400;
+  EXPECT_THAT(RunMeasure(options).status().message(), HasSubstr("none of the map's 400 points"));
+}
+
+TEST_F(MapSubcommands, TrainTakesASessionOutOfTheMapAndTheProject) {
+  SceneDatabase db = test::MakeSceneDatabase(test::MakeSyntheticWorld({}));
+  for (size_t k = 0; k < db.keyframes.size(); ++k) {
+    db.keyframes[k].session = static_cast<uint32_t>(k % 3);
+  }
+  std::fill(db.session_masks.begin(), db.session_masks.end(), 7u);
+  const ProjectPaths paths = MakeProject("several.lararium", &db);
+  ProjectDocument document = *LoadProject(paths);
+  document.places[0].added = {{{SourceDocument::Kind::kVideo, "evening.mp4"}, {}},
+                              {{SourceDocument::Kind::kVideo, "night.mp4"}, {}}};
+  ASSERT_TRUE(SaveProject(paths, document).ok());
+  TrainOptions options;
+  options.project = paths.folder;
+  options.remove_session = 3;
+  EXPECT_THAT(RunTrain(options, progress_, *log_).status().message(), HasSubstr("none of the 2"));
+  options.remove_session = 1;
+  const Result<CommandResult> result = RunTrain(options, progress_, *log_);
+  ASSERT_TRUE(result.ok()) << result.message();
+  EXPECT_THAT(result->text, HasSubstr("removed evening.mp4, 4 keyframes"));
+  const ProjectDocument after = *LoadProject(paths);
+  ASSERT_EQ(after.places[0].added.size(), 1u);
+  EXPECT_EQ(after.places[0].added[0].source.path, "night.mp4");
+  const SceneDatabase map = *LoadMap(paths, "wall");
+  EXPECT_EQ(map.keyframes.size(), 8u);
+  EXPECT_EQ(map.keyframes[1].session, 1u);  // the night's
+  // The map of one that was added and taken back by undo is left alone.
+  document = after;
+  document.places[0].added.resize(2);
+  document.places[0].added[1].source = {SourceDocument::Kind::kVideo, "rain.mp4"};
+  ASSERT_TRUE(SaveProject(paths, document).ok());
+  EXPECT_THAT(RunTrain(options, progress_, *log_).status().message(),
+              HasSubstr("other sessions than the project names"));
+}
+
 }  // namespace
 }  // namespace lararium::app

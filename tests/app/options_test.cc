@@ -85,6 +85,21 @@ TEST(EditorOptions, TrainWithoutARecordingTakesTheOneBefore) {
   EXPECT_FALSE(train.tag_size.has_value());
 }
 
+TEST(EditorOptions, CalibrateTakesOneSourceAndABoard) {
+  const auto calibrate = Parsed<CalibrateOptions>(
+      {"calibrate", "--camera", "1", "--board", "7x5", "--square", "0.03", "--seconds", "20"});
+  EXPECT_EQ(calibrate.camera, "1");
+  EXPECT_EQ(calibrate.columns, 7);
+  EXPECT_EQ(calibrate.rows, 5);
+  EXPECT_EQ(calibrate.square, 0.03);
+  EXPECT_EQ(calibrate.seconds, 20.0);
+  EXPECT_EQ(Parsed<CalibrateOptions>({"calibrate", "--print-board", "a.svg"}).columns, 9);
+  EXPECT_THAT(Refusal({"calibrate"}), HasSubstr("--print-board"));
+  EXPECT_THAT(Refusal({"calibrate", "--camera", "0", "--print-board", "a.svg"}),
+              HasSubstr("--print-board"));
+  EXPECT_THAT(Refusal({"calibrate", "--camera", "0", "--board", "nine"}), HasSubstr("--board"));
+}
+
 TEST(EditorOptions, CheckPointsDoesOneWorkWithAllThatItNeeds) {
   const auto set = Parsed<CheckPointsOptions>(
       {"check-points", "p", "--set", "counter, left", "--at", "-1.2,0.9,-0.4"});
@@ -100,6 +115,61 @@ TEST(EditorOptions, CheckPointsDoesOneWorkWithAllThatItNeeds) {
   EXPECT_THAT(Refusal({"check-points", "p", "--pick", "a"}), HasSubstr("--frame"));
   EXPECT_THAT(Refusal({"check-points", "p", "--at", "1,2,3"}), HasSubstr("--set"));
   EXPECT_THAT(Refusal({"check-points", "p", "--lay", "--remove", "a"}), HasSubstr("--lay"));
+}
+
+TEST(EditorOptions, OccluderDoesOneWorkWithAllThatItNeeds) {
+  const auto add = Parsed<OccluderOptions>({"occluder", "p", "--add", "gate", "--shape", "arch",
+                                            "--size", "width=3,opening=1.5", "--at", "1,0,-2.5",
+                                            "--turn", "-30", "--receives-shadow", "no"});
+  EXPECT_EQ(add.add, "gate");
+  EXPECT_EQ(add.shape, "arch");
+  EXPECT_THAT(add.sizes, ElementsAre("width=3", "opening=1.5"));
+  EXPECT_THAT(add.at, ElementsAre(1, 0, -2.5));
+  EXPECT_THAT(add.turn, ElementsAre(-30));
+  EXPECT_EQ(add.receives_shadow, "no");
+  EXPECT_EQ(add.blocks_sound, "");
+  EXPECT_FALSE(add.scale.has_value());
+  const auto set = Parsed<OccluderOptions>({"occluder", "p", "--place", "site", "--set", "gate",
+                                            "--turn", "10,-90,5", "--scale", "0.01"});
+  EXPECT_THAT(set.turn, ElementsAre(10, -90, 5));
+  EXPECT_EQ(set.scale, 0.01);
+  EXPECT_EQ(Parsed<OccluderOptions>({"occluder", "p"}).place, "");
+  EXPECT_THAT(Refusal({"occluder", "p", "--add", "a"}), HasSubstr("--shape"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--add", "a", "--shape", "cone"}), HasSubstr("cone"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--add", "a", "--model", "/none.glb"}), HasSubstr("none"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--shape", "box"}), HasSubstr("--add"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--set", "a"}), HasSubstr("--size"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--at", "1,2,3"}), HasSubstr("--set"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--remove", "a", "--at", "1,2,3"}), HasSubstr("--set"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--set", "a", "--remove", "b"}), HasSubstr("--"));
+  EXPECT_THAT(Refusal({"occluder", "p", "--set", "a", "--blocks-sound", "maybe"}),
+              HasSubstr("maybe"));
+}
+
+TEST(EditorOptions, AlignTakesPairsWithTheirPicks) {
+  const auto added =
+      Parsed<AlignOptions>({"align", "p", "--occluder", "counter", "--place", "site", "--pair",
+                            "-1.5,0,2e3", "--pick", "0.png,10,20.5", "--pick", "8.png,30,40"});
+  EXPECT_EQ(added.occluder, "counter");
+  EXPECT_EQ(added.pair, (std::vector<double>{-1.5, 0.0, 2000.0}));
+  EXPECT_EQ(added.picks, (std::vector<std::string>{"0.png,10,20.5", "8.png,30,40"}));
+  EXPECT_FALSE(added.keep_scale.has_value());
+  EXPECT_FALSE(added.flat.has_value());
+  const auto refined = Parsed<AlignOptions>({"align", "p", "--occluder", "a", "--keep-scale",
+                                             "--by-points", "--refine", "--within", "0.1"});
+  EXPECT_TRUE(refined.by_points && refined.refine);
+  EXPECT_EQ(refined.keep_scale, true);
+  EXPECT_EQ(refined.within, 0.1);
+  EXPECT_EQ(Parsed<AlignOptions>({"align", "p", "--occluder", "a", "--fit-scale"}).keep_scale,
+            false);
+  EXPECT_EQ(Parsed<AlignOptions>({"align", "p", "--occluder", "a", "--not-flat"}).flat, false);
+  EXPECT_THAT(Refusal({"align", "p"}), HasSubstr("--occluder"));
+  EXPECT_THAT(Refusal({"align", "p", "--occluder", "a", "--pick", "0.png,1,2"}),
+              HasSubstr("--pair"));
+  EXPECT_THAT(Refusal({"align", "p", "--occluder", "a", "--within", "0.1"}), HasSubstr("--refine"));
+  EXPECT_THAT(Refusal({"align", "p", "--occluder", "a", "--refine", "--within", "-1"}),
+              HasSubstr("--within"));
+  EXPECT_THAT(Refusal({"align", "p", "--occluder", "a", "--remove", "0"}), HasSubstr("--remove"));
 }
 
 TEST(EditorOptions, PointsLieBetweenAHundredAndTenMillion) {
@@ -160,6 +230,20 @@ TEST(EditorOptions, ColmapModelsAreWrittenToAnyFolderAsBinaryUnlessAsked) {
   EXPECT_TRUE(full.text);
   EXPECT_TRUE(full.with_images);
   EXPECT_THAT(Refusal({"export-colmap", "p"}), HasSubstr("DIR"));
+}
+
+TEST(EditorOptions, MeasureNamesTwoPoints) {
+  const auto options =
+      Parsed<MeasureOptions>({"measure", "p", "--from", "3", "--to", "8", "--metres", "1.2"});
+  EXPECT_EQ(options.from, 3);
+  EXPECT_EQ(options.to, 8);
+  EXPECT_EQ(options.metres, 1.2);
+  EXPECT_FALSE(Parsed<MeasureOptions>({"measure", "p", "--from", "3", "--to", "8"}).metres);
+}
+
+TEST(EditorOptions, TrainRemovesASessionOnItsOwn) {
+  EXPECT_EQ(Parsed<TrainOptions>({"train", "p", "--remove-session", "2"}).remove_session, 2);
+  EXPECT_FALSE(Parsed<TrainOptions>({"train", "p"}).remove_session.has_value());
 }
 
 TEST(EditorOptions, PruneOnlyMeasuresUnlessPointsAreNamed) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,31 @@ class PaletteTest : public testing::TestWithParam<Theme> {
   }
   const Palette& p_ = PaletteOf(GetParam());
 };
+
+TEST(RampColour, GrowsLighterFromEndToEndAndStandsOutFromTheView) {
+  const ImVec4 view = {0.075f, 0.082f, 0.094f, 1.0f};
+  double before = 0.0;
+  for (int i = 0; i <= 20; ++i) {
+    const double luminance = Luminance(RampColour(i / 20.0));
+    EXPECT_GT(luminance, before) << i;
+    EXPECT_GE(Contrast(RampColour(i / 20.0), view), kMarks) << i;
+    before = luminance;
+  }
+  EXPECT_EQ(Luminance(RampColour(7.0)), Luminance(RampColour(1.0)));
+}
+
+TEST(SessionColour, DiffersBetweenSessionsAndStandsOutFromTheView) {
+  const ImVec4 view = {0.075f, 0.082f, 0.094f, 1.0f};
+  for (uint32_t a = 0; a < kSessionColours; ++a) {
+    EXPECT_GE(Contrast(SessionColour(a), view), kMarks) << a;
+    for (uint32_t b = 0; b < a; ++b) {
+      const ImVec4 p = SessionColour(a);
+      const ImVec4 q = SessionColour(b);
+      EXPECT_GT(std::abs(p.x - q.x) + std::abs(p.y - q.y) + std::abs(p.z - q.z), 0.3f) << a << b;
+    }
+  }
+  EXPECT_EQ(SessionColour(31).x, SessionColour(31 % kSessionColours).x);
+}
 
 TEST_P(PaletteTest, TextReadsWellOnEverythingBelowIt) {
   const ImVec4 selected = Over(WithAlpha(p_.accent, kSelectedTint), p_.panel);

@@ -30,6 +30,9 @@ ProjectDocument FullDocument() {
   counter.name = "counter";
   counter.file = "counter.glb";
   counter.stage_from_mesh = {1.0, Eigen::Quaterniond(0, 0, 1, 0), {1, 2, 3}};
+  counter.model_pairs = {{{10.5, -2.0, 4000.0}, {"point 1", {{12, "000012.png", {5, 6}}}}},
+                         {{0, 0, 1}, {"point 2", {{3, "a.png", {7, 8}, 1}}}}};
+  counter.keep_scale = true;
   place.occluders = {counter};
   place.probes = {
       {"noon", "probe.exr", {0.5, 1.2, -1.0}, 12.5, Eigen::Quaterniond(0.6, 0, 0.8, 0), 2.0},
@@ -37,11 +40,18 @@ ProjectDocument FullDocument() {
   OccluderDocument drawn;
   drawn.name = "wall";
   drawn.depth = 0.25;
+  drawn.flat = true;
   for (size_t i = 0; i < 3; ++i) {
     const double x = 10.0 * static_cast<double>(i);
     drawn.corners.push_back({CornerName(i), {{3, "a.png", {x, 1}}, {9, "b.png", {x, 2}, 1}}});
   }
   place.occluders.push_back(drawn);
+  OccluderDocument gate;
+  gate.name = "gate";
+  gate.shape = OccluderShape{OccluderShape::Kind::kArch, 4.0, 3.5, 0.5, 2.0, 1.25};
+  gate.stage_from_mesh = {1.0, Eigen::Quaterniond(0, 0, 1, 0), {-1, 0, 2}};
+  gate.receives_shadow = gate.blocks_walking = false;
+  place.occluders.push_back(gate);
   place.check_picks = {
       {"counter, left", {{12, "000012.png", {1.5, 2.5}}, {40, "b.png", {3, 4}, 1}}}};
   PlaceDocument untouched;
@@ -92,13 +102,29 @@ TEST(Project, SurvivesWritingAndReading) {
   EXPECT_FALSE(loaded->places[1].camera.has_value());
   EXPECT_EQ(loaded->places[0].intrinsics, document.places[0].intrinsics);
   EXPECT_TRUE(loaded->places[1].training.empty());
-  const OccluderDocument& wall = loaded->places[0].occluders.back();
+  const OccluderDocument& counter = loaded->places[0].occluders[0];
+  EXPECT_EQ(counter.kind(), OccluderDocument::Kind::kModel);
+  EXPECT_TRUE(counter.receives_shadow && counter.blocks_sound && counter.blocks_walking);
+  const OccluderDocument& gate = loaded->places[0].occluders[2];
+  ASSERT_EQ(gate.kind(), OccluderDocument::Kind::kShape);
+  EXPECT_EQ(gate.shape->kind, OccluderShape::Kind::kArch);
+  EXPECT_EQ(gate.shape->spring, 1.25);
+  EXPECT_EQ(gate.stage_from_mesh.translation, Eigen::Vector3d(-1, 0, 2));
+  EXPECT_TRUE(!gate.receives_shadow && gate.blocks_sound && !gate.blocks_walking);
+  const OccluderDocument& wall = loaded->places[0].occluders[1];
   EXPECT_TRUE(wall.drawn());
   ASSERT_EQ(wall.corners.size(), 3u);
   EXPECT_EQ(wall.corners[2].name, "corner 3");
   EXPECT_EQ(wall.corners[2].picks[1].session, 1u);
   EXPECT_EQ(wall.corners[2].picks[1].pixel, Eigen::Vector2d(20, 2));
   EXPECT_EQ(wall.depth, 0.25);
+  EXPECT_TRUE(wall.flat);
+  EXPECT_TRUE(counter.keep_scale);
+  ASSERT_EQ(counter.model_pairs.size(), 2u);
+  EXPECT_EQ(counter.model_pairs[0].on_mesh, Eigen::Vector3d(10.5, -2.0, 4000.0));
+  EXPECT_EQ(counter.model_pairs[1].anchor.name, "point 2");
+  EXPECT_EQ(counter.model_pairs[1].anchor.picks[0].session, 1u);
+  EXPECT_EQ(counter.model_pairs[1].anchor.picks[0].pixel, Eigen::Vector2d(7, 8));
   ASSERT_EQ(loaded->check_points.size(), 2u);
   EXPECT_EQ(loaded->check_points[0].name, "counter, left");
   EXPECT_EQ(loaded->check_points[0].position, Eigen::Vector3d(-1.25, 0.9, 0.5));
@@ -193,43 +219,67 @@ TEST_P(DamagedProject, IsAnError) {
 INSTANTIATE_TEST_SUITE_P(
     Fields,
     DamagedProject,
-    testing::Values(Damage{"schema", "/schema", "one"},
-                    Damage{"title", "/title", 3},
-                    Damage{"places", "/places", Json::object()},
-                    Damage{"path_as_name", "/places/0/name", "../etc"},
-                    Damage{"empty_name", "/places/0/name", ""},
-                    Damage{"same_name", "/places/0/name", "maquette"},
-                    Damage{"no_source", "/places/0/training", Json::object()},
-                    Damage{"rotation", "/places/0/adjust/rotation", {1, 1, 0, 0}},
-                    Damage{"short_vector", "/places/0/camera_nudge", {1, 2}},
-                    Damage{"huge_vector", "/places/0/camera_nudge", {1, 2, 1e300}},
-                    Damage{"focal", "/places/0/intrinsics/fx", 0.0},
-                    Damage{"frame", "/places/0/picks/origin/0/frame_index", -4},
-                    Damage{"pixel", "/places/0/picks/origin/0/pixel", {1e300, 0}},
-                    Damage{"length", "/places/0/picks/length_m", 0.0},
-                    Damage{"session", "/places/0/picks/origin/0/session", 32},
-                    Damage{"added", "/places/0/added/0/source", Json::object()},
-                    Damage{"added_focal", "/places/0/added/0/intrinsics/fy", -1.0},
-                    Damage{"family", "/places/0/tags/family", "tag1h1"},
-                    Damage{"tag_size", "/places/0/tags/size_m", 0.0},
-                    Damage{"model_and_corners", "/places/0/occluders/0/corners", Json::array()},
-                    Damage{"corner", "/places/0/occluders/1/corners/1", "there"},
-                    Damage{"corner_pixel", "/places/0/occluders/1/corners/1/0/pixel", {1e300, 0}},
-                    Damage{"depth", "/places/0/occluders/1/depth", -0.1},
-                    Damage{"no_model", "/places/0/occluders/0/file", ""},
-                    Damage{"probe", "/places/0/probes/0/scale", -1.0},
-                    Damage{"probe_twice", "/places/0/probes/1/name", "noon"},
-                    Damage{"hour", "/places/0/probes/1/hour", 24.5},
-                    Damage{"cast", "/cast/0", "Publia"},
-                    Damage{"giant", "/cast/1/height", 3.0},
-                    Damage{"glowing", "/cast/1/tunic", {2.0, 0.1, 0.1}},
-                    Damage{"two_figures", "/cast/2/model", "models/publia.glb"},
-                    Damage{"recipe", "/cast/2/recipe/age", -5},
-                    Damage{"clip_twice", "/cast/0/clips/1/name", "stroll"},
-                    Damage{"clip_loops", "/cast/0/clips/0/loops", 1},
-                    Damage{"object_twice", "/objects/1/name", "jug"},
-                    Damage{"two_models", "/objects/0/file", "props/statue.glb"},
-                    Damage{"far_object", "/objects/0/position", {1e9, 0.0, 0.0}}),
+    testing::Values(
+        Damage{"schema", "/schema", "one"},
+        Damage{"title", "/title", 3},
+        Damage{"places", "/places", Json::object()},
+        Damage{"path_as_name", "/places/0/name", "../etc"},
+        Damage{"empty_name", "/places/0/name", ""},
+        Damage{"same_name", "/places/0/name", "maquette"},
+        Damage{"no_source", "/places/0/training", Json::object()},
+        Damage{"rotation", "/places/0/adjust/rotation", {1, 1, 0, 0}},
+        Damage{"short_vector", "/places/0/camera_nudge", {1, 2}},
+        Damage{"huge_vector", "/places/0/camera_nudge", {1, 2, 1e300}},
+        Damage{"focal", "/places/0/intrinsics/fx", 0.0},
+        Damage{"frame", "/places/0/picks/origin/0/frame_index", -4},
+        Damage{"pixel", "/places/0/picks/origin/0/pixel", {1e300, 0}},
+        Damage{"length", "/places/0/picks/length_m", 0.0},
+        Damage{"session", "/places/0/picks/origin/0/session", 32},
+        Damage{"added", "/places/0/added/0/source", Json::object()},
+        Damage{"added_focal", "/places/0/added/0/intrinsics/fy", -1.0},
+        Damage{"family", "/places/0/tags/family", "tag1h1"},
+        Damage{"tag_size", "/places/0/tags/size_m", 0.0},
+        Damage{"model_and_corners", "/places/0/occluders/0/corners", Json::array()},
+        Damage{"corner", "/places/0/occluders/1/corners/1", "there"},
+        Damage{"corner_pixel", "/places/0/occluders/1/corners/1/0/pixel", {1e300, 0}},
+        Damage{"depth", "/places/0/occluders/1/depth", -0.1},
+        Damage{"no_model", "/places/0/occluders/0/file", ""},
+        Damage{"flat_model", "/places/0/occluders/0/flat", true},
+        Damage{"flat", "/places/0/occluders/1/flat", "yes"},
+        Damage{"drawn_pairs", "/places/0/occluders/1/model_pairs", Json::array()},
+        Damage{"drawn_scale", "/places/0/occluders/1/keep_scale", true},
+        Damage{"keep_scale", "/places/0/occluders/0/keep_scale", 1},
+        Damage{"pairs", "/places/0/occluders/0/model_pairs", Json::object()},
+        Damage{"many_pairs", "/places/0/occluders/0/model_pairs",
+               std::vector<Json>(65, {{"on_mesh", {0, 0, 0}}, {"picks", Json::array()}})},
+        Damage{"pair_field", "/places/0/occluders/0/model_pairs/0/name", "a"},
+        Damage{"pair_point", "/places/0/occluders/0/model_pairs/0/on_mesh", {0, 1}},
+        Damage{"far_pair", "/places/0/occluders/0/model_pairs/0/on_mesh", {0, 1e300, 0}},
+        Damage{"pair_picks", "/places/0/occluders/0/model_pairs/0/picks", "there"},
+        Damage{"pair_pixel", "/places/0/occluders/0/model_pairs/0/picks/0/pixel", {0, -1e300}},
+        Damage{"model_and_shape", "/places/0/occluders/2/file", "gate.glb"},
+        Damage{"shape", "/places/0/occluders/2/shape", "arch"},
+        Damage{"shape_kind", "/places/0/occluders/2/shape/kind", "gate"},
+        Damage{"shape_size", "/places/0/occluders/2/shape/opening", 4.0},
+        Damage{"shape_girth", "/places/0/occluders/2/shape/girth", 1.0},
+        Damage{"shape_place", "/places/0/occluders/2/translation", {1e9, 0, 0}},
+        Damage{"shadow", "/places/0/occluders/2/receives_shadow", 1},
+        Damage{"walking", "/places/0/occluders/2/blocks_walking", "no"},
+        Damage{"shape_flat", "/places/0/occluders/2/flat", true},
+        Damage{"shape_pairs", "/places/0/occluders/2/model_pairs", Json::array()},
+        Damage{"probe", "/places/0/probes/0/scale", -1.0},
+        Damage{"probe_twice", "/places/0/probes/1/name", "noon"},
+        Damage{"hour", "/places/0/probes/1/hour", 24.5},
+        Damage{"cast", "/cast/0", "Publia"},
+        Damage{"giant", "/cast/1/height", 3.0},
+        Damage{"glowing", "/cast/1/tunic", {2.0, 0.1, 0.1}},
+        Damage{"two_figures", "/cast/2/model", "models/publia.glb"},
+        Damage{"recipe", "/cast/2/recipe/age", -5},
+        Damage{"clip_twice", "/cast/0/clips/1/name", "stroll"},
+        Damage{"clip_loops", "/cast/0/clips/0/loops", 1},
+        Damage{"object_twice", "/objects/1/name", "jug"},
+        Damage{"two_models", "/objects/0/file", "props/statue.glb"},
+        Damage{"far_object", "/objects/0/position", {1e9, 0.0, 0.0}}),
     [](const auto& info) { return info.param.name; });
 
 TEST(Project, MissingFilesAreNamed) {
@@ -253,6 +303,38 @@ TEST(ProjectPaths, KeepRelativeWhatLiesInside) {
   EXPECT_EQ(paths.Shorten("/videos/a.mp4"), "/videos/a.mp4");
   EXPECT_EQ(paths.Resolve("cast/a.larhuman"), "/show.lararium/cast/a.larhuman");
   EXPECT_EQ(paths.Resolve("/videos/a.mp4"), "/videos/a.mp4");
+}
+
+TEST(ForgetSession, LetsGoOfItsPicksAndMovesLaterSessionsUp) {
+  PlaceDocument place;
+  place.added = {{{SourceDocument::Kind::kVideo, "evening.mp4"}, {}},
+                 {{SourceDocument::Kind::kVideo, "night.mp4"}, {}},
+                 {{SourceDocument::Kind::kVideo, "rain.mp4"}, {}}};
+  const auto picked = [](uint32_t session) { return stage::Pick{5, "5", {1, 2}, session}; };
+  const stage::Anchor anchor{"", {picked(0), picked(1), picked(2), picked(3)}};
+  place.picks.floor = anchor;
+  place.picks.length_to = anchor;
+  place.occluders.resize(1);
+  place.occluders[0].corners = {anchor};
+  place.check_picks = {anchor};
+  ForgetSession(place, 2);
+  ASSERT_EQ(place.added.size(), 2u);
+  EXPECT_EQ(place.added[0].source.path, "evening.mp4");
+  EXPECT_EQ(place.added[1].source.path, "rain.mp4");
+  for (const stage::Anchor* left : {&place.picks.floor, &place.picks.length_to,
+                                    &place.occluders[0].corners[0], &place.check_picks[0]}) {
+    ASSERT_EQ(left->picks.size(), 3u);
+    EXPECT_EQ(left->picks[1].session, 1u);
+    EXPECT_EQ(left->picks[2].session, 2u);
+  }
+}
+
+TEST(ForgetSession, LeavesTheTrainingAndWhatIsNotThere) {
+  PlaceDocument place;
+  place.added.resize(1);
+  ForgetSession(place, 0);
+  ForgetSession(place, 2);
+  EXPECT_EQ(place.added.size(), 1u);
 }
 
 }  // namespace

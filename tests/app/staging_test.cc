@@ -107,6 +107,35 @@ TEST(LayOnFloor, MakesTheStageLevelAndKeepsItsHeading) {
   EXPECT_LT(again.rotation.angularDistance(laid.rotation), 1e-7);
 }
 
+TEST(ScaledToDistance, GivesTheDistanceThatWasTypedAboutTheStagesOrigin) {
+  const Similarity3 map_from_picked = {
+      3.0, Eigen::Quaterniond(0.9, 0.1, 0.3, -0.2).normalized(), {1, 2, 3}};
+  const Similarity3 by_hand = {
+      1.1, Eigen::Quaterniond(0.8, -0.3, 0.1, 0.4).normalized(), {0.4, 1.0, -2.0}};
+  const Vector3d from(0.3, -1.0, 2.0);
+  const Vector3d to(1.3, 0.5, -0.5);
+  const Similarity3 scaled = ScaledToDistance(map_from_picked, by_hand, from, to, 1.25);
+  EXPECT_NEAR(StageDistance(map_from_picked * scaled, from, to), 1.25, 1e-12);
+  // As points of the stage have it.
+  const Similarity3 stage_from_map = (map_from_picked * scaled).Inverse();
+  EXPECT_NEAR((stage_from_map * to - stage_from_map * from).norm(), 1.25, 1e-12);
+  EXPECT_EQ(scaled.translation, by_hand.translation);
+  EXPECT_EQ(scaled.rotation.coeffs(), by_hand.rotation.coeffs());
+}
+
+TEST(ScaledToDistance, StaysRightInAMapOfAnotherUnit) {
+  // Training again: the same place 2.7 times as large, and the picks give the same metres.
+  const Similarity3 other_from_map = {
+      2.7, Eigen::Quaterniond(0.2, 0.5, -0.3, 0.7).normalized(), {5, 0, 1}};
+  const Similarity3 map_from_picked = {3.0, Eigen::Quaterniond::Identity(), {1, 2, 3}};
+  const Vector3d from(0.3, -1.0, 2.0);
+  const Vector3d to(1.3, 0.5, -0.5);
+  const Similarity3 scaled = ScaledToDistance(map_from_picked, {}, from, to, 0.8);
+  EXPECT_NEAR(StageDistance(other_from_map * map_from_picked * scaled, other_from_map * from,
+                            other_from_map * to),
+              0.8, 1e-12);
+}
+
 TEST(StageReport, MeasuresTheStageAgainstTheFloor) {
   const vision::SceneDatabase map = RoomMap(SomeGauge());
   PlaceDocument place;
@@ -132,6 +161,53 @@ TEST(LoadStagedMap, SaysWhatAPlaceLacks) {
   PlaceDocument place;
   place.name = "tavern";
   EXPECT_THAT(LoadStagedMap({folder.path()}, place).message(), HasSubstr("scene.larscene"));
+}
+
+TEST(StagePlace, ShapesNeedNoBakingAndKeepWhatTheyDo) {
+  const test::TemporaryFolder folder;
+  PlaceDocument place;
+  place.name = "tavern";
+  OccluderDocument& gate = place.occluders.emplace_back();
+  gate.name = "gate";
+  gate.shape = EntryOf(OccluderShape::Kind::kArch).usual;
+  gate.stage_from_mesh.translation = {1.0, 0.0, -2.0};
+  gate.receives_shadow = false;
+  // An obstacle at another place, too, which may not be trained.
+  for (const auto& staged :
+       {StagePlace({folder.path()}, place, {}, {}), StageObstacles({folder.path()}, place)}) {
+    ASSERT_TRUE(staged.ok()) << staged.message();
+    ASSERT_EQ(staged->occluders.size(), 1u);
+    const stage::Occluder& occluder = staged->occluders[0];
+    EXPECT_EQ(occluder.name, "gate");
+    EXPECT_EQ(occluder.mesh.positions, MakeShapeMesh(*gate.shape).positions);
+    EXPECT_EQ(occluder.stage_from_mesh.translation, Vector3d(1.0, 0.0, -2.0));
+    EXPECT_TRUE(!occluder.receives_shadow && occluder.blocks_sound && occluder.blocks_walking);
+  }
+}
+
+TEST(StageAnew, FollowsSizesPoseAndWhatItDoes) {
+  OccluderDocument counter;
+  counter.shape = OccluderShape{OccluderShape::Kind::kBox, 2.0, 1.0, 0.5};
+  counter.stage_from_mesh.scale = 0.5;
+  counter.blocks_sound = counter.blocks_walking = false;
+  stage::Occluder staged;
+  StageAnew(counter, {}, staged);
+  EXPECT_EQ(staged.mesh.positions, MakeShapeMesh(*counter.shape).positions);
+  EXPECT_EQ(staged.stage_from_mesh.scale, 0.5);
+  EXPECT_TRUE(staged.receives_shadow && !staged.blocks_sound && !staged.blocks_walking);
+
+  OccluderDocument model;
+  model.file = "counter.glb";
+  const size_t corners = staged.mesh.positions.size();
+  StageAnew(model, {}, staged);
+  EXPECT_EQ(staged.mesh.positions.size(), corners) << "the mesh of a file stays";
+  EXPECT_TRUE(staged.blocks_sound && staged.blocks_walking);
+
+  OccluderDocument drawn;
+  Similarity3 map_from_stage;
+  map_from_stage.scale = 4.0;
+  StageAnew(drawn, map_from_stage, staged);
+  EXPECT_EQ(staged.stage_from_mesh.scale, 0.25) << "drawn in the map";
 }
 
 // Frames whose every pixel is their index.

@@ -7,7 +7,10 @@
 #include <thread>
 
 #include "editor/app/line_edits.h"
+#include "editor/app/staging.h"
+#include "editor/app/training.h"
 #include "shared/core/file.h"
+#include "tests/support/synthetic_world.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::app {
@@ -222,6 +225,39 @@ TEST_F(WorkspaceTest, AnotherPlaceIsShownAtTheSameMomentAndARemovedOneGivesWay) 
   workspace->Undo();
   ASSERT_NE(workspace->place(), nullptr);
   EXPECT_EQ(workspace->place()->name, "maquette");
+}
+
+TEST_F(WorkspaceTest, ARemovedSessionIsGoneFromMapAndDocumentAndNoUndoBringsItBack) {
+  vision::SceneDatabase map = test::MakeSceneDatabase(test::MakeSyntheticWorld({}));
+  for (size_t k = 0; k < map.keyframes.size(); ++k) {
+    map.keyframes[k].session = static_cast<uint32_t>(k % 2);
+  }
+  ProjectDocument document = *LoadProject(paths_);
+  document.places.resize(1);
+  document.places[0].name = "site";
+  ASSERT_TRUE(SaveProject(paths_, document).ok());
+  ASSERT_TRUE(SaveMap(paths_, document.places[0], map).ok());
+  const auto workspace = Open();
+  workspace->EditPlace("add a session", [](PlaceDocument& place) {
+    place.added.push_back({{SourceDocument::Kind::kVideo, "evening.mp4"}, {}});
+  });
+  workspace->EditPlace("nudge", [](PlaceDocument& place) { place.camera_nudge.x() = 0.1; });
+  workspace->Undo();
+  workspace->RemoveSession(1);
+  while (workspace->tasks().Running(Workspace::kTraining)) {
+    workspace->Update(0.01);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_TRUE(workspace->place()->added.empty()) << workspace->messages().back().text;
+  EXPECT_EQ(LoadMap(paths_, "site")->keyframes.size(), 6u);
+  workspace->Redo();
+  EXPECT_EQ(workspace->place()->camera_nudge.x(), 0.1);
+  EXPECT_TRUE(workspace->place()->added.empty());
+  workspace->Undo();
+  workspace->Undo();
+  EXPECT_TRUE(workspace->place()->added.empty());
+  workspace->Redo();
+  EXPECT_TRUE(workspace->place()->added.empty());
 }
 
 TEST_F(WorkspaceTest, AFailedExportIsAMessageAndWritesNothing) {

@@ -284,16 +284,41 @@ TEST(ShowManifest, KeepsSoundsAndAcoustics) {
   manifest.sounds = {{"bell", "sounds/0"}};
   manifest.places[0].acoustics.reverb = stage::Reverb::kVault;
   manifest.places[0].acoustics.ambience = {{"bell", -6.0f, std::nullopt}};
-  manifest.places[0].occluders[0].blocks_sound = false;
   const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "manifest.json");
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   EXPECT_EQ(parsed->sounds.at(0).name, "bell");
   EXPECT_EQ(parsed->sounds.at(0).file, "sounds/0");
   EXPECT_EQ(parsed->places[0].acoustics, manifest.places[0].acoustics);
-  EXPECT_FALSE(parsed->places[0].occluders[0].blocks_sound);
   manifest.members.pop_back();
   EXPECT_THAT(ParseShowManifest(FormatShowManifest(manifest), "m").message(),
               HasSubstr("'sounds/0' is used but not listed"));
+}
+
+TEST(ShowManifest, KeepsWhatAnOccluderDoes) {
+  for (bool OccluderEntry::*does : {&OccluderEntry::blocks_sound, &OccluderEntry::blocks_walking,
+                                    &OccluderEntry::receives_shadow}) {
+    ShowManifest manifest = Listed();
+    manifest.places[0].occluders[0].*does = false;
+    const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "manifest.json");
+    ASSERT_TRUE(parsed.ok()) << parsed.message();
+    const OccluderEntry& read = parsed->places[0].occluders[0];
+    EXPECT_FALSE(read.*does);
+    EXPECT_EQ(int{read.blocks_sound} + int{read.blocks_walking} + int{read.receives_shadow}, 2);
+  }
+}
+
+TEST(ShowManifest, OccludersOfOlderBundlesDoEverything) {
+  Json json = Json::parse(FormatShowManifest(Listed()));
+  Json& occluder = json["places"][0]["occluders"][0];
+  for (const char* key : {"blocks_sound", "blocks_walking", "receives_shadow"}) {
+    ASSERT_EQ(occluder.erase(key), 1u);
+  }
+  const auto parsed = ParseShowManifest(json.dump(), "manifest.json");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  const OccluderEntry& read = parsed->places[0].occluders[0];
+  EXPECT_TRUE(read.blocks_sound && read.blocks_walking && read.receives_shadow);
+  occluder["receives_shadow"] = "yes";
+  EXPECT_THAT(ParseShowManifest(json.dump(), "m").message(), HasSubstr("receives_shadow"));
 }
 
 }  // namespace

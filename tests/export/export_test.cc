@@ -61,6 +61,22 @@ TEST(Export, PacksAllThatThePlayerNeeds) {
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(drama.data()), drama.size()), content.drama);
 }
 
+TEST(Export, KeepsWhatEachOccluderDoes) {
+  const test::TemporaryFolder folder;
+  ExportContent content = SmallShow();
+  content.places[0].place.occluders[0].blocks_sound = false;
+  content.places[0].place.occluders[0].blocks_walking = false;
+  content.places[0].place.occluders[1].receives_shadow = false;
+  NoProgress progress;
+  ASSERT_TRUE(ExportBundle(content, folder / "a.larshow", progress).ok());
+  const auto opened = bundle::Bundle::Open(folder / "a.larshow");
+  ASSERT_TRUE(opened.ok()) << opened.message();
+  const bundle::OccluderEntry& counter = opened->manifest().places[0].occluders[0];
+  const bundle::OccluderEntry& wall = opened->manifest().places[0].occluders[1];
+  EXPECT_TRUE(!counter.blocks_sound && !counter.blocks_walking && counter.receives_shadow);
+  EXPECT_TRUE(wall.blocks_sound && wall.blocks_walking && !wall.receives_shadow);
+}
+
 TEST(Export, PacksEveryPlaceWithItsOwnMapAndOccluders) {
   const test::TemporaryFolder folder;
   ExportContent content = SmallShow();

@@ -54,6 +54,22 @@ TEST_F(OverlayTest, PointsAreRoundAndLieWhereTheyProject) {
   EXPECT_NEAR(cv::sum(picture)[0] / 255.0, CV_PI * 16.0, 2.5);
 }
 
+TEST_F(OverlayTest, KeptPointsAreDrawnAsOthersAreAndAsManyAsAskedFor) {
+  const OverlayPoint points[] = {{{0.31f, 0.22f, 0.4f}, {255, 255, 255, 255}},
+                                 {{-0.3f, 0.1f, 0.0f}, {255, 255, 255, 255}}};
+  const PointsHandle kept = overlay_->AddPoints(points);
+  overlay_->Begin(view_, *target_);
+  ASSERT_TRUE(overlay_->DrawPoints(kept, 1, 8.0f).ok());
+  overlay_->End();
+  const cv::Mat picture = ReadTarget();
+  EXPECT_NEAR(Centroid(picture).x, Pixel(points[0].position).x, 0.1);
+  EXPECT_NEAR(cv::sum(picture)[0] / 255.0, CV_PI * 16.0, 2.5);
+  overlay_->RemovePoints(kept);
+  overlay_->Begin(view_, *target_);
+  EXPECT_FALSE(overlay_->DrawPoints(kept, 1, 8.0f).ok());
+  overlay_->End();
+}
+
 TEST_F(OverlayTest, LinesHaveTheirWidthAndColour) {
   const OverlayLine line = {{-0.5f, 0.1f, 0.0f}, {0.5f, 0.1f, 0.0f}, {255, 128, 0, 255}};
   overlay_->Begin(view_, *target_);

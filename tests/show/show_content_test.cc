@@ -104,6 +104,19 @@ TEST_F(ShowContentTest, LoadsAllPlacesInTheBundlesOrder) {
   EXPECT_EQ(Maps(content->places)[1], yard.map);
 }
 
+TEST_F(ShowContentTest, OccludersDoWhatTheBundleSays) {
+  manifest_.places[1].occluders[0].blocks_walking = false;
+  manifest_.places[1].occluders[0].receives_shadow = false;
+  // The yard stands in the way at the bar too.
+  const auto bar = Load("bar");
+  ASSERT_TRUE(bar.ok()) << bar.message();
+  EXPECT_FALSE(bar->elsewhere.at(0).occluders.at(0).blocks_walking);
+  const auto yard = Load("yard");
+  ASSERT_TRUE(yard.ok()) << yard.message();
+  const stage::Occluder& wall = yard->places[0].stage.occluders[0];
+  EXPECT_TRUE(wall.blocks_sound && !wall.blocks_walking && !wall.receives_shadow);
+}
+
 TEST_F(ShowContentTest, PutsOccludersWhereTheMapHasThem) {
   manifest_.places[1].map_from_stage.scale = 2.0;
   manifest_.places[1].map_from_stage.translation = {1.0, 0.0, 0.0};

@@ -135,6 +135,22 @@ TEST_F(ShowRendererTest, EachPlaceHasItsOwnOccluders) {
   }
 }
 
+TEST_F(ShowRendererTest, ShadowsFallOnOccludersThatReceiveThem) {
+  stage::Place yard;
+  yard.occluders = {{"wall", Wall(-9.0f, 9.0f, -5.0f), {}}};
+  stage::Place glazed = yard;
+  glazed.occluders[0].receives_shadow = false;
+  Create(glm::vec3(1.0f), {yard, glazed});
+  SetLight(glm::vec3(0.5f));
+  staged_.actors.clear();
+  staged_.blockers = {{0.0f, 0.0f, -4.4f, 0.5f}};
+  for (const uint32_t place : {0u, 1u}) {
+    staged_.place = place;
+    const double seen = LinearAt(Draw(glm::vec3(0.5f)), 80, 60).r;
+    EXPECT_NEAR(seen, place == 0 ? 0.5 * (1.0 - 0.25 / 0.36) : 0.5, place == 0 ? 0.06 : 0.005);
+  }
+}
+
 TEST_F(ShowRendererTest, EverybodyIsInTheirOwnLight) {
   Create(glm::vec3(1.0f), {{}});
   staged_.actors.push_back(staged_.actors[0]);

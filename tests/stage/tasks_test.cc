@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <set>
@@ -63,6 +64,32 @@ class TasksTest : public ::testing::Test {
   std::shared_ptr<const human::Human> human_ = test::MakeTestHuman();
   Stage stage_;
 };
+
+TEST_F(TasksTest, AWalkGoesThroughWhatDoesNotBlockWalking) {
+  NavigationOptions floor;
+  floor.floor = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}};
+  stage::Place place;
+  Occluder& curtain = place.occluders.emplace_back();
+  curtain.name = "curtain";
+  const stage::PropMesh box = test::MakeBox({-6.0f, 0.0f, -0.1f}, {6.0f, 2.5f, 0.1f});
+  curtain.mesh.positions = box.positions;
+  curtain.mesh.indices = box.indices;
+  const ActorId keeper = AddActor("keeper", 0, 2);
+  for (const bool blocks : {true, false}) {
+    curtain.blocks_walking = blocks;
+    // At any of the places.
+    ASSERT_TRUE(stage_.SetFloor(floor, std::array{stage::Place(), place}).ok());
+    stage_.Place(keeper, {0.0f, 0.0f, 2.0f}, 0.0f);
+    const TaskReport walk = Finish(stage_.tasks().Walk(keeper, {0.0f, -2.0f}, {}, 0.0f));
+    if (blocks) {
+      EXPECT_THAT(std::string(walk.message), HasSubstr("cannot get there"));
+      EXPECT_GT(At(keeper).state.position.z, 0.3f) << "before it";
+    } else {
+      EXPECT_TRUE(walk.message.empty()) << walk.message;
+      EXPECT_NEAR(At(keeper).state.position.z, -2.0f, 0.01f) << "beyond it";
+    }
+  }
+}
 
 // A leaf, hinged at the origin, that opens towards +z.
 stage::Prop MakeGate() {

@@ -98,9 +98,9 @@ sleep 1
 import -window root "$out/other_recording.png"
 before=$(sha256sum < "$project/places/maquette/scene.larscene")
 click 154 14  # View
-click 185 475  # The camera is
+click 185 549  # The camera is
 shown=$(part $picture)
-click 460 497  # The training's recording
+click 460 571  # The training's recording
 xdotool mousemove 700 780
 wait_for 60 is_other $picture "$shown" || fail "the training's recording is not shown"
 sleep 10
@@ -138,8 +138,8 @@ wait_for 10 taken_back || fail "undo of the drag"
 
 # A live camera, for which a recording stands in, and back.
 click 154 14   # View
-click 185 475  # The camera is
-click 460 519  # A live camera
+click 185 549  # The camera is
+click 460 593  # A live camera
 import -window root "$out/live_dialog.png"
 fill 720 448 "$project/places/maquette/handheld.mp4"
 shown=$(part $picture)

@@ -43,6 +43,23 @@ press ctrl+shift+z
 press ctrl+s
 wait_for 10 translation_is "1.25,0.0,0.0" || fail "redo was not saved: $(translation "$json")"
 
+# Credits wrap as they are typed, without a sign of it in the file; a letter is deleted across
+# rows; and undo works in the field.
+credits_are() { grep -q "\"credits\": \"$1\"" "$json"; }
+click 47 82     # Project
+click 1330 190  # its credits
+xdotool type --delay 60 "Frescoes photographed by the museum, voices by the theatre of the town"
+xdotool key --delay 200 Home BackSpace  # the space between two rows
+sleep 0.5
+import -window root "$out/credits.png"
+press ctrl+s
+wait_for 10 credits_are "Frescoes photographed by the museum, voices by thetheatre of the town" ||
+  fail "credits: $(grep credits "$json")"
+press ctrl+z
+press ctrl+s
+wait_for 10 credits_are "" || fail "undo of the credits: $(grep credits "$json")"
+click 47 216  # the stage
+
 # The upward arrow of the stage's handles, dragged up in the view around the place.
 press ctrl+z
 press 2

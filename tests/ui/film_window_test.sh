@@ -31,7 +31,7 @@ sleep 3
 shot empty
 shows_picture && fail "a project without a place shows a picture"
 click 37 44    # Train
-click 720 516  # Film it with a camera instead
+click 720 524  # Film it with a camera instead
 shot start
 fill 720 432 tavern
 fill 720 463 "$video"

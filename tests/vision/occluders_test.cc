@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
+#include <limits>
 
 #include "shared/core/random.h"
 
@@ -128,6 +130,69 @@ TEST(OccluderTree, AHitLiesOnTheTriangleAndIsAsFarAsItSays) {
   ASSERT_TRUE(hit.has_value());
   EXPECT_FLOAT_EQ(hit->distance, 1.5f);
   EXPECT_FLOAT_EQ(std::abs(hit->normal.z()), 1.0f);
+}
+
+// The nearest of many points of a triangle, and the vector to it from there.
+double NearestBySampling(const Vector3f* corners, const Vector3f& point) {
+  constexpr int kSteps = 400;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; i + j <= kSteps; ++j) {
+      const float u = static_cast<float>(i) / kSteps;
+      const float v = static_cast<float>(j) / kSteps;
+      const Vector3f at = (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
+      least = std::min(least, static_cast<double>((at - point).norm()));
+    }
+  }
+  return least;
+}
+
+TEST(OccluderTree, TheNearestPointOfATriangleIsNearerThanAnyOther) {
+  Random random(7);
+  for (int i = 0; i < 40; ++i) {
+    OccluderMesh mesh{
+        {RandomPoint(random, 1.0), RandomPoint(random, 1.0), RandomPoint(random, 1.0)}, {0, 1, 2}};
+    const Vector3f point = RandomPoint(random, 2.0);
+    const auto nearest = OccluderTree(mesh).NearestTo(point, 10.0f);
+    ASSERT_TRUE(nearest.has_value());
+    const double expected = NearestBySampling(mesh.positions.data(), point);
+    EXPECT_LE(nearest->distance, expected + 1e-5) << "seed 7, triangle " << i;
+    EXPECT_GE(nearest->distance, expected - 0.005) << "seed 7, triangle " << i;
+    EXPECT_NEAR((nearest->point - point).norm(), nearest->distance, 1e-5f);
+    // It is a point of the triangle: nowhere nearer to it than it is itself.
+    EXPECT_LT(NearestBySampling(mesh.positions.data(), nearest->point), 0.005);
+  }
+}
+
+TEST(OccluderTree, TheNearestPointIsThatOfTheNearestOfAllTriangles) {
+  const OccluderMesh mesh = RandomTriangles(8, 300);
+  const OccluderTree tree(mesh);
+  std::vector<OccluderTree> alone;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    alone.emplace_back(
+        OccluderMesh{mesh.positions, {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}});
+  }
+  Random random(9);
+  int found = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vector3f point = RandomPoint(random, 1.5);
+    constexpr float kWithin = 0.2f;
+    float expected = kWithin;
+    for (const OccluderTree& triangle : alone) {
+      if (const auto nearest = triangle.NearestTo(point, expected)) {
+        expected = nearest->distance;
+      }
+    }
+    const auto nearest = tree.NearestTo(point, kWithin);
+    ASSERT_EQ(nearest.has_value(), expected < kWithin) << "seed 9, point " << i;
+    if (nearest) {
+      ++found;
+      EXPECT_EQ(nearest->distance, expected);
+    }
+  }
+  EXPECT_GT(found, 50);
+  EXPECT_LT(found, 250);
+  EXPECT_FALSE(OccluderTree(OccluderMesh()).NearestTo({0, 0, 0}, 1e9f));
 }
 
 TEST(OccluderTree, LeavesOutTrianglesWithoutArea) {

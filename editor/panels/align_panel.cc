@@ -1,0 +1,356 @@
+#include "editor/panels/align_panel.h"
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include "editor/app/occluder_alignment.h"
+#include "editor/panels/gizmo_view.h"
+#include "editor/panels/model_point.h"
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+using Eigen::Vector3d;
+using geometry::Similarity3;
+
+constexpr double kCentimetres = 100.0;
+
+void EditModel(app::Workspace& workspace,
+               const std::string& command,
+               const std::string& name,
+               const std::function<void(app::OccluderDocument&)>& change) {
+  workspace.EditPlace(command, [&](app::PlaceDocument& place) {
+    for (app::OccluderDocument& occluder : place.occluders) {
+      if (occluder.name == name) {
+        change(occluder);
+      }
+    }
+  });
+}
+
+// What is remembered is of the model that is selected.
+AlignView& ViewOf(EditorState& state, const std::string& occluder) {
+  if (state.align.occluder != occluder) {
+    const double search = state.align.search_m;
+    state.align = {};
+    state.align.occluder = occluder;
+    state.align.search_m = search;
+  }
+  return state.align;
+}
+
+void Warn(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+// Point, images, centimetres, pixels; a row chooses the pair that is picked.
+void ShowPairTable(EditorState& state,
+                   const app::OccluderDocument& occluder,
+                   const app::AlignmentReport& report) {
+  if (occluder.model_pairs.empty() ||
+      !ImGui::BeginTable("pairs", 4, ImGuiTableFlags_SizingStretchProp)) {
+    return;
+  }
+  ImGui::TableSetupColumn(Tr("Point"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(Tr("Images"), ImGuiTableColumnFlags_WidthFixed, Px(64));
+  ImGui::TableSetupColumn("cm", ImGuiTableColumnFlags_WidthFixed, Px(56));
+  ImGui::TableSetupColumn("px", ImGuiTableColumnFlags_WidthFixed, Px(56));
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
+  ImGui::TableHeadersRow();
+  ImGui::PopStyleColor();
+  for (size_t i = 0; i < occluder.model_pairs.size(); ++i) {
+    const bool located = i < report.pairs.size() && report.pairs[i].located;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const std::string number = std::to_string(i + 1);
+    if (ImGui::Selectable(number.c_str(), state.align.pair == i,
+                          ImGuiSelectableFlags_SpanAllColumns)) {
+      state.align.pair = state.align.pair == i ? std::nullopt : std::optional(i);
+      state.view = state.align.pair ? ViewKind::kPicks : state.view;
+    }
+    ImGui::TableNextColumn();
+    ImGui::Text("%zu", occluder.model_pairs[i].anchor.picks.size());
+    ImGui::TableNextColumn();
+    const auto number_or_dash = [&](double value) {
+      ImGui::TextUnformatted(located ? Text("%.1f", value).c_str() : "-");
+    };
+    number_or_dash(located ? kCentimetres * report.pairs[i].distance_m : 0.0);
+    ImGui::TableNextColumn();
+    number_or_dash(located ? report.pairs[i].distance_px : 0.0);
+  }
+  ImGui::EndTable();
+}
+
+// What the pairs come to, or what they lack.
+void ShowPairs(const app::OccluderDocument& occluder, const app::AlignmentReport& report) {
+  for (size_t i = 0; i < report.pairs.size(); ++i) {
+    if (!report.pairs[i].located && occluder.model_pairs[i].anchor.picks.empty()) {
+      Hint(Text(Tr("Click point %d in two training images."), static_cast<int>(i) + 1));
+    } else if (!report.pairs[i].located) {
+      Warn(report.pairs[i].problem.message());
+    }
+  }
+  if (report.worst) {
+    Hint(Text(Tr("All are %.1f cm off, root mean square; point %d is the worst."),
+              kCentimetres * report.rms_m, static_cast<int>(*report.worst) + 1));
+  }
+}
+
+void ShowPairButtons(app::Workspace& workspace,
+                     EditorState& state,
+                     const app::OccluderDocument& occluder) {
+  const ImVec2 wide(-FLT_MIN, 0);
+  AlignView& align = state.align;
+  const std::string name = occluder.name;
+  ImGui::BeginDisabled(workspace.loaded().staged == nullptr ||
+                       occluder.model_pairs.size() >= app::kMaxModelPairs);
+  if (ImGui::Button(align.picking ? Tr("Stop adding") : Tr("Add a point"), wide)) {
+    align.picking = !align.picking;
+    if (align.picking && state.view == ViewKind::kPicks) {
+      state.view = ViewKind::kAround;
+    }
+  }
+  ImGui::EndDisabled();
+  if (align.picking) {
+    Hint(
+        Tr("Click a corner of the model, through the camera or around the place, then the same "
+           "point in the training images."));
+  }
+  ImGui::BeginDisabled(!align.pair);
+  if (ImGui::Button(Tr("Remove the point"), wide)) {
+    EditModel(workspace, Tr("remove a point of the model"), name,
+              [pair = *align.pair](app::OccluderDocument& o) { app::RemoveModelPair(o, pair); });
+    align.pair.reset();
+  }
+  ImGui::EndDisabled();
+}
+
+void AlignByPointsButton(app::Workspace& workspace,
+                         const app::OccluderDocument& occluder,
+                         const app::AlignmentReport& report,
+                         const Similarity3& map_from_stage) {
+  const bool enough = report.located >= 3;
+  ImGui::BeginDisabled(!enough);
+  if (ImGui::Button(Tr("Align by the points"), ImVec2(-FLT_MIN, 0))) {
+    const auto aligned = app::AlignByPoints(occluder, *workspace.loaded().database, map_from_stage);
+    if (aligned.ok()) {
+      EditModel(workspace, Text(Tr("align %s"), occluder.name.c_str()), occluder.name,
+                [&](app::OccluderDocument& edited) { edited.stage_from_mesh = *aligned; });
+    } else {
+      workspace.Tell(app::Message::Level::kError, aligned.message());
+    }
+  }
+  ImGui::EndDisabled();
+  if (!enough && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::SetTooltip("%s", Tr("Three points are needed, each clicked in two training images."));
+  }
+}
+
+void ShowRefining(app::Workspace& workspace,
+                  EditorState& state,
+                  const app::OccluderDocument& occluder) {
+  if (BeginProperties("refine")) {
+    NumberProperty(workspace, Tr("Search within"), state.align.search_m, 0.005, app::kMinSearch,
+                   app::kMaxSearch, "%.3f m");
+    EndProperties();
+  }
+  ImGui::BeginDisabled(workspace.loaded().staged == nullptr ||
+                       workspace.tasks().Running(app::Workspace::kRefining));
+  if (ImGui::Button(Tr("Refine on the map"), ImVec2(-FLT_MIN, 0))) {
+    workspace.RefineOccluder(occluder.name, state.align.search_m);
+  }
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::SetTooltip(
+        "%s", Tr("Moves the model so that its surface lies among the map's points near it"));
+  }
+  if (const auto* refined = workspace.refinement(occluder)) {
+    if (refined->report.ok()) {
+      Hint(app::RefineText(*refined->report, true));
+    } else {
+      Warn(refined->report.message());
+    }
+  }
+}
+
+// The model as it is staged; nullptr: it is not yet.
+const stage::Occluder* Staged(const app::Workspace& workspace, const std::string& name) {
+  const auto& staged = workspace.loaded().staged;
+  if (staged == nullptr) {
+    return nullptr;
+  }
+  const auto found = std::find_if(staged->occluders.begin(), staged->occluders.end(),
+                                  [&](const stage::Occluder& o) { return o.name == name; });
+  return found == staged->occluders.end() ? nullptr : &*found;
+}
+
+const app::OccluderDocument* SelectedModel(const app::Workspace& workspace,
+                                           const EditorState& state) {
+  if (workspace.place() == nullptr || state.selection.kind != Selection::Kind::kOccluder) {
+    return nullptr;
+  }
+  for (const app::OccluderDocument& occluder : workspace.place()->occluders) {
+    if (occluder.name == state.selection.name && !occluder.file.empty()) {
+      return &occluder;
+    }
+  }
+  return nullptr;
+}
+
+// The point that a click takes, and the click.
+void PickOnModel(app::Workspace& workspace,
+                 EditorState& state,
+                 const app::OccluderDocument& occluder,
+                 const ViewCamera& view,
+                 ImDrawList& draw) {
+  constexpr float kReach = 14.0f;
+  AlignView& align = state.align;
+  const stage::Occluder* solid = Staged(workspace, occluder.name);
+  if (solid == nullptr) {
+    return;
+  }
+  if (align.tree == nullptr || align.tree_of != workspace.loaded().staged) {
+    align.tree_of = workspace.loaded().staged;
+    align.tree = std::make_shared<const vision::OccluderTree>(vision::Placed(solid->mesh, {}));
+  }
+  const Similarity3 world_from_mesh = WorldFromOccluder(workspace, occluder.name);
+  const auto meant = FindModelPoint(solid->mesh, *align.tree, world_from_mesh, view,
+                                    ToEigen(ImGui::GetMousePos()), static_cast<double>(Px(kReach)));
+  if (!meant) {
+    return;
+  }
+  const ImVec2 at = ToImGui(*view.Project(world_from_mesh * meant->on_mesh));
+  const ImU32 packed = Packed(OverPicture().accent);
+  draw.AddCircle(at, Px(meant->vertex ? 7 : 4), packed, 0, Px(2));
+  LabelMark(at, meant->vertex ? Tr("corner of the model") : Tr("surface of the model"),
+            Packed(OverPicture().text), draw);
+  if (!ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    return;
+  }
+  const Vector3d on_mesh = meant->on_mesh;
+  align.pair = occluder.model_pairs.size();
+  align.picking = false;
+  state.view = ViewKind::kPicks;
+  EditModel(workspace, Tr("add a point of the model"), occluder.name,
+            [&](app::OccluderDocument& edited) { app::AddModelPair(edited, on_mesh); });
+}
+
+}  // namespace
+
+void ShowAlignment(app::Workspace& workspace,
+                   EditorState& state,
+                   const app::OccluderDocument& occluder) {
+  // Edits below replace what the reference is of.
+  const app::OccluderDocument model = occluder;
+  AlignView& align = ViewOf(state, model.name);
+  if (align.pair && *align.pair >= model.model_pairs.size()) {
+    align.pair.reset();  // undone
+  }
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  if (!Fold(Label(Tr("Align"), "align"), !model.model_pairs.empty())) {
+    return;
+  }
+  Hint(
+      Tr("By points that you find on the model and in the training images, then by the map's "
+         "points on its surface."));
+  if (workspace.loaded().database == nullptr) {
+    Hint(Tr("Train the place first."));
+    return;
+  }
+  const Similarity3 map_from_stage =
+      workspace.loaded().picks.map_from_picked * workspace.place()->picked_from_stage;
+  const app::AlignmentReport report = Alignment(workspace, state, model);
+  ShowPairTable(state, model, report);
+  ShowPairs(model, report);
+  ShowPairButtons(workspace, state, model);
+  bool keep = model.keep_scale;
+  if (CheckRow(Tr("Its scale is right"), keep)) {
+    EditModel(workspace, Text(Tr("scale of %s"), model.name.c_str()), model.name,
+              [&](app::OccluderDocument& edited) { edited.keep_scale = keep; });
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s",
+                      Tr("As where the model is in metres: aligning only moves and turns it"));
+  }
+  AlignByPointsButton(workspace, model, report, map_from_stage);
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  ShowRefining(workspace, state, model);
+}
+
+ModelPairInWork PairInWork(const app::Workspace& workspace, const EditorState& state) {
+  const app::OccluderDocument* model = SelectedModel(workspace, state);
+  const AlignView& align = state.align;
+  if (model == nullptr || align.occluder != model->name || !align.pair ||
+      *align.pair >= model->model_pairs.size()) {
+    return {};
+  }
+  return {model, *align.pair};
+}
+
+const app::AlignmentReport& Alignment(const app::Workspace& workspace,
+                                      EditorState& state,
+                                      const app::OccluderDocument& occluder) {
+  AlignView& align = ViewOf(state, occluder.name);
+  const auto document = workspace.commands().snapshot();
+  const app::LoadedPlace& loaded = workspace.loaded();
+  if (loaded.database == nullptr) {
+    align.report = {};
+    align.document = nullptr;
+  } else if (align.document != document || align.database != loaded.database ||
+             align.place != workspace.place()->name ||
+             align.map_from_picked != loaded.picks.map_from_picked) {
+    align.document = document;
+    align.database = loaded.database;
+    align.place = workspace.place()->name;
+    align.map_from_picked = loaded.picks.map_from_picked;
+    align.report = app::ReportAlignment(
+        occluder, *loaded.database, align.map_from_picked * workspace.place()->picked_from_stage);
+  }
+  return align.report;
+}
+
+bool ShowModelPoints(app::Workspace& workspace,
+                     EditorState& state,
+                     const ViewCamera& view,
+                     bool hovered,
+                     ImDrawList& draw) {
+  const app::OccluderDocument* model = SelectedModel(workspace, state);
+  if (model == nullptr) {
+    return false;
+  }
+  const Similarity3& world_from_stage = workspace.place()->picked_from_stage;
+  const Similarity3 world_from_mesh = world_from_stage * model->stage_from_mesh;
+  const app::AlignmentReport& report = Alignment(workspace, state, *model);
+  for (size_t i = 0; i < model->model_pairs.size(); ++i) {
+    const ImU32 packed =
+        Packed(state.align.pair == i ? OverPicture().accent : OverPicture().warning);
+    const Vector3d at = world_from_mesh * model->model_pairs[i].on_mesh;
+    if (i < report.pairs.size() && report.pairs[i].located) {
+      const Vector3d picked = world_from_stage * report.pairs[i].on_stage;
+      DrawWorldLine(view, at, picked, packed, Px(1.5f), draw);
+      if (const auto pixel = view.Project(picked)) {
+        draw.AddCircle(ToImGui(*pixel), Px(6), packed, 0, Px(1.5f));
+      }
+    }
+    if (const auto pixel = view.Project(at)) {
+      DrawCross(ToImGui(*pixel), packed, draw);
+      LabelMark(ToImGui(*pixel), std::to_string(i + 1), Packed(OverPicture().text), draw);
+    }
+  }
+  if (!state.align.picking) {
+    return false;
+  }
+  if (hovered) {
+    PickOnModel(workspace, state, *model, view, draw);
+  }
+  return true;
+}
+
+}  // namespace lararium::panels

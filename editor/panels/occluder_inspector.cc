@@ -1,0 +1,207 @@
+#include "editor/panels/occluder_inspector.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "editor/app/drawn_occluder.h"
+#include "editor/panels/align_panel.h"
+#include "editor/panels/gizmo_view.h"
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+using geometry::Similarity3;
+
+void EditOccluder(app::Workspace& workspace,
+                  const std::string& command,
+                  const std::string& name,
+                  const std::function<void(app::OccluderDocument&)>& change,
+                  std::string_view gesture = {}) {
+  workspace.EditPlace(
+      command,
+      [&](app::PlaceDocument& place) {
+        for (app::OccluderDocument& occluder : place.occluders) {
+          if (occluder.name == name) {
+            change(occluder);
+          }
+        }
+      },
+      gesture);
+}
+
+void ShowSizes(app::Workspace& workspace, const app::OccluderDocument& occluder) {
+  app::OccluderShape shape = *occluder.shape;
+  PropertyText(Tr("Shape"), Tr(app::EntryOf(shape.kind).label));
+  if (ShapeSizes(workspace, shape)) {
+    EditOccluder(
+        workspace, Text(Tr("size of %s"), occluder.name.c_str()), occluder.name,
+        [&](app::OccluderDocument& edited) { edited.shape = shape; }, "occluder size");
+  }
+}
+
+// Of a model or a shape.
+void ShowPlaced(app::Workspace& workspace,
+                const EditorState& state,
+                const app::OccluderDocument& occluder) {
+  Similarity3 transform = occluder.stage_from_mesh;
+  bool changed = false;
+  if (BeginProperties("occluder")) {
+    if (occluder.shape) {
+      ShowSizes(workspace, occluder);
+    } else {
+      PropertyText(Tr("File"), occluder.file);
+    }
+    changed = TransformProperties(workspace, transform);
+    EndProperties();
+  }
+  if (changed) {
+    MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
+                 "inspector occluder");
+  }
+}
+
+// Corner, number of picks, residual.
+void ShowCornerTable(const app::OccluderDocument& occluder,
+                     const std::vector<stage::AnchorReport>& reports) {
+  if (!ImGui::BeginTable("corners", 3, ImGuiTableFlags_SizingStretchProp)) {
+    return;
+  }
+  ImGui::TableSetupColumn(Tr("Corner"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(Tr("Images"), ImGuiTableColumnFlags_WidthFixed, Px(64));
+  ImGui::TableSetupColumn(Tr("Error"), ImGuiTableColumnFlags_WidthFixed, Px(76));
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
+  ImGui::TableHeadersRow();
+  ImGui::PopStyleColor();
+  for (size_t i = 0; i < occluder.corners.size(); ++i) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::Text("%zu", i + 1);
+    ImGui::TableNextColumn();
+    ImGui::Text("%zu", occluder.corners[i].picks.size());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(i < reports.size() ? Text("%.2f px", reports[i].error_px).c_str() : "-");
+  }
+  ImGui::EndTable();
+}
+
+// Of an occluder that was drawn on training images.
+void ShowCorners(app::Workspace& workspace,
+                 EditorState& state,
+                 const app::OccluderDocument& occluder) {
+  const double units = workspace.loaded().picks.map_from_picked.scale *
+                       workspace.place()->picked_from_stage.scale;  // of the map in a metre
+  if (workspace.loaded().database != nullptr) {
+    const auto drawn = app::DrawOccluder(occluder, *workspace.loaded().database, units);
+    if (BeginProperties("drawn")) {
+      double depth = occluder.depth;
+      if (NumberProperty(workspace, Tr("Depth"), depth, 0.01, 0.0, app::kMaxDepth, "%.2f m")) {
+        EditOccluder(
+            workspace, Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
+            [&](app::OccluderDocument& edited) { edited.depth = depth; }, "occluder depth");
+      }
+      if (drawn.ok()) {
+        PropertyText(Tr("Error"), Text("%.2f px", drawn->error_px));
+        PropertyText(Tr("Uneven by"), Text("%.1f cm", 100.0 * drawn->unevenness / units));
+      }
+      bool flat = occluder.flat;
+      PropertyLabel(Tr("Flat"));
+      if (ImGui::Checkbox("##flat", &flat)) {
+        EditOccluder(workspace, Text(Tr("flatten %s"), occluder.name.c_str()), occluder.name,
+                     [&](app::OccluderDocument& edited) { edited.flat = flat; });
+      }
+      if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", Tr("Lays the corners onto the plane that fits them best"));
+      }
+      EndProperties();
+    }
+    Hint(Tr("How far it goes on behind the face that you drew; 0: the face alone."));
+    ShowCornerTable(occluder, drawn.ok() ? drawn->corners : std::vector<stage::AnchorReport>());
+    if (!drawn.ok()) {
+      ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
+      ImGui::TextWrapped("%s", drawn.message().c_str());
+      ImGui::PopStyleColor();
+    }
+  }
+  if (state.view != ViewKind::kPicks &&
+      ImGui::Button(Tr("Draw on the training images"), ImVec2(-FLT_MIN, 0))) {
+    state.view = ViewKind::kPicks;
+  }
+  ImGui::BeginDisabled(occluder.corners.empty());
+  if (ImGui::Button(Tr("Remove the last corner"), ImVec2(-FLT_MIN, 0))) {
+    EditOccluder(workspace, Tr("remove a corner"), occluder.name,
+                 [](app::OccluderDocument& edited) { edited.corners.pop_back(); });
+  }
+  ImGui::EndDisabled();
+}
+
+void ShowEffects(app::Workspace& workspace, const app::OccluderDocument& occluder) {
+  struct Effect {
+    bool app::OccluderDocument::*does;
+    const char* label;
+    const char* tip;
+    const char* command;
+  };
+  static constexpr Effect kEffects[] = {
+      {&app::OccluderDocument::receives_shadow, TrLater("Receives shadow"),
+       TrLater("Shadows of people are seen on it, and the light of lamps"),
+       TrLater("shadow on %s")},
+      {&app::OccluderDocument::blocks_sound, TrLater("Blocks sound"),
+       TrLater("What sounds behind it is muffled"), TrLater("sound through %s")},
+      {&app::OccluderDocument::blocks_walking, TrLater("Blocks walking"),
+       TrLater("People walk around it, at every place of the drama"), TrLater("ways through %s")}};
+  for (const Effect& effect : kEffects) {
+    bool on = occluder.*effect.does;
+    if (CheckRow(Tr(effect.label), on)) {
+      EditOccluder(workspace, Text(Tr(effect.command), occluder.name.c_str()), occluder.name,
+                   [&](app::OccluderDocument& edited) { edited.*effect.does = on; });
+    }
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s", Tr(effect.tip));
+    }
+  }
+}
+
+}  // namespace
+
+bool ShapeSizes(app::Workspace& workspace, app::OccluderShape& shape) {
+  bool changed = false;
+  for (const app::ShapeSize& size : app::EntryOf(shape.kind).sizes) {
+    const auto [least, most] = app::RangeOf(shape, size);
+    changed |=
+        NumberProperty(workspace, Tr(size.label), shape.*size.value, 0.01, least, most, "%.3f m");
+  }
+  return changed;
+}
+
+void ShowOccluder(app::Workspace& workspace,
+                  EditorState& state,
+                  const app::OccluderDocument& occluder) {
+  Heading(occluder.name.c_str());
+  Hint(Tr("It is real, and hides who is behind it."));
+  if (occluder.drawn()) {
+    ShowCorners(workspace, state, occluder);
+  } else {
+    ShowPlaced(workspace, state, occluder);
+  }
+  if (occluder.kind() == app::OccluderDocument::Kind::kModel) {
+    ShowAlignment(workspace, state, occluder);
+  }
+  ShowEffects(workspace, occluder);
+  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
+                        [name = occluder.name](app::PlaceDocument& p) {
+                          std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
+                        });
+    state.selection = {};
+  }
+}
+
+}  // namespace lararium::panels

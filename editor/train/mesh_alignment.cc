@@ -1,0 +1,401 @@
+#include "editor/train/mesh_alignment.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "shared/core/parallel.h"
+#include "shared/core/random.h"
+#include "shared/geometry/glm_convert.h"
+#include "shared/vision/occluders.h"
+
+namespace lararium::train {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using geometry::Similarity3;
+
+constexpr double kThin = 0.03;      // breadth over length: thinner is a line
+constexpr double kNarrowest = 0.2;  // of the search distance, in the end
+constexpr double kShrink = 0.8;
+constexpr int kRounds = 6;             // at each distance
+constexpr size_t kMaxPoints = 20'000;  // that are moved to; more say no more
+// A least-squares mean below this, where a metre of motion counts as one, is no information.
+constexpr double kUndetermined = 3e-3;
+
+// Breadth over length of where points lie.
+double Thinness(std::span<const Vector3d> points) {
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& point : points) {
+    mean += point / static_cast<double>(points.size());
+  }
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vector3d& point : points) {
+    spread += (point - mean) * (point - mean).transpose();
+  }
+  const Vector3d squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+  return squares[2] > 0.0 ? std::sqrt(std::max(squares[1], 0.0) / squares[2]) : 0.0;
+}
+
+std::string Metres(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g m", length);
+  return text;
+}
+
+// What of the map may come to lie on the model, and the model to look it up in.
+class Refiner {
+ public:
+  Refiner(const geometry::TriangleMesh& mesh,
+          const Similarity3& stage_from_mesh,
+          std::span<const Vector3d> points,
+          const RefineOptions& options)
+      : mesh_(mesh),
+        tree_(vision::Placed(mesh, {})),
+        start_(stage_from_mesh),
+        moved_(stage_from_mesh),
+        options_(options) {
+    // Nothing moves farther than the search distance, so nothing beyond twice that comes near.
+    std::vector<char> near(points.size());
+    ForChunks(points.size(), [&](size_t i) {
+      near[i] = FindPair(points[i], start_, 2.0 * options_.search_m).has_value() ? 1 : 0;
+    });
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (near[i] != 0) {
+        points_.push_back(points[i]);
+      }
+    }
+    Random random(1);
+    for (size_t i = 0; i < kMaxPoints && points_.size() > kMaxPoints; ++i) {
+      std::swap(points_[i], points_[i + random.Below(static_cast<uint32_t>(points_.size() - i))]);
+    }
+    points_.resize(std::min(points_.size(), kMaxPoints));
+  }
+
+  Result<RefineReport> Run(Progress& progress) {
+    double search = options_.search_m;
+    LARARIUM_RETURN_IF_ERROR(Match(search));
+    while (true) {
+      progress.Report("moving the model",
+                      (options_.search_m - search) / (options_.search_m * (1.0 - kNarrowest)));
+      for (int round = 0; round < kRounds; ++round) {
+        if (progress.Cancelled()) {
+          return Status::Error("model", "cancelled");
+        }
+        const double step = Move(search);
+        LARARIUM_RETURN_IF_ERROR(Match(search));
+        if (step < 1e-4 * options_.search_m) {
+          break;
+        }
+      }
+      if (search <= kNarrowest * options_.search_m) {
+        return Report();
+      }
+      search = std::max(kShrink * search, kNarrowest * options_.search_m);
+      LARARIUM_RETURN_IF_ERROR(Match(search));
+    }
+  }
+
+ private:
+  template <typename Body>
+  static void ForChunks(size_t count, const Body& body) {
+    constexpr size_t kChunk = 512;
+    ParallelFor((count + kChunk - 1) / kChunk, [&](size_t chunk) {
+      for (size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
+        body(i);
+      }
+    });
+  }
+
+  std::optional<SurfacePair> FindPair(const Vector3d& point,
+                                      const Similarity3& stage_from_mesh,
+                                      double within_m) const {
+    const Vector3d in_mesh = stage_from_mesh.Inverse() * point;
+    const auto nearest = tree_.NearestTo(in_mesh.cast<float>(),
+                                         static_cast<float>(within_m / stage_from_mesh.scale));
+    if (!nearest) {
+      return std::nullopt;
+    }
+    return SurfacePair{point, stage_from_mesh * nearest->point.cast<double>(),
+                       stage_from_mesh.rotation * nearest->normal.cast<double>()};
+  }
+
+  // What lies beside an edge of an open surface would draw the edge towards itself. What lies on
+  // the surface has no direction from it.
+  bool LiesBefore(const SurfacePair& pair) const {
+    constexpr double kFacing = 0.7;  // cosine
+    const Vector3d way = pair.point - pair.on_surface;
+    return std::abs(way.dot(pair.normal)) >= kFacing * way.norm() ||
+           way.norm() < 0.02 * options_.search_m;
+  }
+
+  Status Match(double search) {
+    std::vector<std::optional<SurfacePair>> found(points_.size());
+    ForChunks(points_.size(), [&](size_t i) {
+      found[i] = FindPair(points_[i], moved_, search);
+      if (found[i] && !LiesBefore(*found[i])) {
+        found[i].reset();
+      }
+    });
+    pairs_.clear();
+    for (const std::optional<SurfacePair>& pair : found) {
+      if (pair) {
+        pairs_.push_back(*pair);
+      }
+    }
+    if (pairs_.size() < static_cast<size_t>(options_.min_points)) {
+      return Status::Error("model",
+                           std::to_string(pairs_.size()) + " points of the map lie within " +
+                               Metres(search) + " of its surface; at least " +
+                               std::to_string(options_.min_points) + " are needed",
+                           "move it closer, align it by points, or look farther");
+    }
+    return Status();
+  }
+
+  // Moves the model by one step of least squares. How far a point of its surface moved, metres.
+  double Move(double search) {
+    Vector3d center = Vector3d::Zero();
+    for (const SurfacePair& pair : pairs_) {
+      center += pair.on_surface / static_cast<double>(pairs_.size());
+    }
+    double reach = 0.0;
+    for (const SurfacePair& pair : pairs_) {
+      reach += (pair.on_surface - center).squaredNorm() / static_cast<double>(pairs_.size());
+    }
+    reach = std::max(std::sqrt(reach), 1e-9);
+    // Turns and scale as far as they move what is at that reach: all are metres then.
+    SurfaceMotion unit = SurfaceMotion::Constant(1.0 / reach);
+    unit.segment<3>(3).setOnes();
+    Eigen::Matrix<double, 7, 7> squares = Eigen::Matrix<double, 7, 7>::Zero();
+    SurfaceMotion slope = SurfaceMotion::Zero();
+    double weights = 0.0;
+    for (const SurfacePair& pair : pairs_) {
+      const double distance = PlaneDistance(pair, center, SurfaceMotion::Zero());
+      const double share = 1.0 - std::pow(distance / search, 2);
+      const double weight = share > 0.0 ? share * share : 0.0;
+      const SurfaceMotion derivative = PlaneDistanceDerivative(pair, center).cwiseProduct(unit);
+      squares += weight * derivative * derivative.transpose();
+      slope += weight * distance * derivative;
+      weights += weight;
+    }
+    if (!(weights > 0.0)) {
+      return 0.0;
+    }
+    const SurfaceMotion motion = Solve(squares / weights, slope / weights).cwiseProduct(unit);
+    moved_ = MotionAbout(center, motion) * moved_;
+    return motion.segment<3>(3).norm() + reach * (motion.head<3>().norm() + std::abs(motion[6]));
+  }
+
+  // Of squares x = -slope, in the directions that are determined.
+  SurfaceMotion Solve(const Eigen::Matrix<double, 7, 7>& squares, const SurfaceMotion& slope) {
+    const Eigen::Index size = options_.keep_scale ? 6 : 7;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+        Eigen::MatrixXd(squares.topLeftCorner(size, size)));
+    SurfaceMotion motion = SurfaceMotion::Zero();
+    undetermined_ = 0;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Eigen::VectorXd direction = eigen.eigenvectors().col(i);
+      if (eigen.eigenvalues()[i] < kUndetermined) {
+        ++undetermined_;
+      } else {
+        motion.head(size) -= direction * (direction.dot(slope.head(size)) / eigen.eigenvalues()[i]);
+      }
+    }
+    return motion;
+  }
+
+  Result<RefineReport> Report() const {
+    RefineReport report;
+    report.stage_from_mesh = moved_;
+    report.points = static_cast<int>(pairs_.size());
+    report.undetermined = undetermined_;
+    for (const glm::vec3& vertex : mesh_.positions) {
+      const Vector3d at = geometry::ToEigen(vertex);
+      report.moved_m = std::max(report.moved_m, (moved_ * at - start_ * at).norm());
+    }
+    if (!(report.moved_m <= options_.search_m)) {
+      return Status::Error("model",
+                           "would move by " + Metres(report.moved_m) +
+                               ", farther than the search distance of " + Metres(options_.search_m),
+                           "move it closer, align it by points, or look farther");
+    }
+    const auto squared_at = [&](const Vector3d& point, const Similarity3& stage_from_mesh) {
+      const auto pair = FindPair(point, stage_from_mesh, 4.0 * options_.search_m);
+      return pair ? (pair->point - pair->on_surface).squaredNorm() : 0.0;
+    };
+    for (const SurfacePair& pair : pairs_) {
+      report.rms_before_m += squared_at(pair.point, start_);
+      report.rms_after_m += squared_at(pair.point, moved_);
+    }
+    report.rms_before_m = std::sqrt(report.rms_before_m / report.points);
+    report.rms_after_m = std::sqrt(report.rms_after_m / report.points);
+    report.covered = Covered();
+    return report;
+  }
+
+  // Share of the surface that has points within the search distance, by points strewn over it.
+  double Covered() const {
+    const double cell = options_.search_m;
+    const auto key = [&](const Vector3d& at, int dx, int dy, int dz) {
+      const auto part = [&](double value, int d) {
+        return (static_cast<uint64_t>(static_cast<int64_t>(std::floor(value / cell)) + d)) &
+               0x1fffff;
+      };
+      return part(at.x(), dx) << 42 | part(at.y(), dy) << 21 | part(at.z(), dz);
+    };
+    std::unordered_multimap<uint64_t, Vector3d> cells;
+    for (const SurfacePair& pair : pairs_) {
+      cells.emplace(key(pair.on_surface, 0, 0, 0), pair.on_surface);
+    }
+    const auto covered = [&](const Vector3d& at) {
+      for (int n = 0; n < 27; ++n) {
+        const auto [begin, end] = cells.equal_range(key(at, n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+        if (std::any_of(begin, end,
+                        [&](const auto& entry) { return (entry.second - at).norm() <= cell; })) {
+          return true;
+        }
+      }
+      return false;
+    };
+    const std::vector<Vector3d> strewn = Strew();
+    const auto count = std::count_if(strewn.begin(), strewn.end(), covered);
+    return static_cast<double>(count) / static_cast<double>(strewn.size());
+  }
+
+  // Points of the surface, as many everywhere; stage metres.
+  std::vector<Vector3d> Strew() const {
+    constexpr size_t kCount = 2000;
+    const auto corner = [&](size_t i) {
+      return geometry::ToEigen(mesh_.positions[mesh_.indices[i]]);
+    };
+    std::vector<double> areas;  // of all triangles up to each
+    double area = 0.0;
+    for (size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
+      area += (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i)).norm();
+      areas.push_back(area);
+    }
+    Random random(2);
+    std::vector<Vector3d> points;
+    for (size_t n = 0; n < kCount; ++n) {
+      const auto at = std::upper_bound(areas.begin(), areas.end(), area * random.Uniform());
+      const auto i = 3 * static_cast<size_t>(std::min(at, areas.end() - 1) - areas.begin());
+      double u = random.Uniform();
+      double v = random.Uniform();
+      if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+      }
+      points.push_back(
+          moved_ * (corner(i) + u * (corner(i + 1) - corner(i)) + v * (corner(i + 2) - corner(i))));
+    }
+    return points;
+  }
+
+  const geometry::TriangleMesh& mesh_;
+  vision::OccluderTree tree_;  // in the mesh's coordinates
+  Similarity3 start_;
+  Similarity3 moved_;
+  RefineOptions options_;
+  std::vector<Vector3d> points_;    // of the map that may come near
+  std::vector<SurfacePair> pairs_;  // of those that are near now
+  int undetermined_ = 0;
+};
+
+}  // namespace
+
+Result<Similarity3> AlignByPairs(std::span<const MeshPair> pairs, std::optional<double> scale) {
+  std::vector<Vector3d> on_mesh;
+  std::vector<Vector3d> on_stage;
+  for (const MeshPair& pair : pairs) {
+    on_mesh.push_back(pair.on_mesh);
+    on_stage.push_back(pair.on_stage);
+  }
+  if (pairs.size() < 3) {
+    return Status::Error("model",
+                         std::to_string(pairs.size()) +
+                             " of its points are known in the place; at least 3 are needed",
+                         "add pairs");
+  }
+  if (Thinness(on_mesh) < kThin || Thinness(on_stage) < kThin) {
+    return Status::Error("model", "the points lie on a line, or nearly so",
+                         "add one well beside it");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(Similarity3 stage_from_mesh,
+                            geometry::EstimateSimilarity(on_stage, on_mesh));
+  if (scale) {
+    // The rotation that fits best does not depend on the scale.
+    stage_from_mesh.scale = *scale;
+    stage_from_mesh.translation.setZero();
+    Vector3d shift = Vector3d::Zero();
+    for (const MeshPair& pair : pairs) {
+      shift += (pair.on_stage - stage_from_mesh * pair.on_mesh) / static_cast<double>(pairs.size());
+    }
+    stage_from_mesh.translation = shift;
+  }
+  return stage_from_mesh;
+}
+
+Similarity3 MotionAbout(const Vector3d& center, const SurfaceMotion& motion) {
+  Similarity3 moved;
+  moved.scale = std::exp(motion[6]);
+  moved.rotation = geometry::RotationFromVector(motion.head<3>());
+  moved.translation = center + motion.segment<3>(3) - moved.scale * (moved.rotation * center);
+  return moved;
+}
+
+double PlaneDistance(const SurfacePair& pair, const Vector3d& center, const SurfaceMotion& motion) {
+  const Similarity3 moved = MotionAbout(center, motion);
+  return (moved.rotation * pair.normal).dot(pair.point - moved * pair.on_surface);
+}
+
+SurfaceMotion PlaneDistanceDerivative(const SurfacePair& pair, const Vector3d& center) {
+  SurfaceMotion derivative;
+  derivative.head<3>() = pair.normal.cross(pair.point - center);
+  derivative.segment<3>(3) = -pair.normal;
+  derivative[6] = -pair.normal.dot(pair.on_surface - center);
+  return derivative;
+}
+
+Status RefineOptions::Validate() const {
+  if (!(search_m > 0.0) || !std::isfinite(search_m)) {
+    return Status::Error("search distance", "must be more than 0 m");
+  }
+  if (min_points < 6) {
+    return Status::Error("points", "fewer than six say nothing of how a model lies");
+  }
+  return Status();
+}
+
+Result<RefineReport> RefineAlignment(const geometry::TriangleMesh& mesh,
+                                     const Similarity3& stage_from_mesh,
+                                     std::span<const Vector3d> points,
+                                     const RefineOptions& options,
+                                     Progress& progress) {
+  LARARIUM_RETURN_IF_ERROR(options.Validate());
+  LARARIUM_RETURN_IF_ERROR(mesh.Validate("model"));
+  const auto has_area = [&](size_t i) {
+    const auto corner = [&](size_t k) {
+      return geometry::ToEigen(mesh.positions[mesh.indices[i + k]]);
+    };
+    return (corner(1) - corner(0)).cross(corner(2) - corner(0)).squaredNorm() > 0.0;
+  };
+  bool any = false;
+  for (size_t i = 0; i + 2 < mesh.indices.size() && !any; i += 3) {
+    any = has_area(i);
+  }
+  if (!any) {
+    return Status::Error("model", "has no surface");
+  }
+  progress.Report("looking for points near the model", 0.0);
+  return Refiner(mesh, stage_from_mesh, points, options).Run(progress);
+}
+
+}  // namespace lararium::train
