@@ -829,7 +829,7 @@ void Workspace::RequestPicture() {
 
 void Workspace::Update(double seconds) {
   tasks_.Poll();
-  if (unsaved_map_ && !tasks_.Running(kKeeping)) {
+  if (unsaved_map_ && !tasks_.Running(kKeeping) && !tasks_.Running(kTraining)) {
     WriteMap();
   }
   if (map_stale_) {
@@ -1257,6 +1257,10 @@ void Workspace::AddSession(const SessionDocument& session) {
 
 void Workspace::RemoveSession(uint32_t session) {
   if (place() == nullptr || session == 0 || session > place()->added.size()) {
+    return;
+  }
+  if (unsaved_map_ || tasks_.Running(kKeeping)) {  // would bring the session back
+    Tell(Message::Level::kWarning, Tr("The map is being written. Try again in a moment."));
     return;
   }
   const auto removed = std::make_shared<train::RemovedSession>();
