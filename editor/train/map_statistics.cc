@@ -144,6 +144,12 @@ MapStatistics MeasureStatistics(const SceneDatabase& database) {
   return statistics;
 }
 
+void AddUnobserved(uint32_t session, MapStatistics& statistics) {
+  ++statistics.session_keyframes[session];
+  statistics.keyframe_points.push_back(0);
+  statistics.keyframe_error_px.push_back(Mean().Value());
+}
+
 std::optional<Eigen::Matrix3d> PointCovariance(const SceneDatabase& database,
                                                const MapStatistics& statistics,
                                                uint32_t point) {

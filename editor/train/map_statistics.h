@@ -50,6 +50,10 @@ struct MapStatistics {
 // Of a valid database. A tenth of a second for a hundred thousand points.
 MapStatistics MeasureStatistics(const vision::SceneDatabase& database);
 
+// What they are of the same database with one keyframe more, which observes no points, of a session
+// that it has.
+void AddUnobserved(uint32_t session, MapStatistics& statistics);
+
 // Covariance of a point's position, squared map units: to first order, from the angles at which
 // its observations see it, each coordinate off by sigma_px, poses taken as exact (Hartley &
 // Zisserman, Multiple View Geometry, 5.2). nullopt where they do not determine the point.

@@ -69,6 +69,20 @@ TEST(MapStatistics, KeyframesCountWhatTheyObserve) {
   EXPECT_NEAR(statistics.keyframe_error_px[5], 2.0, 1e-3);
 }
 
+TEST(MapStatistics, OfOneKeyframeMoreThatObservesNothingAreAsIfMeasured) {
+  SceneDatabase db = Map(30);
+  MapStatistics statistics = MeasureStatistics(db);
+  vision::Keyframe added = db.keyframes.back();
+  added.frame_index += 1;
+  AddUnobserved(added.session, statistics);
+  db.keyframes.push_back(added);
+  const MapStatistics measured = MeasureStatistics(db);
+  EXPECT_EQ(statistics.keyframe_points, measured.keyframe_points);
+  EXPECT_EQ(statistics.keyframe_error_px, measured.keyframe_error_px);
+  EXPECT_EQ(statistics.session_keyframes, measured.session_keyframes);
+  EXPECT_EQ(statistics.point_error_px, measured.point_error_px);
+}
+
 TEST(MapStatistics, TellsTheOnlySessionOfAPoint) {
   SceneDatabase db = Map(4);
   db.session_masks = {1u, 4u, 5u, 0x80000000u};
