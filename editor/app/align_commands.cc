@@ -43,16 +43,11 @@ class AlignWorker {
 
  private:
   Status FindOccluder() {
-    std::string known;
-    for (OccluderDocument& occluder : place_->occluders) {
-      if (occluder.name == options_.occluder) {
-        occluder_ = &occluder;
-      }
-      known += (known.empty() ? "" : ", ") + occluder.name;
-    }
+    occluder_ = place_->FindOccluder(options_.occluder);
     if (occluder_ != nullptr) {
       return Status();
     }
+    const std::string known = OccluderNames(*place_);
     return Status::Error("--occluder " + options_.occluder, "is no occluder of " + place_->name,
                          known.empty() ? "add one in the window" : "it has " + known);
   }

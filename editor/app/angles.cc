@@ -1,9 +1,9 @@
-#include "editor/panels/angles.h"
+#include "editor/app/angles.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lararium::panels {
+namespace lararium::app {
 
 Eigen::Vector3d HeadingTiltRoll(const Eigen::Quaterniond& rotation) {
   const Eigen::Matrix3d r = rotation.toRotationMatrix();
@@ -23,4 +23,4 @@ Eigen::Quaterniond FromHeadingTiltRoll(const Eigen::Vector3d& angles) {
       .normalized();
 }
 
-}  // namespace lararium::panels
+}  // namespace lararium::app

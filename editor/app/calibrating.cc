@@ -73,8 +73,6 @@ std::string NumberText(Kind kind, double value, bool translated) {
   return "";
 }
 
-Json AdviceJson(const Calibration& calibration) { return AdviceTexts(calibration, false); }
-
 std::string VerdictName(Calibration::Verdict verdict) {
   switch (verdict) {
     case Calibration::Verdict::kGood:
@@ -193,7 +191,7 @@ Json CalibrationJson(const Calibration& calibration) {
           {"covered", calibration.covered},
           {"grid", calibration.grid.counts},
           {"verdict", VerdictName(calibration.verdict)},
-          {"advice", AdviceJson(calibration)},
+          {"advice", AdviceTexts(calibration, false)},
           {"views", std::move(views)}};
 }
 

@@ -1,12 +1,12 @@
 #include "editor/app/occluder_commands.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "editor/app/angles.h"
 #include "editor/app/document_fields.h"
 #include "editor/app/text.h"
 
@@ -17,14 +17,13 @@ namespace {
 using Eigen::Vector3d;
 using Kind = OccluderDocument::Kind;
 
-// As the inspector has them: about the vertical, then about the width, then about the depth.
+// Heading, then tilt and roll where they are given.
 Eigen::Quaterniond FromDegrees(const std::vector<double>& turn) {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  const Vector3d axes[] = {Vector3d::UnitY(), Vector3d::UnitX(), Vector3d::UnitZ()};
+  Vector3d angles = Vector3d::Zero();
   for (size_t i = 0; i < turn.size(); ++i) {
-    rotation = rotation * Eigen::AngleAxisd(turn[i] * std::numbers::pi / 180.0, axes[i]);
+    angles[static_cast<Eigen::Index>(i)] = turn[i] * std::numbers::pi / 180.0;
   }
-  return rotation;
+  return FromHeadingTiltRoll(angles);
 }
 
 // Of "NAME=METRES".
@@ -195,13 +194,10 @@ class OccluderWorker {
   }
 
   Result<OccluderDocument*> Find(PlaceDocument& place, const std::string& name) {
-    std::string known;
-    for (OccluderDocument& occluder : place.occluders) {
-      if (occluder.name == name) {
-        return &occluder;
-      }
-      known += (known.empty() ? "" : ", ") + occluder.name;
+    if (OccluderDocument* occluder = place.FindOccluder(name)) {
+      return occluder;
     }
+    const std::string known = OccluderNames(place);
     return Status::Error(paths_.Project().string(),
                          place.name + " has no occluder \"" + name + "\"",
                          known.empty() ? "add it with --add" : "it has " + known);

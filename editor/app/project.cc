@@ -528,6 +528,24 @@ void ForgetSession(PlaceDocument& place, uint32_t session) {
   std::for_each(place.check_picks.begin(), place.check_picks.end(), forget);
 }
 
+const OccluderDocument* PlaceDocument::FindOccluder(std::string_view occluder) const {
+  const auto found = std::find_if(occluders.begin(), occluders.end(),
+                                  [&](const auto& o) { return o.name == occluder; });
+  return found == occluders.end() ? nullptr : &*found;
+}
+
+OccluderDocument* PlaceDocument::FindOccluder(std::string_view occluder) {
+  return const_cast<OccluderDocument*>(std::as_const(*this).FindOccluder(occluder));
+}
+
+std::string OccluderNames(const PlaceDocument& place) {
+  std::string names;
+  for (const OccluderDocument& occluder : place.occluders) {
+    names += (names.empty() ? "" : ", ") + occluder.name;
+  }
+  return names;
+}
+
 const PlaceDocument* ProjectDocument::FindPlace(std::string_view name) const {
   const auto found =
       std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.name == name; });

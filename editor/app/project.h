@@ -145,7 +145,13 @@ struct PlaceDocument {
   stage::Acoustics acoustics;
   // Where the project's check points were picked here; the anchors have their names.
   std::vector<stage::Anchor> check_picks;
+
+  const OccluderDocument* FindOccluder(std::string_view occluder) const;
+  OccluderDocument* FindOccluder(std::string_view occluder);
 };
+
+// Of all of a place, for errors: "a, b".
+std::string OccluderNames(const PlaceDocument& place);
 
 // The languages of the drama, of those of its lines. The first of each is what visitors hear
 // and read unless they choose another.

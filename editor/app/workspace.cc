@@ -185,6 +185,20 @@ void Workspace::EditPlace(const std::string& name,
       gesture);
 }
 
+void Workspace::EditOccluder(const std::string& name,
+                             const std::string& occluder,
+                             const std::function<void(OccluderDocument&)>& change,
+                             std::string_view gesture) {
+  EditPlace(
+      name,
+      [&](PlaceDocument& place) {
+        if (OccluderDocument* edited = place.FindOccluder(occluder)) {
+          change(*edited);
+        }
+      },
+      gesture);
+}
+
 bool Workspace::EditTimeline(const std::string& name,
                              const std::function<Status(drama::TimelineText&)>& change,
                              std::string_view gesture) {
@@ -562,7 +576,7 @@ std::string Workspace::PreviewKey() const {
     if (occluder.drawn()) {
       // A depth is in metres, the map is not.
       const double scale = loaded_.picks.map_from_picked.scale * at.picked_from_stage.scale;
-      entry.push_back({FormatOccluder(occluder)["corners"], occluder.depth * scale});
+      entry.push_back({FormatOccluder(occluder)["corners"], occluder.depth * scale, occluder.flat});
     }
   }
   for (const ProbeDocument& probe : at.probes) {
@@ -701,6 +715,9 @@ void Workspace::KeepFrame(const vision::Keyframe& keyframe) {
   }
   measures_stale_ |= tasks_.Running(kMeasuring);  // of the map as it was
   loaded_.database = std::move(database);
+  auto statistics = std::make_shared<train::MapStatistics>(*loaded_.statistics);
+  train::AddUnobserved(keyframe.session, *statistics);
+  loaded_.statistics = std::move(statistics);
   picks_key_.clear();
   ResolvePicksAgain();
   unsaved_map_ = {paths_.Scene(place_name_), scene_stamp_, loaded_.database};
@@ -800,10 +817,7 @@ void Workspace::RequestPicture() {
     staged->camera = camera_look_ ? at.camera : std::nullopt;
     staged->probes = RelitProbes(loaded_.baked_light, loaded_.baked_probes, at.probes);
     for (stage::Occluder& occluder : staged->occluders) {
-      const auto known =
-          std::find_if(at.occluders.begin(), at.occluders.end(),
-                       [&](const OccluderDocument& o) { return o.name == occluder.name; });
-      if (known != at.occluders.end()) {
+      if (const OccluderDocument* known = at.FindOccluder(occluder.name)) {
         StageAnew(*known, staged->map_from_stage, occluder);
       }
     }
@@ -1098,7 +1112,7 @@ void Workspace::MeasureCameraTraits() {
 
 void Workspace::RefineOccluder(const std::string& name, double search_m) {
   const std::shared_ptr<const stage::Place> staged = loaded_.staged;
-  const OccluderDocument* occluder = FindOccluder(place_name_, name);
+  const OccluderDocument* occluder = place() == nullptr ? nullptr : place()->FindOccluder(name);
   if (occluder == nullptr || loaded_.database == nullptr || staged == nullptr) {
     return;
   }
@@ -1126,29 +1140,16 @@ void Workspace::RefineOccluder(const std::string& name, double search_m) {
       return;
     }
     refinement_ = {place, name, found ? (*outcome)->stage_from_mesh : start, *outcome};
-    const OccluderDocument* now = FindOccluder(place, name);
+    const PlaceDocument* at = document().FindPlace(place);
+    const OccluderDocument* now = at == nullptr ? nullptr : at->FindOccluder(name);
     if (found && now != nullptr && now->stage_from_mesh == start) {
       Edit(Text(Tr("refine %s"), name.c_str()), [&](ProjectDocument& document) {
-        for (OccluderDocument& edited : document.FindPlace(place)->occluders) {
-          if (edited.name == name) {
-            edited.stage_from_mesh = refinement_->stage_from_mesh;
-          }
-        }
+        document.FindPlace(place)->FindOccluder(name)->stage_from_mesh =
+            refinement_->stage_from_mesh;
       });
     }
   };
   tasks_.Start(kRefining, work, done);
-}
-
-const OccluderDocument* Workspace::FindOccluder(const std::string& place,
-                                                const std::string& name) const {
-  const PlaceDocument* at = document().FindPlace(place);
-  if (at == nullptr) {
-    return nullptr;
-  }
-  const auto found = std::find_if(at->occluders.begin(), at->occluders.end(),
-                                  [&](const OccluderDocument& o) { return o.name == name; });
-  return found == at->occluders.end() ? nullptr : &*found;
 }
 
 const Workspace::Refinement* Workspace::refinement(const OccluderDocument& occluder) const {

@@ -100,6 +100,11 @@ class Workspace {
   void EditPlace(const std::string& name,
                  const std::function<void(PlaceDocument&)>& change,
                  std::string_view gesture = {});
+  // Of the place at hand; nothing where it has none of that name.
+  void EditOccluder(const std::string& name,
+                    const std::string& occluder,
+                    const std::function<void(OccluderDocument&)>& change,
+                    std::string_view gesture = {});
   // The stage laid on the floor that was found in the map; nothing without one.
   void LayStageOnFloor();
   // The frame in the camera view as an image to pick in.
@@ -263,9 +268,6 @@ class Workspace {
 
  private:
   Workspace(ProjectPaths paths, ProjectDocument document, std::string script, Log& log);
-
-  // nullptr: there is none.
-  const OccluderDocument* FindOccluder(const std::string& place, const std::string& name) const;
 
   void Recover();
   // Undo and redo of the drama's part of a command.

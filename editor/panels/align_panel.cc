@@ -20,19 +20,6 @@ using geometry::Similarity3;
 
 constexpr double kCentimetres = 100.0;
 
-void EditModel(app::Workspace& workspace,
-               const std::string& command,
-               const std::string& name,
-               const std::function<void(app::OccluderDocument&)>& change) {
-  workspace.EditPlace(command, [&](app::PlaceDocument& place) {
-    for (app::OccluderDocument& occluder : place.occluders) {
-      if (occluder.name == name) {
-        change(occluder);
-      }
-    }
-  });
-}
-
 // What is remembered is of the model that is selected.
 AlignView& ViewOf(EditorState& state, const std::string& occluder) {
   if (state.align.occluder != occluder) {
@@ -125,8 +112,9 @@ void ShowPairButtons(app::Workspace& workspace,
   }
   ImGui::BeginDisabled(!align.pair);
   if (ImGui::Button(Tr("Remove the point"), wide)) {
-    EditModel(workspace, Tr("remove a point of the model"), name,
-              [pair = *align.pair](app::OccluderDocument& o) { app::RemoveModelPair(o, pair); });
+    workspace.EditOccluder(
+        Tr("remove a point of the model"), name,
+        [pair = *align.pair](app::OccluderDocument& o) { app::RemoveModelPair(o, pair); });
     align.pair.reset();
   }
   ImGui::EndDisabled();
@@ -141,8 +129,9 @@ void AlignByPointsButton(app::Workspace& workspace,
   if (ImGui::Button(Tr("Align by the points"), ImVec2(-FLT_MIN, 0))) {
     const auto aligned = app::AlignByPoints(occluder, *workspace.loaded().database, map_from_stage);
     if (aligned.ok()) {
-      EditModel(workspace, Text(Tr("align %s"), occluder.name.c_str()), occluder.name,
-                [&](app::OccluderDocument& edited) { edited.stage_from_mesh = *aligned; });
+      workspace.EditOccluder(
+          Text(Tr("align %s"), occluder.name.c_str()), occluder.name,
+          [&](app::OccluderDocument& edited) { edited.stage_from_mesh = *aligned; });
     } else {
       workspace.Tell(app::Message::Level::kError, aligned.message());
     }
@@ -196,12 +185,9 @@ const app::OccluderDocument* SelectedModel(const app::Workspace& workspace,
   if (workspace.place() == nullptr || state.selection.kind != Selection::Kind::kOccluder) {
     return nullptr;
   }
-  for (const app::OccluderDocument& occluder : workspace.place()->occluders) {
-    if (occluder.name == state.selection.name && !occluder.file.empty()) {
-      return &occluder;
-    }
-  }
-  return nullptr;
+  const app::OccluderDocument* occluder = workspace.place()->FindOccluder(state.selection.name);
+  return occluder != nullptr && occluder->kind() == app::OccluderDocument::Kind::kModel ? occluder
+                                                                                        : nullptr;
 }
 
 // The point that a click takes, and the click.
@@ -238,8 +224,9 @@ void PickOnModel(app::Workspace& workspace,
   align.pair = occluder.model_pairs.size();
   align.picking = false;
   state.view = ViewKind::kPicks;
-  EditModel(workspace, Tr("add a point of the model"), occluder.name,
-            [&](app::OccluderDocument& edited) { app::AddModelPair(edited, on_mesh); });
+  workspace.EditOccluder(
+      Tr("add a point of the model"), occluder.name,
+      [&](app::OccluderDocument& edited) { app::AddModelPair(edited, on_mesh); });
 }
 
 }  // namespace
@@ -272,8 +259,8 @@ void ShowAlignment(app::Workspace& workspace,
   ShowPairButtons(workspace, state, model);
   bool keep = model.keep_scale;
   if (CheckRow(Tr("Its scale is right"), keep)) {
-    EditModel(workspace, Text(Tr("scale of %s"), model.name.c_str()), model.name,
-              [&](app::OccluderDocument& edited) { edited.keep_scale = keep; });
+    workspace.EditOccluder(Text(Tr("scale of %s"), model.name.c_str()), model.name,
+                           [&](app::OccluderDocument& edited) { edited.keep_scale = keep; });
   }
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s",

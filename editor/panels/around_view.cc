@@ -86,7 +86,10 @@ void AroundView::UpdateMap(const app::LoadedPlace& loaded, EditorState& state) {
   if (loaded.database == database_ && loaded.picks.map_from_picked == map_from_picked_) {
     return;
   }
-  if (loaded.database != database_) {
+  // A map that only got another image is looked at from where it was.
+  const bool same_points = database_ != nullptr && loaded.database != nullptr &&
+                           loaded.database->points == database_->points;
+  if (!same_points) {
     framed_ = false;
     ChooseNoPoints(state);
   }
@@ -118,11 +121,11 @@ void AroundView::UpdateMap(const app::LoadedPlace& loaded, EditorState& state) {
   }
 }
 
-void AroundView::UpdateColours(const app::LoadedPlace& loaded, PointColour colours) {
-  if (colours_ == colours) {
+void AroundView::UpdateColours(const app::LoadedPlace& loaded, PlaceView& place) {
+  if (colours_ == place.colours) {
     return;
   }
-  colours_ = colours;
+  colours_ = place.colours;
   outdated_ = true;
   if (uploaded_) {
     overlay_->RemovePoints(*uploaded_);
@@ -132,7 +135,8 @@ void AroundView::UpdateColours(const app::LoadedPlace& loaded, PointColour colou
   if (database_ == nullptr) {
     return;
   }
-  const std::vector<glm::u8vec4> of_points = ColoursOf(*loaded.statistics, colours);
+  place.range = RangeOf(*loaded.statistics, place.colours);
+  const std::vector<glm::u8vec4> of_points = ColoursOf(*loaded.statistics, place.colours);
   std::vector<render::OverlayPoint> points;
   points.reserve(order_.size());
   for (const uint32_t point : order_) {
@@ -140,7 +144,7 @@ void AroundView::UpdateColours(const app::LoadedPlace& loaded, PointColour colou
     points.push_back({glm::vec3(at.x(), at.y(), at.z()), of_points[point]});
   }
   uploaded_ = overlay_->AddPoints(points);
-  AddCameras(loaded, colours);
+  AddCameras(loaded, place.colours);
 }
 
 // The path of each session and its frusta.
@@ -416,7 +420,7 @@ void AroundView::Interact(EditorState& state,
 
 void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   UpdateMap(workspace.loaded(), state);
-  UpdateColours(workspace.loaded(), state.place.colours);
+  UpdateColours(workspace.loaded(), state.place);
   UpdateOccluders(workspace);
   UpdateActors(workspace);
   if (!framed_ && database_ != nullptr) {

@@ -32,7 +32,7 @@ class AroundView {
 
   // Brings what is uploaded up to date with what is loaded.
   void UpdateMap(const app::LoadedPlace& loaded, EditorState& state);
-  void UpdateColours(const app::LoadedPlace& loaded, PointColour colours);
+  void UpdateColours(const app::LoadedPlace& loaded, PlaceView& place);
   void AddCameras(const app::LoadedPlace& loaded, PointColour colours);
   void UpdateOccluders(const app::Workspace& workspace);
   void UpdateActors(const app::Workspace& workspace);

@@ -98,15 +98,9 @@ void CornerDrag::Update(app::Workspace& workspace,
   workspace.KeepFrame(keyframe);
   const std::string name = occluder.name;
   const size_t corner = *dragged_corner_;
-  workspace.EditPlace(
-      Text(Tr("draw %s"), name.c_str()),
-      [&](app::PlaceDocument& place) {
-        for (app::OccluderDocument& edited : place.occluders) {
-          if (edited.name == name) {
-            app::SetCorner(edited, corner, keyframe, pixel);
-          }
-        }
-      },
+  workspace.EditOccluder(
+      Text(Tr("draw %s"), name.c_str()), name,
+      [&](app::OccluderDocument& edited) { app::SetCorner(edited, corner, keyframe, pixel); },
       "corner");
 }
 

@@ -136,6 +136,7 @@ struct LightView {
 // How the view around the place shows the map, and what of it is chosen.
 struct PlaceView {
   PointColour colours = PointColour::kPicture;
+  ColourRange range;             // of the colours, as the points were coloured last
   bool measure = false;          // a click adds a second point to the first
   bool snap = false;             // as if Control were held, in all views
   std::vector<uint32_t> points;  // of the map: none, one, or the two ends of what is measured

@@ -15,13 +15,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Similarity3;
 
-const app::OccluderDocument* FindOccluder(const app::PlaceDocument& place,
-                                          const std::string& name) {
-  const auto found = std::find_if(place.occluders.begin(), place.occluders.end(),
-                                  [&](const auto& occluder) { return occluder.name == name; });
-  return found == place.occluders.end() ? nullptr : &*found;
-}
-
 ImU32 HandleColour(GizmoHandle handle, bool hot) {
   if (hot) {
     return Packed({1.0f, 0.86f, 0.35f, 1.0f});
@@ -84,7 +77,7 @@ std::optional<Similarity3> SelectedTransform(const app::Workspace& workspace,
     return place->picked_from_stage;
   }
   if (selection.kind == Selection::Kind::kOccluder) {
-    const app::OccluderDocument* occluder = FindOccluder(*place, selection.name);
+    const app::OccluderDocument* occluder = place->FindOccluder(selection.name);
     if (occluder != nullptr && !occluder->drawn()) {
       return place->picked_from_stage * occluder->stage_from_mesh;
     }
@@ -109,10 +102,8 @@ void MoveSelected(app::Workspace& workspace,
     workspace.EditPlace(
         Text(Tr("move %s"), selection.name.c_str()),
         [&](app::PlaceDocument& place) {
-          for (app::OccluderDocument& occluder : place.occluders) {
-            if (occluder.name == selection.name) {
-              occluder.stage_from_mesh = place.picked_from_stage.Inverse() * world_from_thing;
-            }
+          if (app::OccluderDocument* occluder = place.FindOccluder(selection.name)) {
+            occluder->stage_from_mesh = place.picked_from_stage.Inverse() * world_from_thing;
           }
         },
         gesture);

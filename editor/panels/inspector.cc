@@ -197,16 +197,14 @@ void ShowFloor(app::Workspace& workspace, const app::PlaceDocument& place) {
 
 // Models lie in stage metres: what is built at one place is often there at the other too.
 void TakeOverOccluders(app::Workspace& workspace, const app::PlaceDocument& from) {
-  workspace.EditPlace(
-      Text(Tr("take over the occluders of %s"), from.name.c_str()), [&](app::PlaceDocument& place) {
-        for (const app::OccluderDocument& occluder : from.occluders) {
-          const bool taken = std::any_of(place.occluders.begin(), place.occluders.end(),
-                                         [&](const auto& o) { return o.name == occluder.name; });
-          if (!occluder.drawn() && !taken) {
-            place.occluders.push_back(app::WithoutPicks(occluder));
-          }
-        }
-      });
+  workspace.EditPlace(Text(Tr("take over the occluders of %s"), from.name.c_str()),
+                      [&](app::PlaceDocument& place) {
+                        for (const app::OccluderDocument& occluder : from.occluders) {
+                          if (!occluder.drawn() && place.FindOccluder(occluder.name) == nullptr) {
+                            place.occluders.push_back(app::WithoutPicks(occluder));
+                          }
+                        }
+                      });
 }
 
 // Among several places.

@@ -20,29 +20,12 @@ namespace {
 
 using geometry::Similarity3;
 
-void EditOccluder(app::Workspace& workspace,
-                  const std::string& command,
-                  const std::string& name,
-                  const std::function<void(app::OccluderDocument&)>& change,
-                  std::string_view gesture = {}) {
-  workspace.EditPlace(
-      command,
-      [&](app::PlaceDocument& place) {
-        for (app::OccluderDocument& occluder : place.occluders) {
-          if (occluder.name == name) {
-            change(occluder);
-          }
-        }
-      },
-      gesture);
-}
-
 void ShowSizes(app::Workspace& workspace, const app::OccluderDocument& occluder) {
   app::OccluderShape shape = *occluder.shape;
   PropertyText(Tr("Shape"), Tr(app::EntryOf(shape.kind).label));
   if (ShapeSizes(workspace, shape)) {
-    EditOccluder(
-        workspace, Text(Tr("size of %s"), occluder.name.c_str()), occluder.name,
+    workspace.EditOccluder(
+        Text(Tr("size of %s"), occluder.name.c_str()), occluder.name,
         [&](app::OccluderDocument& edited) { edited.shape = shape; }, "occluder size");
   }
 }
@@ -103,8 +86,8 @@ void ShowCorners(app::Workspace& workspace,
     if (BeginProperties("drawn")) {
       double depth = occluder.depth;
       if (NumberProperty(workspace, Tr("Depth"), depth, 0.01, 0.0, app::kMaxDepth, "%.2f m")) {
-        EditOccluder(
-            workspace, Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
+        workspace.EditOccluder(
+            Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
             [&](app::OccluderDocument& edited) { edited.depth = depth; }, "occluder depth");
       }
       if (drawn.ok()) {
@@ -114,8 +97,8 @@ void ShowCorners(app::Workspace& workspace,
       bool flat = occluder.flat;
       PropertyLabel(Tr("Flat"));
       if (ImGui::Checkbox("##flat", &flat)) {
-        EditOccluder(workspace, Text(Tr("flatten %s"), occluder.name.c_str()), occluder.name,
-                     [&](app::OccluderDocument& edited) { edited.flat = flat; });
+        workspace.EditOccluder(Text(Tr("flatten %s"), occluder.name.c_str()), occluder.name,
+                               [&](app::OccluderDocument& edited) { edited.flat = flat; });
       }
       if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s", Tr("Lays the corners onto the plane that fits them best"));
@@ -136,8 +119,8 @@ void ShowCorners(app::Workspace& workspace,
   }
   ImGui::BeginDisabled(occluder.corners.empty());
   if (ImGui::Button(Tr("Remove the last corner"), ImVec2(-FLT_MIN, 0))) {
-    EditOccluder(workspace, Tr("remove a corner"), occluder.name,
-                 [](app::OccluderDocument& edited) { edited.corners.pop_back(); });
+    workspace.EditOccluder(Tr("remove a corner"), occluder.name,
+                           [](app::OccluderDocument& edited) { edited.corners.pop_back(); });
   }
   ImGui::EndDisabled();
 }
@@ -160,8 +143,8 @@ void ShowEffects(app::Workspace& workspace, const app::OccluderDocument& occlude
   for (const Effect& effect : kEffects) {
     bool on = occluder.*effect.does;
     if (CheckRow(Tr(effect.label), on)) {
-      EditOccluder(workspace, Text(Tr(effect.command), occluder.name.c_str()), occluder.name,
-                   [&](app::OccluderDocument& edited) { edited.*effect.does = on; });
+      workspace.EditOccluder(Text(Tr(effect.command), occluder.name.c_str()), occluder.name,
+                             [&](app::OccluderDocument& edited) { edited.*effect.does = on; });
     }
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s", Tr(effect.tip));

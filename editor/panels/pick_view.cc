@@ -125,14 +125,10 @@ void PickModelPoint(app::Workspace& workspace,
                     const Vector2d& pixel) {
   const stage::Pick pick{keyframe.frame_index, keyframe.name, pixel, keyframe.session};
   const std::string name = work.occluder->name;
-  workspace.EditPlace(Text(Tr("pick %s"), name.c_str()),
-                      [&, pair = work.pair](app::PlaceDocument& place) {
-                        for (app::OccluderDocument& occluder : place.occluders) {
-                          if (occluder.name == name) {
-                            app::SetModelPick(occluder, pair, pick);
-                          }
-                        }
-                      });
+  workspace.EditOccluder(Text(Tr("pick %s"), name.c_str()), name,
+                         [&, pair = work.pair](app::OccluderDocument& occluder) {
+                           app::SetModelPick(occluder, pair, pick);
+                         });
 }
 
 // Where points of a model were picked in this image, and rings where they are seen as it lies.
@@ -231,21 +227,15 @@ const app::OccluderDocument* OccluderInWork(const app::Workspace& workspace,
   if (workspace.place() == nullptr || state.selection.kind != Selection::Kind::kOccluder) {
     return nullptr;
   }
-  for (const app::OccluderDocument& occluder : workspace.place()->occluders) {
-    if (occluder.name == state.selection.name && occluder.drawn()) {
-      return &occluder;
-    }
-  }
-  return nullptr;
+  const app::OccluderDocument* occluder = workspace.place()->FindOccluder(state.selection.name);
+  return occluder != nullptr && occluder->drawn() ? occluder : nullptr;
 }
 
 void DrawNewOccluder(app::Workspace& workspace, EditorState& state) {
-  const std::vector<app::OccluderDocument>& known = workspace.place()->occluders;
   app::OccluderDocument occluder;
   for (int number = 1; occluder.name.empty(); ++number) {
     const std::string name = "face" + std::to_string(number);
-    const auto has_name = [&](const app::OccluderDocument& o) { return o.name == name; };
-    if (std::none_of(known.begin(), known.end(), has_name)) {
+    if (workspace.place()->FindOccluder(name) == nullptr) {
       occluder.name = name;
     }
   }

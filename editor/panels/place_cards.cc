@@ -127,20 +127,21 @@ void ShowSessionLegend(const app::PlaceDocument& place, const vision::SceneDatab
   }
 }
 
-void ShowLegend(const app::Workspace& workspace, PointColour colour) {
-  const app::LoadedPlace& loaded = workspace.loaded();
-  if (loaded.statistics == nullptr || colour == PointColour::kPicture) {
-    return;
-  }
-  if (colour == PointColour::kSessions) {
-    ShowSessionLegend(*workspace.place(), *loaded.database);
-  } else if (colour == PointColour::kError) {
-    const ColourRange range = ErrorRange(*loaded.statistics);
-    ShowRamp({"0", Text("%.3g", 0.5 * range.high), Text(Tr("%.3g px or more"), range.high)});
-  } else {
-    const ColourRange range = ViewRange(*loaded.statistics);
-    ShowRamp({Text("%.3g", range.low), Text("%.3g", 0.5 * (range.low + range.high)),
-              Text(Tr("%.3g views or more"), range.high)});
+void ShowLegend(const app::Workspace& workspace, const PlaceView& place) {
+  const ColourRange& range = place.range;
+  switch (place.colours) {
+    case PointColour::kPicture:
+      break;
+    case PointColour::kSessions:
+      ShowSessionLegend(*workspace.place(), *workspace.loaded().database);
+      break;
+    case PointColour::kError:
+      ShowRamp({"0", Text("%.3g", 0.5 * range.high), Text(Tr("%.3g px or more"), range.high)});
+      break;
+    case PointColour::kViews:
+      ShowRamp({Text("%.3g", range.low), Text("%.3g", 0.5 * (range.low + range.high)),
+                Text(Tr("%.3g views or more"), range.high)});
+      break;
   }
 }
 
@@ -304,7 +305,7 @@ void ShowPlaceTools(app::Workspace& workspace,
     Tooltip(WithKey(Tr("What the points are coloured by: the picture, their mean error, how many "
                        "images show them, the sessions that saw them"),
                     KeyAction::kPointColours));
-    ShowLegend(workspace, state.place.colours);
+    ShowLegend(workspace, state.place);
     ImGui::Checkbox(Tr("Measure"), &state.place.measure);
     Tooltip(WithKey(Tr("A click chooses a point, the next one the other end of a distance"),
                     KeyAction::kMeasure));

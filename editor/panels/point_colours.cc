@@ -72,12 +72,24 @@ ColourRange ViewRange(const train::MapStatistics& statistics) {
   return {kFewest, std::max(RoundUp(std::max(UpperEnd(std::move(views)), 1.0)), 5.0)};
 }
 
+ColourRange RangeOf(const train::MapStatistics& statistics, PointColour colour) {
+  switch (colour) {
+    case PointColour::kError:
+      return ErrorRange(statistics);
+    case PointColour::kViews:
+      return ViewRange(statistics);
+    case PointColour::kPicture:
+    case PointColour::kSessions:
+      break;
+  }
+  return {};
+}
+
 std::vector<glm::u8vec4> ColoursOf(const train::MapStatistics& statistics, PointColour colour) {
   std::vector<glm::u8vec4> colours;
   const auto count = static_cast<uint32_t>(statistics.point_shades.size());
   colours.reserve(count);
-  const ColourRange errors = ErrorRange(statistics);
-  const ColourRange views = ViewRange(statistics);
+  const ColourRange range = RangeOf(statistics, colour);
   for (uint32_t i = 0; i < count; ++i) {
     switch (colour) {
       case PointColour::kPicture:
@@ -86,10 +98,10 @@ std::vector<glm::u8vec4> ColoursOf(const train::MapStatistics& statistics, Point
       case PointColour::kError:
         colours.push_back(statistics.point_error_px[i] < 0.0f
                               ? kUnknown
-                              : Bytes(RampColour(errors.Share(statistics.point_error_px[i]))));
+                              : Bytes(RampColour(range.Share(statistics.point_error_px[i]))));
         break;
       case PointColour::kViews:
-        colours.push_back(Bytes(RampColour(views.Share(statistics.ViewsOf(i)))));
+        colours.push_back(Bytes(RampColour(range.Share(statistics.ViewsOf(i)))));
         break;
       case PointColour::kSessions:
         colours.push_back(ColourOfSession(statistics.point_session[i]));

@@ -34,6 +34,8 @@ double RoundUp(double value);
 // points do not exceed, rounded up.
 ColourRange ErrorRange(const train::MapStatistics& statistics);
 ColourRange ViewRange(const train::MapStatistics& statistics);
+// Of colours that are a ramp; 0 to 1 otherwise. Looks at all points.
+ColourRange RangeOf(const train::MapStatistics& statistics, PointColour colour);
 
 // [points], opaque sRGB.
 std::vector<glm::u8vec4> ColoursOf(const train::MapStatistics& statistics, PointColour colour);

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "editor/panels/angles.h"
+#include "editor/app/angles.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "shared/core/lower_case.h"
@@ -362,14 +362,14 @@ bool VectorProperty(app::Workspace& workspace,
 }
 
 bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quaterniond& rotation) {
-  Eigen::Vector3d degrees = HeadingTiltRoll(rotation) * kDegrees;
+  Eigen::Vector3d degrees = app::HeadingTiltRoll(rotation) * kDegrees;
   for (double& angle : degrees) {
     angle = std::abs(angle) < 5e-3 ? 0.0 : angle;  // no "-0.00"
   }
   if (!VectorProperty(workspace, label, degrees, 0.5, "%.2f\xc2\xb0")) {
     return false;
   }
-  rotation = FromHeadingTiltRoll(degrees / kDegrees);
+  rotation = app::FromHeadingTiltRoll(degrees / kDegrees);
   return true;
 }
 

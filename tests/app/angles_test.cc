@@ -1,10 +1,10 @@
-#include "editor/panels/angles.h"
+#include "editor/app/angles.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-namespace lararium::panels {
+namespace lararium::app {
 namespace {
 
 using Eigen::Quaterniond;
@@ -35,4 +35,4 @@ TEST(HeadingTiltRoll, HeadingIsAboutTheUpAxis) {
 }
 
 }  // namespace
-}  // namespace lararium::panels
+}  // namespace lararium::app
