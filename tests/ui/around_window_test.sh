@@ -5,16 +5,11 @@
 #
 #   around_window_test.sh EDITOR OUTPUT_FOLDER MAKE_ROOM_MAP
 set -u
-editor=$1
-out=$2
 make_room_map=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import identify convert
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+need identify convert
+begin_test "$0" "$@"
 
 # adjust FIELD: of the saved stage, without spaces.
 adjust() {

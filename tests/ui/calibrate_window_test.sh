@@ -7,15 +7,11 @@
 #
 #   calibrate_window_test.sh EDITOR OUTPUT_FOLDER MAKE_BOARD_VIDEO
 set -u
-editor=$1
-out=$2
 make_board_video=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import convert
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
+need convert
+begin_test "$0" "$@"
 video=$out/board.mp4
 
 shot() { import -window root "$out/$1.png"; }

@@ -1,23 +1,19 @@
 #!/bin/bash
-# Looks through the camera by real input events: the line between before and after is switched on
-# and dragged, whatever is selected.
+# Looks through the camera by real input events: the line between before and after is dragged, an
+# occluder's corners are drawn on frames of the recording, onion skins are laid over the picture,
+# and a live camera is shown and ended.
 #
 #   camera_window_test.sh EDITOR OUTPUT_FOLDER SAMPLE_PROJECT THIN_MAP [MAP]
 #
 # MAP: of the sample's place, in place of training it, which takes a minute.
 set -u
-editor=$1
-out=$2
 sample=$3
 thin_map=$4
 map=${5:-}
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import convert
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+need convert
+begin_test "$0" "$@"
 
 # A part of the window, WIDTHxHEIGHT+X+Y, as a number that says whether it is the same.
 part() { import -window root -crop "$1" +repage rgb:- | sha256sum | cut -c 1-16; }

@@ -5,18 +5,14 @@
 #
 #   cast_window_test.sh EDITOR OUTPUT_FOLDER
 set -u
-editor=$1
-out=$2
 model=/usr/share/assimp/models/X/Testwuson.X
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import
 if [ ! -e $model ]; then
   echo "skipped: the Debian package assimp-testmodels is not installed"
   exit 77
 fi
-on_a_display "$0" "$@"
-start_clean
+begin_test "$0" "$@"
 project=$out/cast.lararium
 json=$project/project.json
 

@@ -4,16 +4,11 @@
 #
 #   film_window_test.sh EDITOR OUTPUT_FOLDER VIDEO
 set -u
-editor=$1
-out=$2
 video=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import convert identify
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+need convert identify
+begin_test "$0" "$@"
 film=$project/places/tavern/film-1.mp4
 map=$project/places/tavern/scene.larscene
 

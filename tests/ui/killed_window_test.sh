@@ -4,16 +4,10 @@
 #
 #   killed_window_test.sh EDITOR OUTPUT_FOLDER ROUNDS
 set -u
-editor=$1
-out=$2
 rounds=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+begin_test "$0" "$@"
 
 new_project_with_place
 

@@ -4,16 +4,11 @@
 #
 #   light_window_test.sh EDITOR OUTPUT_FOLDER MAKE_PROBE
 set -u
-editor=$1
-out=$2
 make_probe=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import identify
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+need identify
+begin_test "$0" "$@"
 
 # A field of the first probe, on one line.
 probe_field() {

@@ -5,18 +5,12 @@
 #
 #   look_window_test.sh EDITOR OUTPUT_FOLDER
 set -u
-editor=$1
-out=$2
-
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import convert compare identify
-on_a_display "$0" "$@"
-start_clean
+need convert compare identify
+begin_test "$0" "$@"
 export HOME=$out/home XDG_DATA_HOME=$out/data
 mkdir -p "$HOME"
 settings=$XDG_CONFIG_HOME/lararium/editor.json
-project=$out/ui.lararium
-json=$project/project.json
 
 shot() { import -window root "$out/$1.png"; }
 # What is written down, on one line.

@@ -5,16 +5,11 @@
 #
 #   missing_window_test.sh EDITOR OUTPUT_FOLDER MODEL
 set -u
-editor=$1
-out=$2
 model=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import identify
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+need identify
+begin_test "$0" "$@"
 
 names() { grep -q "$1" "$json"; }
 

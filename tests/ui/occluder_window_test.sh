@@ -4,16 +4,11 @@
 #
 #   occluder_window_test.sh EDITOR OUTPUT_FOLDER MAKE_ROOM_MAP
 set -u
-editor=$1
-out=$2
 make_room_map=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import identify
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+need identify
+begin_test "$0" "$@"
 
 # How often the corners were picked in an image: "0.png" and so on.
 picks_in() { tr -d ' \n' < "$json" | grep -o "\"frame\":\"$1\"" | wc -l; }

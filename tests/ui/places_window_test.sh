@@ -6,16 +6,11 @@
 #
 #   places_window_test.sh EDITOR OUTPUT_FOLDER MAKE_ROOM_MAP
 set -u
-editor=$1
-out=$2
 make_room_map=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import identify
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+need identify
+begin_test "$0" "$@"
 
 # verdict PLACE WORD: what the subcommand says of the saved project.
 verdict() { "$editor" check-points "$project" --place "$1" | grep -q "^check points: $2"; }

@@ -4,16 +4,10 @@
 #
 #   shape_window_test.sh EDITOR OUTPUT_FOLDER MAKE_ROOM_MAP
 set -u
-editor=$1
-out=$2
 make_room_map=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
-json=$project/project.json
+begin_test "$0" "$@"
 
 # saved REGEX: the project on disk has it, without blanks.
 saved() { tr -d ' \n' < "$json" | grep -q "$1"; }

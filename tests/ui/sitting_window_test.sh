@@ -6,15 +6,12 @@
 #
 #   sitting_window_test.sh EDITOR OUTPUT_FOLDER VIDEO [OPENXR_RUNTIME]
 set -u
-editor=$1
-out=$2
 video=$3
 openxr=${4:-}  # its manifest
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import identify
-on_a_display "$0" "$@"
-start_clean
+need identify
+begin_test "$0" "$@"
 export HOME=$out/home XDG_DATA_HOME=$out/data
 mkdir -p "$HOME"
 project=$out/tavern.lararium

@@ -5,14 +5,11 @@
 #
 #   start_window_test.sh EDITOR OUTPUT_FOLDER VIDEO
 set -u
-editor=$1
-out=$2
 video=$3
 
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import identify
-on_a_display "$0" "$@"
-start_clean
+need identify
+begin_test "$0" "$@"
 export HOME=$out/home XDG_DATA_HOME=$out/data
 mkdir -p "$HOME"
 recent=$XDG_STATE_HOME/lararium/recent.json

@@ -5,14 +5,9 @@
 #
 #   timeline_window_test.sh EDITOR OUTPUT_FOLDER
 set -u
-editor=$1
-out=$2
-
 . "$(dirname "$0")/window.sh"
-need xvfb-run Xvfb xdotool import identify
-on_a_display "$0" "$@"
-start_clean
-project=$out/ui.lararium
+need identify
+begin_test "$0" "$@"
 script=$project/drama.lua
 
 # script_has REGEX WHAT: saves until the script holds it.

@@ -1,5 +1,4 @@
-# What tests of the editor's window share; sourced with `editor` and `out` set, before anything
-# else is done.
+# What tests of the editor's window share; sourced before anything else is done.
 
 # need TOOL...: skips the test where one is missing.
 need() {
@@ -19,6 +18,18 @@ on_a_display() {
     export LARARIUM_UI_TEST_DISPLAY=1
     exec xvfb-run -a -s "-screen 0 1440x900x24 -noreset" "$@"
   fi
+}
+
+# begin_test "$0" "$@": on a display of its own, with $editor, an empty folder $out, and where a
+# project may lie in it.
+begin_test() {
+  need xvfb-run Xvfb xdotool import
+  on_a_display "$@"
+  editor=$2
+  out=$3
+  project=$out/ui.lararium
+  json=$project/project.json
+  start_clean
 }
 
 # Empties the output folder, which then holds the program's state too.
