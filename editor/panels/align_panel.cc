@@ -108,7 +108,7 @@ void ShowPairButtons(app::Workspace& workspace,
   if (align.picking) {
     Hint(
         Tr("Click a corner of the model, through the camera or around the place, then the same "
-           "point in the training images."));
+           "point in the training images. Escape ends."));
   }
   ImGui::BeginDisabled(!align.pair);
   if (ImGui::Button(Tr("Remove the point"), wide)) {

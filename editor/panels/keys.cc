@@ -63,7 +63,7 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kViews, Action::kSnapHandles, GLFW_KEY_N, 0, 0,
      TrLater("Handles move in steps; or hold Ctrl while dragging")},
     {Scope::kViews, Action::kUnselect, GLFW_KEY_ESCAPE, 0, 0,
-     TrLater("Unselects the points around the place")},
+     TrLater("Adds no more points of a model; unselects the points around the place")},
 
     {Scope::kCamera, Action::kNudgeLeft, GLFW_KEY_LEFT, 0, 0,
      TrLater("Moves the camera to the left by 5 mm"), TrLater("by 5 cm")},

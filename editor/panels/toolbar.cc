@@ -322,7 +322,11 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       state.place.snap = !state.place.snap;
       break;
     case KeyAction::kUnselect:
-      ChooseNoPoints(state);
+      if (state.align.picking) {
+        state.align.picking = false;
+      } else {
+        ChooseNoPoints(state);
+      }
       break;
     default:
       break;

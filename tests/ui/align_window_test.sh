@@ -53,6 +53,15 @@ click 546 44   # Around the place
 sleep 1
 import -window root "$out/before.png"
 
+# Escape ends adding: the click then takes no point.
+click 1263 440  # Add a point
+press Escape
+click 838 440
+press ctrl+s
+sleep 1
+has_pairs 3 || fail "a point was added after Escape"
+press Escape
+
 # A corner of the model, then the same point in two images.
 click 1263 440  # Add a point
 xdotool mousemove 836 438
