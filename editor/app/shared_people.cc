@@ -65,7 +65,7 @@ Result<SharedPerson> SharePerson(const std::filesystem::path& file) {
   }
   LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::LoadHuman(file));
   auto person = std::make_shared<Person>();
-  person->light = show::TakeLight(human);
+  person->light = show::TakeLight(human.light);
   person->human = std::move(human);
   people.held[file] = {stamp, person};
   return Shared(person);

@@ -254,10 +254,12 @@ Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
   for (const ObjectDocument& object : document.objects) {
     LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, LoadBakedProp(paths, object));
     LARARIUM_ASSIGN_OR_RETURN(auto model, stage::ObjectModel::Create(std::move(prop), object.name));
+    auto light = show::TakeLight(model->light());
     const geometry::Rigid3 pose = StageFromObject(object);
     objects.push_back({object.name,
                        std::move(model),
-                       {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)}});
+                       {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)},
+                       std::move(light)});
   }
   return objects;
 }

@@ -26,7 +26,9 @@ ImFont* LoadFont(const char* name, float size) {
     const std::filesystem::path file = std::filesystem::path(folder) / name;
     std::error_code ignored;
     if (std::filesystem::exists(file, ignored)) {
-      return ImGui::GetIO().Fonts->AddFontFromFileTTF(file.c_str(), size, nullptr, kRanges);
+      ImFontConfig config;
+      config.OversampleH = 2;  // three look no better at these sizes, and take half as much again
+      return ImGui::GetIO().Fonts->AddFontFromFileTTF(file.c_str(), size, &config, kRanges);
     }
   }
   return nullptr;
@@ -34,6 +36,7 @@ ImFont* LoadFont(const char* name, float size) {
 
 Fonts LoadFonts(float scale) {
   Fonts fonts;
+  ImGui::GetIO().Fonts->Flags |= ImFontAtlasFlags_NoPowerOfTwoHeight;
   fonts.regular = LoadFont("Inter-Regular.otf", kTextPx * scale);
   if (fonts.regular == nullptr) {
     ImFontConfig config;

@@ -64,7 +64,7 @@ centroid in vec3 back_share;
 #include "arriving.glsl"
 
 uniform vec3 eye_in_stage;
-uniform sampler2D normal_texture;  // tangent space, green up
+uniform sampler2D normal_texture;  // x and y in tangent space, green up
 uniform int has_normal_texture;
 uniform vec3 colour_factor;
 uniform float roughness;
@@ -81,7 +81,8 @@ mat2x3 TangentsAlong(vec3 normal) {
 }
 
 vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
-  vec3 bump = texture(normal_texture, surface_uv).xyz * 2.0 - 1.0;
+  vec2 tilt = texture(normal_texture, surface_uv).xy * 2.0 - 1.0;
+  vec3 bump = vec3(tilt, sqrt(max(1.0 - dot(tilt, tilt), 0.0)));
   float size = max(dot(tangents[0], tangents[0]), dot(tangents[1], tangents[1]));
   float scale = inversesqrt(max(size, 1e-20));
   // v grows downward in the image, and the map's green upward.

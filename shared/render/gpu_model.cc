@@ -102,8 +102,10 @@ GlVertexArray CreateVertexArray(const GpuModel::Part& part, const GpuModel::Vert
   return array;
 }
 
+// In half the memory where the vertices are few enough.
+template <typename Index>
 void UploadIndices(const PartSource& source, GpuModel::Part& part) {
-  std::vector<uint32_t> indices;
+  std::vector<Index> indices;
   for (const PartSource::Level& level : source.levels) {
     part.levels.push_back(
         {indices.size(), static_cast<int>(level.indices.size()), level.error, level.vertices});
@@ -111,8 +113,9 @@ void UploadIndices(const PartSource& source, GpuModel::Part& part) {
   }
   // Not as an element array: that would belong to whichever vertex array is bound.
   glBindBuffer(GL_COPY_WRITE_BUFFER, part.indices.id());
-  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)),
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(Index)),
                indices.data(), GL_STATIC_DRAW);
+  part.short_indices = sizeof(Index) == sizeof(uint16_t);
 }
 
 void ApplyMaterial(const human::Material& material, GpuModel::Part& part) {
@@ -150,7 +153,11 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
   part.culls_back_faces =
       !two_sided ||
       (!part.covered() && IsClosedSurface(source.positions, source.levels.front().indices));
-  UploadIndices(source, part);
+  if (part.vertex_count <= 0x10000) {
+    UploadIndices<uint16_t>(source, part);
+  } else {
+    UploadIndices<uint32_t>(source, part);
+  }
   glBindBuffer(GL_ARRAY_BUFFER, part.attributes.id());
   glBufferData(GL_ARRAY_BUFFER,
                static_cast<GLsizeiptr>(source.attributes.size() * sizeof(Attributes)),
@@ -444,8 +451,10 @@ void GpuModel::Draw(size_t part_index, float allowed_error, bool streamed) const
   const Part& part = parts[part_index];
   const Part::Level& drawn = LevelAllowed(part.levels, allowed_error);
   glBindVertexArray(streamed ? part.streamed.id() : part.bind_pose.id());
-  glDrawElements(GL_TRIANGLES, drawn.count, GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(drawn.first * sizeof(uint32_t)));
+  const GLenum type = part.short_indices ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;
+  const size_t size = part.short_indices ? sizeof(uint16_t) : sizeof(uint32_t);
+  glDrawElements(GL_TRIANGLES, drawn.count, type,
+                 reinterpret_cast<const void*>(drawn.first * size));
 }
 
 }  // namespace lararium::render

@@ -84,6 +84,7 @@ struct GpuModel {
     Vertices streamed_vertices;
     GlBuffer irradiance;  // of this very draw
     GlBuffer indices;
+    bool short_indices = false;  // of 16 bits, else 32
     Sent sent_vertices;  // what the streamed buffers hold
     Sent sent_irradiance;
 

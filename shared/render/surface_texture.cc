@@ -21,11 +21,26 @@ void SetFiltering() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+  // Not anisotropic: Mesa's software rasterizer walks over all texels below a pixel
+  // then, for seconds where a surface is seen edge on.
+}
+
+void UploadColour(const cv::Mat& bgra) {
+  // Four channels: OpenGL ES makes no mipmaps of three that are sRGB-encoded.
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, bgra.cols, bgra.rows, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, bgra.data);
   // Blue comes first in the image: OpenGL ES has no such order to upload from.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
-  // Not anisotropic: Mesa's software rasterizer walks over all texels below a pixel
-  // then, for seconds where a surface is seen edge on.
+}
+
+// The shader knows the third coordinate of a unit vector that points outward from two.
+void UploadNormals(const cv::Mat& bgra) {
+  cv::Mat xy(bgra.size(), CV_8UC2);
+  cv::mixChannels({bgra}, {xy}, {2, 0, 1, 1});
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, xy.cols, xy.rows, 0, GL_RG, GL_UNSIGNED_BYTE, xy.data);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
 }  // namespace
@@ -37,15 +52,13 @@ GlTexture CreateSurfaceTexture(cv::Mat bgra, TextureUse use) {
     cv::resize(bgra, bgra, cv::Size(std::max(bgra.cols / 2, 1), std::max(bgra.rows / 2, 1)), 0, 0,
                cv::INTER_AREA);
   }
-  if (!bgra.isContinuous()) {
-    bgra = bgra.clone();
-  }
   GlTexture texture = GlTexture::Generate();
   glBindTexture(GL_TEXTURE_2D, texture.id());
-  // Four channels: OpenGL ES makes no mipmaps of three that are sRGB-encoded.
-  const GLint format = use == TextureUse::kColour ? GL_SRGB8_ALPHA8 : GL_RGBA8;
-  glTexImage2D(GL_TEXTURE_2D, 0, format, bgra.cols, bgra.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-               bgra.data);
+  if (use == TextureUse::kColour) {
+    UploadColour(bgra.isContinuous() ? bgra : bgra.clone());
+  } else {
+    UploadNormals(bgra);
+  }
   glGenerateMipmap(GL_TEXTURE_2D);
   SetFiltering();
   return texture;

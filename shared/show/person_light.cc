@@ -104,10 +104,10 @@ UnpackedLight UnpackAll(const LightTransfer& light) {
 
 }  // namespace
 
-std::shared_ptr<const UnpackedLight> TakeLight(human::Human& human) {
+std::shared_ptr<const UnpackedLight> TakeLight(LightTransfer& transfer) {
   auto unpacked = std::make_shared<UnpackedLight>();
-  for (LightTransfer::Mesh& mesh : human.light.meshes) {
-    unpacked->push_back(Unpack(human.light, std::exchange(mesh.scale, {}),
+  for (LightTransfer::Mesh& mesh : transfer.meshes) {
+    unpacked->push_back(Unpack(transfer, std::exchange(mesh.scale, {}),
                                std::exchange(mesh.coefficients, {}), mesh.receivers.size()));
   }
   return unpacked;

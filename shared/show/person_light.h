@@ -38,10 +38,10 @@ struct SphereSet {
   light::Spheres spheres() const { return {x, y, z, radius}; }
 };
 
-// A human's transfer vectors, of each mesh, as they are read from frame to frame.
+// The transfer vectors of each mesh of a person or thing, as they are read from frame to frame.
 using UnpackedLight = std::vector<light::Transfer>;
-// Takes the vectors out of the human, where they are no longer: they are most of its memory.
-std::shared_ptr<const UnpackedLight> TakeLight(human::Human& human);
+// Takes them out, so that they are kept once: they are most of a person's memory.
+std::shared_ptr<const UnpackedLight> TakeLight(human::LightTransfer& transfer);
 
 class PersonLight {
  public:

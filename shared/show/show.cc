@@ -60,9 +60,8 @@ Status Show::FillStage() {
     LARARIUM_ASSIGN_OR_RETURN(const stage::ObjectId id, stage_.AddObject(object.name, object.model,
                                                                          object.stage_from_object));
     object_ids_.push_back(id);
-    const std::shared_ptr<human::Human> figure = FigureOf(object.model->prop());
-    light.push_back(TakeLight(*figure));
-    cast.push_back(figure);
+    cast.push_back(FigureOf(object.model->prop()));
+    light.push_back(object.light);
     things_.push_back({std::vector<glm::mat4>(object.model->prop().parts.size()),
                        {},
                        ThingMemory(RadiusOf(object.model->prop()))});

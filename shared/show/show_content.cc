@@ -105,18 +105,22 @@ namespace {
 
 // Objects of one member share its model.
 Status LoadObjects(const bundle::Bundle& bundle, std::vector<StageObject>& objects) {
-  std::map<std::string, std::shared_ptr<const stage::ObjectModel>> models;
+  std::map<std::string, StageObject> known;  // by its prop
   for (const bundle::ObjectEntry& entry : bundle.manifest().objects) {
-    std::shared_ptr<const stage::ObjectModel>& model = models[entry.prop];
-    if (model == nullptr) {
+    StageObject& object = known[entry.prop];
+    if (object.model == nullptr) {
       const std::string place = bundle.place() + ": " + entry.prop;
       LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.prop));
       LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(bytes, place));
-      LARARIUM_ASSIGN_OR_RETURN(model, stage::ObjectModel::Create(std::move(prop), place));
+      LARARIUM_ASSIGN_OR_RETURN(const auto model,
+                                stage::ObjectModel::Create(std::move(prop), place));
+      object.light = TakeLight(model->light());
+      object.model = model;
     }
     const geometry::Rigid3& pose = entry.stage_from_object;
-    objects.push_back(
-        {entry.name, model, {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)}});
+    object.name = entry.name;
+    object.stage_from_object = {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)};
+    objects.push_back(object);
   }
   return Status();
 }
@@ -324,7 +328,7 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
     LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.human));
     LARARIUM_ASSIGN_OR_RETURN(human::Human human,
                               human::ParseHuman(bytes, bundle.place() + ": " + member.human));
-    std::shared_ptr<const UnpackedLight> light = TakeLight(human);
+    std::shared_ptr<const UnpackedLight> light = TakeLight(human.light);
     content.cast.push_back({member.name,
                             std::make_shared<const human::Human>(std::move(human)),
                             {},

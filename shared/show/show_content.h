@@ -39,6 +39,8 @@ struct StageObject {
   std::string name;  // as the drama calls it
   std::shared_ptr<const stage::ObjectModel> model;
   stage::Pose stage_from_object;  // at the beginning
+  // What was taken out of the prop's light; nullptr: it has all of it.
+  std::shared_ptr<const UnpackedLight> light = nullptr;
 };
 
 // A line that somebody can say, as it is said and to be read in the languages of a show.

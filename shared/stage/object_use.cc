@@ -719,8 +719,7 @@ Result<ObjectUse> ParseObjectUse(std::string_view text,
   return use;
 }
 
-Result<std::shared_ptr<const ObjectModel>> ObjectModel::Create(Prop prop,
-                                                               const std::string& place) {
+Result<std::shared_ptr<ObjectModel>> ObjectModel::Create(Prop prop, const std::string& place) {
   LARARIUM_RETURN_IF_ERROR(prop.Validate(place));
   std::shared_ptr<ObjectModel> model(new ObjectModel);
   ComputeBounds(prop, model->lower_, model->upper_);
@@ -733,7 +732,7 @@ Result<std::shared_ptr<const ObjectModel>> ObjectModel::Create(Prop prop,
     LARARIUM_ASSIGN_OR_RETURN(model->use_, ParseObjectUse(prop.use, prop, place));
   }
   model->prop_ = std::move(prop);
-  return std::shared_ptr<const ObjectModel>(std::move(model));
+  return model;
 }
 
 }  // namespace lararium::stage

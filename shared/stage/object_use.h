@@ -195,9 +195,11 @@ struct PartBounds {
 class ObjectModel {
  public:
   // Scenery when prop.use is empty: nobody uses it, its bounds are in the way.
-  static Result<std::shared_ptr<const ObjectModel>> Create(Prop prop, const std::string& place);
+  static Result<std::shared_ptr<ObjectModel>> Create(Prop prop, const std::string& place);
 
   const Prop& prop() const { return prop_; }
+  // For who keeps the prop's transfer vectors elsewhere (show::TakeLight).
+  human::LightTransfer& light() { return prop_.light; }
   const ObjectUse& use() const { return use_; }
   const PartBounds& bounds(int part) const { return part_bounds_[static_cast<size_t>(part)]; }
   // Of all parts at rest, object frame.
