@@ -51,10 +51,9 @@ void TransferPacker::AddKeyPose(const TransferSites& sites, const SolvedTransfer
 
 void TransferPacker::Pack(std::vector<human::LightTransfer::Mesh>& meshes) const {
   for (size_t m = 0; m < vectors_.size(); ++m) {
-    light::Transfer packed = light::QuantiseTransfer(vectors_[m], count_, poses_);
+    light::TransferBytes packed = light::QuantiseTransfer(vectors_[m], count_, poses_);
     human::LightTransfer::Mesh& mesh = meshes[m];
     mesh.coefficients = std::move(packed.values);
-    mesh.coefficients.resize(mesh.coefficients.size() - packed.tail());
     mesh.scale = std::move(packed.scale);
     mesh.backs.clear();
     for (const glm::vec3& sum : back_sums_[m]) {

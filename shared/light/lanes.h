@@ -223,4 +223,13 @@ inline ShortLanes LoadBytes(const int8_t* from) {
 #endif
 }
 
+// Eight signed bytes, and the same again.
+inline ShortLanes LoadEightBytesTwice(const int8_t* from) {
+  using Words = int64_t __attribute__((vector_size(16)));
+  using Bytes = int8_t __attribute__((vector_size(16)));
+  int64_t bytes;
+  std::memcpy(&bytes, from, sizeof(bytes));
+  return __builtin_convertvector(reinterpret_cast<Bytes>(Words{bytes, bytes}), ShortLanes);
+}
+
 }  // namespace lararium::light

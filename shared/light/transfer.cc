@@ -1,22 +1,19 @@
 #include "shared/light/transfer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
-#include <string>
 
 #include "shared/core/check.h"
+#include "shared/core/parallel.h"
 #include "shared/light/spherical_harmonics.h"
 
 namespace lararium::light {
 namespace {
 
 constexpr float kLargestByte = 127.0f;
-
-bool FinitePositive(std::span<const float> values) {
-  return std::all_of(values.begin(), values.end(),
-                     [](float value) { return std::isfinite(value) && value >= 0.0f; });
-}
 
 // The largest whole number that light is packed as: sums of four rounded parts of it still fit.
 constexpr float kLargestShort = 32000.0f;
@@ -43,6 +40,21 @@ inline void BlendReceivers(const ReceiverLight& packed,
   }
 }
 
+using Ratios = std::array<float, 3>;
+
+// Of the channels to their mean, less 1.
+inline Ratios RatiosOf(const Transfer& transfer, const int8_t* row) {
+  const float red = row[transfer.ratios_at()] / Transfer::kRatioUnit;
+  const float blue = row[transfer.ratios_at() + 1] / Transfer::kRatioUnit;
+  return {red, -red - blue, blue};
+}
+
+inline float ScaleOf(const Transfer& transfer, const int8_t* row) {
+  float scale;
+  std::memcpy(&scale, row + transfer.scale_at(), sizeof(scale));
+  return scale;
+}
+
 inline bool AnyChanged(const uint8_t* changed, const VertexReceivers& receivers) {
   bool any = false;
   for (size_t r = 0; r < kReceiversOfVertex; ++r) {
@@ -51,51 +63,132 @@ inline bool AnyChanged(const uint8_t* changed, const VertexReceivers& receivers)
   return any;
 }
 
-// Rows of so many registers for each channel.
+// Of light, what a row's differences are multiplied by: red, blue and twice what takes green off,
+// kTinted each.
+template <size_t OfChannel>
+inline ShortLanes TintedLight(const ShortLanes (&light)[3 * OfChannel]) {
+  const ShortLanes& red = light[0];
+  const ShortLanes green = -light[OfChannel];
+  const ShortLanes& blue = light[2 * OfChannel];
+  const ShortLanes both =
+      __builtin_shufflevector(red, blue, 0, 1, 2, 3, 16, 17, 18, 19, 0, 1, 2, 3, 16, 17, 18, 19);
+  return __builtin_shufflevector(both, green, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 16, 17, 18,
+                                 19);
+}
+
+// Rows of so many registers.
 template <size_t OfChannel>
 void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
-  constexpr size_t kRegisters = 3 * OfChannel;
+  // Of the pairs of coefficients of a register: those that have a ratio.
+  constexpr Lanes kHaveRatio = {0, 0, 1, 1, 1, 1, 1, 1};
+  // Of those of TintedLight: which channel they are of.
+  constexpr Lanes kTintOf[3] = {
+      {1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 1, 1, 1, 1}, {0, 0, 1, 1, 0, 0, 0, 0}};
   const Transfer& transfer = *job.transfer;
-  const auto count = static_cast<size_t>(transfer.count);
-  const size_t pose_stride = transfer.vertices * 3 * count;
   const uint8_t* changed = job.changed.empty() ? nullptr : job.changed.data();
   for (size_t v = begin; v < end; ++v) {
     if (changed != nullptr && !AnyChanged(changed, job.receivers[v])) {
       continue;
     }
-    ShortLanes light[kRegisters] = {};
+    ShortLanes light[3 * OfChannel] = {};
     Lanes weights = {};
     BlendReceivers(*job.light, job.receivers[v], job.pose_weights.data(), light, weights);
+    const ShortLanes tinted_light = TintedLight<OfChannel>(light);
     float pose_weights[kLanes];
     Store(weights, pose_weights);
-    Lanes sums[3] = {};
+    Lanes sums[3] = {};    // of the mean
+    Lanes ratios[3] = {};  // of what the ratios add to that, in all pairs
+    Lanes tinted = {};
     float total = 0.0f;
-    const float* scale_of_vertex = transfer.scale.data() + v;
     const int8_t* row = transfer.row(0, v);
-    for (size_t pose = 0; pose < transfer.poses; ++pose) {
+    for (size_t pose = 0; pose < transfer.poses(); ++pose) {
       const float weight = pose_weights[pose];
       if (weight >= kLeastPoseWeight) {
         total += weight;
-        const Lanes scale = Broadcast(weight * *scale_of_vertex);
+        const float scale = weight * ScaleOf(transfer, row);
+        const Lanes scales = Broadcast(scale);
+        const Ratios less_one = RatiosOf(transfer, row);
+        ShortLanes mean[OfChannel];
+#pragma GCC unroll 3
+        for (size_t i = 0; i < OfChannel; ++i) {
+          mean[i] = LoadBytes(row + i * kShortLanes);
+        }
 #pragma GCC unroll 3
         for (size_t channel = 0; channel < 3; ++channel) {
-          const size_t first = channel * OfChannel;
-          const int8_t* values = row + channel * count;
-          IntLanes sum = DotPairs(light[first], LoadBytes(values));
-#pragma GCC unroll 2
-          for (size_t i = 1; i < OfChannel; ++i) {
-            sum += DotPairs(light[first + i], LoadBytes(values + i * kShortLanes));
+          const ShortLanes* of_channel = light + channel * OfChannel;
+          const Lanes ratio = Broadcast(scale * less_one[channel]);
+          const Lanes first = __builtin_convertvector(DotPairs(of_channel[0], mean[0]), Lanes);
+          sums[channel] = MultiplyAdd(scales, first, sums[channel]);
+          ratios[channel] = MultiplyAdd(ratio, first, ratios[channel]);
+          if constexpr (OfChannel > 1) {
+            IntLanes dot = DotPairs(of_channel[1], mean[1]);
+            for (size_t i = 2; i < OfChannel; ++i) {
+              dot += DotPairs(of_channel[i], mean[i]);
+            }
+            sums[channel] =
+                MultiplyAdd(scales + ratio, __builtin_convertvector(dot, Lanes), sums[channel]);
           }
-          sums[channel] = MultiplyAdd(scale, __builtin_convertvector(sum, Lanes), sums[channel]);
         }
+        const IntLanes dot = DotPairs(tinted_light, LoadEightBytesTwice(row + transfer.red_at()));
+        tinted = MultiplyAdd(scales, __builtin_convertvector(dot, Lanes), tinted);
       }
-      scale_of_vertex += transfer.vertices;
-      row += pose_stride;
+      row += transfer.pose_stride();
+    }
+#pragma GCC unroll 3
+    for (size_t channel = 0; channel < 3; ++channel) {
+      sums[channel] = MultiplyAdd(ratios[channel], kHaveRatio, sums[channel]);
+      sums[channel] = MultiplyAdd(tinted, kTintOf[channel], sums[channel]);
     }
     const glm::vec3 irradiance(Sum(sums[0]), Sum(sums[1]), Sum(sums[2]));
     const float unit = job.light->unit() / std::max(total, 1e-6f);
     job.irradiance[v] = glm::max(irradiance * unit, glm::vec3(0.0f));
   }
+}
+
+// The ratio of a channel to the mean that fits best, less 1, beyond the coefficients whose tint is
+// kept.
+int8_t RatioByte(const int8_t* channel, const float* mean, size_t count) {
+  float product = 0.0f;
+  float square = 0.0f;
+  for (size_t k = Transfer::kTinted; k < count; ++k) {
+    product += mean[k] * (channel[k] - mean[k]);
+    square += mean[k] * mean[k];
+  }
+  const float ratio = square > 0.0f ? product / square : 0.0f;
+  return static_cast<int8_t>(std::nearbyint(
+      std::clamp(Transfer::kRatioUnit * ratio, -Transfer::kRatioUnit, kLargestByte)));
+}
+
+// values: [3][count], in units of scale.
+void PackRow(const Transfer& layout, const int8_t* values, float scale, int8_t* row) {
+  const auto count = static_cast<size_t>(layout.count());
+  const int8_t* red = values;
+  const int8_t* green = red + count;
+  const int8_t* blue = green + count;
+  float mean[kShCount];
+  float largest = 0.0f;
+  for (size_t k = 0; k < count; ++k) {
+    mean[k] = static_cast<float>(red[k] + green[k] + blue[k]) * (1.0f / 3.0f);
+    largest = std::max(largest, std::abs(mean[k]));
+  }
+  for (size_t k = 0; k < Transfer::kTinted; ++k) {
+    largest = std::max({largest, std::abs(red[k] - mean[k]), std::abs(blue[k] - mean[k])});
+  }
+  const float inverse = largest > 0.0f ? kLargestByte / largest : 0.0f;
+  const auto byte = [&](float value) {
+    return static_cast<int8_t>(std::nearbyint(value * inverse));
+  };
+  for (size_t k = 0; k < count; ++k) {
+    row[k] = byte(mean[k]);
+  }
+  for (size_t k = 0; k < Transfer::kTinted; ++k) {
+    row[layout.red_at() + k] = byte(red[k] - mean[k]);
+    row[layout.blue_at() + k] = byte(blue[k] - mean[k]);
+  }
+  row[layout.ratios_at()] = RatioByte(red, mean, count);
+  row[layout.ratios_at() + 1] = RatioByte(blue, mean, count);
+  const float unit = scale * largest / kLargestByte;
+  std::memcpy(row + layout.scale_at(), &unit, sizeof(unit));
 }
 
 float LargestOf(const ShRowsRgb& light) {
@@ -117,43 +210,15 @@ float LargestOf(const ShRowsRgb& light) {
 
 }  // namespace
 
-Status CheckTransfer(const Transfer& transfer, const std::string& place) {
-  if (!IsShCount(transfer.count) || transfer.count < 9) {
-    return Status::Error(place, std::to_string(transfer.count) + " coefficients of light transfer",
-                         "bake it again with 9, 16, 25 or 36");
-  }
-  if (transfer.poses == 0 || transfer.poses > kMaxKeyPoses) {
-    return Status::Error(place,
-                         std::to_string(transfer.poses) +
-                             " key poses of light transfer, not 1 to " +
-                             std::to_string(kMaxKeyPoses),
-                         "bake it again");
-  }
-  // In this order nothing overflows: each size bounds the next.
-  const bool sizes =
-      transfer.vertices <= transfer.scale.size() &&
-      transfer.scale.size() == transfer.poses * transfer.vertices &&
-      transfer.values.size() ==
-          transfer.scale.size() * 3 * static_cast<size_t>(transfer.count) + transfer.tail();
-  if (!sizes) {
-    return Status::Error(place, "light transfer of another size than it says", "bake it again");
-  }
-  if (!FinitePositive(transfer.scale)) {
-    return Status::Error(place, "a scale of light transfer is negative or not finite",
-                         "bake it again");
-  }
-  return Status();
-}
-
-Transfer QuantiseTransfer(std::span<const float> vectors, int count, size_t poses) {
+TransferBytes QuantiseTransfer(std::span<const float> vectors, int count, size_t poses) {
   const auto size = static_cast<size_t>(count);
   CHECK(IsShCount(count) && poses > 0 && vectors.size() % (poses * 3 * size) == 0);
-  Transfer transfer;
+  TransferBytes transfer;
   transfer.count = count;
   transfer.poses = poses;
   transfer.vertices = vectors.size() / (poses * 3 * size);
   transfer.scale.resize(poses * transfer.vertices);
-  transfer.values.resize(vectors.size() + transfer.tail());
+  transfer.values.resize(vectors.size());
   for (size_t row = 0; row < transfer.scale.size(); ++row) {
     const std::span<const float> vector = vectors.subspan(row * 3 * size, 3 * size);
     float largest = 0.0f;
@@ -170,18 +235,55 @@ Transfer QuantiseTransfer(std::span<const float> vectors, int count, size_t pose
   return transfer;
 }
 
-void DecodeTransfer(const Transfer& transfer,
+void DecodeTransfer(const TransferBytes& transfer,
                     size_t pose,
                     size_t vertex,
                     std::span<float> vectors) {
-  const auto size = static_cast<size_t>(transfer.count);
-  CHECK(pose < transfer.poses && vertex < transfer.vertices && vectors.size() == 3 * size);
-  const float scale = transfer.scale[pose * transfer.vertices + vertex];
-  for (size_t channel = 0; channel < 3; ++channel) {
-    const int8_t* row = transfer.row(pose, vertex) + channel * size;
-    for (size_t k = 0; k < size; ++k) {
-      vectors[channel * size + k] = row[k] * scale;
+  CHECK(pose < transfer.poses && vertex < transfer.vertices &&
+        vectors.size() == 3 * static_cast<size_t>(transfer.count));
+  const size_t index = pose * transfer.vertices + vertex;
+  const int8_t* row = transfer.values.data() + index * vectors.size();
+  for (size_t i = 0; i < vectors.size(); ++i) {
+    vectors[i] = row[i] * transfer.scale[index];
+  }
+}
+
+Transfer::Transfer(const TransferBytes& bytes)
+    : count_(bytes.count),
+      poses_(bytes.poses),
+      vertices_(bytes.vertices),
+      rows_(bytes.scale.size() * stride()) {
+  const size_t size = 3 * static_cast<size_t>(count_);
+  CHECK(IsShCount(count_) && count_ >= 9 && poses_ > 0 && poses_ <= kMaxKeyPoses &&
+        bytes.scale.size() == poses_ * vertices_ &&
+        bytes.values.size() == bytes.scale.size() * size);
+  constexpr size_t kBlock = 1024;  // rows
+  ParallelFor((bytes.scale.size() + kBlock - 1) / kBlock, [&](size_t block) {
+    const size_t end = std::min((block + 1) * kBlock, bytes.scale.size());
+    for (size_t i = block * kBlock; i < end; ++i) {
+      PackRow(*this, bytes.values.data() + i * size, bytes.scale[i], rows_.data() + i * stride());
     }
+  });
+}
+
+void Transfer::Decode(size_t pose, size_t vertex, std::span<float> vectors) const {
+  const auto count = static_cast<size_t>(count_);
+  CHECK(pose < poses_ && vertex < vertices_ && vectors.size() == 3 * count);
+  const int8_t* from = row(pose, vertex);
+  const Ratios ratios = RatiosOf(*this, from);
+  const float scale = ScaleOf(*this, from);
+  for (size_t k = 0; k < count; ++k) {
+    for (size_t channel = 0; channel < 3; ++channel) {
+      vectors[channel * count + k] =
+          scale * from[k] * (k < kTinted ? 1.0f : 1.0f + ratios[channel]);
+    }
+  }
+  for (size_t k = 0; k < kTinted; ++k) {
+    const float red = scale * from[red_at() + k];
+    const float blue = scale * from[blue_at() + k];
+    vectors[k] += red;
+    vectors[count + k] -= red + blue;
+    vectors[2 * count + k] += blue;
   }
 }
 
@@ -215,18 +317,19 @@ void PackReceiverLight(const ShRowsRgb& light, ReceiverLight& packed) {
 }
 
 void LightVerticesJob::Run(size_t begin, size_t end) const {
-  CHECK(transfer != nullptr && light != nullptr && light->count() == transfer->count &&
-        receivers.size() == transfer->vertices && irradiance.size() == transfer->vertices &&
+  CHECK(transfer != nullptr && light != nullptr && light->count() == transfer->count() &&
+        receivers.size() == transfer->vertices() && irradiance.size() == transfer->vertices() &&
         pose_weights.size() == light->receivers() * kMaxKeyPoses &&
-        (changed.empty() || changed.size() == light->receivers()) &&
-        transfer->poses <= kMaxKeyPoses && begin <= end && end <= transfer->vertices);
-  switch (transfer->padded_count() / kShortLanes) {
+        (changed.empty() || changed.size() == light->receivers()) && begin <= end &&
+        end <= transfer->vertices());
+  const size_t padded = PaddedToShortLanes(static_cast<size_t>(transfer->count()));
+  switch (padded / kShortLanes) {
     case 1:
       return LightRange<1>(*this, begin, end);
     case 2:
       return LightRange<2>(*this, begin, end);
     default:
-      CHECK(transfer->padded_count() == 3 * kShortLanes);
+      CHECK(padded == 3 * kShortLanes);
       return LightRange<3>(*this, begin, end);
   }
 }

@@ -9,10 +9,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "shared/core/status.h"
 #include "shared/light/lanes.h"
 #include "shared/light/sh_rows.h"
 
@@ -23,32 +21,63 @@ inline constexpr size_t kReceiversOfVertex = 4;
 // Key poses with less weight at a vertex are passed over.
 inline constexpr float kLeastPoseWeight = 1.0f / 64.0f;
 
-// Transfer vectors of a mesh for its key poses, as bytes: T[k] = value * scale(pose,
+// Transfer vectors of a mesh for its key poses as files have them: T[k] = value * scale(pose,
 // vertex). A scale for each coefficient besides was measured to gain nothing.
-struct Transfer {
+struct TransferBytes {
   int count = 0;  // coefficients: 9, 16, 25 or 36
   size_t poses = 0;
   size_t vertices = 0;
-  std::vector<float> scale;  // [pose][vertex]
-  // [pose][vertex][3][count], as files have them, and tail() more: whole registers are read, of
-  // which light has nothing where they reach beyond a channel.
-  std::vector<int8_t> values;
-
-  size_t padded_count() const { return PaddedToShortLanes(static_cast<size_t>(count)); }
-  size_t tail() const { return padded_count() - static_cast<size_t>(count); }
-  const int8_t* row(size_t pose, size_t vertex) const {
-    return values.data() + (pose * vertices + vertex) * 3 * static_cast<size_t>(count);
-  }
+  std::vector<float> scale;    // [pose][vertex]
+  std::vector<int8_t> values;  // [pose][vertex][3][count]
 };
 
-// What is wrong with sizes or numbers, for readers of files. place: file and part.
-Status CheckTransfer(const Transfer& transfer, const std::string& place);
-
 // vectors: [pose][vertex][3][count]. Each is off by half a scale at most.
-Transfer QuantiseTransfer(std::span<const float> vectors, int count, size_t poses);
+TransferBytes QuantiseTransfer(std::span<const float> vectors, int count, size_t poses);
 
 // [3][count] of one vertex and pose.
-void DecodeTransfer(const Transfer& transfer, size_t pose, size_t vertex, std::span<float> vectors);
+void DecodeTransfer(const TransferBytes& transfer,
+                    size_t pose,
+                    size_t vertex,
+                    std::span<float> vectors);
+
+// The same as it is read from frame to frame, in three fifths of the memory: what reaches a vertex
+// is mostly light that comes straight from outside, alike in all channels, and what surfaces
+// nearby tint of it is smooth. So the channels' mean is kept whole; by how much red and blue
+// differ from it, for the first four coefficients; and for the others in what ratio. Green is what
+// the mean leaves.
+class Transfer {
+ public:
+  Transfer() = default;
+  // On all cores.
+  explicit Transfer(const TransferBytes& bytes);
+
+  int count() const { return count_; }
+  size_t poses() const { return poses_; }
+  size_t vertices() const { return vertices_; }
+  // What is kept, [3][count].
+  void Decode(size_t pose, size_t vertex, std::span<float> vectors) const;
+
+  // Of a row: the mean's coefficients as bytes, red's differences, blue's, red's ratio to the mean
+  // less 1 and blue's, in 1/kRatioUnit; what all but the ratios are to be multiplied by.
+  static constexpr size_t kTinted = 4;
+  static constexpr float kRatioUnit = 64.0f;
+  size_t red_at() const { return static_cast<size_t>(count_); }
+  size_t blue_at() const { return red_at() + kTinted; }
+  size_t ratios_at() const { return blue_at() + kTinted; }
+  size_t scale_at() const { return ratios_at() + 4; }
+  size_t stride() const { return scale_at() + sizeof(float); }
+  // Whole registers of the mean may be read: they end before the row does.
+  const int8_t* row(size_t pose, size_t vertex) const {
+    return rows_.data() + (pose * vertices_ + vertex) * stride();
+  }
+  size_t pose_stride() const { return vertices_ * stride(); }
+
+ private:
+  int count_ = 0;
+  size_t poses_ = 0;
+  size_t vertices_ = 0;
+  std::vector<int8_t> rows_;  // [pose][vertex]
+};
 
 // Light of receivers as vertices read it: [receiver][3][padded count], in whole numbers of
 // unit(), so that a register holds sixteen of them. Made once; filling it does not allocate.

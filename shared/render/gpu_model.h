@@ -85,7 +85,7 @@ struct GpuModel {
     GlBuffer irradiance;  // of this very draw
     GlBuffer indices;
     bool short_indices = false;  // of 16 bits, else 32
-    Sent sent_vertices;  // what the streamed buffers hold
+    Sent sent_vertices;          // what the streamed buffers hold
     Sent sent_irradiance;
 
     bool covered() const { return alpha_cutoff > 0.0f; }

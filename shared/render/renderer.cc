@@ -136,22 +136,6 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
   LARARIUM_ASSIGN_OR_RETURN(state->catcher_pass, CatcherPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->sun_pass, SunPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->sun_mask, SunMask::Create());
-  LARARIUM_ASSIGN_OR_RETURN(
-      state->look_composite_pass,
-      ShaderProgram::Create("full_screen.vert", "composite.frag", "#define LOOK\n"));
-  LARARIUM_ASSIGN_OR_RETURN(
-      state->see_through_composite_pass,
-      ShaderProgram::Create("full_screen.vert", "composite.frag", "#define SEE_THROUGH\n"));
-  LARARIUM_ASSIGN_OR_RETURN(state->background_pass,
-                            ShaderProgram::Create("full_screen.vert", "background.frag"));
-  LARARIUM_ASSIGN_OR_RETURN(state->composite_pass,
-                            ShaderProgram::Create("full_screen.vert", "composite.frag"));
-  LARARIUM_ASSIGN_OR_RETURN(
-      state->rectified_background_pass,
-      ShaderProgram::Create("full_screen.vert", "background.frag", "#define RECTIFIED\n"));
-  LARARIUM_ASSIGN_OR_RETURN(
-      state->rectified_composite_pass,
-      ShaderProgram::Create("full_screen.vert", "composite.frag", "#define RECTIFIED\n"));
   LARARIUM_ASSIGN_OR_RETURN(state->enlarger, Enlarger::Create());
   state->no_vertices = GlVertexArray::Generate();
   return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
@@ -455,7 +439,7 @@ PixelBounds Renderer::State::ChangedBy(const RenderScene& scene, const RenderTar
   return InPicture(Union(seen, catcher_pass.bounds()), scale, target);
 }
 
-void Renderer::State::Composite(const RenderScene& scene, const RenderTarget& target) {
+Status Renderer::State::Composite(const RenderScene& scene, const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   glDisable(GL_DEPTH_TEST);
@@ -467,25 +451,28 @@ void Renderer::State::Composite(const RenderScene& scene, const RenderTarget& ta
   const PixelBounds changed = ChangedBy(scene, target);
   glBindVertexArray(no_vertices.id());
   const bool rectified = Rectifies(scene);
-  const ShaderProgram& background = rectified ? rectified_background_pass : background_pass;
-  background.Use();
-  SetBackground(background, scene, display);
+  LateProgram& background_pass_used = rectified ? rectified_background_pass : background_pass;
+  LARARIUM_ASSIGN_OR_RETURN(const ShaderProgram* background, background_pass_used.Get());
+  background->Use();
+  SetBackground(*background, scene, display);
   for (const PixelBounds& unchanged : Around(changed, size)) {
     FillBounds(unchanged);
   }
   if (!changed.empty()) {
     const bool look = quality.camera_look && IsOn(scene.look);
-    const ShaderProgram& composite = look        ? look_composite_pass
-                                     : rectified ? rectified_composite_pass
-                                                 : composite_pass;
-    composite.Use();
-    SetBackground(composite, scene, display);
-    SetLayer(composite, scene, target);
+    LateProgram& composite_pass_used = look        ? look_composite_pass
+                                       : rectified ? rectified_composite_pass
+                                                   : composite_pass;
+    LARARIUM_ASSIGN_OR_RETURN(const ShaderProgram* composite, composite_pass_used.Get());
+    composite->Use();
+    SetBackground(*composite, scene, display);
+    SetLayer(*composite, scene, target);
     FillBounds(changed);
   }
   glDisable(GL_SCISSOR_TEST);
   glBindVertexArray(0);
   glActiveTexture(GL_TEXTURE0);
+  return Status();
 }
 
 void Renderer::State::SetLayer(const ShaderProgram& composite,
@@ -501,7 +488,7 @@ void Renderer::State::SetLayer(const ShaderProgram& composite,
   catcher_pass.BindFor(composite, 2);
 }
 
-void Renderer::State::CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target) {
+Status Renderer::State::CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   glDisable(GL_DEPTH_TEST);
@@ -512,26 +499,26 @@ void Renderer::State::CompositeSeeThrough(const RenderScene& scene, const Render
   if (!changed.empty()) {
     glEnable(GL_SCISSOR_TEST);
     glBindVertexArray(no_vertices.id());
-    see_through_composite_pass.Use();
-    SetLayer(see_through_composite_pass, scene, target);
+    LARARIUM_ASSIGN_OR_RETURN(const ShaderProgram* composite, see_through_composite_pass.Get());
+    composite->Use();
+    SetLayer(*composite, scene, target);
     FillBounds(changed);
     glDisable(GL_SCISSOR_TEST);
     glBindVertexArray(0);
   }
   glActiveTexture(GL_TEXTURE0);
+  return Status();
 }
 
-void Renderer::State::PutTogether(const RenderScene& scene,
-                                  const RenderTarget& picture,
-                                  const RenderTarget& target) {
-  if (scene.see_through) {
-    CompositeSeeThrough(scene, picture);
-  } else {
-    Composite(scene, picture);
-  }
+Status Renderer::State::PutTogether(const RenderScene& scene,
+                                    const RenderTarget& picture,
+                                    const RenderTarget& target) {
+  LARARIUM_RETURN_IF_ERROR(scene.see_through ? CompositeSeeThrough(scene, picture)
+                                             : Composite(scene, picture));
   if (&picture != &target) {
     enlarger.Enlarge(picture, target);
   }
+  return Status();
 }
 
 Status Renderer::State::CheckDriver() {
@@ -557,7 +544,7 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
     LARARIUM_RETURN_IF_ERROR(state.DrawShadows(scene, view, bounds));
     LARARIUM_RETURN_IF_ERROR(state.DrawLit(scene, view, bounds));
   }
-  state.PutTogether(scene, *picture, target);
+  LARARIUM_RETURN_IF_ERROR(state.PutTogether(scene, *picture, target));
   return State::CheckDriver();
 }
 
@@ -606,7 +593,7 @@ Status Renderer::DrawHalf(Half half,
   const PixelBounds bounds = state.CollectDraws(people, view);
   LARARIUM_RETURN_IF_ERROR(half == Half::kShadows ? state.DrawShadows(people, view, bounds)
                                                   : state.DrawLit(people, view, bounds));
-  state.PutTogether(picture, *smaller, target);
+  LARARIUM_RETURN_IF_ERROR(state.PutTogether(picture, *smaller, target));
   return State::CheckDriver();
 }
 

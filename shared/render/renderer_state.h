@@ -45,12 +45,16 @@ struct Renderer::State {
   SunPass sun_pass;
   LookPass look_pass;
   SunMask sun_mask;
-  ShaderProgram background_pass;
-  ShaderProgram composite_pass;
-  ShaderProgram rectified_background_pass;  // of an image that is the picture's, pixel by pixel
-  ShaderProgram rectified_composite_pass;
-  ShaderProgram look_composite_pass;         // with RenderScene::look
-  ShaderProgram see_through_composite_pass;  // with RenderScene::see_through
+  LateProgram background_pass{"full_screen.vert", "background.frag"};
+  LateProgram composite_pass{"full_screen.vert", "composite.frag"};
+  // Of an image that is the picture's, pixel by pixel.
+  LateProgram rectified_background_pass{"full_screen.vert", "background.frag",
+                                        "#define RECTIFIED\n"};
+  LateProgram rectified_composite_pass{"full_screen.vert", "composite.frag", "#define RECTIFIED\n"};
+  // With RenderScene::look, and with RenderScene::see_through.
+  LateProgram look_composite_pass{"full_screen.vert", "composite.frag", "#define LOOK\n"};
+  LateProgram see_through_composite_pass{"full_screen.vert", "composite.frag",
+                                         "#define SEE_THROUGH\n"};
   Enlarger enlarger;
   GlVertexArray no_vertices;  // of full-screen passes
   Texture background_image;
@@ -95,13 +99,13 @@ struct Renderer::State {
   // Where the picture is put together: the target, or a smaller one (Quality::full_size).
   Result<const RenderTarget*> ChoosePicture(const RenderScene& scene, const RenderTarget& target);
   // The picture of what is in the layer, made larger where the target is.
-  void PutTogether(const RenderScene& scene,
-                   const RenderTarget& picture,
-                   const RenderTarget& target);
+  Status PutTogether(const RenderScene& scene,
+                     const RenderTarget& picture,
+                     const RenderTarget& target);
   // The camera's image, and over it what is in the layer.
-  void Composite(const RenderScene& scene, const RenderTarget& target);
+  Status Composite(const RenderScene& scene, const RenderTarget& target);
   // What is in the layer, over what is seen through the target.
-  void CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target);
+  Status CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target);
   // Where the layer changes the target: all of it where it was drawn for another pose.
   PixelBounds ChangedBy(const RenderScene& scene, const RenderTarget& target) const;
   // Of the program in use.

@@ -117,4 +117,11 @@ void ShaderProgram::BindUniformBlock(const char* name, uint32_t binding) const {
   glUniformBlockBinding(program_.id(), glGetUniformBlockIndex(program_.id(), name), binding);
 }
 
+Result<const ShaderProgram*> LateProgram::Get() {
+  if (!program_) {
+    LARARIUM_ASSIGN_OR_RETURN(program_, ShaderProgram::Create(vertex_, fragment_, defines_));
+  }
+  return &*program_;
+}
+
 }  // namespace lararium::render

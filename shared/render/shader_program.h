@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -44,6 +45,21 @@ class ShaderProgram {
   int Location(const char* name) const;
 
   GlProgram program_;
+};
+
+// A program that is compiled when it is first wanted: a driver keeps a megabyte for each, and no
+// picture needs all that there are. Takes names and lines that live as long.
+class LateProgram {
+ public:
+  LateProgram(std::string_view vertex, std::string_view fragment, std::string_view defines = {})
+      : vertex_(vertex), fragment_(fragment), defines_(defines) {}
+
+  // Lives as long as this does.
+  Result<const ShaderProgram*> Get();
+
+ private:
+  std::string_view vertex_, fragment_, defines_;
+  std::optional<ShaderProgram> program_;
 };
 
 }  // namespace lararium::render

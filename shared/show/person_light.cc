@@ -83,15 +83,8 @@ light::Transfer Unpack(const LightTransfer& transfer,
                        std::vector<float> scale,
                        std::vector<int8_t> coefficients,
                        size_t vertices) {
-  light::Transfer unpacked;
-  unpacked.count = transfer.count;
-  unpacked.poses = transfer.key_poses.size();
-  unpacked.vertices = vertices;
-  unpacked.scale = std::move(scale);
-  unpacked.values = std::move(coefficients);
-  unpacked.values.reserve(unpacked.values.size() + unpacked.tail());  // no more than that
-  unpacked.values.resize(unpacked.values.size() + unpacked.tail());
-  return unpacked;
+  return light::Transfer(light::TransferBytes{transfer.count, transfer.key_poses.size(), vertices,
+                                              std::move(scale), std::move(coefficients)});
 }
 
 UnpackedLight UnpackAll(const LightTransfer& light) {

@@ -157,11 +157,12 @@ void BenchLightVertices(benchmark::State& bench) {
   constexpr size_t kVertices = 125000, kPoses = 5;
   const int count = static_cast<int>(bench.range(0));
   Random random(53);
-  Transfer transfer = QuantiseTransfer(
+  TransferBytes bytes = QuantiseTransfer(
       std::vector<float>(kPoses * kVertices * 3 * static_cast<size_t>(count), 0.5f), count, kPoses);
-  for (int8_t& value : transfer.values) {
+  for (int8_t& value : bytes.values) {
     value = static_cast<int8_t>(random.Next() & 127);
   }
+  const Transfer transfer(bytes);
   std::vector<VertexReceivers> receivers(kVertices);
   for (size_t v = 0; v < kVertices; ++v) {
     const size_t near = v * (kReceivers - 16) / kVertices;
