@@ -7,6 +7,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_precision.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <optional>
 
@@ -24,14 +25,24 @@ namespace {
 // turned to something near.
 constexpr std::array<uint8_t, 4> kBack = {128, 128, 128, 0};
 
-// What a vertex keeps while it moves.
+// What a vertex keeps while it moves. Albedo and weights in 1/65535.
 struct Attributes {
-  glm::vec3 albedo;
+  glm::u16vec4 albedo;  // w: not used
+  glm::u16vec4 weights;
   glm::vec2 uv;
   std::array<uint8_t, 4> joints;
-  glm::vec4 weights;
   std::array<uint8_t, 4> back = kBack;
 };
+
+Attributes AttributesOf(const glm::vec3& albedo,
+                        const glm::vec4& weights,
+                        const glm::vec2& uv,
+                        const std::array<uint8_t, 4>& joints) {
+  const auto share = [](const glm::vec4& of) {
+    return glm::u16vec4(glm::round(65535.0f * glm::clamp(of, 0.0f, 1.0f)));
+  };
+  return {share(glm::vec4(albedo, 0.0f)), share(weights), uv, joints};
+}
 
 // The arrays of one part, wherever they come from.
 struct PartSource {
@@ -53,14 +64,21 @@ void DefineFloats(GLuint location, int count, size_t stride, size_t offset) {
   glEnableVertexAttribArray(location);
 }
 
+// In 1/65535.
+void DefineShares(GLuint location, int count, size_t stride, size_t offset) {
+  glVertexAttribPointer(location, count, GL_UNSIGNED_SHORT, GL_TRUE, static_cast<GLsizei>(stride),
+                        reinterpret_cast<const void*>(offset));
+  glEnableVertexAttribArray(location);
+}
+
 void DefineAttributes() {
   constexpr size_t kStride = sizeof(Attributes);
-  DefineFloats(2, 3, kStride, offsetof(Attributes, albedo));
+  DefineShares(2, 3, kStride, offsetof(Attributes, albedo));
   DefineFloats(5, 2, kStride, offsetof(Attributes, uv));
   glVertexAttribIPointer(3, 4, GL_UNSIGNED_BYTE, kStride,
                          reinterpret_cast<const void*>(offsetof(Attributes, joints)));
   glEnableVertexAttribArray(3);
-  DefineFloats(4, 4, kStride, offsetof(Attributes, weights));
+  DefineShares(4, 4, kStride, offsetof(Attributes, weights));
   glVertexAttribPointer(8, 3, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
                         reinterpret_cast<const void*>(offsetof(Attributes, back)));
   glEnableVertexAttribArray(8);
@@ -177,8 +195,9 @@ PartSource Source(const human::Human& human, size_t index) {
                     mesh.material};
   source.attributes.resize(mesh.positions.size());
   for (size_t v = 0; v < source.attributes.size(); ++v) {
-    source.attributes[v] = {mesh.albedo[v], mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
-                            mesh.joints[v], mesh.weights[v], kBack};
+    source.attributes[v] =
+        AttributesOf(mesh.albedo[v], mesh.weights[v],
+                     mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v], mesh.joints[v]);
   }
   for (size_t i = 0; i < mesh.coarser.size(); ++i) {
     source.levels.push_back({mesh.coarser[i].indices, levels[i + 1].error, levels[i + 1].vertices});
@@ -194,11 +213,9 @@ PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
                     mesh.material};
   source.attributes.resize(mesh.positions.size());
   for (size_t v = 0; v < source.attributes.size(); ++v) {
-    source.attributes[v] = {mesh.albedo[v],
-                            mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
-                            {joint, joint, joint, joint},
-                            {1.0f, 0.0f, 0.0f, 0.0f},
-                            kBack};
+    source.attributes[v] = AttributesOf(mesh.albedo[v], {1.0f, 0.0f, 0.0f, 0.0f},
+                                        mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
+                                        {joint, joint, joint, joint});
   }
   const float share = ErrorShare(human::Surface::kPlain);
   for (const human::LevelOfDetail& level : mesh.coarser) {

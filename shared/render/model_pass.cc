@@ -122,17 +122,22 @@ Result<ModelPass> ModelPass::Create() {
   pass.skin_ = GlBuffer::Generate();
   pass.white_ = CreateWhiteTexture();
   pass.glossy_ = CreateGlossyTexture();
-  for (size_t i = 0; i < kCasters; ++i) {
-    const std::string covered = i % 2 == 1 ? "#define COVERED\n" : "";
-    LARARIUM_ASSIGN_OR_RETURN(
-        pass.casters_[i],
-        ShaderProgram::Create("model.vert", "caster.frag",
-                              covered + SkinDefine(static_cast<GpuModel::Skin>(i / 2))));
-    pass.casters_[i].BindUniformBlock("Skin", kSkinBinding);
-    pass.casters_[i].Use();
-    pass.casters_[i].Set("colour_texture", 0);
-  }
   return pass;
+}
+
+Status ModelPass::PrepareCasters(const GpuModel& model) {
+  for (const GpuModel::Part& part : model.parts) {
+    std::optional<ShaderProgram>& caster = casters_[CasterIndex(model.skin, part.covered())];
+    if (!caster) {
+      const std::string covered = part.covered() ? "#define COVERED\n" : "";
+      LARARIUM_ASSIGN_OR_RETURN(caster, ShaderProgram::Create("model.vert", "caster.frag",
+                                                              covered + SkinDefine(model.skin)));
+      caster->BindUniformBlock("Skin", kSkinBinding);
+      caster->Use();
+      caster->Set("colour_texture", 0);
+    }
+  }
+  return Status();
 }
 
 size_t ModelPass::Variant::index() const {
@@ -298,7 +303,7 @@ void ModelPass::DrawPart(const ModelDraw& draw,
   const GpuModel::Skin skin = draw.model->skin;
   Program& program = programs_[Variant{part.surface, skin, part.covered(), shading_}.index()];
   const ShaderProgram& shaders =
-      only_depth ? casters_[CasterIndex(skin, part.covered())] : program.shaders;
+      only_depth ? *casters_[CasterIndex(skin, part.covered())] : program.shaders;
   shaders.Use();
   if (!only_depth) {
     SetLight(draw, program, part.surface == human::Surface::kSkin);

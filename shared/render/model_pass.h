@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,8 @@ class ModelPass {
               std::span<const ModelDraw> draws,
               const SunPass& sun,
               const SunMask& sun_mask);
+  // For DrawDepth and DrawCasters: once for each model, before it is drawn.
+  Status PrepareCasters(const GpuModel& model);
   // Depth alone, of what is at least half there, as Draw would have it.
   void DrawDepth(const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
   // The same, only as fine as maps of the sun are, and both sides of all.
@@ -105,8 +108,8 @@ class ModelPass {
   void BindTextures(const GpuModel& model, const GpuModel::Part& part) const;
 
   std::array<Program, kVariants> programs_;
-  Shading shading_ = Shading::kPixels;  // of this picture
-  std::array<ShaderProgram, kCasters> casters_;
+  Shading shading_ = Shading::kPixels;                          // of this picture
+  std::array<std::optional<ShaderProgram>, kCasters> casters_;  // that some model has parts for
   uint64_t picture_ = 0;
   GlBuffer skin_;  // matrices or dual quaternions of all models in the picture
   GlTexture white_;

@@ -229,6 +229,7 @@ Status Renderer::State::ValidateModels(const RenderScene& scene) const {
 
 Result<ModelHandle> Renderer::State::AddModel(Result<GpuModel> model) {
   LARARIUM_RETURN_IF_ERROR(model.status());
+  LARARIUM_RETURN_IF_ERROR(model_pass.PrepareCasters(*model));
   return models.Add(std::move(*model));
 }
 
