@@ -256,26 +256,26 @@ class TextureLoader {
   Result<std::vector<std::shared_ptr<const GlTexture>>> Load(TexturePool& pool) const {
     std::vector<TexturePool::Key> keys;
     std::vector<std::shared_ptr<const GlTexture>> loaded;
-    for (const Request& request : wanted_) {
-      keys.push_back(TexturePool::KeyOf(textures_[request.texture].encoded, request.use));
-      loaded.push_back(pool.Find(keys.back()));
-    }
-    std::vector<std::optional<Result<cv::Mat>>> images(wanted_.size());
-    ParallelFor(wanted_.size(), [&](size_t i) {
-      if (loaded[i] == nullptr) {
-        const human::Texture& texture = textures_[wanted_[i].texture];
-        images[i] = DecodeTexture(texture.encoded, place_ + ": texture '" + texture.name + "'");
-        if (images[i]->ok() && wanted_[i].use == TextureUse::kColour) {
-          PremultiplySrgb(**images[i]);
-        }
-      }
-    });
+    std::vector<size_t> missing;
     for (size_t i = 0; i < wanted_.size(); ++i) {
-      if (loaded[i] == nullptr) {
+      keys.push_back(TexturePool::KeyOf(textures_[wanted_[i].texture].encoded, wanted_[i].use));
+      loaded.push_back(pool.Find(keys.back()));
+      if (loaded.back() == nullptr) {
+        missing.push_back(i);
+      }
+    }
+    // A few at a time: decoded, they take megabytes.
+    constexpr size_t kAtOnce = 4;
+    for (size_t begin = 0; begin < missing.size(); begin += kAtOnce) {
+      std::array<std::optional<Result<cv::Mat>>, kAtOnce> images;
+      const size_t count = std::min(kAtOnce, missing.size() - begin);
+      ParallelFor(count, [&](size_t i) { images[i] = Decode(wanted_[missing[begin + i]]); });
+      for (size_t i = 0; i < count; ++i) {
+        const size_t at = missing[begin + i];
         LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, std::move(*images[i]));
-        images[i].reset();
-        loaded[i] = std::make_shared<const GlTexture>(CreateSurfaceTexture(image, wanted_[i].use));
-        pool.Add(keys[i], loaded[i]);
+        loaded[at] =
+            std::make_shared<const GlTexture>(CreateSurfaceTexture(image, wanted_[at].use));
+        pool.Add(keys[at], loaded[at]);
       }
     }
     return loaded;
@@ -287,6 +287,16 @@ class TextureLoader {
     TextureUse use = TextureUse::kColour;
     bool operator==(const Request&) const = default;
   };
+
+  Result<cv::Mat> Decode(const Request& request) const {
+    const human::Texture& texture = textures_[request.texture];
+    LARARIUM_ASSIGN_OR_RETURN(
+        cv::Mat image, DecodeTexture(texture.encoded, place_ + ": texture '" + texture.name + "'"));
+    if (request.use == TextureUse::kColour) {
+      PremultiplySrgb(image);
+    }
+    return image;
+  }
 
   std::span<const human::Texture> textures_;
   std::string place_;

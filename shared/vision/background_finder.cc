@@ -4,10 +4,8 @@ namespace lararium::vision {
 
 using geometry::CameraModel;
 
-BackgroundFinder::BackgroundFinder(std::span<const std::shared_ptr<const SceneDatabase>> maps,
-                                   const TrackerOptions& options)
-    : finder_(maps, options) {
-  if (options.threads != 1) {
+BackgroundFinder::BackgroundFinder(Finder& finder, int threads) : finder_(finder) {
+  if (threads != 1) {
     thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
   }
 }
@@ -29,10 +27,22 @@ std::optional<Located> BackgroundFinder::Take(bool wait) {
     changed_.wait(lock, [this] { return located_.has_value(); });
   }
   if (located_) {
-    busy_ = false;
-    grey_.release();
+    EndLocked();
   }
   return located_;
+}
+
+void BackgroundFinder::Drop() {
+  std::unique_lock lock(mutex_);
+  if (busy_ && thread_.joinable()) {
+    changed_.wait(lock, [this] { return located_.has_value(); });
+  }
+  EndLocked();
+}
+
+void BackgroundFinder::EndLocked() {
+  busy_ = false;
+  grey_.release();
 }
 
 void BackgroundFinder::Work(const std::stop_token& stop) {

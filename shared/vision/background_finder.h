@@ -4,11 +4,9 @@
 // the answer is wanted.
 
 #include <condition_variable>
-#include <memory>
 #include <mutex>
 #include <opencv2/core/mat.hpp>
 #include <optional>
-#include <span>
 #include <stop_token>
 #include <thread>
 
@@ -17,12 +15,12 @@
 
 namespace lararium::vision {
 
-// Begin, busy and Take are for one thread.
+// For one thread. The finder is that thread's own while this is not busy: what it works with takes
+// megabytes.
 class BackgroundFinder {
  public:
-  // threads of the options, 1: no thread of its own.
-  BackgroundFinder(std::span<const std::shared_ptr<const SceneDatabase>> maps,
-                   const TrackerOptions& options);
+  // The finder must outlive this. threads: 1: no thread of its own.
+  BackgroundFinder(Finder& finder, int threads);
 
   // !busy(). The pixels are shared, never copied.
   void Begin(const cv::Mat& grey, const geometry::CameraModel& camera);
@@ -31,14 +29,14 @@ class BackgroundFinder {
   // busy(). The answer, after which it is not busy any more; nullopt where it is not
   // ready and wait is false.
   std::optional<Located> Take(bool wait);
-
-  // !busy(). Localizer::points of the answer that was taken last, found in this map.
-  std::span<const LocatedPoint> points(uint32_t map) const { return finder_.points(map); }
+  // Not busy any more, whatever the answer is.
+  void Drop();
 
  private:
   void Work(const std::stop_token& stop);
+  void EndLocked();
 
-  Finder finder_;
+  Finder& finder_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   cv::Mat grey_;

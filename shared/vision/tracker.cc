@@ -57,7 +57,7 @@ class Tracker final : public PoseSource {
       for (const auto& map : maps_) {
         followers_.push_back(std::make_unique<Follower>(std::make_shared<const FollowMap>(map)));
       }
-      background_ = std::make_unique<BackgroundFinder>(maps_, options);
+      background_ = std::make_unique<BackgroundFinder>(finder_, options.threads);
     }
   }
 
@@ -191,6 +191,9 @@ class Tracker final : public PoseSource {
   }
 
   void Find(TrackedFrame& tracked) {
+    if (background_) {
+      background_->Drop();  // what it finds is of what was lost
+    }
     const Located located = finder_.Find(tracked.frame.grey, tracked.camera);
     const Location& location = located.location;
     tracked.map = located.map;
@@ -295,7 +298,7 @@ class Tracker final : public PoseSource {
       constexpr double kMostBlurPx = 2.0;  // beyond, its patches are no good
       if (checked_blur_px_ < kMostBlurPx) {
         followers_[map_]->Merge(checked_image_, checked_camera_, *checked_pose_,
-                                background_->points(map_), *tracked.camera_from_map);
+                                finder_.points(map_), *tracked.camera_from_map);
       }
       return;
     }
