@@ -46,7 +46,7 @@ std::shared_ptr<const UnpackedLight> TakeLight(human::LightTransfer& transfer);
 class PersonLight {
  public:
   // The human's light transfer must not be empty. light: what was taken out of it; nullptr where
-  // nothing was.
+  // nothing was. Meshes are not looked at after this.
   explicit PersonLight(std::shared_ptr<const human::Human> human,
                        std::shared_ptr<const UnpackedLight> light = nullptr);
 

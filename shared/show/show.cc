@@ -51,6 +51,7 @@ Status Show::FillStage() {
   requests_.resize(bodies_.size());
   std::vector<std::shared_ptr<const human::Human>> cast;
   std::vector<std::shared_ptr<const UnpackedLight>> light;
+  std::vector<std::shared_ptr<human::Human>> figures;
   for (const CastMember& member : content_.cast) {
     cast.push_back(member.human);
     light.push_back(member.light);
@@ -60,13 +61,17 @@ Status Show::FillStage() {
     LARARIUM_ASSIGN_OR_RETURN(const stage::ObjectId id, stage_.AddObject(object.name, object.model,
                                                                          object.stage_from_object));
     object_ids_.push_back(id);
-    cast.push_back(FigureOf(object.model->prop()));
+    cast.push_back(figures.emplace_back(FigureOf(object.model->prop())));
     light.push_back(object.light);
     things_.push_back({std::vector<glm::mat4>(object.model->prop().parts.size()),
                        {},
                        ThingMemory(RadiusOf(object.model->prop()))});
   }
   light_.emplace(cast, light);
+  for (const std::shared_ptr<human::Human>& figure : figures) {
+    figure->meshes = {};  // PersonLight has what it needs of them
+    figure->light.meshes = {};
+  }
   for (const ShowPlace& place : content_.places) {
     lamp_shades_.emplace_back(place.stage.occluders);
   }
