@@ -258,15 +258,17 @@ FigureSource PlainFigure(const CastDocument& member) {
           }};
 }
 
+// Whoever makes it has to keep the progress until then.
 FigureSource FigureOfRecipe(const import::CastRecipe& recipe,
-                            const std::filesystem::path& library) {
+                            const std::filesystem::path& library,
+                            const Progress& progress) {
   return {"recipe " + import::ToJson(recipe).dump() + " " +
               std::to_string(import::kLevelsOfDetail) + ", bare of covered skin",
           {},
-          [=](std::vector<std::string>&) -> Result<human::Human> {
+          [=, &progress](std::vector<std::string>&) -> Result<human::Human> {
             LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary opened,
                                       import::CastLibrary::Open(library));
-            return import::BuildCast(opened, recipe);
+            return import::BuildCast(opened, recipe, progress);
           }};
 }
 
@@ -346,14 +348,16 @@ BakeStep HumanStep(const ProjectPaths& paths,
   return step;
 }
 
-Result<BakeStep> HumanStep(const ProjectPaths& paths, const CastDocument& member) {
+Result<BakeStep> HumanStep(const ProjectPaths& paths,
+                           const CastDocument& member,
+                           const Progress& progress) {
   LARARIUM_ASSIGN_OR_RETURN(const std::optional<import::CastRecipe> recipe, RecipeOf(member));
   if (!recipe) {
     return HumanStep(paths, member,
                      member.model.empty() ? PlainFigure(member) : ImportedFigure(paths, member));
   }
   const std::optional<std::filesystem::path> library = FindCastLibrary();
-  BakeStep step = HumanStep(paths, member, FigureOfRecipe(*recipe, library.value_or("")));
+  BakeStep step = HumanStep(paths, member, FigureOfRecipe(*recipe, library.value_or(""), progress));
   // Who was made with the library stays as they are where it is gone.
   return library || IsMade(step) ? step : HumanStep(paths, member, StandIn(member));
 }
@@ -487,7 +491,7 @@ Status AddPeople(const ProjectPaths& paths,
                  const Progress& progress,
                  std::vector<BakeStep>& steps) {
   for (const CastDocument& member : document.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(BakeStep step, HumanStep(paths, member));
+    LARARIUM_ASSIGN_OR_RETURN(BakeStep step, HumanStep(paths, member, progress));
     steps.push_back(std::move(step));
     steps.push_back(TransferStep(paths, member, progress));
   }
@@ -631,7 +635,7 @@ std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDo
   const NoProgress silent;
   std::vector<std::string> names;
   for (const CastDocument& member : document.cast) {
-    const Result<BakeStep> step = HumanStep(paths, member);
+    const Result<BakeStep> step = HumanStep(paths, member, silent);
     if (!step.ok() || !IsMade(*step) || !IsMade(TransferStep(paths, member, silent))) {
       names.push_back(member.name);
     }
@@ -640,8 +644,9 @@ std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDo
 }
 
 Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member) {
+  const NoProgress silent;
   std::vector<std::string> warnings;
-  LARARIUM_ASSIGN_OR_RETURN(const BakeStep step, HumanStep(paths, member));
+  LARARIUM_ASSIGN_OR_RETURN(const BakeStep step, HumanStep(paths, member, silent));
   LARARIUM_RETURN_IF_ERROR(RunStep(step, warnings).status());
   return LoadBakedHuman(paths, member);
 }

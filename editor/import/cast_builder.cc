@@ -119,14 +119,15 @@ void StandOnSoles(human::Human& human) {
 // One person in the making.
 class CastBuilder {
  public:
-  CastBuilder(const CastLibrary& library, const CastRecipe& recipe)
-      : library_(library), recipe_(recipe) {}
+  CastBuilder(const CastLibrary& library, const CastRecipe& recipe, const Progress& progress)
+      : library_(library), recipe_(recipe), progress_(progress) {}
 
   Result<human::Human> Build() {
     LARARIUM_ASSIGN_OR_RETURN(body_, FitBody(library_, recipe_));
     human_.name = recipe_.name;
     human_.skeleton = body_.skeleton;
     human_.credits = "base mesh, rig, targets and skins: MakeHuman Team; AGPL3\n";
+    LARARIUM_RETURN_IF_ERROR(Continue());
     LARARIUM_ASSIGN_OR_RETURN(std::vector<Garment> garments, Dress());
     LARARIUM_RETURN_IF_ERROR(AddSkin(garments));
     LARARIUM_RETURN_IF_ERROR(AddPart(CastPart::kEyes, {"HighPolyEyes", recipe_.eyes.colour}));
@@ -143,10 +144,12 @@ class CastBuilder {
     ShadeMouth(pieces_, recipe_.teeth, recipe_.tongue);
     AddFace(library_, recipe_, body_.base, pieces_, human_);
     for (CastPiece& piece : pieces_) {
+      LARARIUM_RETURN_IF_ERROR(Continue());
       AddLevelsOfDetail(piece.mesh, piece.covered);
       human_.meshes.push_back(std::move(piece.mesh));
     }
     for (Garment& garment : garments) {
+      LARARIUM_RETURN_IF_ERROR(Continue());
       AddGarment(std::move(garment));
     }
     human_.capsules = body_.capsules;
@@ -157,6 +160,11 @@ class CastBuilder {
   }
 
  private:
+  Status Continue() const {
+    return progress_.Cancelled() ? Status::Error(recipe_.name, "cancelled before it was built")
+                                 : Status();
+  }
+
   std::string SkinName() const {
     if (!recipe_.skin.empty()) {
       return recipe_.skin;
@@ -182,7 +190,7 @@ class CastBuilder {
       LARARIUM_ASSIGN_OR_RETURN(const GarmentPattern pattern, ParseGarmentPattern(view));
       patterns.push_back(pattern);
     }
-    return CutGarments(patterns, body_);
+    return CutGarments(patterns, body_, progress_);
   }
 
   void AddGarment(Garment garment) {
@@ -292,6 +300,7 @@ class CastBuilder {
   }
 
   Status AddPart(CastPart part, const CastDyed& chosen) {
+    LARARIUM_RETURN_IF_ERROR(Continue());
     if (chosen.name.empty()) {
       return Status();
     }
@@ -372,6 +381,7 @@ class CastBuilder {
 
   const CastLibrary& library_;
   const CastRecipe& recipe_;
+  const Progress& progress_;
   FittedBody body_;
   human::Human human_;
   std::vector<CastPiece> pieces_;
@@ -400,8 +410,10 @@ Result<FittedBody> FitBody(const CastLibrary& library, const CastRecipe& recipe)
   return body;
 }
 
-Result<human::Human> BuildCast(const CastLibrary& library, const CastRecipe& recipe) {
-  return CastBuilder(library, recipe).Build();
+Result<human::Human> BuildCast(const CastLibrary& library,
+                               const CastRecipe& recipe,
+                               const Progress& progress) {
+  return CastBuilder(library, recipe, progress).Build();
 }
 
 }  // namespace lararium::import

@@ -8,6 +8,7 @@
 #include "editor/import/cast_body.h"
 #include "editor/import/cast_library.h"
 #include "editor/import/cast_recipe.h"
+#include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/human/human.h"
 
@@ -17,7 +18,9 @@ namespace lararium::import {
 Result<FittedBody> FitBody(const CastLibrary& library, const CastRecipe& recipe);
 
 // The same library and recipe give the same human. Errors name the recipe's field or
-// the library's file.
-Result<human::Human> BuildCast(const CastLibrary& library, const CastRecipe& recipe);
+// the library's file. Seconds; where they are cancelled, that is an error too.
+Result<human::Human> BuildCast(const CastLibrary& library,
+                               const CastRecipe& recipe,
+                               const Progress& progress);
 
 }  // namespace lararium::import

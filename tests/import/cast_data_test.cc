@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <map>
@@ -36,7 +37,7 @@ const human::Human& Preset(const std::string& name) {
   if (!built.contains(name)) {
     CastRecipe recipe = *LoadCastPreset(name);
     recipe.garments.clear();
-    auto human = BuildCast(*Library(), recipe);
+    auto human = BuildCast(*Library(), recipe, NoProgress());
     EXPECT_TRUE(human.ok()) << human.status().message();
     built[name] = *std::move(human);
   }
@@ -101,7 +102,7 @@ TEST_P(CastPresets, AreSmallEnoughForABundle) {
 TEST_P(CastPresets, AreTheSameEveryTime) {
   CastRecipe recipe = *LoadCastPreset(GetParam());
   recipe.garments.clear();
-  const auto again = BuildCast(*Library(), recipe);
+  const auto again = BuildCast(*Library(), recipe, NoProgress());
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(human::SerializeHuman(*again), human::SerializeHuman(Preset(GetParam())));
 }
@@ -224,12 +225,30 @@ INSTANTIATE_TEST_SUITE_P(All,
                          testing::ValuesIn(CastPresetNames()),
                          [](const auto& info) { return info.param; });
 
+// However far it has come: at the first question, and between two steps of the falling cloth.
+TEST_P(CastPresets, AreNotBuiltWhereThatIsCancelled) {
+  class CancelledAfter : public NoProgress {
+   public:
+    explicit CancelledAfter(int questions) : left_(questions) {}
+    bool Cancelled() const override { return left_-- <= 0; }
+
+   private:
+    mutable std::atomic<int> left_;
+  };
+  const CastRecipe recipe = *LoadCastPreset(GetParam());
+  for (const int questions : {0, 100}) {
+    const auto human = BuildCast(*Library(), recipe, CancelledAfter(questions));
+    ASSERT_FALSE(human.ok());
+    EXPECT_NE(human.message().find("cancelled"), std::string::npos) << human.message();
+  }
+}
+
 // Shod in sandals alone: other garments take long to cut.
 TEST_P(CastPresets, StandOnTheSolesOfTheirSandals) {
   CastRecipe recipe = *LoadCastPreset(GetParam());
   std::erase_if(recipe.garments, [](const Json& g) { return g["name"] != "sandals"; });
   ASSERT_EQ(recipe.garments.size(), 1u);
-  const auto human = BuildCast(*Library(), recipe);
+  const auto human = BuildCast(*Library(), recipe, NoProgress());
   ASSERT_TRUE(human.ok()) << human.status().message();
   float lowest = 1.0f;
   for (const human::SkinnedMesh& mesh : human->meshes) {

@@ -49,7 +49,7 @@ std::vector<GarmentPattern> Patterns(std::initializer_list<const char*> names) {
 }
 
 std::vector<Garment> Cut(const FittedBody& body, std::initializer_list<const char*> names) {
-  auto garments = CutGarments(Patterns(names), body);
+  auto garments = CutGarments(Patterns(names), body, NoProgress());
   EXPECT_TRUE(garments.ok()) << garments.status().message();
   return *std::move(garments);
 }
@@ -218,7 +218,7 @@ Dressed Preset(const std::string& name) {
   for (const Json& json : recipe->garments) {
     patterns.push_back(*ParseGarmentPattern(JsonView(json, name)));
   }
-  auto garments = CutGarments(patterns, *body);
+  auto garments = CutGarments(patterns, *body, NoProgress());
   EXPECT_TRUE(garments.ok()) << garments.status().message();
   Dressed dressed{*std::move(body), *std::move(garments), {}};
   dressed.hidden.assign(dressed.body.base_of_skin.size(), false);

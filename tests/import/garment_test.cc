@@ -154,7 +154,8 @@ TEST(BodyField, KnowsInsideFromOutsideFarFromTheSurface) {
 TEST(Draper, ClothComesToRestOverABallWithoutEnteringIt) {
   Sheet sheet = Napkin(15, 0.04f, 0.24f);
   DrapeMaterial material;
-  Draper draper(sheet, material);
+  const NoProgress progress;
+  Draper draper(sheet, material, progress);
   const BodyField field = FieldOfBall();
   draper.Run(200, field);
   float lowest = 1.0f;
@@ -173,7 +174,8 @@ TEST(Draper, ClothComesToRestOverABallWithoutEnteringIt) {
 
 TEST(Draper, ATetherHoldsWhatFalls) {
   Sheet sheet = Napkin(2, 0.1f, 0.0f);
-  Draper draper(sheet, {});
+  const NoProgress progress;
+  Draper draper(sheet, {}, progress);
   draper.pins.push_back({0, sheet.positions[0], 1.0f});
   for (uint32_t p = 1; p < 4; ++p) {
     draper.Tether(p, 0, 0.15f);
@@ -183,6 +185,19 @@ TEST(Draper, ATetherHoldsWhatFalls) {
   for (uint32_t p = 1; p < 4; ++p) {
     EXPECT_LT(glm::distance(sheet.positions[p], sheet.positions[0]), 0.16f);
   }
+}
+
+TEST(Draper, ACancelledClothStaysWhereItIs) {
+  class AlwaysCancelled : public NoProgress {
+   public:
+    bool Cancelled() const override { return true; }
+  };
+  Sheet sheet = Napkin(15, 0.04f, 0.24f);
+  const std::vector<glm::vec3> before = sheet.positions;
+  const AlwaysCancelled progress;
+  Draper draper(sheet, {}, progress);
+  draper.Run(200, FieldOfBall());
+  EXPECT_EQ(sheet.positions, before);
 }
 
 TEST(HullRadius, OfASquareReachesItsSidesAndCorners) {

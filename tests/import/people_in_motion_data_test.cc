@@ -34,7 +34,7 @@ std::shared_ptr<const human::Human> Preset(const std::string& name) {
   }
   CastRecipe recipe = *LoadCastPreset(name);
   recipe.garments.clear();
-  auto human = BuildCast(*library, recipe);
+  auto human = BuildCast(*library, recipe, NoProgress());
   EXPECT_TRUE(human.ok()) << human.status().message();
   return human.ok() ? std::make_shared<const human::Human>(*std::move(human)) : nullptr;
 }

@@ -41,7 +41,8 @@ uint64_t CellKey(int x, int y, int z) {
 
 }  // namespace
 
-Draper::Draper(Sheet& sheet, const DrapeMaterial& material) : sheet_(sheet), material_(material) {
+Draper::Draper(Sheet& sheet, const DrapeMaterial& material, const Progress& progress)
+    : sheet_(sheet), material_(material), progress_(progress) {
   std::map<std::pair<uint32_t, uint32_t>, FlatEdge> edges;
   for (const Triangle& t : sheet.triangles) {
     for (int k = 0; k < 3; ++k) {
@@ -111,7 +112,7 @@ void Draper::TakeLengths(float factor) {
 }
 
 void Draper::Run(int steps, const BodyField& body) {
-  for (int i = 0; i < steps; ++i) {
+  for (int i = 0; i < steps && !progress_.Cancelled(); ++i) {
     Step(body);
   }
 }

@@ -11,6 +11,7 @@
 
 #include "editor/import/garment/body_field.h"
 #include "editor/import/garment/sheet.h"
+#include "shared/core/progress.h"
 
 namespace lararium::import {
 
@@ -33,8 +34,8 @@ struct DrapePin {
 
 class Draper {
  public:
-  // Lengths at rest are those on the panels.
-  Draper(Sheet& sheet, const DrapeMaterial& material);
+  // Lengths at rest are those on the panels. Where progress is cancelled, nothing moves any more.
+  Draper(Sheet& sheet, const DrapeMaterial& material, const Progress& progress);
 
   // What a place on the cloth may be from another: cloth cannot be longer than it is.
   void Tether(uint32_t particle, uint32_t anchor, float length);
@@ -77,6 +78,7 @@ class Draper {
 
   Sheet& sheet_;
   DrapeMaterial material_;
+  const Progress& progress_;
   std::vector<Edge> edges_;
   std::vector<Edge> bends_;
   std::vector<TetherLine> tethers_;

@@ -103,8 +103,10 @@ class TunicDraper {
  public:
   TunicDraper(const GarmentPattern& pattern,
               const FittedBody& body,
-              std::span<const DrapedGarment> worn)
+              std::span<const DrapedGarment> worn,
+              const Progress& progress)
       : pattern_(pattern),
+        progress_(progress),
         body_(body),
         bound_(PoseBody(body, {})),
         standing_(PoseBody(body, StandingTurns(body, 1.0f))),
@@ -298,7 +300,7 @@ class TunicDraper {
 
   void SettleInBindPose() {
     const BodyField field = FieldOf(bound_, 0.015f, 0.045f);
-    Draper draper(sheet_, material_);
+    Draper draper(sheet_, material_, progress_);
     AddTethers(draper);
     draper.damping = 0.04f;
     draper.Run(240, field);
@@ -306,7 +308,7 @@ class TunicDraper {
 
   void LowerArms() {
     constexpr int kPoses = 12;
-    Draper draper(sheet_, material_);
+    Draper draper(sheet_, material_, progress_);
     AddTethers(draper);
     const Girth girth(body_, standing_, belt_height_, 0.025f);
     const std::vector<float> angles = GatheredAngles(girth);
@@ -332,7 +334,7 @@ class TunicDraper {
 
   // Draws the cloth at belt height, less what blouses over it, onto the waist.
   void TieBelt(const PosedBody& posed, int steps) {
-    Draper draper(sheet_, material_);
+    Draper draper(sheet_, material_, progress_);
     AddTethers(draper);
     HoldShoulders(draper);
     draper.gravity = 2.0f;
@@ -520,7 +522,7 @@ class TunicDraper {
   void SettleFine() {
     DrapeMaterial fine = material_;
     fine.own_gap = 0.5f * material_.own_gap;
-    Draper draper(sheet_, fine);
+    Draper draper(sheet_, fine, progress_);
     AddTethers(draper);
     HoldShoulders(draper);
     draper.gravity = 1.2f;
@@ -646,6 +648,7 @@ class TunicDraper {
   }
 
   const GarmentPattern pattern_;
+  const Progress& progress_;
   const FittedBody& body_;
   PosedBody bound_;
   PosedBody standing_;
@@ -670,8 +673,9 @@ class TunicDraper {
 
 Result<DrapedGarment> DrapeTunic(const GarmentPattern& pattern,
                                  const FittedBody& body,
-                                 std::span<const DrapedGarment> worn) {
-  return TunicDraper(pattern, body, worn).Drape();
+                                 std::span<const DrapedGarment> worn,
+                                 const Progress& progress) {
+  return TunicDraper(pattern, body, worn, progress).Drape();
 }
 
 }  // namespace lararium::import

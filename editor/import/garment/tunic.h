@@ -10,6 +10,7 @@
 #include "editor/import/cast_body.h"
 #include "editor/import/garment/draped.h"
 #include "editor/import/garment/garment_pattern.h"
+#include "shared/core/progress.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {
@@ -17,6 +18,7 @@ namespace lararium::import {
 // worn: what lies below it.
 Result<DrapedGarment> DrapeTunic(const GarmentPattern& pattern,
                                  const FittedBody& body,
-                                 std::span<const DrapedGarment> worn);
+                                 std::span<const DrapedGarment> worn,
+                                 const Progress& progress);
 
 }  // namespace lararium::import

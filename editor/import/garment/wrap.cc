@@ -49,8 +49,10 @@ class MantleDraper {
  public:
   MantleDraper(const GarmentPattern& pattern,
                const FittedBody& body,
-               std::span<const DrapedGarment> worn)
+               std::span<const DrapedGarment> worn,
+               const Progress& progress)
       : pattern_(pattern),
+        progress_(progress),
         body_(body),
         standing_(PoseBody(body, StandingTurns(body, 1.0f))),
         worn_(SheetsOf(worn)),
@@ -242,7 +244,7 @@ class MantleDraper {
 
   void Settle(const DrapeMaterial& material, int steps, float cell) {
     const BodyField field = FieldOver(standing_, worn_, cell, 3.0f * cell);
-    Draper draper(sheet_, material);
+    Draper draper(sheet_, material, progress_);
     draper.TakeLengths(1.01f);
     draper.gravity = 1.0f;
     draper.damping = 0.1f;
@@ -465,6 +467,7 @@ class MantleDraper {
   }
 
   const GarmentPattern pattern_;
+  const Progress& progress_;
   const FittedBody& body_;
   PosedBody standing_;
   std::vector<const Sheet*> worn_;
@@ -485,8 +488,10 @@ class ApronDraper {
  public:
   ApronDraper(const GarmentPattern& pattern,
               const FittedBody& body,
-              std::span<const DrapedGarment> worn)
+              std::span<const DrapedGarment> worn,
+              const Progress& progress)
       : pattern_(pattern),
+        progress_(progress),
         body_(body),
         standing_(PoseBody(body, StandingTurns(body, 1.0f))),
         worn_(SheetsOf(worn)),
@@ -566,7 +571,7 @@ class ApronDraper {
     material.gap = 0.012f;
     material.own_gap = own_gap;
     const BodyField field = FieldOver(standing_, worn_, cell, 3.0f * cell);
-    Draper draper(sheet_, material);
+    Draper draper(sheet_, material, progress_);
     draper.TakeLengths(1.01f);
     draper.gravity = 1.5f;
     for (uint32_t p = 0; p < sheet_.positions.size(); ++p) {
@@ -602,6 +607,7 @@ class ApronDraper {
   }
 
   const GarmentPattern pattern_;
+  const Progress& progress_;
   const FittedBody& body_;
   PosedBody standing_;
   std::vector<const Sheet*> worn_;
@@ -619,14 +625,16 @@ class ApronDraper {
 
 Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
                                   const FittedBody& body,
-                                  std::span<const DrapedGarment> worn) {
-  return MantleDraper(pattern, body, worn).Drape();
+                                  std::span<const DrapedGarment> worn,
+                                  const Progress& progress) {
+  return MantleDraper(pattern, body, worn, progress).Drape();
 }
 
 Result<DrapedGarment> DrapeApron(const GarmentPattern& pattern,
                                  const FittedBody& body,
-                                 std::span<const DrapedGarment> worn) {
-  return ApronDraper(pattern, body, worn).Drape();
+                                 std::span<const DrapedGarment> worn,
+                                 const Progress& progress) {
+  return ApronDraper(pattern, body, worn, progress).Drape();
 }
 
 }  // namespace lararium::import

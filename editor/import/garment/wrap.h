@@ -14,16 +14,19 @@
 #include "editor/import/cast_body.h"
 #include "editor/import/garment/draped.h"
 #include "editor/import/garment/garment_pattern.h"
+#include "shared/core/progress.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {
 
 Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
                                   const FittedBody& body,
-                                  std::span<const DrapedGarment> worn);
+                                  std::span<const DrapedGarment> worn,
+                                  const Progress& progress);
 
 Result<DrapedGarment> DrapeApron(const GarmentPattern& pattern,
                                  const FittedBody& body,
-                                 std::span<const DrapedGarment> worn);
+                                 std::span<const DrapedGarment> worn,
+                                 const Progress& progress);
 
 }  // namespace lararium::import
