@@ -133,7 +133,6 @@ void UploadIndices(const PartSource& source, GpuModel::Part& part) {
   glBindBuffer(GL_COPY_WRITE_BUFFER, part.indices.id());
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(Index)),
                indices.data(), GL_STATIC_DRAW);
-  part.short_indices = sizeof(Index) == sizeof(uint16_t);
 }
 
 void ApplyMaterial(const human::Material& material, GpuModel::Part& part) {
@@ -171,7 +170,7 @@ GpuModel::Part CreatePart(const PartSource& source, std::span<const human::Mater
   part.culls_back_faces =
       !two_sided ||
       (!part.covered() && IsClosedSurface(source.positions, source.levels.front().indices));
-  if (part.vertex_count <= 0x10000) {
+  if (part.short_indices()) {
     UploadIndices<uint16_t>(source, part);
   } else {
     UploadIndices<uint32_t>(source, part);
@@ -478,8 +477,8 @@ void GpuModel::Draw(size_t part_index, float allowed_error, bool streamed) const
   const Part& part = parts[part_index];
   const Part::Level& drawn = LevelAllowed(part.levels, allowed_error);
   glBindVertexArray(streamed ? part.streamed.id() : part.bind_pose.id());
-  const GLenum type = part.short_indices ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;
-  const size_t size = part.short_indices ? sizeof(uint16_t) : sizeof(uint32_t);
+  const GLenum type = part.short_indices() ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;
+  const size_t size = part.short_indices() ? sizeof(uint16_t) : sizeof(uint32_t);
   glDrawElements(GL_TRIANGLES, drawn.count, type,
                  reinterpret_cast<const void*>(drawn.first * size));
 }

@@ -84,11 +84,11 @@ struct GpuModel {
     Vertices streamed_vertices;
     GlBuffer irradiance;  // of this very draw
     GlBuffer indices;
-    bool short_indices = false;  // of 16 bits, else 32
-    Sent sent_vertices;          // what the streamed buffers hold
+    Sent sent_vertices;  // what the streamed buffers hold
     Sent sent_irradiance;
 
     bool covered() const { return alpha_cutoff > 0.0f; }
+    bool short_indices() const { return vertex_count <= 0x10000; }  // of 16 bits, else 32
   };
 
   std::vector<std::shared_ptr<const GlTexture>> textures;

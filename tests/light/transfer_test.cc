@@ -131,7 +131,7 @@ TEST_P(TransferOf, RowsKeepWhatWallsNearbyTint) {
       RelativeError([&](size_t v, std::span<float> decoded) { transfer.Decode(0, v, decoded); },
                     vectors, 3 * count);
   std::printf("  %d coefficients: relative error %.4f\n", GetParam(), error);
-  EXPECT_LT(error, 0.05);  // half of the tint would be lost where only the mean was kept
+  EXPECT_LT(error, 0.04);  // it is 0.054 to 0.056 where only the mean is kept
 }
 
 TEST(Transfer, BlackVerticesStayBlack) {
