@@ -40,8 +40,8 @@ class Preview::Worker {
   Result<std::shared_ptr<const PreviewPicture>> Draw(const PreviewRequest& request);
 
   // What went wrong in the drama and was not told before: seeking plays it again. A script
-  // that cannot be taken over is told each time.
-  std::vector<Status> TakeScriptErrors();
+  // that cannot be taken over, or a floor that nobody can walk on, is told each time.
+  std::vector<Status> TakeErrors();
 
  private:
   Worker() = default;
@@ -75,6 +75,7 @@ class Preview::Worker {
   show::StagedFrame other_;                    // of an onion skin
   std::shared_ptr<const std::string> script_;  // as last asked for
   Status script_problem_;                      // why the one before goes on
+  Status floor_problem_;                       // why nobody can walk
   std::set<std::string> told_;                 // script errors
   Log* log_ = nullptr;
   bool sounds_ = false;                        // sound_ plays what is shown
@@ -232,6 +233,11 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
     renderer_->SetPlace(0, *place_);
     poses_->SetOccluders(0, show::OccludersInMap(*place_));
   }
+  if (request.settled) {
+    if (Status status = show_->LayFloor(); !status.ok()) {
+      floor_problem_ = std::move(status);
+    }
+  }
   TakeScript(request.script);
   LARARIUM_RETURN_IF_ERROR(Track(request.frame));
   if (!tracked_) {
@@ -257,10 +263,12 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   return std::make_shared<const PreviewPicture>(std::move(picture));
 }
 
-std::vector<Status> Preview::Worker::TakeScriptErrors() {
+std::vector<Status> Preview::Worker::TakeErrors() {
   std::vector<Status> errors;
-  if (!script_problem_.ok()) {
-    errors.push_back(std::exchange(script_problem_, Status()));
+  for (Status* problem : {&script_problem_, &floor_problem_}) {
+    if (!problem->ok()) {
+      errors.push_back(std::exchange(*problem, Status()));
+    }
   }
   for (const drama::ScriptError& error : show_->drama().errors()) {
     if (told_.insert(error.message).second) {
@@ -307,7 +315,7 @@ void Preview::Run(std::stop_token stop) {
       AddProblem(picture.status());
     } else if (*picture != nullptr) {
       pictures_.Put(std::move(*picture));
-      for (Status& problem : (*worker)->TakeScriptErrors()) {
+      for (Status& problem : (*worker)->TakeErrors()) {
         AddProblem(std::move(problem));
       }
     } else {

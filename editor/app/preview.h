@@ -36,6 +36,7 @@ struct PreviewRequest {
   std::shared_ptr<const std::string> script;
   // Staged as it is now; nullptr: as it was.
   std::shared_ptr<const stage::Place> place;
+  bool settled = false;  // nobody is moving what is in people's way: they go round it
   bool compare = false;  // the picture without people, and where they are, besides
   std::optional<OnionSkin> onion;
   bool evidence = false;  // people and things in the colours of how certain they are

@@ -338,6 +338,7 @@ void Workspace::OnScriptChanged() { since_script_ = 0.0; }
 
 void Workspace::OnDocumentChanged() {
   since_lines_ = 0.0;
+  since_edit_ = 0.0;
   Note(journal_.NoteProject(document()));
   if (!commands_.dirty()) {
     journal_.Discard(document(), script_.snapshot());
@@ -570,9 +571,9 @@ std::string Workspace::PreviewKey() const {
     key["sounds"].push_back({sound.name, sound.built_in ? "" : FileStamp(sound.file)});
   }
   for (const OccluderDocument& occluder : at.occluders) {
-    // What a shape measures and what else it does changes without opening anew, but for ways.
-    Json& entry = key["occluders"].emplace_back(Json::array(
-        {occluder.name, occluder.file, occluder.shape.has_value(), occluder.blocks_walking}));
+    // What a shape measures and what else it does changes without opening anew.
+    Json& entry = key["occluders"].emplace_back(
+        Json::array({occluder.name, occluder.file, occluder.shape.has_value()}));
     if (occluder.drawn()) {
       // A depth is in metres, the map is not.
       const double scale = loaded_.picks.map_from_picked.scale * at.picked_from_stage.scale;
@@ -800,7 +801,9 @@ void Workspace::RequestPicture() {
     awaiting_picture_ = !preview_->failed();  // which frame it is to be is not known before
     return;
   }
+  constexpr double kSettled = 0.4;  // seconds without edits
   PreviewRequest request;
+  request.settled = since_edit_ >= kSettled;
   request.frame = frame();
   request.sound = playing_ && sound_;
   request.time = time_;
@@ -824,7 +827,8 @@ void Workspace::RequestPicture() {
     loaded_.staged = staged;
   } else if (request.frame == requested_frame_ && request.time == requested_time_ &&
              revision == requested_script_ && request.sound == requested_sound_ &&
-             request.onion.has_value() == requested_onion_) {
+             request.onion.has_value() == requested_onion_ &&
+             request.settled == requested_settled_) {
     return;
   }
   request.place = loaded_.staged;
@@ -834,6 +838,7 @@ void Workspace::RequestPicture() {
   requested_frame_ = request.frame;
   requested_sound_ = request.sound;
   requested_onion_ = request.onion.has_value();
+  requested_settled_ = request.settled;
   requested_time_ = request.time;
   requested_script_ = revision;
   requested_text_ = request.script;
@@ -864,6 +869,7 @@ void Workspace::Update(double seconds) {
   }
   since_script_ += seconds;
   since_lines_ += seconds;
+  since_edit_ += seconds;
   constexpr double kPauseAfterLines = 0.8;  // seconds: whoever types goes on before
   if (since_lines_ > kPauseAfterLines) {
     WriteLines();

@@ -322,6 +322,7 @@ class Workspace {
   std::string lines_stamp_;
   std::shared_ptr<const bake::LineTable> written_lines_;
   double since_lines_ = 0.0;  // seconds since they were edited
+  double since_edit_ = 0.0;   // likewise anything of the project
   std::optional<std::string> outside_script_;
   std::shared_ptr<const ProjectDocument> outside_project_;
   std::string place_name_;
@@ -354,6 +355,7 @@ class Workspace {
   bool compare_ = false;
   std::optional<OnionSkin> onion_;
   bool requested_onion_ = false;
+  bool requested_settled_ = false;
   bool evidence_ = false;
   bool sound_ = true;
   bool awaiting_picture_ = false;

@@ -182,6 +182,13 @@ class LuaDrama : public Drama {
     return status;
   }
 
+  Status PlayAgain() override {
+    const double now = time();
+    played_until_ = -1;
+    LARARIUM_RETURN_IF_ERROR(Begin());
+    return Seek(now);
+  }
+
   bool holds() const override {
     const double lost = TimeOf(run_->state().lost_ticks);
     return settings().hold_when_lost && !follows_log_ && !visitor_.tracked &&

@@ -120,6 +120,9 @@ class Drama {
   // Another script, sought to the same time. On an error the old one goes on.
   virtual Status Reload(std::string_view script) = 0;
 
+  // The same script to the same time, on a stage that is another now: as if it always had been.
+  virtual Status PlayAgain() = 0;
+
   // Whether time is to stand still: tracking is lost, and the author wants that.
   virtual bool holds() const = 0;
   virtual const DramaSettings& settings() const = 0;

@@ -32,7 +32,9 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
   LARARIUM_RETURN_IF_ERROR(show->FillStage());
   LARARIUM_ASSIGN_OR_RETURN(show->sound_, SoundDirector::Create(show->content_, log));
   LARARIUM_RETURN_IF_ERROR(show->sound_->Teach(show->stage_.sounds()));
-  show->PrepareFloor(log);
+  if (const Status status = show->PrepareFloor(); !status.ok()) {
+    log.warn("{}", status.message());
+  }
   LARARIUM_ASSIGN_OR_RETURN(show->drama_,
                             drama::Drama::Create(show->content_.drama, show->content_.drama_file,
                                                  show->stage_, options, log));
@@ -82,14 +84,12 @@ Status Show::FillStage() {
 }
 
 // The show goes on where nobody can walk, but for the walks.
-void Show::PrepareFloor(Log& log) {
+Status Show::PrepareFloor() {
   std::vector<stage::Place> places = content_.elsewhere;
   for (const ShowPlace& place : content_.places) {
     places.push_back(place.stage);
   }
-  if (const Status status = stage_.SetFloor({}, places); !status.ok()) {
-    log.warn("{}", status.message());
-  }
+  return stage_.SetFloor({}, places);
 }
 
 void Show::TickOnce() {
@@ -119,10 +119,25 @@ void Show::AdvanceTo(double time) {
 
 Status Show::Reload(std::string_view script) {
   Status status = drama_->Reload(script);
+  ShowTick();
+  return status;
+}
+
+Status Show::LayFloor() {
+  if (!std::exchange(floor_changed_, false)) {
+    return Status();
+  }
+  Status status = PrepareFloor();
+  const Status played = drama_->PlayAgain();
+  ShowTick();
+  return status.ok() ? played : status;
+}
+
+// The stage at the drama's time.
+void Show::ShowTick() {
   tick_ = std::llround(drama_->time() * kTicksPerSecond);
   stage_.Capture(current_);
   previous_ = current_;
-  return status;
 }
 
 void Show::TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage) {

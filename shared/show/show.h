@@ -164,9 +164,16 @@ class Show {
   void SetPlace(size_t index, stage::Place place) {
     sound_->SetPlace(index, place);
     lamp_shades_[index] = LampShade(place.occluders);
+    floor_changed_ |= !stage::BlockWalkingAlike(content_.places[index].stage, place);
     content_.places[index].stage = std::move(place);
     camera_motion_.Reset();  // poses of before mean another stage
   }
+
+  // After SetPlace() people still go round what was in their way before. From here on they go
+  // round what is there, and the drama is as if it had always been. Costs nothing where that is
+  // so; otherwise as much as to play until now. Not while a frame is being staged. Fails where no
+  // floor is left to walk on; the drama goes on.
+  Status LayFloor();
 
   // From now on people fade while tracking is lost, and the visitor is guided; without it they
   // are gone with the pose. Not while a frame is being staged.
@@ -200,7 +207,8 @@ class Show {
   explicit Show(ShowContent content) : content_(std::move(content)) {}
 
   Status FillStage();
-  void PrepareFloor(Log& log);
+  Status PrepareFloor();
+  void ShowTick();
   void AdvanceTo(double time);
   void TickOnce();
   void TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage);
@@ -254,7 +262,8 @@ class Show {
   bool seen_around_ = false;
   std::vector<stage::ObjectId> object_ids_;  // of each object
   std::unique_ptr<drama::Drama> drama_;
-  uint32_t place_ = 0;  // of the last pose
+  bool floor_changed_ = false;  // since LayFloor()
+  uint32_t place_ = 0;          // of the last pose
   std::mutex input_mutex_;
   std::string keys_;    // pressed since the last frame
   float hour_ = -1.0f;  // of the day; below 0: unknown

@@ -1,5 +1,8 @@
 #include "shared/stage/place.h"
 
+#include <algorithm>
+#include <ranges>
+
 namespace lararium::stage {
 
 geometry::Rigid3 CameraFromStage(const Place& place, const geometry::Rigid3& camera_from_map) {
@@ -7,6 +10,16 @@ geometry::Rigid3 CameraFromStage(const Place& place, const geometry::Rigid3& cam
   // What the camera moves by, everything seen moves against.
   camera_from_stage.translation -= place.camera_nudge;
   return camera_from_stage;
+}
+
+bool BlockWalkingAlike(const Place& a, const Place& b) {
+  const auto blocks = [](const Occluder& occluder) { return occluder.blocks_walking; };
+  return std::ranges::equal(
+      a.occluders | std::views::filter(blocks), b.occluders | std::views::filter(blocks),
+      [](const Occluder& one, const Occluder& other) {
+        return one.stage_from_mesh == other.stage_from_mesh &&
+               one.mesh.positions == other.mesh.positions && one.mesh.indices == other.mesh.indices;
+      });
 }
 
 }  // namespace lararium::stage

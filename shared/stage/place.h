@@ -42,4 +42,7 @@ struct Place {
 // The pose from which the stage is drawn: rigid and metric, nudge applied.
 geometry::Rigid3 CameraFromStage(const Place& place, const geometry::Rigid3& camera_from_map);
 
+// Whether the same things are in people's way at both.
+bool BlockWalkingAlike(const Place& a, const Place& b);
+
 }  // namespace lararium::stage

@@ -8,6 +8,7 @@
 
 #include "shared/core/random.h"
 #include "tests/show/small_show.h"
+#include "tests/stage/test_human.h"
 #include "tests/stage/test_props.h"
 
 namespace lararium::show {
@@ -157,6 +158,52 @@ TEST_F(ShowTest, StagingOnePlaceAnewLeavesTheOthers) {
   tracked.map = 1;
   show->StageFrame(tracked, 0.1, staged);
   EXPECT_NEAR(staged.camera_from_stage->translation.z(), 7.0, 1e-12);
+}
+
+TEST_F(ShowTest, AWallThatWasMovedIsGoneRoundAsIfItHadAlwaysStoodThere) {
+  const auto with_wall = [](float x, bool blocks = true) {
+    ShowContent content = test::SmallContent();
+    content.cast[0].human = test::MakeTestHuman();
+    content.drama = R"(
+      function main()
+        actor("one"):place{x = 0, z = 0}
+        actor("one"):walk_to{x = 0, z = -4}
+      end
+    )";
+    stage::Occluder& wall = content.places[1].stage.occluders.emplace_back();
+    const stage::PropMesh box = test::MakeBox({-1.0f, 0.0f, -0.2f}, {1.0f, 2.0f, 0.2f});
+    wall.mesh.positions = box.positions;
+    wall.mesh.indices = box.indices;
+    wall.stage_from_mesh.translation = {x, 0.0, -2.0};
+    wall.blocks_walking = blocks;
+    return content;
+  };
+  const auto create = [&](ShowContent content) {
+    return Show::Create(std::move(content), {}, *log_).value();
+  };
+  const std::unique_ptr<Show> show = create(with_wall(3.0f));
+  constexpr double kBeside = 2.5;  // seconds: about half of the way
+  EXPECT_NEAR(PositionX(At(*show, kBeside)), 0.0f, 0.01f) << "straight on";
+  const auto move = [&](float x, bool blocks = true) {
+    show->SetPlace(1, with_wall(x, blocks).places[1].stage);
+  };
+  move(0.7f);
+  EXPECT_NEAR(PositionX(At(*show, kBeside)), 0.0f, 0.01f) << "the floor is not laid yet";
+  ASSERT_TRUE(show->LayFloor().ok());
+  const std::unique_ptr<Show> always = create(with_wall(0.7f));
+  for (const double time : {kBeside, kBeside + 0.1, 1.0, 4.0}) {
+    const StagedFrame expected = At(*always, time);
+    EXPECT_EQ(At(*show, time).actors[0].stage_from_actor, expected.actors[0].stage_from_actor)
+        << time;
+  }
+  EXPECT_LT(PositionX(At(*show, kBeside)), -0.3f) << "round it";
+
+  const int64_t played = show->drama().played_ticks();
+  ASSERT_TRUE(show->LayFloor().ok());
+  EXPECT_EQ(show->drama().played_ticks(), played) << "nothing was moved";
+  move(0.7f, false);
+  ASSERT_TRUE(show->LayFloor().ok());
+  EXPECT_NEAR(PositionX(At(*show, kBeside)), 0.0f, 0.01f) << "through it";
 }
 
 TEST_F(ShowTest, TheGainIsSteadiedUntilThePlaceChangesOrThePoseIsLost) {
