@@ -1,13 +1,15 @@
 #!/bin/bash
 # A curator's whole sitting by real input events: a new project from a video, its training, the
 # stage tied to the floor by picks and a known length, two occluders drawn on training images,
-# somebody who walks behind the counter and speaks, the export, and the show in the player.
+# somebody who walks behind the counter and speaks, the export, a visitor who chooses by looking,
+# and the show in the player.
 # Looks at the saved files and at screenshots.
 #
-#   sitting_window_test.sh EDITOR OUTPUT_FOLDER VIDEO [OPENXR_RUNTIME]
+#   sitting_window_test.sh EDITOR OUTPUT_FOLDER VIDEO MAKE_GAZE_VIDEO [OPENXR_RUNTIME]
 set -u
 video=$3
-openxr=${4:-}  # its manifest
+make_gaze_video=$4
+openxr=${5:-}  # its manifest
 
 . "$(dirname "$0")/window.sh"
 need identify
@@ -169,13 +171,35 @@ if [ -n "$openxr" ]; then
   grep -q "^end session" "$out/openxr.txt" || fail "the headset's session was not ended"
 fi
 
+# A visitor, who opens the menu and looks at the item that takes the captions away.
+visit=("$player" "$out/tavern.larshow" --trust "$out/tavern.pub" --audio none)
+"${visit[@]}" --video "$video" --headless --pace fast --poses-out "$out/poses.json" \
+  >> "$out/editor.log" 2>&1 || fail "the player cannot follow the video"
+"$make_gaze_video" "$out/tavern.larshow" "$video" "$out/poses.json" "$out/gaze.mp4" \
+  >> "$out/editor.log" 2>&1 || fail "no visitor can be filmed who looks at the menu"
+"${visit[@]}" --video "$out/gaze.mp4" --loop --kiosk --state "$out/kiosk" >> "$out/editor.log" 2>&1 &
+kiosk=$!
+wait_for 60 titled "tavern$" || fail "the kiosk did not open"
+sleep 3
+xdotool windowfocus "$(xdotool search --name "^tavern$" | tail -1)" sleep 0.5
+# Whoever opens it in the wrong moment looks past it, and opens it again when it has gone.
+look_at_menu() {
+  press m
+  shot menu
+  wait_for 12 grep -q '"captions": "off"' "$out/kiosk/state.json"
+}
+look_at_menu || look_at_menu || look_at_menu || fail "looking at the menu chooses nothing"
+shot chosen
+kill $kiosk
+gone() { ! titled "tavern$"; }
+wait_for 20 gone || fail "the kiosk stays"
+
 # In the player, which is a window of its own.
 click 912 548
 wait_for 60 titled "tavern$" || fail "the player did not open"
 sleep 12
 shot played
 xdotool windowfocus "$(xdotool search --name "^tavern$" | tail -1)" sleep 0.5 key Escape
-gone() { ! titled "tavern$"; }
 wait_for 20 gone || fail "the player stays"
 xdotool windowfocus "$(xdotool search --name Lararium | tail -1)" sleep 0.5
 click 794 548  # Close
