@@ -89,7 +89,8 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
          "runtime drives")
       ->transform(CLI::Transformer(DisplayNames()));
   app.add_flag("--headless", play.headless, "Draw off screen");
-  app.add_option("--monitor", play.monitor, "Full screen on this monitor")
+  app.add_option("--monitor", play.monitor,
+                 "Full screen on this monitor; a kiosk is on the first unless told otherwise")
       ->check(CLI::Range(0, kLargestCount));
   app.add_option_function<std::string>(
          "--size", [&play](const std::string& size) { play.size = ParseSize(size); },
@@ -247,6 +248,10 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   }
   if (*latency_command) {
     return latency;
+  }
+  const bool shown_on_monitor = !play.headless && play.display != Display::kOpenXr;
+  if (play.kiosk && shown_on_monitor && play.monitor < 0) {
+    play.monitor = 0;  // a visitor sees no desktop
   }
   return play;
 }

@@ -78,6 +78,18 @@ TEST_F(OptionsTest, ABenchmarkTakesItsImagesFromItsOwnFolder) {
   EXPECT_EQ(ExitCode({show_, "--smoothing", "much"}), 2);
 }
 
+TEST_F(OptionsTest, AKioskIsFullScreenOnTheFirstMonitorUnlessToldOtherwise) {
+  const auto monitor = [this](std::vector<std::string> more) {
+    more.insert(more.begin(), show_);
+    return std::get<PlayOptions>(Parse(more)).monitor;
+  };
+  EXPECT_LT(monitor({}), 0) << "a window";
+  EXPECT_EQ(monitor({"--kiosk"}), 0);
+  EXPECT_EQ(monitor({"--kiosk", "--monitor", "1"}), 1);
+  EXPECT_LT(monitor({"--kiosk", "--headless"}), 0);
+  EXPECT_LT(monitor({"--kiosk", "--display", "openxr"}), 0) << "the headset shows it";
+}
+
 TEST_F(OptionsTest, SoundGoesWhereItIsTold) {
   const Command plain = Parse({show_});
   EXPECT_FALSE(std::get<PlayOptions>(plain).listening.has_value());

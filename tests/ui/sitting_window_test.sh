@@ -189,6 +189,7 @@ look_at_menu() {
   wait_for 12 grep -q '"captions": "off"' "$out/kiosk/state.json"
 }
 look_at_menu || look_at_menu || look_at_menu || fail "looking at the menu chooses nothing"
+sleep 2
 shot chosen
 kill $kiosk
 gone() { ! titled "tavern$"; }
