@@ -112,21 +112,21 @@ Result<CatcherPass> CatcherPass::Create() {
   return pass;
 }
 
-Status CatcherPass::Prepare(const ImageSize& most) {
-  if (most == most_) {
+Status CatcherPass::Prepare(const ImageSize& size) {
+  if (size == size_) {
     return Status();
   }
-  most_ = most;
-  AllocateImage(normal_, GL_RGB10_A2, most, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
-  AllocateImage(depth_, GL_DEPTH_COMPONENT24, most, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
+  size_ = size;
+  AllocateImage(normal_, GL_RGB10_A2, size, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
+  AllocateImage(depth_, GL_DEPTH_COMPONENT24, size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
   surface_framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, surface_framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, normal_.id(), 0);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);
   LARARIUM_RETURN_IF_ERROR(CheckFramebuffer());
   LARARIUM_RETURN_IF_ERROR(
-      AllocateColour(ratio_, ratio_framebuffer_, Coarse(most, kLeastCell), GL_NEAREST));
-  return AllocateColour(caught_, caught_framebuffer_, most, GL_LINEAR);
+      AllocateColour(ratio_, ratio_framebuffer_, Coarse(size, kLeastCell), GL_NEAREST));
+  return AllocateColour(caught_, caught_framebuffer_, size, GL_LINEAR);
 }
 
 void CatcherPass::UploadSky(const light::ShRgb& light, const light::ShRgb& picture) {
@@ -295,7 +295,7 @@ Status CatcherPass::Draw(const RenderScene& scene,
   }
   cell_ = quality.shadow_cell;
   step_ = cell_ < kHalvingCell ? 1 : 2;
-  LARARIUM_RETURN_IF_ERROR(Prepare(view.most));
+  LARARIUM_RETURN_IF_ERROR(Prepare(view.size));
   UploadSky(scene.light, PictureLight(scene));
   UploadBlockers();
   DrawSurfaces(scene, meshes, view);

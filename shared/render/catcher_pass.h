@@ -58,7 +58,7 @@ class CatcherPass {
   void BindFor(const ShaderProgram& shaders, uint32_t unit) const;
 
  private:
-  Status Prepare(const ImageSize& most);
+  Status Prepare(const ImageSize& size);
   PixelBounds FindBounds(const RenderScene& scene,
                          const SlotMap<GpuMesh>& meshes,
                          const SunPass& sun,
@@ -86,7 +86,7 @@ class CatcherPass {
   GlTexture sky_irradiance_;  // by normal
   GlTexture picture_irradiance_;
   bool sky_is_there_ = false;
-  ImageSize most_;
+  ImageSize size_;
   int cell_ = 4;  // Quality::shadow_cell
   int step_ = 1;  // pixels of the layer for one of caught_, along each side
   GlTexture normal_;

@@ -18,23 +18,27 @@ Status CheckFramebuffer() {
 
 }  // namespace
 
-Status LinearTarget::Prepare(const ImageSize& most, const ImageSize& size, int samples) {
+Status LinearTarget::Prepare(const ImageSize& size, int samples) {
   GLint offered = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &offered);
-  samples_ = std::clamp(samples, 1, std::max(offered, 1));
+  samples = std::clamp(samples, 1, std::max(offered, 1));
+  const bool resized = size != size_;
+  if (!resized && samples == samples_) {
+    return Status();
+  }
   size_ = size;
-  if (most_ != most) {
-    most_ = most;
-    allocated_samples_ = 0;
+  samples_ = samples;
+  FreeSampled();  // before more is allocated
+  if (resized) {
     LARARIUM_RETURN_IF_ERROR(AllocateResolved());
   }
-  return sampled() && samples_ != allocated_samples_ ? AllocateSampled(samples_) : Status();
+  return sampled() ? AllocateSampled() : Status();
 }
 
 Status LinearTarget::AllocateResolved() {
   resolved_ = GlTexture::Generate();
   glBindTexture(GL_TEXTURE_2D, resolved_.id());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, most_.width, most_.height, 0, GL_RGBA, GL_HALF_FLOAT,
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, size_.width, size_.height, 0, GL_RGBA, GL_HALF_FLOAT,
                nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -42,7 +46,7 @@ Status LinearTarget::AllocateResolved() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   resolved_depth_ = GlRenderbuffer::Generate();
   glBindRenderbuffer(GL_RENDERBUFFER, resolved_depth_.id());
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, most_.width, most_.height);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size_.width, size_.height);
   resolved_framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, resolved_framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, resolved_.id(), 0);
@@ -51,20 +55,26 @@ Status LinearTarget::AllocateResolved() {
   return CheckFramebuffer();
 }
 
-Status LinearTarget::AllocateSampled(int samples) {
-  allocated_samples_ = samples;
+Status LinearTarget::AllocateSampled() {
   framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   colour_ = GlRenderbuffer::Generate();
   glBindRenderbuffer(GL_RENDERBUFFER, colour_.id());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA16F, most_.width, most_.height);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA16F, size_.width,
+                                   size_.height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.id());
   depth_ = GlRenderbuffer::Generate();
   glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, most_.width,
-                                   most_.height);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, size_.width,
+                                   size_.height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
   return CheckFramebuffer();
+}
+
+void LinearTarget::FreeSampled() {
+  colour_ = {};
+  depth_ = {};
+  framebuffer_ = {};
 }
 
 void LinearTarget::BindAndClear(const PixelBounds& bounds) const {

@@ -14,9 +14,8 @@ namespace lararium::render {
 
 class LinearTarget {
  public:
-  // Allocates where `most` is new, and when several samples are asked for the first time.
-  // size: what is drawn, the lower left part of it all.
-  Status Prepare(const ImageSize& most, const ImageSize& size, int samples);
+  // Allocates where the size or the number of samples is new.
+  Status Prepare(const ImageSize& size, int samples);
 
   // Draws go here from now on, within bounds only, where colour and coverage are
   // cleared to nothing and depth to far.
@@ -31,16 +30,16 @@ class LinearTarget {
 
  private:
   Status AllocateResolved();
-  Status AllocateSampled(int samples);
+  Status AllocateSampled();
+  void FreeSampled();
   bool sampled() const { return samples_ > 1; }
 
-  ImageSize most_;
   ImageSize size_;
   int samples_ = 1;  // 1: drawn into the texture itself
   GlTexture resolved_;
   GlRenderbuffer resolved_depth_;
   GlFramebuffer resolved_framebuffer_;
-  int allocated_samples_ = 0;  // of the following
+  // Of several samples; none otherwise.
   GlRenderbuffer colour_;
   GlRenderbuffer depth_;
   GlFramebuffer framebuffer_;

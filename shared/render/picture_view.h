@@ -14,7 +14,7 @@ namespace lararium::render {
 
 struct PictureView {
   ImageSize size;
-  ImageSize most;                 // what images are allocated for: no view will be larger
+  ImageSize most;                 // what size would be in a layer as fine as the picture
   int margin = 0;                 // pixels of size, on each side, beyond what the picture shows
   geometry::CameraModel display;  // scaled to size
   float near = 0.0f;              // metres

@@ -1,7 +1,8 @@
 #pragma once
 
 // What drawing may save where a picture takes too long. All of it may change from picture to
-// picture; what is allocated then is kept. What each costs and changes: docs/illumination.md.
+// picture; images are allocated anew where their size or samples are others then. What each costs
+// and changes: docs/illumination.md.
 
 #include <span>
 

@@ -321,7 +321,7 @@ Status Renderer::State::DrawPeople(const RenderScene& scene,
                                    const PictureView& view,
                                    const PixelBounds& bounds,
                                    int clear) {
-  LARARIUM_RETURN_IF_ERROR(people.Prepare(view.most, view.size, quality.samples));
+  LARARIUM_RETURN_IF_ERROR(people.Prepare(view.size, quality.samples));
   if (bounds.empty()) {
     return Status();
   }

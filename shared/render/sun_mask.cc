@@ -36,14 +36,14 @@ Result<SunMask> SunMask::Create() {
   return mask;
 }
 
-Status SunMask::Prepare(const ImageSize& most) {
-  if (most == most_) {
+Status SunMask::Prepare(const ImageSize& size) {
+  if (size == size_) {
     return Status();
   }
-  most_ = most;
+  size_ = size;
   depth_framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, depth_framebuffer_.id());
-  depth_ = AllocateImage(GL_DEPTH_COMPONENT24, most, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
+  depth_ = AllocateImage(GL_DEPTH_COMPONENT24, size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
                          GL_DEPTH_ATTACHMENT);
   const GLenum none = GL_NONE;
   glDrawBuffers(1, &none);
@@ -51,7 +51,7 @@ Status SunMask::Prepare(const ImageSize& most) {
   LARARIUM_RETURN_IF_ERROR(CheckFramebuffer());
   seen_framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, seen_framebuffer_.id());
-  seen_ = AllocateImage(GL_R8, most, GL_RED, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT0);
+  seen_ = AllocateImage(GL_R8, size, GL_RED, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT0);
   return CheckFramebuffer();
 }
 
@@ -63,7 +63,7 @@ Status SunMask::Draw(const PictureView& view,
   if (!sun.shines() || bounds.empty()) {
     return Status();
   }
-  LARARIUM_RETURN_IF_ERROR(Prepare(view.most));
+  LARARIUM_RETURN_IF_ERROR(Prepare(view.size));
   glBindFramebuffer(GL_FRAMEBUFFER, depth_framebuffer_.id());
   glViewport(0, 0, view.size.width, view.size.height);
   glEnable(GL_SCISSOR_TEST);

@@ -33,11 +33,11 @@ class SunMask {
   void BindFor(const ShaderProgram& shaders) const;
 
  private:
-  Status Prepare(const ImageSize& most);
+  Status Prepare(const ImageSize& size);
 
   ShaderProgram shaders_;
   GlVertexArray no_vertices_;
-  ImageSize most_;
+  ImageSize size_;
   GlTexture depth_;
   GlFramebuffer depth_framebuffer_;
   GlTexture seen_;
