@@ -67,6 +67,11 @@ float HourNow() {
          static_cast<float>(local.tm_sec) / 3600.0f;
 }
 
+const render::Quality& QualityOf(size_t level) {
+  const std::span<const render::Quality> ladder = render::QualityLadder();
+  return ladder[std::min(level, ladder.size() - 1)];
+}
+
 Result<show::ShowContent> LoadContent(const PlayOptions& options,
                                       const show::LanguageChoice& languages) {
   bundle::OpenOptions opening;
@@ -152,7 +157,7 @@ class Performance {
   Status CreateShow(show::ShowContent content);
   Status PrepareDrawing(const show::ShowContent& content);
   Status ChangeLanguages();
-  Status PrepareQuality();
+  void ChooseFirstLevel();
   void OpenSound();
   Status RunLockStep();
   Status RunRealtime();
@@ -505,6 +510,7 @@ Status Performance::Prepare() {
     LARARIUM_ASSIGN_OR_RETURN(device_, LoadDevice(options_.device));
   }
   LARARIUM_RETURN_IF_ERROR(OpenSource());
+  ChooseFirstLevel();
   LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content, LoadInChosenLanguages());
   LARARIUM_RETURN_IF_ERROR(ChooseView(content));
   for (const show::ShowPlace& place : content.places) {
@@ -526,7 +532,7 @@ Status Performance::Prepare() {
   if (kiosk_ && kiosk_->ResumeAt(content.title) > 0.0) {
     show_->RestartAt(kiosk_->ResumeAt(content.title));
   }
-  LARARIUM_RETURN_IF_ERROR(PrepareQuality());
+  SetLevel(level());
   LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, shown(), *show_));
   OpenSound();
   if (!options_.osc.empty()) {
@@ -543,7 +549,7 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
   if (staff_) {
     staff_->Prepare(*target_);
   }
-  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content));
+  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content, QualityOf(level())));
   renderer_->SetEvidence(options_.evidence);
   renderer_->SetPart(part_);
   if (headset_ && headset_->panel) {
@@ -557,23 +563,17 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
 }
 
 // In lock-step the level does not depend on how long anything takes.
-Status Performance::PrepareQuality() {
-  const auto level = static_cast<size_t>(options_.quality.value_or(0));
-  if (options_.quality || options_.pace == Pace::kFast) {
-    SetLevel(level);
-    return Status();
+void Performance::ChooseFirstLevel() {
+  if (!options_.quality && options_.pace != Pace::kFast) {
+    // From the coarsest, so that no visitor waits for pictures that this machine cannot draw.
+    const size_t levels = render::QualityLadder().size();
+    quality_.emplace(show::QualityOptions::ForCamera(levels, source_->frames_per_second()),
+                     levels - 1);
   }
-  // From the coarsest, so that no visitor waits for pictures that this machine cannot draw.
-  const size_t levels = render::QualityLadder().size();
-  quality_.emplace(show::QualityOptions::ForCamera(levels, source_->frames_per_second()),
-                   levels - 1);
-  SetLevel(quality_->level());
-  return Status();
 }
 
 void Performance::SetLevel(size_t level) {
-  const std::span<const render::Quality> ladder = render::QualityLadder();
-  const render::Quality& quality = ladder[std::min(level, ladder.size() - 1)];
+  const render::Quality& quality = QualityOf(level);
   renderer_->SetQuality(quality);
   show_->SetQuality(quality);
 }

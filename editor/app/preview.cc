@@ -22,6 +22,12 @@ namespace {
 
 constexpr float kOnionTint = 0.7f;  // share of the colour in skins
 
+// In small pictures nobody sees more than half of the textures' detail, unless half a metre away.
+render::Quality QualityFor(const capture::FrameSource& source) {
+  constexpr int kSmall = 800;  // pixels
+  return {.texture_halvings = source.width() <= kSmall ? 1 : 0};
+}
+
 }  // namespace
 
 // All that lives on the preview's thread.
@@ -99,8 +105,9 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const Opener& o
   drama.past = drama::Past::kRepeated;  // whoever goes to and fro in time finds what was there
   LARARIUM_ASSIGN_OR_RETURN(worker->show_, show::Show::Create(std::move(content), drama, log));
   LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
-  LARARIUM_ASSIGN_OR_RETURN(worker->renderer_,
-                            show::ShowRenderer::Create(worker->show_->content()));
+  LARARIUM_ASSIGN_OR_RETURN(
+      worker->renderer_,
+      show::ShowRenderer::Create(worker->show_->content(), QualityFor(*worker->source_)));
   LARARIUM_ASSIGN_OR_RETURN(
       worker->target_,
       render::RenderTarget::Create(worker->source_->width(), worker->source_->height()));

@@ -246,7 +246,7 @@ Result<bake::RadianceImage> DrawImage(const ReferenceOptions& options,
   LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(const auto renderer, render::Renderer::Create());
   render::SceneHuman person;
-  LARARIUM_ASSIGN_OR_RETURN(person.human, renderer->AddHuman(*human));
+  LARARIUM_ASSIGN_OR_RETURN(person.human, renderer->AddHuman(human));
   person.skin = skin;
   person.irradiance = lit.irradiance;
   render::RenderScene scene;

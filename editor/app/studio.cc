@@ -240,7 +240,7 @@ Status Studio::Seat(std::shared_ptr<const human::Human> human, const StudioPose&
     renderer_->RemoveModel(sitter_->model);
     sitter_ = nullptr;
   }
-  LARARIUM_ASSIGN_OR_RETURN(const render::ModelHandle model, renderer_->AddHuman(*human));
+  LARARIUM_ASSIGN_OR_RETURN(const render::ModelHandle model, renderer_->AddHuman(human));
   sitter_ = std::make_unique<Sitter>(Sitter{PosedPerson(std::move(human), pose), model});
   return Status();
 }

@@ -42,8 +42,8 @@ class BlockReader {
     using Element = std::remove_cv_t<std::remove_pointer_t<From>>;
     static_assert(sizeof(Element) == sizeof(To) && std::is_trivially_copyable_v<To>);
     if (from != nullptr && from->size() > 0 && Take(from->size() * sizeof(To))) {
-      to.resize(from->size());
-      std::memcpy(static_cast<void*>(to.data()), from->Data(), to.size() * sizeof(To));
+      const To* first = reinterpret_cast<const To*>(from->Data());
+      to.assign(first, first + from->size());
     }
   }
 

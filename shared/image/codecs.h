@@ -29,7 +29,10 @@ constexpr int TypeOf(Channels channels) {
 
 using Bytes = std::span<const std::byte>;
 
-Result<cv::Mat> DecodeJpeg(Bytes encoded, Channels channels, const std::string& place);
+Result<cv::Mat> DecodeJpeg(Bytes encoded,
+                           Channels channels,
+                           int halvings,
+                           const std::string& place);
 Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& place);
 Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& place);
 // BMP, WebP.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "shared/core/check.h"
 #include "shared/core/file.h"
 #include "shared/image/codecs.h"
 #include "shared/image/image_header.h"
@@ -58,10 +59,14 @@ bool IsTiff(Bytes encoded) {
 
 }  // namespace
 
-Result<cv::Mat> DecodeImage(Bytes encoded, Channels channels, const std::string& place) {
+Result<cv::Mat> DecodeImage(Bytes encoded,
+                            Channels channels,
+                            const std::string& place,
+                            int jpeg_halvings) {
+  CHECK(jpeg_halvings >= 0 && jpeg_halvings <= kMostJpegHalvings);
   const std::optional<ImageHeader> header = ReadImageHeader(encoded);
   if (header && header->format == ImageHeader::Format::kJpeg) {
-    return DecodeJpeg(encoded, channels, place);
+    return DecodeJpeg(encoded, channels, jpeg_halvings, place);
   }
   if (header && header->format == ImageHeader::Format::kPng) {
     return DecodePng(encoded, channels, place);

@@ -19,12 +19,17 @@ namespace lararium::image {
 // profiles and gamma are not applied), alpha not premultiplied, 255 where there is none.
 enum class Channels : uint8_t { kGrey, kBgr, kBgra };
 
+inline constexpr int kMostJpegHalvings = 3;
+
 // Of a PNG, JPEG, BMP, TIFF or WebP, the first one where there are several; never a part of
 // one. EXIF's orientation is ignored: a camera's model is that of its sensor. Errors call the
 // picture place.
+// jpeg_halvings: 0 to kMostJpegHalvings; a JPEG comes so often half as wide and high, rounded up,
+// which takes a part of the time. Other pictures are as large as ever.
 Result<cv::Mat> DecodeImage(std::span<const std::byte> encoded,
                             Channels channels,
-                            const std::string& place);
+                            const std::string& place,
+                            int jpeg_halvings = 0);
 Result<cv::Mat> ReadImage(const std::filesystem::path& file, Channels channels);
 
 // More are refused before anything is decoded.

@@ -58,7 +58,7 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  bool Open(Bytes encoded) {
+  bool Open(Bytes encoded, int halvings) {
     if (setjmp(errors_.jump) != 0) {  // NOLINT(cert-err52-cpp)
       return false;
     }
@@ -66,6 +66,9 @@ class Reader {
     info_.progress = &progress_;
     jpeg_mem_src(&info_, reinterpret_cast<const unsigned char*>(encoded.data()), encoded.size());
     jpeg_read_header(&info_, TRUE);
+    info_.scale_num = 1;
+    info_.scale_denom = 1U << static_cast<unsigned>(halvings);
+    jpeg_calc_output_dimensions(&info_);
     return true;
   }
 
@@ -150,9 +153,12 @@ class Writer {
 
 }  // namespace
 
-Result<cv::Mat> DecodeJpeg(Bytes encoded, Channels channels, const std::string& place) {
+Result<cv::Mat> DecodeJpeg(Bytes encoded,
+                           Channels channels,
+                           int halvings,
+                           const std::string& place) {
   Reader reader;
-  if (!reader.Open(encoded)) {
+  if (!reader.Open(encoded, halvings)) {
     return Damaged(place, reader.message());
   }
   const J_COLOR_SPACE colours = reader.info().jpeg_color_space;
@@ -161,7 +167,7 @@ Result<cv::Mat> DecodeJpeg(Bytes encoded, Channels channels, const std::string& 
   }
   const bool grey = channels == Channels::kGrey || colours == JCS_GRAYSCALE;
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
-                            MakeImage(reader.info().image_width, reader.info().image_height,
+                            MakeImage(reader.info().output_width, reader.info().output_height,
                                       grey ? CV_8UC1 : CV_8UC3, place));
   if (!reader.Read(grey, image)) {
     return Damaged(place, reader.message());

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
+#include <memory>
+#include <utility>
 
 #include "shared/core/check.h"
 #include "shared/core/parallel.h"
@@ -187,6 +189,7 @@ void PackRow(const Transfer& layout, const int8_t* values, float scale, int8_t* 
   }
   row[layout.ratios_at()] = RatioByte(red, mean, count);
   row[layout.ratios_at() + 1] = RatioByte(blue, mean, count);
+  std::fill(row + layout.ratios_at() + 2, row + layout.scale_at(), int8_t{0});
   const float unit = scale * largest / kLargestByte;
   std::memcpy(row + layout.scale_at(), &unit, sizeof(unit));
 }
@@ -249,21 +252,20 @@ void DecodeTransfer(const TransferBytes& transfer,
 }
 
 Transfer::Transfer(const TransferBytes& bytes)
-    : count_(bytes.count),
-      poses_(bytes.poses),
-      vertices_(bytes.vertices),
-      rows_(bytes.scale.size() * stride()) {
+    : count_(bytes.count), poses_(bytes.poses), vertices_(bytes.vertices) {
   const size_t size = 3 * static_cast<size_t>(count_);
   CHECK(IsShCount(count_) && count_ >= 9 && poses_ > 0 && poses_ <= kMaxKeyPoses &&
         bytes.scale.size() == poses_ * vertices_ &&
         bytes.values.size() == bytes.scale.size() * size);
+  auto rows = std::make_shared_for_overwrite<int8_t[]>(bytes.scale.size() * stride());
   constexpr size_t kBlock = 1024;  // rows
   ParallelFor((bytes.scale.size() + kBlock - 1) / kBlock, [&](size_t block) {
     const size_t end = std::min((block + 1) * kBlock, bytes.scale.size());
     for (size_t i = block * kBlock; i < end; ++i) {
-      PackRow(*this, bytes.values.data() + i * size, bytes.scale[i], rows_.data() + i * stride());
+      PackRow(*this, bytes.values.data() + i * size, bytes.scale[i], rows.get() + i * stride());
     }
   });
+  rows_ = std::move(rows);
 }
 
 void Transfer::Decode(size_t pose, size_t vertex, std::span<float> vectors) const {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -68,7 +69,7 @@ class Transfer {
   size_t stride() const { return scale_at() + sizeof(float); }
   // Whole registers of the mean may be read: they end before the row does.
   const int8_t* row(size_t pose, size_t vertex) const {
-    return rows_.data() + (pose * vertices_ + vertex) * stride();
+    return rows_.get() + (pose * vertices_ + vertex) * stride();
   }
   size_t pose_stride() const { return vertices_ * stride(); }
 
@@ -76,7 +77,7 @@ class Transfer {
   int count_ = 0;
   size_t poses_ = 0;
   size_t vertices_ = 0;
-  std::vector<int8_t> rows_;  // [pose][vertex]
+  std::shared_ptr<const int8_t[]> rows_;  // [pose][vertex]
 };
 
 // Light of receivers as vertices read it: [receiver][3][padded count], in whole numbers of

@@ -194,7 +194,7 @@ void CatcherPass::DrawSurfaces(const RenderScene& scene,
                                const PictureView& view) const {
   glBindFramebuffer(GL_FRAMEBUFFER, surface_framebuffer_.id());
   glViewport(0, 0, view.size.width, view.size.height);
-  Limit(bounds_);
+  Limit(kept_bounds_);
   glClearColor(0.5f, 0.5f, 0.5f, 0.0f);
   glClearDepthf(1.0f);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -219,8 +219,8 @@ void CatcherPass::BindSurfaces(const ShaderProgram& shaders,
   glBindTexture(GL_TEXTURE_2D, depth_.id());
   shaders.Set("surface_normal", static_cast<int>(first_unit));
   shaders.Set("surface_depth", static_cast<int>(first_unit + 1));
-  shaders.Set("catcher_bounds",
-              glm::vec4(bounds_.left, bounds_.bottom, bounds_.right, bounds_.top));
+  shaders.Set("catcher_bounds", glm::vec4(kept_bounds_.left, kept_bounds_.bottom,
+                                          kept_bounds_.right, kept_bounds_.top));
   shaders.Set("eye_in_stage", view.eye_in_stage);
   shaders.Set("ray_at_corner", view.ray_at_corner);
   shaders.Set("ray_per_column", view.ray_per_column);
@@ -233,7 +233,7 @@ void CatcherPass::DrawRatio(const PictureView& view) const {
   const ImageSize coarse = Coarse(view.size, cell_);
   glBindFramebuffer(GL_FRAMEBUFFER, ratio_framebuffer_.id());
   glViewport(0, 0, coarse.width, coarse.height);
-  Limit(Coarse(bounds_, cell_));
+  Limit(Coarse(kept_bounds_, cell_));
   ratio_shaders_.Use();
   BindSurfaces(ratio_shaders_, view, 0);
   glActiveTexture(GL_TEXTURE2);
@@ -253,9 +253,31 @@ void CatcherPass::DrawRatio(const PictureView& view) const {
   glDisable(GL_SCISSOR_TEST);
 }
 
-void CatcherPass::DrawCaught(const SunPass& sun,
-                             const PictureView& view,
-                             const Hiding& hiding) const {
+Status CatcherPass::DrawKept(const RenderScene& scene,
+                             const Quality& quality,
+                             const SlotMap<GpuMesh>& meshes,
+                             const SunPass& sun,
+                             const PictureView& view) {
+  ChooseLamps(scene);
+  kept_bounds_ = FindBounds(scene, meshes, sun, view);
+  if (kept_bounds_.empty()) {
+    return Status();
+  }
+  cell_ = quality.shadow_cell;
+  step_ = cell_ < kHalvingCell ? 1 : 2;
+  LARARIUM_RETURN_IF_ERROR(Prepare(view.size));
+  UploadSky(scene.light, PictureLight(scene));
+  UploadBlockers();
+  DrawSurfaces(scene, meshes, view);
+  DrawRatio(view);
+  return Status();
+}
+
+void CatcherPass::DrawCaught(const SunPass& sun, const PictureView& view, const Hiding& hiding) {
+  bounds_ = kept_bounds_;
+  if (bounds_.empty()) {
+    return;
+  }
   const ImageSize size = Coarse(view.size, step_);
   glBindFramebuffer(GL_FRAMEBUFFER, caught_framebuffer_.id());
   glViewport(0, 0, size.width, size.height);
@@ -280,28 +302,6 @@ void CatcherPass::DrawCaught(const SunPass& sun,
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
   glDisable(GL_SCISSOR_TEST);
-}
-
-Status CatcherPass::Draw(const RenderScene& scene,
-                         const Quality& quality,
-                         const SlotMap<GpuMesh>& meshes,
-                         const SunPass& sun,
-                         const PictureView& view,
-                         const Hiding& hiding) {
-  ChooseLamps(scene);
-  bounds_ = FindBounds(scene, meshes, sun, view);
-  if (bounds_.empty()) {
-    return Status();
-  }
-  cell_ = quality.shadow_cell;
-  step_ = cell_ < kHalvingCell ? 1 : 2;
-  LARARIUM_RETURN_IF_ERROR(Prepare(view.size));
-  UploadSky(scene.light, PictureLight(scene));
-  UploadBlockers();
-  DrawSurfaces(scene, meshes, view);
-  DrawRatio(view);
-  DrawCaught(sun, view, hiding);
-  return Status();
 }
 
 void CatcherPass::BindFor(const ShaderProgram& shaders, uint32_t unit) const {

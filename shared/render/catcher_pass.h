@@ -37,6 +37,14 @@ class CatcherPass {
   // A box of the stage that holds all that the blockers darken.
   const Box& reach() const { return clusters_.reach(); }
 
+  // The surfaces in view, and how much of the sky's and the lamps' light they keep. What
+  // DrawCaught() drew before stays as it is.
+  Status DrawKept(const RenderScene& scene,
+                  const Quality& quality,
+                  const SlotMap<GpuMesh>& meshes,
+                  const SunPass& sun,
+                  const PictureView& view);
+
   // What people hide of it: their layer, and how many pixels within their edges are seen through
   // them.
   struct Hiding {
@@ -44,14 +52,10 @@ class CatcherPass {
     PixelBounds bounds;
     int margin = 0;
   };
-  // Fills the image within bounds(), which are empty where no shadow can be seen.
-  Status Draw(const RenderScene& scene,
-              const Quality& quality,
-              const SlotMap<GpuMesh>& meshes,
-              const SunPass& sun,
-              const PictureView& view,
-              const Hiding& hiding);
-  void Skip() { bounds_ = {}; }
+  // Of what was drawn last by DrawKept(), for the same sun and view: fills the image within
+  // bounds(), which are empty where no shadow can be seen.
+  void DrawCaught(const SunPass& sun, const PictureView& view, const Hiding& hiding);
+  void Skip() { kept_bounds_ = bounds_ = {}; }
 
   const PixelBounds& bounds() const { return bounds_; }
   // For the composite.
@@ -67,7 +71,6 @@ class CatcherPass {
                     const SlotMap<GpuMesh>& meshes,
                     const PictureView& view) const;
   void DrawRatio(const PictureView& view) const;
-  void DrawCaught(const SunPass& sun, const PictureView& view, const Hiding& hiding) const;
   void ChooseLamps(const RenderScene& scene);
   Box ReachOfLamps(const RenderScene& scene) const;
   // light: of the people; picture: of the camera's image.
@@ -96,7 +99,8 @@ class CatcherPass {
   GlFramebuffer ratio_framebuffer_;
   GlTexture caught_;
   GlFramebuffer caught_framebuffer_;
-  PixelBounds bounds_;
+  PixelBounds kept_bounds_;  // of surfaces and ratio
+  PixelBounds bounds_;       // of caught_
   LampUniforms lamps_;
   LampWallTexture lamp_walls_;
   float least_lamp_ = 0.0f;  // irradiance that would not be seen

@@ -4,19 +4,15 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_precision.hpp>
 #include <glm/gtx/component_wise.hpp>
-#include <optional>
+#include <string>
 
 #include "shared/core/check.h"
-#include "shared/core/parallel.h"
 #include "shared/render/closed_surface.h"
 #include "shared/render/detail.h"
-#include "shared/render/surface_texture.h"
-#include "shared/render/texture_image.h"
 
 namespace lararium::render {
 namespace {
@@ -233,93 +229,57 @@ void SetBacks(std::span<const human::LightTransfer::Mesh> light, std::span<PartS
   }
 }
 
-// Decodes what materials use, each image once for each use, and hands out indices.
-class TextureLoader {
+// What the materials of a model use: each of its textures once for each use.
+class TextureList {
  public:
-  TextureLoader(std::span<const human::Texture> textures, std::string place)
-      : textures_(textures), place_(std::move(place)) {}
+  // owner: of the textures, a human or a prop.
+  template <typename Owner>
+  explicit TextureList(const std::shared_ptr<const Owner>& owner) : place_(owner->name) {
+    for (const human::Texture& texture : owner->textures) {
+      textures_.emplace_back(owner, &texture);
+    }
+  }
 
+  // Its number in sources().
   int Want(int16_t texture, TextureUse use) {
     if (texture == human::Material::kNone) {
       return GpuModel::kNoTexture;
     }
-    const Request request = {static_cast<size_t>(texture), use};
-    auto found = std::find(wanted_.begin(), wanted_.end(), request);
-    if (found == wanted_.end()) {
-      wanted_.push_back(request);
-      found = wanted_.end() - 1;
+    const std::shared_ptr<const human::Texture>& wanted = textures_[static_cast<size_t>(texture)];
+    auto found = std::ranges::find_if(sources_, [&](const TextureSource& source) {
+      return source.texture == wanted && source.use == use;
+    });
+    if (found == sources_.end()) {
+      sources_.push_back({wanted, use, place_ + ": texture '" + wanted->name + "'"});
+      found = sources_.end() - 1;
     }
-    return static_cast<int>(found - wanted_.begin());
+    return static_cast<int>(found - sources_.begin());
   }
 
-  Result<std::vector<std::shared_ptr<const GlTexture>>> Load(TexturePool& pool) const {
-    std::vector<TexturePool::Key> keys;
-    std::vector<std::shared_ptr<const GlTexture>> loaded;
-    std::vector<size_t> missing;
-    for (size_t i = 0; i < wanted_.size(); ++i) {
-      keys.push_back(TexturePool::KeyOf(textures_[wanted_[i].texture].encoded, wanted_[i].use));
-      loaded.push_back(pool.Find(keys.back()));
-      if (loaded.back() == nullptr) {
-        missing.push_back(i);
-      }
-    }
-    // A few at a time: decoded, they take megabytes.
-    constexpr size_t kAtOnce = 4;
-    for (size_t begin = 0; begin < missing.size(); begin += kAtOnce) {
-      std::array<std::optional<Result<cv::Mat>>, kAtOnce> images;
-      const size_t count = std::min(kAtOnce, missing.size() - begin);
-      ParallelFor(count, [&](size_t i) { images[i] = Decode(wanted_[missing[begin + i]]); });
-      for (size_t i = 0; i < count; ++i) {
-        const size_t at = missing[begin + i];
-        LARARIUM_ASSIGN_OR_RETURN(const cv::Mat image, std::move(*images[i]));
-        loaded[at] =
-            std::make_shared<const GlTexture>(CreateSurfaceTexture(image, wanted_[at].use));
-        pool.Add(keys[at], loaded[at]);
-      }
-    }
-    return loaded;
-  }
+  std::span<const TextureSource> sources() const { return sources_; }
 
  private:
-  struct Request {
-    size_t texture = 0;
-    TextureUse use = TextureUse::kColour;
-    bool operator==(const Request&) const = default;
-  };
-
-  Result<cv::Mat> Decode(const Request& request) const {
-    const human::Texture& texture = textures_[request.texture];
-    LARARIUM_ASSIGN_OR_RETURN(
-        cv::Mat image, DecodeTexture(texture.encoded, place_ + ": texture '" + texture.name + "'"));
-    if (request.use == TextureUse::kColour) {
-      PremultiplySrgb(image);
-    }
-    return image;
-  }
-
-  std::span<const human::Texture> textures_;
   std::string place_;
-  std::vector<Request> wanted_;
+  std::vector<std::shared_ptr<const human::Texture>> textures_;
+  std::vector<TextureSource> sources_;
 };
 
 Status AddParts(std::span<const PartSource> sources,
                 std::span<const human::Material> materials,
-                std::span<const human::Texture> textures,
-                const std::string& place,
-                TexturePool& pool,
+                TextureList wanted,
+                TextureStore& textures,
                 GpuModel& model) {
-  TextureLoader loader(textures, place);
   for (const PartSource& source : sources) {
     const size_t first_vertex = model.vertex_count();
     GpuModel::Part& part = model.parts.emplace_back(CreatePart(source, materials));
     part.first_vertex = first_vertex;
     if (source.material != human::Material::kNone) {
       const human::Material& material = materials[static_cast<size_t>(source.material)];
-      part.colour_texture = loader.Want(material.colour_texture, TextureUse::kColour);
-      part.normal_texture = loader.Want(material.normal_texture, TextureUse::kNormal);
+      part.colour_texture = wanted.Want(material.colour_texture, TextureUse::kColour);
+      part.normal_texture = wanted.Want(material.normal_texture, TextureUse::kNormal);
     }
   }
-  LARARIUM_ASSIGN_OR_RETURN(model.textures, loader.Load(pool));
+  LARARIUM_ASSIGN_OR_RETURN(model.textures, textures.Load(wanted.sources()));
   return Status();
 }
 
@@ -365,36 +325,11 @@ void WidenForArcs(std::vector<Box>& boxes) {
   }
 }
 
-// FNV-1a over words, from two seeds.
-uint64_t Hash(std::span<const std::byte> bytes, uint64_t seed) {
-  constexpr uint64_t kPrime = 0x100000001b3;
-  uint64_t hash = seed;
-  size_t at = 0;
-  for (; at + sizeof(uint64_t) <= bytes.size(); at += sizeof(uint64_t)) {
-    uint64_t word = 0;
-    std::memcpy(&word, &bytes[at], sizeof(word));
-    hash = (hash ^ word) * kPrime;
-    hash ^= hash >> 29;
-  }
-  for (; at < bytes.size(); ++at) {
-    hash = (hash ^ std::to_integer<uint64_t>(bytes[at])) * kPrime;
-  }
-  return hash;
-}
-
 }  // namespace
 
-TexturePool::Key TexturePool::KeyOf(std::span<const std::byte> encoded, TextureUse use) {
-  return {static_cast<uint64_t>(use), encoded.size(), Hash(encoded, 0xcbf29ce484222325),
-          Hash(encoded, 0x9e3779b97f4a7c15)};
-}
-
-std::shared_ptr<const GlTexture> TexturePool::Find(const Key& key) const {
-  const auto found = textures_.find(key);
-  return found == textures_.end() ? nullptr : found->second.lock();
-}
-
-Result<GpuModel> GpuModel::Create(const human::Human& human, TexturePool& pool) {
+Result<GpuModel> GpuModel::Create(const std::shared_ptr<const human::Human>& added,
+                                  TextureStore& textures) {
+  const human::Human& human = *added;
   GpuModel model;
   const bool dual = human.skinning == human::Skinning::kDualQuaternion;
   model.skin = dual ? Skin::kDualQuaternion : Skin::kLinear;
@@ -403,8 +338,7 @@ Result<GpuModel> GpuModel::Create(const human::Human& human, TexturePool& pool) 
     sources.push_back(Source(human, i));
   }
   SetBacks(human.light.meshes, sources);
-  LARARIUM_RETURN_IF_ERROR(
-      AddParts(sources, human.materials, human.textures, human.name, pool, model));
+  LARARIUM_RETURN_IF_ERROR(AddParts(sources, human.materials, TextureList(added), textures, model));
   model.joint_boxes.resize(human.skeleton.size());
   const auto reach = MorphReach(human);
   for (size_t i = 0; i < human.meshes.size(); ++i) {
@@ -416,7 +350,9 @@ Result<GpuModel> GpuModel::Create(const human::Human& human, TexturePool& pool) 
   return model;
 }
 
-Result<GpuModel> GpuModel::Create(const stage::Prop& prop, TexturePool& pool) {
+Result<GpuModel> GpuModel::Create(const std::shared_ptr<const stage::Prop>& added,
+                                  TextureStore& textures) {
+  const stage::Prop& prop = *added;
   GpuModel model;
   model.skin = Skin::kRigid;
   std::vector<PartSource> sources;
@@ -434,8 +370,7 @@ Result<GpuModel> GpuModel::Create(const stage::Prop& prop, TexturePool& pool) {
     }
   }
   SetBacks(prop.light.meshes, sources);
-  LARARIUM_RETURN_IF_ERROR(
-      AddParts(sources, prop.materials, prop.textures, prop.name, pool, model));
+  LARARIUM_RETURN_IF_ERROR(AddParts(sources, prop.materials, TextureList(added), textures, model));
   for (size_t i = 0; i < emissions.size(); ++i) {
     model.parts[i].emission = emissions[i];
     model.parts[i].prop_part = prop_parts[i];

@@ -7,38 +7,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <map>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "shared/core/status.h"
 #include "shared/human/human.h"
 #include "shared/render/gl_object.h"
 #include "shared/render/screen_bounds.h"
-#include "shared/render/surface_texture.h"
+#include "shared/render/texture_store.h"
 #include "shared/stage/prop.h"
 
 namespace lararium::render {
-
-// Textures of the models that there are: those of equal files are on the GPU once. People share
-// eyes, teeth and fabrics.
-class TexturePool {
- public:
-  // What files are told apart by: use, size, and two hashes, by which no two files agree by chance.
-  using Key = std::array<uint64_t, 4>;
-  static Key KeyOf(std::span<const std::byte> encoded, TextureUse use);
-
-  // nullptr: there is none any more, or yet.
-  std::shared_ptr<const GlTexture> Find(const Key& key) const;
-  void Add(const Key& key, const std::shared_ptr<const GlTexture>& texture) {
-    textures_[key] = texture;
-  }
-
- private:
-  std::map<Key, std::weak_ptr<const GlTexture>> textures_;
-};
 
 struct GpuModel {
   static constexpr int kNoTexture = -1;
@@ -91,7 +71,7 @@ struct GpuModel {
     bool short_indices() const { return vertex_count <= 0x10000; }  // of 16 bits, else 32
   };
 
-  std::vector<std::shared_ptr<const GlTexture>> textures;
+  std::vector<std::shared_ptr<const StoredTexture>> textures;
   std::vector<Part> parts;  // of a human: parallel to its meshes
   enum class Skin { kLinear, kDualQuaternion, kRigid };
   static constexpr size_t kSkins = 3;
@@ -107,8 +87,10 @@ struct GpuModel {
   }
 
   // Fails where a texture cannot be decoded.
-  static Result<GpuModel> Create(const human::Human& human, TexturePool& pool);
-  static Result<GpuModel> Create(const stage::Prop& prop, TexturePool& pool);
+  static Result<GpuModel> Create(const std::shared_ptr<const human::Human>& human,
+                                 TextureStore& textures);
+  static Result<GpuModel> Create(const std::shared_ptr<const stage::Prop>& prop,
+                                 TextureStore& textures);
 
   // Vertices for the next draws of a part; one for each of its own. A picture, counted from 1,
   // draws a part in several passes: what the part holds of it is not sent again. The buffers' old

@@ -23,6 +23,7 @@ Quality Clamped(const Quality& quality) {
   clamped.sun_taps = std::clamp(quality.sun_taps, 4, 14);
   clamped.detail_px = std::max(0.1f, quality.detail_px);
   clamped.triangles = std::max(quality.triangles, 1000);
+  clamped.texture_halvings = std::clamp(quality.texture_halvings, 0, 3);
   return clamped;
 }
 
@@ -36,7 +37,8 @@ std::span<const Quality> QualityLadder() {
                                      .reflections = false,
                                      .camera_look = false,
                                      .detail_px = 2.0f,
-                                     .triangles = 80'000};
+                                     .triangles = 80'000,
+                                     .texture_halvings = 2};
   static constexpr std::array<Quality, 6> kLadder = {{
       {},
       {.samples = 1, .sun_taps = 8, .detail_px = 0.75f},
@@ -54,7 +56,8 @@ std::span<const Quality> QualityLadder() {
        .sun_taps = 4,
        .reflections = false,
        .detail_px = 2.0f,
-       .triangles = 100'000},
+       .triangles = 100'000,
+       .texture_halvings = 1},
       kSmall,
       AtHalfRate(kSmall),
   }};

@@ -39,6 +39,9 @@ struct Quality {
   // triangles all people together may have (DetailOptions).
   float detail_px = 0.5f;
   int triangles = 300'000;
+  // How often textures are half as wide and high: 0 to 3. Where it becomes less they are decoded
+  // anew beside drawing; where it becomes more those that are there stay.
+  int texture_halvings = 0;
 
   // People and shadows are drawn over two pictures, while each picture shows those that were ready,
   // turned to where the camera sees them now: they move at half the rate of the picture and a

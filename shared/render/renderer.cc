@@ -128,8 +128,7 @@ Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
-  auto state = std::make_unique<State>();
-  state->quality = Clamped(quality);
+  auto state = std::make_unique<State>(Clamped(quality));
   LARARIUM_ASSIGN_OR_RETURN(state->occluder_pass,
                             ShaderProgram::Create("occluder.vert", "occluder.frag"));
   LARARIUM_ASSIGN_OR_RETURN(state->model_pass, ModelPass::Create());
@@ -144,10 +143,10 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
 MeshHandle Renderer::AddMesh(const geometry::TriangleMesh& mesh) {
   return state_->meshes.Add(GpuMesh::Create(mesh));
 }
-Result<ModelHandle> Renderer::AddHuman(const human::Human& human) {
+Result<ModelHandle> Renderer::AddHuman(const std::shared_ptr<const human::Human>& human) {
   return state_->AddModel(GpuModel::Create(human, state_->textures));
 }
-Result<ModelHandle> Renderer::AddProp(const stage::Prop& prop) {
+Result<ModelHandle> Renderer::AddProp(const std::shared_ptr<const stage::Prop>& prop) {
   return state_->AddModel(GpuModel::Create(prop, state_->textures));
 }
 void Renderer::RemoveMesh(MeshHandle mesh) { state_->meshes.Remove(mesh); }
@@ -157,6 +156,7 @@ void Renderer::RemoveModel(ModelHandle model) {
 }
 void Renderer::SetQuality(const Quality& quality) {
   state_->quality = Clamped(quality);
+  state_->textures.Refine(state_->quality.texture_halvings);
   state_->layer = {};  // of other sizes
 }
 
@@ -342,13 +342,20 @@ float Renderer::State::PeopleDepth(const PictureView& view) const {
   return draws.empty() ? view.far : std::max(sum / static_cast<float>(draws.size()), view.near);
 }
 
-Status Renderer::State::DrawShadows(const RenderScene& scene,
-                                    const PictureView& view,
-                                    const PixelBounds& bounds) {
+Status Renderer::State::DrawSunShadows(const RenderScene& scene,
+                                       const PictureView& view,
+                                       const PixelBounds& bounds) {
   catcher_pass.SetBlockers(scene.blockers);
   LARARIUM_RETURN_IF_ERROR(
       sun_pass.Draw(scene, quality, view, meshes, model_pass, all_draws, catcher_pass.reach()));
   return bounds.empty() ? Status() : sun_mask.Draw(view, bounds, draws, sun_pass, model_pass);
+}
+
+Status Renderer::State::DrawShadows(const RenderScene& scene,
+                                    const PictureView& view,
+                                    const PixelBounds& bounds) {
+  LARARIUM_RETURN_IF_ERROR(DrawSunShadows(scene, view, bounds));
+  return catcher_pass.DrawKept(scene, quality, meshes, sun_pass, view);
 }
 
 Status Renderer::State::DrawLit(const RenderScene& scene,
@@ -367,8 +374,8 @@ Status Renderer::State::DrawLit(const RenderScene& scene,
   const int reach = layer.smear.reach;
   LARARIUM_RETURN_IF_ERROR(DrawPeople(scene, view, bounds, 2 * reach + 2));
   const bool enlarged = view.size != view.most;
-  return catcher_pass.Draw(scene, quality, meshes, sun_pass, view,
-                           {people.texture(), bounds, reach + (enlarged ? 1 : 0)});
+  catcher_pass.DrawCaught(sun_pass, view, {people.texture(), bounds, reach + (enlarged ? 1 : 0)});
+  return Status();
 }
 
 PictureView Renderer::State::LayerView(const RenderScene& scene,
@@ -534,6 +541,7 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
   State& state = *state_;
   LARARIUM_RETURN_IF_ERROR(state.Validate(scene));
   ResetState();
+  state.textures.Update();
   state.picture_size = {target.width(), target.height()};
   state.layer = {};
   state.catcher_pass.Skip();
@@ -589,6 +597,7 @@ Status Renderer::DrawHalf(Half half,
     return Status::Error("picture", "people cannot be drawn without the camera's pose");
   }
   ResetState();
+  state.textures.Update();
   LARARIUM_ASSIGN_OR_RETURN(const RenderTarget* smaller, state.ChoosePicture(picture, target));
   const PictureView view = state.LayerView(people, *smaller);
   const PixelBounds bounds = state.CollectDraws(people, view);
@@ -632,7 +641,7 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   state.picture_size = size;
   const PictureView view = ViewOf(linear, size, size);
   const PixelBounds bounds = state.CollectDraws(linear, view);
-  LARARIUM_RETURN_IF_ERROR(state.DrawShadows(linear, view, bounds));
+  LARARIUM_RETURN_IF_ERROR(state.DrawSunShadows(linear, view, bounds));
   LARARIUM_RETURN_IF_ERROR(state.DrawPeople(linear, view, bounds, 0));
   state.people.ReadPixels(bounds, rgba);
   return State::CheckDriver();

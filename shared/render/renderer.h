@@ -28,10 +28,11 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   // What is added must be valid (TriangleMesh::Validate, Human::Validate,
-  // Prop::Validate). A person or prop fails where a texture cannot be decoded.
+  // Prop::Validate). A person or prop fails where a texture cannot be decoded; it is kept, since
+  // finer textures may be wanted of it later.
   MeshHandle AddMesh(const geometry::TriangleMesh& mesh);
-  Result<ModelHandle> AddHuman(const human::Human& human);
-  Result<ModelHandle> AddProp(const stage::Prop& prop);
+  Result<ModelHandle> AddHuman(const std::shared_ptr<const human::Human>& human);
+  Result<ModelHandle> AddProp(const std::shared_ptr<const stage::Prop>& prop);
   void RemoveMesh(MeshHandle mesh);
   void RemoveModel(ModelHandle model);
 

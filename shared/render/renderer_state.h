@@ -38,6 +38,9 @@ struct Layer {
 };
 
 struct Renderer::State {
+  explicit State(const Quality& at_first)
+      : quality(at_first), textures(at_first.texture_halvings) {}
+
   Quality quality;
   ShaderProgram occluder_pass;
   ModelPass model_pass;
@@ -65,7 +68,7 @@ struct Renderer::State {
   ImageSize picture_size;  // likewise
   SlotMap<GpuMesh> meshes;
   SlotMap<GpuModel> models;
-  TexturePool textures;
+  TextureStore textures;
   std::vector<ModelDraw> draws;      // of the picture at hand: what may be seen in it
   std::vector<ModelDraw> all_draws;  // likewise: all
 
@@ -85,8 +88,12 @@ struct Renderer::State {
                     int clear);
   void DrawOccluders(std::span<const SceneOccluder> occluders,
                      const glm::mat4& clip_from_stage) const;
-  // The halves of a layer: what keeps the sun off, for draws that may be seen within the bounds;
-  // then people, and the shadows that real surfaces catch.
+  // What keeps the sun off, for draws that may be seen within the bounds.
+  Status DrawSunShadows(const RenderScene& scene,
+                        const PictureView& view,
+                        const PixelBounds& bounds);
+  // The halves of a layer, which take about as long: that, and what light real surfaces keep; then
+  // people, and the shadows that are caught.
   Status DrawShadows(const RenderScene& scene, const PictureView& view, const PixelBounds& bounds);
   Status DrawLit(const RenderScene& scene, const PictureView& view, const PixelBounds& bounds);
   PictureView LayerView(const RenderScene& scene, const RenderTarget& picture) const;

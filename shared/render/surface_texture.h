@@ -5,13 +5,9 @@
 #include <opencv2/core/mat.hpp>
 
 #include "shared/render/gl_object.h"
+#include "shared/render/texture_image.h"
 
 namespace lararium::render {
-
-enum class TextureUse {
-  kColour,  // sRGB-encoded, premultiplied by alpha (PremultiplySrgb)
-  kNormal   // linear, tangent space
-};
 
 // With all mipmaps, repeating. bgra: CV_8UC4.
 // What is larger than the driver takes is halved until it fits.

@@ -37,6 +37,13 @@ Table MakePremultiplyTable() {
   return table;
 }
 
+cv::Size Halved(const cv::Size& size, int halvings) {
+  const int most = (1 << halvings) - 1;
+  return {(size.width + most) >> halvings, (size.height + most) >> halvings};
+}
+
+int LongerSide(const cv::Size& size) { return std::max(size.width, size.height); }
+
 }  // namespace
 
 Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::string& place) {
@@ -54,11 +61,13 @@ Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::st
   return cv::Size(static_cast<int>(header->width), static_cast<int>(header->height));
 }
 
-Result<cv::Mat> DecodeTexture(std::span<const std::byte> encoded, const std::string& place) {
+Result<cv::Mat> DecodeTexture(std::span<const std::byte> encoded,
+                              const std::string& place,
+                              int jpeg_halvings) {
   LARARIUM_ASSIGN_OR_RETURN(const cv::Size size, ReadImageSize(encoded, place));
-  LARARIUM_ASSIGN_OR_RETURN(cv::Mat bgra,
-                            image::DecodeImage(encoded, image::Channels::kBgra, place));
-  if (bgra.size() != size) {
+  LARARIUM_ASSIGN_OR_RETURN(
+      cv::Mat bgra, image::DecodeImage(encoded, image::Channels::kBgra, place, jpeg_halvings));
+  if (bgra.size() != size && bgra.size() != Halved(size, jpeg_halvings)) {
     return Status::Error(place, "is an image of two sizes", "give it another image, or none");
   }
   return bgra;
@@ -77,6 +86,25 @@ void PremultiplySrgb(cv::Mat& bgra) {
       }
     }
   }
+}
+
+Result<cv::Mat> DecodeForUse(std::span<const std::byte> encoded,
+                             TextureUse use,
+                             int halvings,
+                             const std::string& place) {
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Size size, ReadImageSize(encoded, place));
+  while (halvings > 0 && LongerSide(Halved(size, halvings)) < kLeastReducedSide) {
+    --halvings;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(
+      cv::Mat bgra, DecodeTexture(encoded, place, std::min(halvings, image::kMostJpegHalvings)));
+  if (use == TextureUse::kColour) {
+    PremultiplySrgb(bgra);
+  }
+  if (const cv::Size halved = Halved(size, halvings); bgra.size() != halved) {
+    cv::resize(bgra, bgra, halved, 0, 0, cv::INTER_AREA);
+  }
+  return bgra;
 }
 
 }  // namespace lararium::render

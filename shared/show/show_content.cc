@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/show/guide_texts.h"
 #include "shared/stage/mesh_file.h"
@@ -102,6 +103,31 @@ Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
 }
 
 namespace {
+
+Status LoadPerson(const bundle::Bundle& bundle,
+                  const bundle::CastEntry& entry,
+                  CastMember& person) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.human));
+  LARARIUM_ASSIGN_OR_RETURN(human::Human human,
+                            human::ParseHuman(bytes, bundle.place() + ": " + entry.human));
+  person.name = entry.name;
+  person.light = TakeLight(human.light);
+  person.human = std::make_shared<const human::Human>(std::move(human));
+  return Status();
+}
+
+// Several at once: people are most of what is loaded.
+Status LoadCast(const bundle::Bundle& bundle, std::vector<CastMember>& cast) {
+  const std::span<const bundle::CastEntry> entries = bundle.manifest().cast;
+  cast.resize(entries.size());
+  std::vector<Status> loaded(entries.size());
+  ParallelFor(entries.size(),
+              [&](size_t i) { loaded[i] = LoadPerson(bundle, entries[i], cast[i]); });
+  for (const Status& status : loaded) {
+    LARARIUM_RETURN_IF_ERROR(status);
+  }
+  return Status();
+}
 
 // Objects of one member share its model.
 Status LoadObjects(const bundle::Bundle& bundle, std::vector<StageObject>& objects) {
@@ -324,17 +350,7 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
     }
   }
 
-  for (const bundle::CastEntry& member : manifest.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.human));
-    LARARIUM_ASSIGN_OR_RETURN(human::Human human,
-                              human::ParseHuman(bytes, bundle.place() + ": " + member.human));
-    std::shared_ptr<const UnpackedLight> light = TakeLight(human.light);
-    content.cast.push_back({member.name,
-                            std::make_shared<const human::Human>(std::move(human)),
-                            {},
-                            std::move(light)});
-  }
-
+  LARARIUM_RETURN_IF_ERROR(LoadCast(bundle, content.cast));
   LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, content.objects));
   LARARIUM_RETURN_IF_ERROR(LoadLines(bundle, languages, content));
   LARARIUM_RETURN_IF_ERROR(LoadSounds(bundle, content.sounds));

@@ -35,7 +35,7 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
                             render::Renderer::Create(quality));
   std::unique_ptr<ShowRenderer> show(new ShowRenderer(std::move(renderer)));
   for (const CastMember& member : content.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(show->cast_.emplace_back(), show->renderer_->AddHuman(*member.human));
+    LARARIUM_ASSIGN_OR_RETURN(show->cast_.emplace_back(), show->renderer_->AddHuman(member.human));
   }
   LARARIUM_RETURN_IF_ERROR(show->AddObjects(content));
   LARARIUM_ASSIGN_OR_RETURN(show->captions_, ShowCaptions::Create(content));
@@ -78,8 +78,10 @@ Status ShowRenderer::AddObjects(const ShowContent& content) {
     if (index < i) {
       objects_.push_back(objects_[index]);
     } else {
-      LARARIUM_ASSIGN_OR_RETURN(objects_.emplace_back(),
-                                renderer_->AddProp(content.objects[i].model->prop()));
+      const std::shared_ptr<const stage::ObjectModel>& model = content.objects[i].model;
+      LARARIUM_ASSIGN_OR_RETURN(
+          objects_.emplace_back(),
+          renderer_->AddProp(std::shared_ptr<const stage::Prop>(model, &model->prop())));
     }
   }
   return Status();

@@ -37,7 +37,8 @@ void BenchRendererDraw(benchmark::State& state) {
   }
   auto renderer = Renderer::Create({.samples = static_cast<int>(state.range(2))}).value();
   const RenderTarget target = RenderTarget::Create(width, height).value();
-  const ModelHandle ball = renderer->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 64)).value();
+  const ModelHandle ball =
+      renderer->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.5f)), 64))).value();
   const MeshHandle wall =
       renderer->AddMesh({.positions = {{0, -1, -5}, {2, -1, -5}, {2, 1, -5}, {0, 1, -5}},
                          .normals = {},

@@ -65,6 +65,28 @@ double Difference(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() ? cv::norm(a, b, cv::NORM_INF) : 1e9;
 }
 
+TEST(DecodeImage, AJpegMayComeSmallerAndIsWhatItsPixelsAreOnAverage) {
+  const cv::Mat picture = Picture(CV_8UC3, {91, 45});
+  for (int halvings = 1; halvings <= kMostJpegHalvings; ++halvings) {
+    const auto small = DecodeImage(Encoded(picture, ".jpg", {cv::IMWRITE_JPEG_QUALITY, 100}),
+                                   Channels::kBgr, "p", halvings);
+    ASSERT_TRUE(small.ok()) << small.message();
+    const int cell = 1 << halvings;
+    ASSERT_EQ(small->size(), cv::Size((91 + cell - 1) / cell, (45 + cell - 1) / cell));
+    for (int y = 0; y < 45 / cell; ++y) {
+      for (int x = 0; x < 91 / cell; ++x) {
+        const cv::Scalar mean = cv::mean(picture(cv::Rect(cell * x, cell * y, cell, cell)));
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_NEAR(small->at<cv::Vec3b>(y, x)[c], mean[c], 12.0) << x << ", " << y;
+        }
+      }
+    }
+    const auto png = DecodeImage(Encoded(picture, ".png"), Channels::kBgr, "p", halvings);
+    ASSERT_TRUE(png.ok()) << png.message();
+    EXPECT_EQ(png->size(), picture.size()) << "not a JPEG";
+  }
+}
+
 TEST(DecodeImage, GivesThePixelsThatOpenCvGives) {
   struct Kind {
     std::string ending;

@@ -306,8 +306,9 @@ Result<bool> Soak(const Options& options) {
   show->SetPictureSize(kWidth, kHeight);
   LARARIUM_ASSIGN_OR_RETURN(const render::OffscreenContext context,
                             render::CreateOffscreenContext());
-  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<show::ShowRenderer> renderer,
-                            show::ShowRenderer::Create(show->content()));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const std::unique_ptr<show::ShowRenderer> renderer,
+      show::ShowRenderer::Create(show->content(), render::QualityLadder().back()));
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
                             render::RenderTarget::Create(kWidth, kHeight));
 

@@ -27,7 +27,7 @@ class CameraLookTest : public GlTest {
     auto renderer = Renderer::Create({.samples = 4});
     ASSERT_TRUE(renderer.ok()) << renderer.message();
     renderer_ = std::move(renderer).value();
-    human_ = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.6f)), 1)).value(),
+    human_ = {.human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.6f)), 1))).value(),
               .skin = {&skin_, 1}};
     human_.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -20.0f, 1.0f);
     scene_.humans = {&human_, 1};

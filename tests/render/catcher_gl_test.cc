@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <span>
 #include <vector>
 
 #include "shared/core/random.h"
@@ -74,7 +75,7 @@ class CatcherTest : public GlTest {
   }
   // A person that is a ball, 0.3 m in radius.
   void AddBallOnTheFloor() {
-    human_.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value();
+    human_.human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.5f)), 1))).value();
     human_.skin = {&skin_, 1};
     human_.stage_from_actor = glm::mat4(glm::mat3(0.3f));
     human_.stage_from_actor[3] = glm::vec4(0.0f, 0.3f, 0.0f, 1.0f);
@@ -115,6 +116,32 @@ TEST_F(CatcherTest, NothingDarkensWithoutBallsNorFarFromThem) {
   const std::vector<glm::vec4> broken = {{NAN, 0.0f, 0.0f, 1.0f}, {0.0f, 0.5f, 0.0f, 0.0f}};
   scene_.blockers = broken;
   EXPECT_EQ(cv::norm(Draw(), scene_.background, cv::NORM_INF), 0.0);
+}
+
+TEST_F(CatcherTest, InHalvesShadowsChangeWithThePeopleWhoCastThem) {
+  renderer_->SetQuality({.samples = 1, .half_rate = true});
+  AddBallOnTheFloor();
+  const glm::vec4 here(0.0f, 0.3f, 0.0f, 0.3f);
+  scene_.blockers = {&here, 1};
+  RenderScene later = scene_;
+  SceneHuman moved = human_;
+  moved.stage_from_actor[3].x = 0.8f;
+  later.humans = {&moved, 1};
+  const glm::vec4 there(0.8f, 0.3f, 0.0f, 0.3f);
+  for (const std::span<const glm::vec4> blockers :
+       {std::span<const glm::vec4>(&there, 1), std::span<const glm::vec4>()}) {
+    later.blockers = blockers;
+    const RenderTarget target = MakeTarget(kWidth, kHeight);
+    ASSERT_TRUE(renderer_->Draw(later, target).ok());
+    const cv::Mat expected = Read(target);
+    ASSERT_TRUE(renderer_->Draw(scene_, target).ok());
+    const cv::Mat before = Read(target);
+    ASSERT_GT(cv::norm(before, expected, cv::NORM_INF), 20.0);
+    ASSERT_TRUE(renderer_->DrawHalf(Renderer::Half::kShadows, later, later, target).ok());
+    EXPECT_EQ(cv::norm(Read(target), before, cv::NORM_INF), 0.0);
+    ASSERT_TRUE(renderer_->DrawHalf(Renderer::Half::kPeople, later, later, target).ok());
+    EXPECT_EQ(cv::norm(Read(target), expected, cv::NORM_INF), 0.0);
+  }
 }
 
 // A ball above a floor under an even sky hides sin^2(a) cos(t), with a its angular radius

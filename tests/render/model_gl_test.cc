@@ -1,12 +1,15 @@
+#include <epoxy/gl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
+#include <thread>
 
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/skinning.h"
@@ -89,7 +92,7 @@ class ModelTest : public GlTest {
   }
 
   cv::Mat DrawHuman(const human::Human& human, RenderScene scene) {
-    auto handle = renderer_->AddHuman(human);
+    auto handle = renderer_->AddHuman(Shared(human));
     EXPECT_TRUE(handle.ok()) << handle.message();
     const std::vector<glm::mat4> skin(human.skeleton.size(), kNoMotion);
     const SceneHuman shown = {.human = *handle, .skin = skin};
@@ -138,7 +141,7 @@ TEST_F(ModelTest, CoverageMixesInLinearLightWithWhatIsBehind) {
 
 TEST_F(ModelTest, AMarkGivesItsColourAndKeepsLightAndShade) {
   human::Human human = MakeHuman(Square(), 1);
-  auto handle = renderer_->AddHuman(human);
+  auto handle = renderer_->AddHuman(Shared(human));
   ASSERT_TRUE(handle.ok()) << handle.message();
   const std::vector<glm::mat4> skin(1, kNoMotion);
   SceneHuman shown = {.human = *handle, .skin = skin};
@@ -162,7 +165,7 @@ TEST_F(ModelTest, AMarkGivesItsColourAndKeepsLightAndShade) {
 }
 
 TEST_F(ModelTest, StripesTellMarksApartWithoutColours) {
-  auto handle = renderer_->AddHuman(MakeHuman(Square(), 1));
+  auto handle = renderer_->AddHuman(Shared(MakeHuman(Square(), 1)));
   ASSERT_TRUE(handle.ok()) << handle.message();
   const std::vector<glm::mat4> skin(1, kNoMotion);
   SceneHuman shown = {.human = *handle, .skin = skin};
@@ -335,11 +338,63 @@ TEST_F(ModelTest, EyesGlintTowardsTheLampAndMatteThingsDoNot) {
   EXPECT_GT(brightest(human::Surface::kEye), brightest(human::Surface::kPlain) + 30.0);
 }
 
+// Columns of one texel: half as fine a texture is grey all over.
+TEST_F(ModelTest, TexturesBecomeFinerBesideDrawingAndNeverCoarser) {
+  cv::Mat columns(256, 256, CV_8UC3, cv::Scalar::all(0));
+  for (int x = 0; x < columns.cols; x += 2) {
+    columns.col(x).setTo(cv::Scalar::all(255));
+  }
+  const human::Human human = Textured(columns, {.name = "", .colour_texture = 0});
+  const std::vector<glm::mat4> skin(human.skeleton.size(), kNoMotion);
+  RenderScene scene = Scene();
+  scene.display = {600, 600, 900.0, 900.0, 299.5, 299.5};  // texels of more than two pixels
+  SceneHuman shown = {.human = renderer_->AddHuman(Shared(human)).value(), .skin = skin};
+  scene.humans = {&shown, 1};
+  const cv::Mat fine = Draw(scene);
+
+  renderer_ = Renderer::Create({.texture_halvings = 1}).value();
+  shown.human = renderer_->AddHuman(Shared(human)).value();
+  const SceneHuman other = {.human = renderer_->AddHuman(Shared(human)).value(), .skin = skin};
+  const cv::Mat coarse = Draw(scene);
+  double least = 0.0;
+  double most = 0.0;
+  cv::minMaxLoc(coarse(cv::Rect(200, 200, 200, 200)).clone().reshape(1), &least, &most);
+  EXPECT_LT(most - least, 5.0);
+
+  renderer_->SetQuality({});
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  cv::Mat picture = Draw(scene);
+  while (cv::norm(picture, fine, cv::NORM_INF) > 0.0 &&
+         std::chrono::steady_clock::now() < give_up) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    picture = Draw(scene);
+  }
+  EXPECT_EQ(cv::norm(picture, fine, cv::NORM_INF), 0.0);
+  scene.humans = {&other, 1};
+  EXPECT_EQ(cv::norm(Draw(scene), fine, cv::NORM_INF), 0.0) << "they share it";
+  renderer_->SetQuality({.texture_halvings = 1});
+  EXPECT_EQ(cv::norm(Draw(scene), fine, cv::NORM_INF), 0.0);
+}
+
+TEST_F(ModelTest, WhoLeavesWhileTexturesBecomeFinerLeavesNothingBehind) {
+  renderer_ = Renderer::Create({.texture_halvings = 2}).value();
+  const human::Human human = Textured(cv::Mat(1024, 1024, CV_8UC3, cv::Scalar::all(90)),
+                                      {.name = "", .colour_texture = 0});
+  const ModelHandle handle = renderer_->AddHuman(Shared(human)).value();
+  renderer_->SetQuality({});
+  Draw(Scene());  // begins to decode
+  renderer_->RemoveModel(handle);
+  for (int i = 0; i < 50; ++i) {
+    Draw(Scene());
+  }
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
 TEST_F(ModelTest, ABrokenTextureIsOneClearError) {
   human::Human human =
       Textured(cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(9)), {.name = "", .colour_texture = 0});
   human.textures[0].encoded.resize(40);
-  EXPECT_THAT(renderer_->AddHuman(human).message(), HasSubstr("test: texture 'texture'"));
+  EXPECT_THAT(renderer_->AddHuman(Shared(human)).message(), HasSubstr("test: texture 'texture'"));
 }
 
 TEST_F(ModelTest, StreamedVerticesReplaceThoseOfTheBindPose) {
@@ -349,7 +404,7 @@ TEST_F(ModelTest, StreamedVerticesReplaceThoseOfTheBindPose) {
                      {0, 1, 2, 3},
                      std::vector<glm::vec3>(4, glm::vec3(-1, 0, 0)),
                      std::vector<glm::vec3>(4, glm::vec3(0.0f))}}}};
-  const ModelHandle handle = renderer_->AddHuman(human).value();
+  const ModelHandle handle = renderer_->AddHuman(Shared(human)).value();
   glm::mat4 right(1.0f);
   right[3].x = 1.0f;
   std::vector<glm::vec3> moved = human.meshes[0].positions;
@@ -379,7 +434,7 @@ TEST_F(ModelTest, StreamedVerticesReplaceThoseOfTheBindPose) {
 
 TEST_F(ModelTest, TwoOfOnePersonEachHaveTheirOwnVertices) {
   const human::Human human = MakeHuman(Square(), 1);
-  const ModelHandle handle = renderer_->AddHuman(human).value();
+  const ModelHandle handle = renderer_->AddHuman(Shared(human)).value();
   std::array<std::vector<glm::vec3>, 2> moved = {human.meshes[0].positions,
                                                  human.meshes[0].positions};
   std::array<SceneVertices, 2> vertices;
@@ -427,10 +482,10 @@ TEST_F(ModelTest, DualQuaternionsSkinAsTheCpuDoes) {
                                    Eigen::Vector3d::UnitY());
   scene.exposure = 0.5f;
   scene.light[3] = glm::vec3(0.3f, 0.6f, 0.9f);
-  SceneHuman human = {.human = renderer_->AddHuman(bent).value(), .skin = skin};
+  SceneHuman human = {.human = renderer_->AddHuman(Shared(bent)).value(), .skin = skin};
   scene.humans = {&human, 1};
   const cv::Mat on_gpu = Draw(scene);
-  human = {.human = renderer_->AddHuman(still).value(), .skin = rest};
+  human = {.human = renderer_->AddHuman(Shared(still)).value(), .skin = rest};
   const cv::Mat on_cpu = Draw(scene);
   EXPECT_GT(cv::countNonZero(on_cpu.reshape(1)), 3000);
   cv::Mat difference;
@@ -466,7 +521,7 @@ TEST_F(ModelTest, PartsOfAPropMoveShineAndHideByThemselves) {
   std::array parts = {kNoMotion, kNoMotion};
   parts[0][3].x = -0.6f;
   parts[1][3].x = 0.6f;
-  SceneProp shown = {.prop = renderer_->AddProp(prop).value(), .stage_from_part = parts};
+  SceneProp shown = {.prop = renderer_->AddProp(Shared(prop)).value(), .stage_from_part = parts};
   RenderScene scene = Scene();
   scene.props = {&shown, 1};
   cv::Mat picture = Draw(scene);
@@ -484,8 +539,9 @@ TEST_F(ModelTest, OccludersHidePropsToo) {
   const stage::Prop prop = TwoPartProp();
   const std::array parts = {kNoMotion, kNoMotion};
   const std::array<uint8_t, 2> only_box = {1, 0};
-  const SceneProp shown = {
-      .prop = renderer_->AddProp(prop).value(), .stage_from_part = parts, .shown = only_box};
+  const SceneProp shown = {.prop = renderer_->AddProp(Shared(prop)).value(),
+                           .stage_from_part = parts,
+                           .shown = only_box};
   const MeshHandle wall =
       renderer_->AddMesh({.positions = {{0, -2, 1}, {2, -2, 1}, {2, 2, 1}, {0, 2, 1}},
                           .normals = {},
@@ -502,7 +558,7 @@ TEST_F(ModelTest, OccludersHidePropsToo) {
 TEST_F(ModelTest, DrawsTheCoarsestAllowedLevel) {
   human::Human human = MakeHuman(Square(), 1);
   human.meshes[0].coarser = {{0.01f, {0, 1, 2}}};  // the lower right half
-  SceneHuman shown = {.human = renderer_->AddHuman(human).value(), .skin = {&kNoMotion, 1}};
+  SceneHuman shown = {.human = renderer_->AddHuman(Shared(human)).value(), .skin = {&kNoMotion, 1}};
   RenderScene scene = Scene();
   scene.humans = {&shown, 1};
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(10, 10), cv::Vec3b(255, 255, 255));
@@ -555,7 +611,7 @@ TEST_F(ModelTest, EvenReflectionsAreTheShareOfEvenLight) {
   // light, which alone is seen of what is black.
   const human::Human human = RoughSquare(human::Surface::kSkin, glm::vec3(0.0f));
   SceneHuman shown;
-  shown.human = renderer_->AddHuman(human).value();
+  shown.human = renderer_->AddHuman(Shared(human)).value();
   shown.skin = {&kNoMotion, 1};
   light::ProbeLight light;
   shown.light = &light;

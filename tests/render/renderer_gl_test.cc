@@ -112,8 +112,9 @@ TEST_F(RendererTest, BackgroundPassesThroughUnchanged) {
 // Somebody hardly there is mixed with the image's light.
 TEST_F(RendererTest, EverySrgbValueSurvivesTheRoundTrip) {
   const glm::mat4 skin(1.0f);
-  SceneHuman human = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value(),
-                      .skin = {&skin, 1}};
+  SceneHuman human = {
+      .human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.5f)), 1))).value(),
+      .skin = {&skin, 1}};
   human.stage_from_actor = glm::scale(glm::mat4(1.0f), glm::vec3(50.0f));
   human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -55.0f, 1.0f);
   RenderScene scene;
@@ -188,7 +189,8 @@ TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
       .width = 200, .height = 150, .fx = 180.0, .fy = 175.0, .cx = 93.4, .cy = 81.7};
   const geometry::Rigid3 camera_from_stage = LookAt(
       Eigen::Vector3d(0.4, 1.7, 2.5), Eigen::Vector3d(0.1, 1.0, -1.0), Eigen::Vector3d::UnitY());
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
+  const ModelHandle ball =
+      renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(1.0f)), 1))).value();
   const glm::mat4 skin(1.0f);
   Random random(5);
   for (int i = 0; i < 20; ++i) {
@@ -223,7 +225,8 @@ TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
 }
 
 TEST_F(RendererTest, OccludersHideWhatIsBehindAndShowTheBackground) {
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
+  const ModelHandle ball =
+      renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(1.0f)), 1))).value();
   const MeshHandle wall = renderer_->AddMesh(Wall(0.0f, 9.0f, -3.0f));
   const glm::mat4 skin(1.0f);
   RenderScene scene;
@@ -248,7 +251,8 @@ TEST_F(RendererTest, OccludersHideWhatIsBehindAndShowTheBackground) {
 }
 
 TEST_F(RendererTest, WithoutAPoseOnlyTheBackgroundIsDrawn) {
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
+  const ModelHandle ball =
+      renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(1.0f)), 1))).value();
   const glm::mat4 skin(1.0f);
   RenderScene scene;
   scene.background = NoiseImage(120, 90, 6);
@@ -284,10 +288,10 @@ TEST_F(RendererTest, SkinningEqualsTheCpu) {
   scene.light = UniformLight(2.0f);
   scene.light[1] = glm::vec3(0.4f, 0.2f, 0.1f);
   scene.light[3] = glm::vec3(0.1f, 0.3f, 0.4f);
-  SceneHuman human = {.human = renderer_->AddHuman(bent).value(), .skin = skin};
+  SceneHuman human = {.human = renderer_->AddHuman(Shared(bent)).value(), .skin = skin};
   scene.humans = {&human, 1};
   const cv::Mat on_gpu = Draw(scene, 200, 200);
-  human = {.human = renderer_->AddHuman(still).value(), .skin = rest};
+  human = {.human = renderer_->AddHuman(Shared(still)).value(), .skin = rest};
   const cv::Mat on_cpu = Draw(scene, 200, 200);
   EXPECT_GT(cv::countNonZero(on_cpu.reshape(1)), 3000);
   EXPECT_TRUE(test::ImagesAgree(on_gpu, on_cpu, {.max = 2.0, .mean = 0.01}));
@@ -295,7 +299,7 @@ TEST_F(RendererTest, SkinningEqualsTheCpu) {
 
 TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
   const glm::vec3 albedo(0.8f, 0.5f, 0.3f);
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(albedo), 1)).value();
+  const ModelHandle ball = renderer_->AddHuman(Shared(MakeHuman(Sphere(albedo), 1))).value();
   const glm::mat4 skin(1.0f);
   RenderScene scene;
   scene.display = Pinhole(240, 240, 400.0);
@@ -350,7 +354,7 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
 
 TEST_F(RendererTest, LinearPictureHoldsRadianceWithoutTheCamerasResponse) {
   const glm::vec3 albedo(0.8f, 0.5f, 0.3f);
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(albedo), 1)).value();
+  const ModelHandle ball = renderer_->AddHuman(Shared(MakeHuman(Sphere(albedo), 1))).value();
   const glm::mat4 skin(1.0f);
   RenderScene scene;
   scene.display = Pinhole(160, 120, 200.0);
@@ -393,8 +397,9 @@ TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
   const glm::mat4 skin(1.0f);
   const auto count_between = [&](int samples) {
     Recreate({.samples = samples});
-    SceneHuman human = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value(),
-                        .skin = {&skin, 1}};
+    SceneHuman human = {
+        .human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(1.0f)), 1))).value(),
+        .skin = {&skin, 1}};
     human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
     RenderScene scene;
     scene.display = Pinhole(120, 120, 150.0);
@@ -412,8 +417,9 @@ TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
 
 TEST_F(RendererTest, APictureThatIsMadeLargerShowsTheSame) {
   const glm::mat4 skin(1.0f);
-  SceneHuman human = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value(),
-                      .skin = {&skin, 1}};
+  SceneHuman human = {
+      .human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.5f)), 1))).value(),
+      .skin = {&skin, 1}};
   human.stage_from_actor[3] = glm::vec4(0.3f, 0.2f, -4.0f, 1.0f);
   RenderScene scene;
   scene.background = SmoothImage(320, 240, 5);
@@ -442,7 +448,7 @@ class HalfRateTest : public RendererTest {
   void SetUp() override {
     RendererTest::SetUp();
     Recreate({.samples = 1, .half_rate = true});
-    human_ = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value(),
+    human_ = {.human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.5f)), 1))).value(),
               .skin = {&skin_, 1}};
     human_.stage_from_actor[3] = glm::vec4(0.3f, 0.2f, -6.0f, 1.0f);
     target_.emplace(MakeTarget(kWidth, kHeight));
@@ -540,7 +546,8 @@ TEST_F(HalfRateTest, ALayerIsNotCarriedFarOrToAnotherPicture) {
 }
 
 TEST_F(RendererTest, DrawsSeveralPeopleWithTheirOwnPoses) {
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 1)).value();
+  const ModelHandle ball =
+      renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(1.0f)), 1))).value();
   std::array<glm::mat4, 2> skins = {glm::mat4(1.0f), glm::mat4(1.0f)};
   skins[0][3] = glm::vec4(-2.0f, 0.0f, 0.0f, 1.0f);
   skins[1][3] = glm::vec4(2.0f, 0.0f, 0.0f, 1.0f);
@@ -567,7 +574,8 @@ TEST_F(RendererTest, SaysWhatIsWrongWithAScene) {
   EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("display"));
   scene.display = Pinhole(64, 48, 60.0);
   EXPECT_TRUE(renderer_->Draw(scene, target).ok());
-  const ModelHandle ball = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(1.0f)), 2)).value();
+  const ModelHandle ball =
+      renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(1.0f)), 2))).value();
   SceneHuman human = {.human = ball};
   scene.humans = {&human, 1};
   EXPECT_THAT(renderer_->Draw(scene, target).message(), HasSubstr("0 skin matrices for 2 joints"));

@@ -59,7 +59,7 @@ class SunTest : public GlTest {
                        Quad({-6.0f, 0.0f, 6.0f}, {12.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -12.0f}))}};
     scene_.occluders = occluders_;
     scene_.light = EvenSky(1.0f);
-    human_ = {.human = renderer_->AddHuman(MakeHuman(Sphere(glm::vec3(0.5f)), 1)).value(),
+    human_ = {.human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.5f)), 1))).value(),
               .skin = {&skin_, 1}};
     scene_.humans = {&human_, 1};
   }
@@ -176,7 +176,7 @@ TEST_F(SunTest, ThingsCastTheSameShadowsWhetherTheyStandOrMove) {
   mesh.normals = ball.normals;
   mesh.albedo = ball.albedo;
   mesh.indices = ball.indices;
-  const ModelHandle model = renderer_->AddProp(prop).value();
+  const ModelHandle model = renderer_->AddProp(Shared(prop)).value();
   std::array<glm::mat4, 2> stage_from_prop;
   const std::array<SceneProp, 2> props = {
       SceneProp{.prop = model, .stage_from_part = {&stage_from_prop[0], 1}},
@@ -190,7 +190,7 @@ TEST_F(SunTest, ThingsCastTheSameShadowsWhetherTheyStandOrMove) {
   place(1, {0.3f, 0.6f, 0.5f});
   const auto expect_as_alone = [&](const std::string& when) {
     const cv::Mat picture = Draw();
-    renderer_->RemoveModel(renderer_->AddProp(prop).value());  // so that nothing is kept
+    renderer_->RemoveModel(renderer_->AddProp(Shared(prop)).value());  // so that nothing is kept
     EXPECT_EQ(cv::norm(Draw(), picture, cv::NORM_INF), 0.0) << when;
   };
   const cv::Mat first = Draw();

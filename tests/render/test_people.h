@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -79,6 +80,12 @@ inline human::Human MakeHuman(human::SkinnedMesh mesh, size_t joint_count) {
   mesh.name = "mesh";
   human.meshes.push_back(std::move(mesh));
   return human;
+}
+
+// As a renderer keeps a person or prop.
+template <typename Model>
+std::shared_ptr<const Model> Shared(Model model) {
+  return std::make_shared<const Model>(std::move(model));
 }
 
 }  // namespace lararium::render

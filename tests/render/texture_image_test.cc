@@ -85,6 +85,37 @@ TEST(DecodeTexture, SurvivesEveryCutAndFlip) {
   }
 }
 
+TEST(DecodeForUse, HalvesOftenEnoughButSmallImagesLess) {
+  for (const char* extension : {".png", ".jpg"}) {
+    const std::vector<std::byte> encoded =
+        Encode(cv::Mat(513, 300, CV_8UC3, cv::Scalar(40, 90, 200)), extension);
+    for (const auto& [halvings, size] : {std::pair{0, cv::Size(300, 513)},
+                                         {1, cv::Size(150, 257)},
+                                         {2, cv::Size(75, 129)},
+                                         {3, cv::Size(75, 129)}}) {
+      const auto decoded = DecodeForUse(encoded, TextureUse::kColour, halvings, "t");
+      ASSERT_TRUE(decoded.ok()) << decoded.message();
+      EXPECT_EQ(decoded->size(), size) << extension;
+      EXPECT_NEAR(decoded->at<cv::Vec4b>(100, 50)[2], 200, 3);
+      EXPECT_EQ(decoded->at<cv::Vec4b>(100, 50)[3], 255);
+    }
+  }
+}
+
+// What is not covered has no part in the colours of what is.
+TEST(DecodeForUse, HalvesColoursAfterTheyAreMultipliedWithCoverage) {
+  cv::Mat image(256, 256, CV_8UC4, cv::Scalar(255, 255, 255, 0));
+  for (int x = 0; x < 256; x += 2) {
+    image.col(x).setTo(cv::Scalar(10, 100, 200, 255));
+  }
+  const auto colour = DecodeForUse(Encode(image, ".png"), TextureUse::kColour, 1, "t");
+  ASSERT_TRUE(colour.ok()) << colour.message();
+  EXPECT_LE(cv::norm(colour->at<cv::Vec4b>(60, 60) - cv::Vec4b(5, 50, 100, 128), cv::NORM_INF), 1);
+  const auto normals = DecodeForUse(Encode(image, ".png"), TextureUse::kNormal, 1, "t");
+  ASSERT_TRUE(normals.ok()) << normals.message();
+  EXPECT_NEAR(normals->at<cv::Vec4b>(60, 60)[0], 132, 1);
+}
+
 TEST(PremultiplySrgb, MultipliesLight) {
   cv::Mat image(1, 3, CV_8UC4);
   image.at<cv::Vec4b>(0) = {200, 100, 50, 255};
