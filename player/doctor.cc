@@ -35,6 +35,8 @@ constexpr double kDark = 12.0;     // of 255
 constexpr double kFrozen = 0.01;
 constexpr uint64_t kLeastFree = uint64_t{64} << 20;
 constexpr double kHot = 80.0;
+constexpr double kUsualRate = 30.0;  // of a camera, images a second
+constexpr double kNearlyAll = 0.95;
 
 std::string Text(const char* format, double value) {
   char text[128];
@@ -324,6 +326,28 @@ Finding JudgeGraphics(const Result<std::string>& device) {
                    : ""};
 }
 
+Finding JudgeDrawing(const DrawingProbe& probe, double wanted) {
+  if (!probe.problem.ok()) {
+    return {"drawing", Verdict::kBad, probe.problem.message(),
+            "install the driver of the graphics card, or libgl1-mesa-dri"};
+  }
+  // What comes a little late now and then is not missed.
+  const auto fast = std::ranges::find_if(
+      probe.rates, [wanted](double rate) { return rate >= kNearlyAll * wanted; });
+  const bool any = fast != probe.rates.end();
+  const size_t level =
+      any ? static_cast<size_t>(fast - probe.rates.begin()) : probe.rates.size() - 1;
+  const std::string found = Text("%.0f pictures a second, ", probe.rates[level]) +
+                            SizeText(probe.size.width, probe.size.height) + ", at level " +
+                            std::to_string(level) + " of quality (0 the finest, " +
+                            std::to_string(probe.rates.size() - 1) + " the coarsest)";
+  if (any) {
+    return {"drawing", Verdict::kGood, found};
+  }
+  return {"drawing", Verdict::kWarning, found + Text("; the camera gives %.0f images", wanted),
+          "play with a smaller --size, or on a machine with a graphics card"};
+}
+
 Finding JudgeDisplay(const Result<DisplayProbe>& window, bool wanted) {
   if (window.ok()) {
     return {"display", Verdict::kGood,
@@ -438,8 +462,14 @@ bool RunDoctor(const DoctorOptions& options, Log& log) {
                           "mend the device file: the player will not start with it"});
     }
   }
-  findings.push_back(JudgeCamera(ProbeCamera(options, device, content ? &*content : nullptr)));
-  findings.push_back(JudgeGraphics(OpenGraphics()));
+  const CameraProbe camera = ProbeCamera(options, device, content ? &*content : nullptr);
+  findings.push_back(JudgeCamera(camera));
+  const Result<std::string> graphics = OpenGraphics();
+  findings.push_back(JudgeGraphics(graphics));
+  if (content && graphics.ok()) {
+    const double wanted = camera.images > 1 ? camera.images / camera.seconds : kUsualRate;
+    findings.push_back(JudgeDrawing(ProbeDrawing(*content, options.size, wanted, log), wanted));
+  }
   const Result<DisplayProbe> display = OpenDisplay(options.monitor);
   findings.push_back(JudgeDisplay(display, true));
   if (device.headset) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "player/device_file.h"
+#include "player/drawing_probe.h"
 #include "player/options.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
@@ -52,6 +53,8 @@ Finding JudgeHeadset(const Headset& headset,
                      const std::optional<geometry::CameraModel>& camera,
                      const std::optional<PictureSize>& monitor);
 Finding JudgeGraphics(const Result<std::string>& device);
+// wanted: pictures a second.
+Finding JudgeDrawing(const DrawingProbe& probe, double wanted);
 Finding JudgeDisplay(const Result<DisplayProbe>& window, bool wanted);
 Finding JudgeSound(const Result<std::string>& out);
 // free_bytes: where the state is kept.

@@ -41,6 +41,16 @@ std::optional<PictureSize> ParseSize(const std::string& text) {
   return fits(size.width) && fits(size.height) ? std::optional(size) : std::nullopt;
 }
 
+void AddSizeOption(CLI::App& app, std::optional<PictureSize>& size, const std::string& help) {
+  app.add_option_function<std::string>(
+         "--size", [&size](const std::string& text) { size = ParseSize(text); }, help)
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return ParseSize(text) ? "" : "takes WIDTHxHEIGHT, both even, of 16 to 8192";
+          },
+          "WxH"));
+}
+
 void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
   app.add_option("--trust", play.trust, "Play only what was signed with the key of this .pub file")
@@ -92,15 +102,9 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("--monitor", play.monitor,
                  "Full screen on this monitor; a kiosk is on the first unless told otherwise")
       ->check(CLI::Range(0, kLargestCount));
-  app.add_option_function<std::string>(
-         "--size", [&play](const std::string& size) { play.size = ParseSize(size); },
-         "Size of the pictures, as 1280x720; as the camera's images unless given. A headset's "
-         "panel has the device file's")
-      ->check(CLI::Validator(
-          [](const std::string& size) {
-            return ParseSize(size) ? "" : "takes WIDTHxHEIGHT, both even, of 16 to 8192";
-          },
-          "WxH"));
+  AddSizeOption(app, play.size,
+                "Size of the pictures, as 1280x720; as the camera's images unless given. A "
+                "headset's panel has the device file's");
   app.add_option_function<std::string>(
          "--quality",
          [&play](const std::string& quality) {
@@ -190,6 +194,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
       ->check(CLI::NonNegativeNumber);
   doctor_command->add_option("--display", doctor.display, "As the player will be told")
       ->transform(CLI::Transformer(DisplayNames()));
+  AddSizeOption(*doctor_command, doctor.size, "As the player will be told");
   CLI::Option* doctor_page =
       doctor_command->add_option("--staff-page", doctor.staff_page, "As the player will be told");
   doctor_command->add_option("--staff-pin-file", doctor.staff_pin, "Likewise")->needs(doctor_page);

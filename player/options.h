@@ -101,7 +101,8 @@ struct DoctorOptions {
   std::string staff_page;  // empty: none is wanted
   std::filesystem::path staff_pin;
   int camera = 0;
-  int monitor = -1;  // any
+  int monitor = -1;                 // any
+  std::optional<PictureSize> size;  // of the pictures; none: as the camera's images
   std::optional<Display> display;
   bool json = false;
 };

@@ -1,7 +1,7 @@
 #include "shared/stage/place.h"
 
 #include <algorithm>
-#include <ranges>
+#include <vector>
 
 namespace lararium::stage {
 
@@ -12,14 +12,27 @@ geometry::Rigid3 CameraFromStage(const Place& place, const geometry::Rigid3& cam
   return camera_from_stage;
 }
 
+namespace {
+
+std::vector<const Occluder*> InTheWay(const Place& place) {
+  std::vector<const Occluder*> occluders;
+  for (const Occluder& occluder : place.occluders) {
+    if (occluder.blocks_walking) {
+      occluders.push_back(&occluder);
+    }
+  }
+  return occluders;
+}
+
+}  // namespace
+
 bool BlockWalkingAlike(const Place& a, const Place& b) {
-  const auto blocks = [](const Occluder& occluder) { return occluder.blocks_walking; };
-  return std::ranges::equal(
-      a.occluders | std::views::filter(blocks), b.occluders | std::views::filter(blocks),
-      [](const Occluder& one, const Occluder& other) {
-        return one.stage_from_mesh == other.stage_from_mesh &&
-               one.mesh.positions == other.mesh.positions && one.mesh.indices == other.mesh.indices;
-      });
+  return std::ranges::equal(InTheWay(a), InTheWay(b),
+                            [](const Occluder* one, const Occluder* other) {
+                              return one->stage_from_mesh == other->stage_from_mesh &&
+                                     one->mesh.positions == other->mesh.positions &&
+                                     one->mesh.indices == other->mesh.indices;
+                            });
 }
 
 }  // namespace lararium::stage

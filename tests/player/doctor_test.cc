@@ -37,6 +37,24 @@ TEST(Doctor, ARuntimeOfAHeadsetIsNamedOrSaysWhatItLacks) {
   EXPECT_THAT(bad.advice, HasSubstr("not start"));
 }
 
+TEST(Doctor, DrawingIsJudgedByTheFinestLevelThatKeepsUp) {
+  DrawingProbe probe = {.problem = {}, .size = {1280, 720}, .rates = {0.0, 12.0, 29.0, 40.0, 60.0}};
+  const Finding good = JudgeDrawing(probe, 30.0);
+  EXPECT_EQ(good.verdict, Verdict::kGood);
+  EXPECT_EQ(good.found,
+            "29 pictures a second, 1280x720, at level 2 of quality (0 the finest, 4 the coarsest)");
+  probe.rates = {0.0, 0.0, 0.0, 0.0, 19.4};
+  const Finding slow = JudgeDrawing(probe, 30.0);
+  EXPECT_EQ(slow.verdict, Verdict::kWarning);
+  EXPECT_THAT(slow.found, HasSubstr("19 pictures a second, 1280x720, at level 4"));
+  EXPECT_THAT(slow.found, HasSubstr("the camera gives 30 images"));
+  EXPECT_THAT(slow.advice, HasSubstr("--size"));
+  probe.problem = Status::Error("graphics", "out of memory");
+  const Finding bad = JudgeDrawing(probe, 30.0);
+  EXPECT_EQ(bad.verdict, Verdict::kBad);
+  EXPECT_THAT(bad.found, HasSubstr("out of memory"));
+}
+
 TEST(Doctor, EachFaultOfACameraHasItsAdvice) {
   struct Fault {
     std::function<void(CameraProbe&)> change;

@@ -49,6 +49,7 @@ TEST_F(OptionsTest, AStaffPageHasAPortAndMayHaveAPin) {
   EXPECT_EQ(ExitCode({show_, "--staff-page", "70000"}), 2);
   EXPECT_EQ(ExitCode({show_, "--staff-pin-file", show_}), 2) << "without a page";
   EXPECT_EQ(ExitCode({"doctor", "--staff-page", "nowhere0:80"}), 2);
+  EXPECT_EQ(ExitCode({"doctor", "--size", "641x480"}), 2);
 }
 
 TEST_F(OptionsTest, ReadsWhatTheDesignNames) {
