@@ -329,7 +329,7 @@ Finding JudgeGraphics(const Result<std::string>& device) {
 Finding JudgeDrawing(const DrawingProbe& probe, double wanted) {
   if (!probe.problem.ok()) {
     return {"drawing", Verdict::kBad, probe.problem.message(),
-            "install the driver of the graphics card, or libgl1-mesa-dri"};
+            "install the driver of the graphics card, or ask whoever made the show"};
   }
   // What comes a little late now and then is not missed.
   const auto fast = std::ranges::find_if(

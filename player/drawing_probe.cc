@@ -139,6 +139,10 @@ class Stopwatch {
 };
 
 Status Measure(const show::ShowContent& content, double wanted, Log& log, DrawingProbe& probe) {
+  if (const show::ShowPlace& place = content.places.front(); place.map->keyframes.empty()) {
+    return Status::Error(place.stage.name, "has no keyframes to look from",
+                         "train the place again");
+  }
   const std::span<const render::Quality> ladder = render::QualityLadder();
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(content, {}, log));
   show->SetPictureSize(probe.size.width, probe.size.height);
