@@ -1,7 +1,7 @@
 #include "player/gaze_menu.h"
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
 #include <utility>
 
 namespace lararium::player {
@@ -14,8 +14,8 @@ constexpr double kRowStep = 0.1;
 constexpr double kHalfWay = 0.07;
 constexpr double kBehind = 0.1;  // the least that is ahead
 
-bool IsOneOf(std::string_view button, const std::array<std::string_view, 2>& buttons) {
-  return std::find(buttons.begin(), buttons.end(), button) != buttons.end();
+bool IsOneOf(std::string_view button, std::initializer_list<std::string_view> buttons) {
+  return std::ranges::find(buttons, button) != buttons.end();
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ std::optional<Action> GazeMenu::Look(double now,
 GazeMenu::Pressed GazeMenu::Press(std::string_view button, double now) {
   const bool up = IsOneOf(button, {"up", "pad_up"});
   const bool down = IsOneOf(button, {"down", "pad_down"});
-  const bool choose = IsOneOf(button, {"enter", "pad_a"});
+  const bool choose = IsOneOf(button, {"enter", "pad_a", kHandSelect});
   if (!open_ || items_.empty() || !(up || down || choose)) {
     return {};
   }

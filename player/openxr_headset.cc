@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "player/openxr_buttons.h"
 #include "player/openxr_calls.h"
 #include "player/openxr_graphics.h"
 #include "player/openxr_see_through.h"
@@ -60,6 +61,7 @@ class Session final : public OpenXrHeadset {
   std::optional<Rigid3> RoomFromCamera(SteadyClock::time_point taken) const override;
   std::optional<EyeView> ViewOf(Eye eye, int width, int height) override;
   Result<bool> Frame() override;
+  std::vector<std::string> TakeButtons() override { return std::exchange(pressed_, {}); }
   Status End() override;
 
  private:
@@ -101,6 +103,8 @@ class Session final : public OpenXrHeadset {
   XrPosef layer_pose_ = kNowhere;
   XrExtent2Df layer_size_ = {1.0f, 1.0f};
   OpenXrSeeThrough see_through_;
+  OpenXrButtons buttons_;
+  std::vector<std::string> pressed_;
   std::optional<std::array<XrView, 2>> next_eyes_;  // in the room, when the next frame is shown
   std::array<EyeView, 2> drawn_for_;                // of the pictures to come
   // Of the frame being handed over.
@@ -192,6 +196,7 @@ Status Session::CreateSession() {
     LARARIUM_RETURN_IF_ERROR(
         Check(xrCreateReferenceSpace(session_, &reference, space), "a reference space"));
   }
+  LARARIUM_RETURN_IF_ERROR(buttons_.Begin(instance_, session_));
   return headset_.runtime_shows_room ? see_through_.Begin(instance_, system_, session_, log_)
                                      : Status();
 }
@@ -472,6 +477,7 @@ Result<bool> Session::Frame() {
     return false;
   }
   if (running_) {
+    LARARIUM_RETURN_IF_ERROR(buttons_.Take(pressed_));
     LARARIUM_RETURN_IF_ERROR(SubmitFrame());
   } else {
     std::this_thread::sleep_for(kIdleStep);

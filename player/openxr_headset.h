@@ -9,6 +9,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "player/headset.h"
 #include "shared/core/log.h"
@@ -62,6 +63,10 @@ class OpenXrHeadset {
   // Handles what the runtime says, and submits a frame where it wants one, which waits for the
   // display. False: the runtime has ended the session. An error where it was lost.
   virtual Result<bool> Frame() = 0;
+
+  // The controllers' buttons that were pressed since the last time, as "hand_select"
+  // (visitor_actions.h).
+  virtual std::vector<std::string> TakeButtons() = 0;
 
   // Asks the runtime to end the session and waits until it did, a second at most.
   virtual Status End() = 0;

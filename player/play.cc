@@ -707,6 +707,9 @@ Status Performance::ServeOpenXr() {
       log_.info("the headset's runtime ended the session");
       g_end_requested = 1;
     }
+    for (const std::string& button : openxr_->TakeButtons()) {
+      PressKey(button);
+    }
   }
   return Status();
 }

@@ -15,7 +15,7 @@ constexpr size_t kMostButtons = 16;  // of an action
 struct Named {
   std::string_view name;
   Action action;
-  std::array<std::string_view, 2> buttons;
+  std::array<std::string_view, 3> buttons;  // none: empty
 };
 constexpr Named kActions[] = {{"louder", Action::kLouder, {"page_up", "pad_up"}},
                               {"quieter", Action::kQuieter, {"page_down", "pad_down"}},
@@ -23,7 +23,7 @@ constexpr Named kActions[] = {{"louder", Action::kLouder, {"page_up", "pad_up"}}
                               {"captions", Action::kCaptions, {"c", "pad_right"}},
                               {"restart", Action::kRestart, {"home", "pad_back"}},
                               {"find_anew", Action::kFindAnew, {"r", "pad_left_bumper"}},
-                              {"menu", Action::kMenu, {"m", "pad_start"}}};
+                              {"menu", Action::kMenu, {"m", "pad_start", kHandMenu}}};
 
 // The choice after one; "" is the first.
 std::string After(const std::string& chosen, const std::vector<std::string>& all) {
@@ -35,12 +35,16 @@ std::string After(const std::string& chosen, const std::vector<std::string>& all
   return all[(index + 1) % all.size()];
 }
 
+bool IsButton(std::string_view name) {
+  return render::IsButtonName(name) || name == kHandSelect || name == kHandMenu;
+}
+
 Result<std::vector<std::string>> ParseNames(const JsonView& field) {
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> entries, field.Array(kMostButtons));
   std::vector<std::string> names;
   for (const JsonView& entry : entries) {
     LARARIUM_ASSIGN_OR_RETURN(names.emplace_back(), entry.Text(32));
-    if (!render::IsButtonName(names.back())) {
+    if (!IsButton(names.back())) {
       return entry.Problem("there is no button \"" + names.back() + "\"",
                            "docs/player.md names them");
     }
@@ -53,7 +57,9 @@ Result<std::vector<std::string>> ParseNames(const JsonView& field) {
 Buttons::Buttons() {
   for (const Named& named : kActions) {
     for (const std::string_view button : named.buttons) {
-      actions_.emplace_back(button, named.action);
+      if (!button.empty()) {
+        actions_.emplace_back(button, named.action);
+      }
     }
   }
 }

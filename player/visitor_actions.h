@@ -24,7 +24,12 @@ enum class Action {
   kMenu       // opens it, or closes it
 };
 
-// Keys of the keyboard and buttons of game controllers (render::KeyName, Window::TakePadButtons).
+// Buttons of the controllers of a headset that OpenXR drives, of either hand.
+inline constexpr std::string_view kHandSelect = "hand_select";
+inline constexpr std::string_view kHandMenu = "hand_menu";
+
+// Keys of the keyboard and buttons of game controllers (render::KeyName, Window::TakePadButtons),
+// and of a headset's.
 class Buttons {
  public:
   Buttons();  // as docs/player.md has them

@@ -73,7 +73,7 @@ def main():
     parser.add_argument("harness", nargs="*", help="all unless named")
     parser.add_argument("--minutes", type=float, default=10.0, help="of processor time, for each")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="harnesses at a time")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     commands = commands_of(options.build)
     unknown = [name for name in options.harness if name not in commands]
     if unknown:

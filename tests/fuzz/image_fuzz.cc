@@ -10,8 +10,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const auto bytes = std::as_bytes(std::span(data, size));
   const auto grey = lararium::image::DecodeImage(bytes, Channels::kGrey, "fuzz: image");
   const auto bgr = lararium::image::DecodeImage(bytes, Channels::kBgr, "fuzz: image");
-  CHECK(grey.ok() == bgr.ok());
+  const auto small = lararium::image::DecodeImage(bytes, Channels::kBgr, "fuzz: image", 2);
+  CHECK(grey.ok() == bgr.ok() && small.ok() == bgr.ok());
   if (bgr.ok()) {
+    CHECK(small->cols <= bgr->cols && small->rows <= bgr->rows && !small->empty());
     CHECK(grey->size() == bgr->size() && grey->type() == CV_8UC1 && bgr->type() == CV_8UC3);
   }
   return 0;

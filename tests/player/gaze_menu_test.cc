@@ -108,6 +108,13 @@ TEST_F(GazeMenuTest, WithoutAPoseItStaysAndButtonsChoose) {
   EXPECT_FALSE(menu_.open()) << "the last one closes";
 }
 
+TEST_F(GazeMenuTest, AHandsButtonChoosesWhatIsLookedAtAtOnce) {
+  EXPECT_FALSE(menu_.Press(kHandSelect, now_).action.has_value()) << "nothing is looked at";
+  Hold(middles_[2], 0.1);
+  EXPECT_EQ(menu_.Press(kHandSelect, now_).action, Action::kLanguage);
+  EXPECT_TRUE(Hold(middles_[2], 2.0 * GazeMenu::kDwell).empty()) << "chosen already";
+}
+
 TEST_F(GazeMenuTest, LeavesOtherButtonsToOthers) {
   EXPECT_FALSE(menu_.Press("l", now_).taken);
   EXPECT_TRUE(menu_.Press("enter", now_).taken);

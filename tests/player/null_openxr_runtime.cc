@@ -6,7 +6,9 @@
 // runtime ends the session, or is lost, at the frame N. away: no headset is connected. turn=A: the
 // head turns by A radians a second about the vertical, to the left. blends=MODES: how layers are
 // blended with what is real, of the letters o (opaque), a (alpha), + (additive); o unless said.
-// passes: what is real can be shown by a layer (XR_FB_passthrough).
+// passes: what is real can be shown by a layer (XR_FB_passthrough). press=PATH@N, several times: an
+// input of its simple controllers is held from the frame N on, for three frames. aside: another
+// program has the focus.
 
 #include <epoxy/gl.h>
 
@@ -21,6 +23,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #define XR_USE_GRAPHICS_API_OPENGL
@@ -76,6 +79,14 @@ struct Runtime {
   double turn = 0.0;
   std::string blends = "o";
   bool passes = false;
+  std::vector<std::pair<std::string, long>> presses;  // path, frame
+  std::vector<std::string> paths;                     // XrPath: the number of one, from 1
+  // Of each action, from 1: which inputs it is bound to.
+  std::vector<std::vector<std::string>> actions;
+  bool aside = false;
+  bool attached = false;
+  bool focused = false;
+  std::vector<bool> held;  // by action, at the last sync
   std::deque<XrSessionState> events;
   long frames = 0;
   bool running = false;
@@ -120,8 +131,13 @@ void ReadScript(Runtime& runtime, bool writes) {
       runtime.turn = std::stod(value);
     } else if (word.rfind("blends=", 0) == 0) {
       runtime.blends = value;
+    } else if (word.rfind("press=", 0) == 0) {
+      const size_t at = value.find('@');
+      runtime.presses.emplace_back(value.substr(0, at), std::stol(value.substr(at + 1)));
     } else if (word == "passes") {
       runtime.passes = true;
+    } else if (word == "aside") {
+      runtime.aside = true;
     } else if (word == "away") {
       runtime.away = true;
     }
@@ -442,6 +458,110 @@ XrResult ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageRele
   return XR_SUCCESS;
 }
 
+XrResult StringToPath(XrInstance /*instance*/, const char* text, XrPath* path) {
+  if (text[0] != '/') {
+    return XR_ERROR_PATH_FORMAT_INVALID;
+  }
+  g_runtime->paths.emplace_back(text);
+  *path = g_runtime->paths.size();
+  return XR_SUCCESS;
+}
+
+bool IsActionName(const char* name) {
+  const std::string_view text = name;
+  return !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_.") ==
+                              std::string_view::npos;
+}
+
+XrResult CreateActionSet(XrInstance /*instance*/,
+                         const XrActionSetCreateInfo* create,
+                         XrActionSet* set) {
+  if (!IsActionName(create->actionSetName) || create->localizedActionSetName[0] == 0) {
+    return XR_ERROR_NAME_INVALID;
+  }
+  *set = reinterpret_cast<XrActionSet>(uintptr_t{6});
+  return XR_SUCCESS;
+}
+
+XrResult CreateAction(XrActionSet /*set*/, const XrActionCreateInfo* create, XrAction* action) {
+  if (g_runtime->attached) {
+    return XR_ERROR_ACTIONSETS_ALREADY_ATTACHED;
+  }
+  if (!IsActionName(create->actionName) || create->localizedActionName[0] == 0) {
+    return XR_ERROR_NAME_INVALID;
+  }
+  g_runtime->actions.emplace_back();
+  *action = reinterpret_cast<XrAction>(g_runtime->actions.size());
+  return XR_SUCCESS;
+}
+
+// It knows no controllers but simple ones.
+XrResult SuggestBindings(XrInstance /*instance*/,
+                         const XrInteractionProfileSuggestedBinding* suggested) {
+  if (g_runtime->attached) {
+    return XR_ERROR_ACTIONSETS_ALREADY_ATTACHED;
+  }
+  const auto text = [](XrPath path) { return g_runtime->paths.at(path - 1); };
+  if (text(suggested->interactionProfile) != "/interaction_profiles/khr/simple_controller") {
+    return XR_ERROR_PATH_UNSUPPORTED;
+  }
+  for (uint32_t i = 0; i < suggested->countSuggestedBindings; ++i) {
+    const XrActionSuggestedBinding& binding = suggested->suggestedBindings[i];
+    const std::string input = text(binding.binding);
+    const std::string_view tail = std::string_view(input).substr(input.find("/input/") + 7);
+    if (input.rfind("/user/hand/", 0) != 0 || (tail != "select/click" && tail != "menu/click")) {
+      return XR_ERROR_PATH_UNSUPPORTED;
+    }
+    g_runtime->actions.at(reinterpret_cast<uintptr_t>(binding.action) - 1).push_back(input);
+  }
+  return XR_SUCCESS;
+}
+
+XrResult AttachActionSets(XrSession /*session*/, const XrSessionActionSetsAttachInfo* attach) {
+  if (g_runtime->attached) {
+    return XR_ERROR_ACTIONSETS_ALREADY_ATTACHED;
+  }
+  g_runtime->attached = attach->countActionSets == 1;
+  return g_runtime->attached ? XR_SUCCESS : XR_ERROR_VALIDATION_FAILURE;
+}
+
+bool IsHeld(const std::vector<std::string>& inputs) {
+  for (const auto& [path, frame] : g_runtime->presses) {
+    for (const std::string& input : inputs) {
+      if (input == path && g_runtime->frames >= frame && g_runtime->frames < frame + 3) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+XrResult SyncActions(XrSession /*session*/, const XrActionsSyncInfo* sync) {
+  if (!g_runtime->attached || sync->countActiveActionSets != 1) {
+    return XR_ERROR_ACTIONSET_NOT_ATTACHED;
+  }
+  g_runtime->held.assign(g_runtime->actions.size(), false);
+  if (!g_runtime->focused) {
+    return XR_SESSION_NOT_FOCUSED;
+  }
+  for (size_t i = 0; i < g_runtime->actions.size(); ++i) {
+    g_runtime->held[i] = IsHeld(g_runtime->actions[i]);
+  }
+  return XR_SUCCESS;
+}
+
+XrResult GetActionStateBoolean(XrSession /*session*/,
+                               const XrActionStateGetInfo* get,
+                               XrActionStateBoolean* state) {
+  const size_t action = reinterpret_cast<uintptr_t>(get->action) - 1;
+  if (action >= g_runtime->held.size()) {
+    return XR_ERROR_HANDLE_INVALID;
+  }
+  state->isActive = g_runtime->focused && !g_runtime->actions[action].empty() ? XR_TRUE : XR_FALSE;
+  state->currentState = state->isActive == XR_TRUE && g_runtime->held[action] ? XR_TRUE : XR_FALSE;
+  return XR_SUCCESS;
+}
+
 XrResult PollEvent(XrInstance /*instance*/, XrEventDataBuffer* buffer) {
   if (g_runtime->events.empty()) {
     return XR_EVENT_UNAVAILABLE;
@@ -451,6 +571,7 @@ XrResult PollEvent(XrInstance /*instance*/, XrEventDataBuffer* buffer) {
   changed.session = kSession;
   changed.state = g_runtime->events.front();
   changed.time = Now();
+  g_runtime->focused = changed.state == XR_SESSION_STATE_FOCUSED;
   g_runtime->events.pop_front();
   g_runtime->Write("state " + std::to_string(changed.state));
   std::memcpy(buffer, &changed, sizeof(changed));
@@ -463,8 +584,10 @@ XrResult BeginSession(XrSession /*session*/, const XrSessionBeginInfo* begin) {
     return XR_ERROR_VALIDATION_FAILURE;
   }
   g_runtime->running = true;
-  g_runtime->events = {XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_VISIBLE,
-                       XR_SESSION_STATE_FOCUSED};
+  g_runtime->events = {XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_VISIBLE};
+  if (!g_runtime->aside) {
+    g_runtime->events.push_back(XR_SESSION_STATE_FOCUSED);
+  }
   g_runtime->Write("begin session");
   return XR_SUCCESS;
 }
@@ -584,6 +707,13 @@ const Entry kEntries[] = {
     {"xrAcquireSwapchainImage", Erased(AcquireSwapchainImage)},
     {"xrWaitSwapchainImage", Erased(WaitSwapchainImage)},
     {"xrReleaseSwapchainImage", Erased(ReleaseSwapchainImage)},
+    {"xrStringToPath", Erased(StringToPath)},
+    {"xrCreateActionSet", Erased(CreateActionSet)},
+    {"xrCreateAction", Erased(CreateAction)},
+    {"xrSuggestInteractionProfileBindings", Erased(SuggestBindings)},
+    {"xrAttachSessionActionSets", Erased(AttachActionSets)},
+    {"xrSyncActions", Erased(SyncActions)},
+    {"xrGetActionStateBoolean", Erased(GetActionStateBoolean)},
     {"xrPollEvent", Erased(PollEvent)},
     {"xrBeginSession", Erased(BeginSession)},
     {"xrEndSession", Erased(EndSession)},

@@ -11,9 +11,11 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "player/openxr_headset.h"
+#include "player/visitor_actions.h"
 #include "shared/render/window.h"
 #include "tests/support/test_files.h"
 
@@ -378,6 +380,38 @@ TEST_F(OpenXrSeeThroughTest, EyesAreForeseenAndTheCameraIsKnownBackInTime) {
   EXPECT_GT(ahead, 0.05);
   EXPECT_LT(ahead, 0.05 + 0.05);
   EXPECT_NEAR(camera->translation.y(), -1.65, 1e-4);
+}
+
+TEST_F(OpenXrTest, ControllersButtonsArePressedOnceHoweverLongTheyAreHeld) {
+  ASSERT_TRUE(Open("press=/user/hand/right/input/select/click@8 "
+                   "press=/user/hand/left/input/menu/click@14")
+                  .ok());
+  std::vector<std::pair<int, std::string>> pressed;
+  for (int frame = 0; frame < 24; ++frame) {
+    ASSERT_TRUE(Run(1));
+    for (const std::string& button : xr_->TakeButtons()) {
+      pressed.emplace_back(frame, button);
+    }
+  }
+  ASSERT_EQ(pressed.size(), 2u);
+  EXPECT_EQ(pressed[0].second, kHandSelect);
+  EXPECT_EQ(pressed[1].second, kHandMenu);
+  EXPECT_EQ(pressed[1].first - pressed[0].first, 6);
+}
+
+TEST_F(OpenXrTest, AHandThatHoldsAButtonHidesTheOtherHands) {
+  ASSERT_TRUE(Open("press=/user/hand/right/input/select/click@8 "
+                   "press=/user/hand/left/input/select/click@9")
+                  .ok());
+  ASSERT_TRUE(Run(24));
+  EXPECT_EQ(xr_->TakeButtons(), std::vector<std::string>{std::string(kHandSelect)});
+  EXPECT_TRUE(xr_->TakeButtons().empty());
+}
+
+TEST_F(OpenXrTest, WithoutTheFocusNothingIsPressed) {
+  ASSERT_TRUE(Open("aside press=/user/hand/right/input/select/click@4").ok());
+  ASSERT_TRUE(Run(12));
+  EXPECT_TRUE(xr_->TakeButtons().empty());
 }
 
 TEST_F(OpenXrTest, ALostRuntimeIsOneErrorThatSaysWhatToDo) {

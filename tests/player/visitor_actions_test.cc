@@ -27,6 +27,8 @@ TEST(Buttons, OfKeyboardsAndControllersDoTheSame) {
 TEST(Buttons, OfADeviceFileReplaceThoseOfTheirActionOnly) {
   const Buttons buttons = Parse(R"({"menu": ["pad_a", "l"], "restart": []})").value();
   EXPECT_EQ(buttons.ActionOf("pad_a"), Action::kMenu);
+  EXPECT_EQ(buttons.ActionOf(kHandMenu), std::nullopt) << "in place of the usual ones";
+  EXPECT_EQ(Parse(R"({"captions": ["hand_select"]})")->ActionOf(kHandSelect), Action::kCaptions);
   EXPECT_EQ(buttons.ActionOf("l"), Action::kMenu) << "no longer the language's";
   EXPECT_EQ(buttons.ActionOf("pad_start"), std::nullopt);
   EXPECT_EQ(buttons.ActionOf("home"), std::nullopt);
