@@ -27,6 +27,10 @@ constexpr float kLow = 0.3f;                      // what lies lower is stepped 
 constexpr float kHigh = 1.5f;                     // what hangs higher is passed under
 constexpr float kHeights[] = {0.4f, 0.9f, 1.3f};  // at which ways are tried
 constexpr size_t kMostSteps = 50;
+constexpr double kLook = 1.0;          // seconds between two looks at the ground
+constexpr float kSole = 0.1f;          // metres that a foot may be in the ground,
+constexpr float kLift = 0.3f;          // or above it
+constexpr double kMostFloating = 0.1;  // share of looks that does not count
 
 std::string AtTime(double seconds) {
   char text[32];
@@ -180,6 +184,17 @@ std::optional<float> Meets(const glm::vec3& from, const glm::vec3& way, const gl
   return t;
 }
 
+// In the stage.
+std::array<glm::vec3, 3> TriangleOf(const stage::Occluder& occluder, size_t first_index) {
+  std::array<glm::vec3, 3> corners;
+  for (size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d corner =
+        geometry::ToEigen(occluder.mesh.positions[occluder.mesh.indices[first_index + i]]);
+    corners[i] = geometry::ToGlm(Eigen::Vector3d(occluder.stage_from_mesh * corner));
+  }
+  return corners;
+}
+
 int CellOf(float metres) { return static_cast<int>(std::floor(metres / kCell)); }
 
 }  // namespace
@@ -325,13 +340,11 @@ void StepListener::AddOccluder(const stage::Occluder& occluder, std::string name
   for (size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
     Triangle triangle;
     triangle.occluder = names_.back();
+    triangle.corners = TriangleOf(occluder, first);
     glm::vec3 lower(1e9f), upper(-1e9f);
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d corner =
-          geometry::ToEigen(mesh.positions[mesh.indices[first + static_cast<size_t>(i)]]);
-      triangle.corners[i] = geometry::ToGlm(Eigen::Vector3d(occluder.stage_from_mesh * corner));
-      lower = glm::min(lower, triangle.corners[i]);
-      upper = glm::max(upper, triangle.corners[i]);
+    for (const glm::vec3& corner : triangle.corners) {
+      lower = glm::min(lower, corner);
+      upper = glm::max(upper, corner);
     }
     if (upper.y < kLow || lower.y > kHigh) {
       continue;
@@ -357,7 +370,7 @@ std::string_view StepListener::Crossed(const glm::vec3& from, const glm::vec3& t
       for (const uint32_t index : cell->second) {
         for (const float height : kHeights) {
           const glm::vec3 up(0.0f, height, 0.0f);
-          if (Meets(from + up, way, triangles_[index].corners)) {
+          if (Meets(from + up, way, triangles_[index].corners.data())) {
             return triangles_[index].occluder;
           }
         }
@@ -374,7 +387,7 @@ std::string_view StepListener::Around(const glm::vec3& point) const {
   for (const Triangle& triangle : triangles_) {
     const glm::vec3 from = point + glm::vec3(0.0f, kHeights[0] + 0.013f, 0.007f);
     met[triangle.occluder] +=
-        Meets(from, glm::vec3(kFar, 0.0f, 0.0f), triangle.corners).has_value() ? 1 : 0;
+        Meets(from, glm::vec3(kFar, 0.0f, 0.0f), triangle.corners.data()).has_value() ? 1 : 0;
   }
   for (const auto& [occluder, count] : met) {
     if (count % 2 == 1) {
@@ -450,6 +463,63 @@ std::vector<std::string> StepListener::Problems(const std::string& script,
   for (const Step& step : steps_) {
     problems.push_back(where(step) + ": " + step.actor + " " + step.what + " (at " +
                        AtTime(step.time) + ")");
+  }
+  return problems;
+}
+
+// ---- ground ----
+
+GroundListener::GroundListener(const stage::Stage& stage, std::span<const stage::Place> places)
+    : stage_(stage) {
+  for (const stage::Place& place : places) {
+    Ground& ground = grounds_.emplace_back();
+    ground.place = place.name;
+    for (const stage::Occluder& occluder : place.occluders) {
+      for (size_t first = 0; occluder.receives_shadow && first + 2 < occluder.mesh.indices.size();
+           first += 3) {
+        ground.triangles.push_back(TriangleOf(occluder, first));
+      }
+    }
+  }
+}
+
+void GroundListener::Listen(double time) {
+  if (time < next_) {
+    return;
+  }
+  next_ = time + kLook;
+  stage_.Capture(snapshot_);
+  for (const auto& [id, state] : snapshot_.actors) {
+    if (!state.visible) {
+      continue;
+    }
+    const glm::vec3 from = state.position + glm::vec3(0.0f, kSole, 0.0f);
+    const glm::vec3 way(0.0f, -(kSole + kLift), 0.0f);
+    for (Ground& ground : grounds_) {
+      ++ground.looked;
+      if (std::ranges::any_of(ground.triangles, [&](const Triangle& triangle) {
+            return Meets(from, way, triangle.data()).has_value();
+          })) {
+        continue;
+      }
+      if (ground.missing++ == 0) {
+        ground.first_actor = stage_.Find(id)->name;
+        ground.first_time = time;
+      }
+    }
+  }
+}
+
+std::vector<std::string> GroundListener::Problems() const {
+  std::vector<std::string> problems;
+  for (const Ground& ground : grounds_) {
+    if (ground.missing > kMostFloating * ground.looked) {
+      problems.push_back(ground.place + ": people seem to float: nothing below " +
+                         ground.first_actor +
+                         " catches a shadow; add an occluder of the shape 'floor', or let what is "
+                         "there receive shadow (at " +
+                         AtTime(ground.first_time) + ")");
+    }
   }
   return problems;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 // What is wrong with a drama though it runs: people in two places at once, things that two
-// want, ways through walls, cues that nothing reaches. All of it is judged by what dry runs
-// saw (editor/app/dry_run.h).
+// want, ways through walls, people without ground, cues that nothing reaches. All of it is judged
+// by what dry runs saw (editor/app/dry_run.h).
 
+#include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <map>
 #include <set>
 #include <span>
@@ -61,7 +63,7 @@ class StepListener {
  private:
   struct Triangle {
     std::string_view occluder;
-    glm::vec3 corners[3];
+    std::array<glm::vec3, 3> corners;
   };
   struct Step {
     std::string actor;
@@ -83,6 +85,35 @@ class StepListener {
   stage::StageSnapshot snapshot_;
   std::map<std::string, glm::vec3> last_;  // of who was seen in the tick before
   std::vector<Step> steps_;
+};
+
+// Looks below people's feet now and then: where nothing catches their shadows they seem to float.
+class GroundListener {
+ public:
+  // Borrows the stage.
+  GroundListener(const stage::Stage& stage, std::span<const stage::Place> places);
+
+  // After a tick; time: of the drama.
+  void Listen(double time);
+  // One at most for each place: who has no ground first, and how often people have none. None
+  // where that is seldom.
+  std::vector<std::string> Problems() const;
+
+ private:
+  using Triangle = std::array<glm::vec3, 3>;
+  struct Ground {
+    std::string place;
+    std::vector<Triangle> triangles;  // of what receives shadow, in the stage
+    int looked = 0;
+    int missing = 0;
+    std::string first_actor;
+    double first_time = 0.0;
+  };
+
+  const stage::Stage& stage_;
+  std::vector<Ground> grounds_;
+  stage::StageSnapshot snapshot_;
+  double next_ = 0.0;
 };
 
 }  // namespace lararium::app

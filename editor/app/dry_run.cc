@@ -243,9 +243,11 @@ class DryRunner {
     }
     LineListener lines(stage, content);
     StepListener steps(stage, places_);
+    GroundListener ground(stage, places_);
     SeekCheck seeks(seek_count, Ticks());
     seeks.See(0, stage);
     steps.Listen(0.0);
+    ground.Listen(0.0);
     StageTimes frames;
     for (int64_t tick = 0; tick < Ticks() && !progress_.Cancelled();) {
       double cpu = 0.0;
@@ -256,6 +258,7 @@ class DryRunner {
         ++tick;
         lines.Listen((*drama)->time());
         steps.Listen((*drama)->time());
+        ground.Listen((*drama)->time());
         seeks.See(tick, stage);
         for (const stage::StageCaption& caption : stage.captions()) {
           seen.cues.lines.insert(content.speech[static_cast<size_t>(caption.line)].name);
@@ -269,7 +272,7 @@ class DryRunner {
     seen.ran = true;
     seen.said = lines.said();
     seen.cues.cues.assign((*drama)->cues().begin(), (*drama)->cues().end());
-    Judge(**drama, steps, seen);
+    Judge(**drama, steps, ground, seen);
     seen.report.runs.push_back({{"language", language},
                                 {"visitor", guest.name},
                                 {"tasks", seen.report.tasks.size()},
@@ -281,7 +284,10 @@ class DryRunner {
     return seen;
   }
 
-  void Judge(const drama::Drama& drama, const StepListener& steps, Seen& seen) const {
+  void Judge(const drama::Drama& drama,
+             const StepListener& steps,
+             const GroundListener& ground,
+             Seen& seen) const {
     std::vector<drama::TaskRecord> tasks(drama.tasks().begin(), drama.tasks().end());
     PlaceItems(script_, file_, tasks);
     std::vector<std::string>& problems = seen.report.problems;
@@ -289,6 +295,7 @@ class DryRunner {
     Append(CheckTogether(tasks), problems);
     Append(CheckTurns(tasks), problems);
     Append(steps.Problems(script_, file_, tasks), problems);
+    Append(ground.Problems(), problems);
     Append(CheckSaid(paths_, lines_, seen.said, tasks), problems);
     seen.report.tasks = TasksJson(tasks);
   }

@@ -185,6 +185,7 @@ class OccluderWorker {
     occluder.name = options_.add;
     if (const ShapeEntry* entry = FindShapeEntry(options_.shape)) {
       occluder.shape = entry->usual;
+      occluder.blocks_sound = occluder.blocks_walking = entry->in_the_way;
     } else {
       occluder.file = paths_.Shorten(options_.model);
     }

@@ -27,12 +27,14 @@ constexpr std::array kBoxSizes = {kWidth, kHeight, kDepth};
 constexpr std::array kPlaneSizes = {kWidth, kHeight};
 constexpr std::array kCylinderSizes = {kDiameter, kHeight};
 constexpr std::array kArchSizes = {kWidth, kHeight, kDepth, kOpening, kSpring};
+constexpr std::array kFloorSizes = {kWidth, kDepth};
 
-constexpr std::array<ShapeEntry, 4> kEntries = {{
+constexpr std::array<ShapeEntry, 5> kEntries = {{
     {"box", TrLater("Box"), kBoxSizes, {Kind::kBox, 1.0, 1.0, 1.0}},
     {"plane", TrLater("Plane"), kPlaneSizes, {Kind::kPlane, 2.0, 2.5}},
     {"cylinder", TrLater("Cylinder"), kCylinderSizes, {Kind::kCylinder, 0.4, 2.5}},
     {"arch", TrLater("Arch"), kArchSizes, {Kind::kArch, 3.0, 3.0, 0.3, 1.2, 1.8}},
+    {"floor", TrLater("Floor"), kFloorSizes, {Kind::kFloor, 6.0, 1.0, 6.0}, false},
 }};
 
 // A polygon in the plane of x and y, counter-clockwise, with its triangles.
@@ -138,6 +140,14 @@ geometry::TriangleMesh Sheet(double width, double height) {
   return mesh;
 }
 
+// With what was its front on top.
+geometry::TriangleMesh LaidDown(geometry::TriangleMesh mesh, double height) {
+  for (glm::vec3& at : mesh.positions) {
+    at = {at.x, at.z, static_cast<float>(0.5 * height) - at.y};
+  }
+  return mesh;
+}
+
 // Stands up what was extruded to both sides of the plane of its outline.
 geometry::TriangleMesh StoodUp(geometry::TriangleMesh mesh, double height) {
   for (glm::vec3& at : mesh.positions) {
@@ -216,6 +226,8 @@ geometry::TriangleMesh MakeShapeMesh(const OccluderShape& shape) {
       return Sheet(shape.width, shape.height);
     case Kind::kCylinder:
       return StoodUp(Extruded(Circle(shape.width), shape.height), shape.height);
+    case Kind::kFloor:
+      return LaidDown(Sheet(shape.width, shape.depth), shape.depth);
     case Kind::kArch:
       break;
   }
@@ -235,7 +247,8 @@ Result<OccluderShape> ParseShape(const JsonView& view) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string kind, view.Text("kind"));
   const ShapeEntry* entry = FindShapeEntry(kind);
   if (entry == nullptr) {
-    return view.Problem("\"kind\" is none that is known", "use box, plane, cylinder or arch");
+    return view.Problem("\"kind\" is none that is known",
+                        "use box, plane, cylinder, arch or floor");
   }
   std::vector<std::string_view> known = {"kind"};
   OccluderShape shape = entry->usual;

@@ -24,13 +24,14 @@ struct OccluderShape {
     kBox,
     kPlane,     // an upright rectangle without thickness, facing +z and -z
     kCylinder,  // upright
-    kArch       // a wall with an opening that a half circle closes above
+    kArch,      // a wall with an opening that a half circle closes above
+    kFloor      // a lying rectangle without thickness
   };
   Kind kind = Kind::kBox;
   // Metres; those that the kind does not have mean nothing (see ShapeEntry::sizes).
   double width = 1.0;    // of a cylinder: its diameter
   double height = 1.0;   // of the whole
-  double depth = 1.0;    // of a box and an arch
+  double depth = 1.0;    // of a box, an arch and a floor
   double opening = 1.0;  // how wide the opening of an arch is
   double spring = 1.0;   // how high its half circle begins; 0: on the floor
 };
@@ -49,6 +50,8 @@ struct ShapeEntry {
   const char* label;  // in the interface, to be translated
   std::span<const ShapeSize> sizes;
   OccluderShape usual;  // what a new one is like
+  // Whether it is in the way: sounds are muffled behind a new one, and people walk around it.
+  bool in_the_way = true;
 };
 
 // In the order of the kinds.

@@ -233,7 +233,7 @@ void AddOccluder(CLI::App& app, OccluderOptions& options) {
       ->add_option("--size", options.sizes,
                    "NAME=METRES,... of a shape. box: width, height, depth; plane: width, height; "
                    "cylinder: diameter, height; arch: width, height, depth, opening, spring (how "
-                   "high its half circle begins)")
+                   "high its half circle begins); floor: width, depth")
       ->delimiter(',');
   change->add_option("--at", options.at, "x,y,z of the middle of its foot, stage metres")
       ->delimiter(',')

@@ -243,5 +243,48 @@ TEST_F(DramaChecksTest, CuesThatNoRunReachesAreTold) {
   EXPECT_THAT(CheckCues(script, "drama.lua", both), IsEmpty());
 }
 
+// A person and a floor so many metres below.
+std::vector<std::string> GroundProblems(const stage::Stage& stage,
+                                        drama::Drama& drama,
+                                        float floor_height,
+                                        bool receives_shadow,
+                                        float half_width = 3.0f) {
+  std::vector<stage::Place> places(2);
+  places[0].name = "bar";
+  places[1].name = "yard";
+  stage::Occluder floor;
+  floor.name = "floor";
+  floor.receives_shadow = receives_shadow;
+  const float x = half_width;
+  floor.mesh = {.positions = {{-x, floor_height, -3.0f},
+                              {x, floor_height, -3.0f},
+                              {x, floor_height, 3.0f},
+                              {-x, floor_height, 3.0f}},
+                .normals = {},
+                .indices = {0, 2, 1, 0, 3, 2}};
+  places[0].occluders = {floor};
+  GroundListener ground(stage, places);
+  for (ground.Listen(0.0); drama.time() < 5.0;) {
+    drama.Tick();
+    ground.Listen(drama.time());
+  }
+  return ground.Problems();
+}
+
+TEST_F(DramaChecksTest, PeopleWithoutAnythingThatCatchesTheirShadowsSeemToFloat) {
+  const char* const script = R"(actor("keeper"):place{x = 1, z = 1})";
+  const auto problems = [&](float height, bool receives_shadow, float half_width = 3.0f) {
+    return GroundProblems(stage_, *(drama_ = Make(script)), height, receives_shadow, half_width);
+  };
+  EXPECT_THAT(problems(0.0f, true), ElementsAre(StartsWith("yard: people seem to float")))
+      << "which has no occluders at all";
+  EXPECT_THAT(problems(-0.2f, true).size(), 1u);
+  EXPECT_THAT(
+      problems(0.0f, false),
+      ElementsAre(AllOf(StartsWith("bar: "), HasSubstr("below keeper")), StartsWith("yard")));
+  EXPECT_THAT(problems(-0.5f, true).size(), 2u) << "too deep";
+  EXPECT_THAT(problems(0.0f, true, 0.5f).size(), 2u) << "elsewhere";
+}
+
 }  // namespace
 }  // namespace lararium::app

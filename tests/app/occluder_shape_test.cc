@@ -118,6 +118,17 @@ TEST(OccluderShape, APlaneIsASheetOfTwoSides) {
   EXPECT_LT(AreaVector(mesh, 6).z(), 0.0);
 }
 
+TEST(OccluderShape, AFloorLiesAndItsUpperSideComesFirst) {
+  const TriangleMesh mesh = MakeShapeMesh({.kind = Kind::kFloor, .width = 3.0, .depth = 2.0});
+  ExpectClosed(mesh);
+  EXPECT_NEAR(Volume(mesh), 0.0, 1e-9);
+  EXPECT_NEAR(Area(mesh), 2.0 * 3.0 * 2.0, 1e-6);
+  EXPECT_TRUE(BoundsOf(mesh).isApprox(
+      Eigen::AlignedBox3d(Vector3d(-1.5, 0.0, -1.0), Vector3d(1.5, 0.0, 1.0)), 1e-6));
+  EXPECT_GT(AreaVector(mesh, 0).y(), 0.0);
+  EXPECT_LT(AreaVector(mesh, 6).y(), 0.0);
+}
+
 TEST(OccluderShape, ACylinderIsAPrismWithinItsCircle) {
   const TriangleMesh mesh = MakeShapeMesh({Kind::kCylinder, 0.8, 2.5});
   ExpectClosed(mesh);
