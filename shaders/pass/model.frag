@@ -89,9 +89,23 @@ vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
   return normalize(scale * (bump.x * tangents[0] - bump.y * tangents[1]) + bump.z * normal);
 }
 
+// Where cloth folds over in a coarse level of detail triangles are seen from behind whose normals
+// look at the eye: their backs, baked on a body, would be black slits.
+bool IsFront() {
+#ifdef SURFACE_CLOTH
+  vec3 to_eye = eye_in_stage - position_in_stage;
+  float facing = dot(normal_in_stage, to_eye);
+  const float kLeastCosine = 0.2;
+  if (facing > kLeastCosine * length(normal_in_stage) * length(to_eye)) {
+    return true;
+  }
+#endif
+  return gl_FrontFacing;
+}
+
 Arriving SunnyLightOn(vec3 normal) {
-  Arriving arriving = LightOn(normal, gl_FrontFacing);
-  vec3 outward = gl_FrontFacing ? normal_in_stage : -normal_in_stage;
+  Arriving arriving = LightOn(normal, IsFront());
+  vec3 outward = IsFront() ? normal_in_stage : -normal_in_stage;
   if (has_sun == 1 && dot(outward, sun_direction) > 0.0) {
     arriving.sun_seen = SunSeen();
   }
@@ -100,7 +114,7 @@ Arriving SunnyLightOn(vec3 normal) {
 
 void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
   vec3 albedo = surface_albedo * colour_factor * texel.rgb / max(texel.a, 1.0 / 255.0);
-  vec3 normal = normalize(gl_FrontFacing ? normal_in_stage : -normal_in_stage);
+  vec3 normal = normalize(IsFront() ? normal_in_stage : -normal_in_stage);
   mat2x3 tangents = TangentsAlong(normal);
   if (has_normal_texture == 1) {
     normal = MappedNormal(normal, tangents);

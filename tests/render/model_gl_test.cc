@@ -338,6 +338,30 @@ TEST_F(ModelTest, EyesGlintTowardsTheLampAndMatteThingsDoNot) {
   EXPECT_GT(brightest(human::Surface::kEye), brightest(human::Surface::kPlain) + 30.0);
 }
 
+// As where a coarse level of detail folds over: the triangles' backs are seen, their normals look
+// at the eye.
+TEST_F(ModelTest, ClothThatFoldsOverIsLitAsItsFront) {
+  const auto brightness = [&](human::Surface surface, float normal) {
+    human::Human human = MakeHuman(Square(), 1);
+    human.meshes[0].indices = {0, 2, 1, 0, 3, 2};
+    human.meshes[0].normals.assign(4, glm::vec3(0.0f, 0.0f, normal));
+    human.meshes[0].material = 0;
+    human.materials = {{.name = "", .surface = surface, .two_sided = true}};
+    human.light.meshes.resize(1);
+    human.light.meshes[0].backs.assign(4, {0, 0, 0});
+    const std::vector<glm::vec3> irradiance(4, glm::vec3(std::numbers::pi_v<float>));
+    const SceneHuman shown = {.human = renderer_->AddHuman(Shared(human)).value(),
+                              .skin = {&kNoMotion, 1},
+                              .irradiance = irradiance};
+    RenderScene scene = Scene();
+    scene.humans = {&shown, 1};
+    return Draw(scene).at<cv::Vec3b>(40, 40)[1];
+  };
+  EXPECT_GT(brightness(human::Surface::kCloth, 1.0f), 200);
+  EXPECT_LT(brightness(human::Surface::kCloth, -1.0f), 40) << "its back, dark within";
+  EXPECT_LT(brightness(human::Surface::kPlain, 1.0f), 40);
+}
+
 // Columns of one texel: half as fine a texture is grey all over.
 TEST_F(ModelTest, TexturesBecomeFinerBesideDrawingAndNeverCoarser) {
   cv::Mat columns(256, 256, CV_8UC3, cv::Scalar::all(0));
