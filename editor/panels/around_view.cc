@@ -254,7 +254,9 @@ Status AroundView::Draw(const app::Workspace& workspace,
                         int width,
                         int height) {
   if (!target_ || target_->width() != width || target_->height() != height) {
-    LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(width, height));
+    LARARIUM_ASSIGN_OR_RETURN(
+        target_,
+        render::RenderTarget::Create(width, height, render::RenderTarget::Depth::kForOverlay));
     outdated_ = true;
   }
   render::OverlayView& overlay_view = scene_.view;

@@ -73,7 +73,8 @@ class Overlay {
   PointsHandle AddPoints(std::span<const OverlayPoint> points);
   void RemovePoints(PointsHandle points);
 
-  // Begin, any number of Draw..., End; the target is borrowed in between.
+  // Begin, any number of Draw..., End; the target, one that has depth (RenderTarget::Depth), is
+  // borrowed in between.
   void Begin(const OverlayView& view, const RenderTarget& target);
   // Round, size_px across.
   void DrawPoints(std::span<const OverlayPoint> points,

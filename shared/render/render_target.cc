@@ -8,7 +8,7 @@
 
 namespace lararium::render {
 
-Result<RenderTarget> RenderTarget::Create(int width, int height) {
+Result<RenderTarget> RenderTarget::Create(int width, int height, Depth depth) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   if (width < 1 || height < 1 || width > most || height > most) {
@@ -27,15 +27,17 @@ Result<RenderTarget> RenderTarget::Create(int width, int height) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  target.depth_ = GlRenderbuffer::Generate();
-  glBindRenderbuffer(GL_RENDERBUFFER, target.depth_.id());
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
   target.framebuffer_ = GlFramebuffer::Generate();
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour_.id(),
                          0);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
-                            target.depth_.id());
+  if (depth == Depth::kForOverlay) {
+    target.depth_ = GlRenderbuffer::Generate();
+    glBindRenderbuffer(GL_RENDERBUFFER, target.depth_.id());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                              target.depth_.id());
+  }
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     return Status::Error("graphics", "the driver cannot draw into images of this size",
                          "try a smaller size");

@@ -12,7 +12,9 @@ namespace lararium::render {
 
 class RenderTarget {
  public:
-  static Result<RenderTarget> Create(int width, int height);
+  // Only an Overlay looks at depth.
+  enum class Depth { kNone, kForOverlay };
+  static Result<RenderTarget> Create(int width, int height, Depth depth = Depth::kNone);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -36,7 +38,7 @@ class RenderTarget {
   int width_ = 0;
   int height_ = 0;
   GlTexture colour_;
-  GlRenderbuffer depth_;  // for overlays
+  GlRenderbuffer depth_;  // Depth::kForOverlay
   GlFramebuffer framebuffer_;
   mutable cv::Mat read_;  // RGBA, kept between calls
 };

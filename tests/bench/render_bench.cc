@@ -99,7 +99,8 @@ void BenchOverlayPoints(benchmark::State& state) {
     return;
   }
   const auto overlay = Overlay::Create().value();
-  const RenderTarget target = RenderTarget::Create(1280, 720).value();
+  const RenderTarget target =
+      RenderTarget::Create(1280, 720, RenderTarget::Depth::kForOverlay).value();
   std::vector<OverlayPoint> points(static_cast<size_t>(state.range(0)));
   Random random(1);
   for (OverlayPoint& point : points) {

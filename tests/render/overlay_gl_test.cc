@@ -17,7 +17,7 @@ class OverlayTest : public GlTest {
     auto overlay = Overlay::Create();
     ASSERT_TRUE(overlay.ok()) << overlay.message();
     overlay_ = std::move(overlay).value();
-    target_.emplace(MakeTarget(160, 120));
+    target_.emplace(RenderTarget::Create(160, 120, RenderTarget::Depth::kForOverlay).value());
     view_.display = {.width = 160, .height = 120, .fx = 150, .fy = 150, .cx = 79.5, .cy = 59.5};
     view_.camera_from_stage =
         LookAt(Eigen::Vector3d(0.0, 0.0, 3.0), Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitY());
