@@ -30,7 +30,7 @@ constexpr size_t kMostSteps = 50;
 constexpr double kLook = 1.0;          // seconds between two looks at the ground
 constexpr float kSole = 0.1f;          // metres that a foot may be in the ground,
 constexpr float kLift = 0.3f;          // or above it
-constexpr double kMostFloating = 0.1;  // share of looks that does not count
+constexpr double kMostFloating = 0.5;  // share of looks: some wait where nobody sees them
 
 std::string AtTime(double seconds) {
   char text[32];

@@ -96,7 +96,7 @@ class GroundListener {
   // After a tick; time: of the drama.
   void Listen(double time);
   // One at most for each place: who has no ground first, and how often people have none. None
-  // where that is seldom.
+  // where they have some half of the time.
   std::vector<std::string> Problems() const;
 
  private:
