@@ -95,8 +95,8 @@ class GroundListener {
 
   // After a tick; time: of the drama.
   void Listen(double time);
-  // One at most for each place: who has no ground first, and how often people have none. None
-  // where they have some half of the time.
+  // One at most for each place: who has no ground first. None where people have some half of the
+  // time.
   std::vector<std::string> Problems() const;
 
  private:
