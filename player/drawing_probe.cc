@@ -59,10 +59,7 @@ int CountPeople(const show::ShowPlace& place,
     const glm::vec3 middle = glm::vec3(actor.stage_from_actor[3]) + glm::vec3(0.0f, 1.0f, 0.0f);
     const std::optional<Eigen::Vector2d> pixel =
         camera.Project(camera_from_stage * geometry::ToEigen(middle));
-    count += pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() < camera.width &&
-                     pixel->y() < camera.height
-                 ? 1
-                 : 0;
+    count += pixel && camera.Contains(*pixel) ? 1 : 0;
   }
   return count;
 }

@@ -43,7 +43,7 @@ class OpenXrButtons {
   XrInstance instance_ = XR_NULL_HANDLE;
   XrSession session_ = XR_NULL_HANDLE;
   XrActionSet set_ = XR_NULL_HANDLE;
-  std::array<Button, 2> buttons_ = {{{kHandSelect.data()}, {kHandMenu.data()}}};
+  std::array<Button, 2> buttons_ = {{{kHandSelect}, {kHandMenu}}};
 };
 
 }  // namespace lararium::player

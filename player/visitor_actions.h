@@ -25,8 +25,8 @@ enum class Action {
 };
 
 // Buttons of the controllers of a headset that OpenXR drives, of either hand.
-inline constexpr std::string_view kHandSelect = "hand_select";
-inline constexpr std::string_view kHandMenu = "hand_menu";
+inline constexpr char kHandSelect[] = "hand_select";
+inline constexpr char kHandMenu[] = "hand_menu";
 
 // Keys of the keyboard and buttons of game controllers (render::KeyName, Window::TakePadButtons),
 // and of a headset's.

@@ -166,7 +166,9 @@ bool IsVisitors(std::string_view kind) { return kind != "marker" && kind != "tim
 
 // Where a segment meets a triangle, as a share of the segment (Moeller & Trumbore, Fast,
 // Minimum Storage Ray/Triangle Intersection, 1997); none: it does not.
-std::optional<float> Meets(const glm::vec3& from, const glm::vec3& way, const glm::vec3* corners) {
+std::optional<float> Meets(const glm::vec3& from,
+                           const glm::vec3& way,
+                           const std::array<glm::vec3, 3>& corners) {
   const glm::vec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
   const glm::vec3 p = glm::cross(way, b);
   const float determinant = glm::dot(a, p);
@@ -370,7 +372,7 @@ std::string_view StepListener::Crossed(const glm::vec3& from, const glm::vec3& t
       for (const uint32_t index : cell->second) {
         for (const float height : kHeights) {
           const glm::vec3 up(0.0f, height, 0.0f);
-          if (Meets(from + up, way, triangles_[index].corners.data())) {
+          if (Meets(from + up, way, triangles_[index].corners)) {
             return triangles_[index].occluder;
           }
         }
@@ -387,7 +389,7 @@ std::string_view StepListener::Around(const glm::vec3& point) const {
   for (const Triangle& triangle : triangles_) {
     const glm::vec3 from = point + glm::vec3(0.0f, kHeights[0] + 0.013f, 0.007f);
     met[triangle.occluder] +=
-        Meets(from, glm::vec3(kFar, 0.0f, 0.0f), triangle.corners.data()).has_value() ? 1 : 0;
+        Meets(from, glm::vec3(kFar, 0.0f, 0.0f), triangle.corners).has_value() ? 1 : 0;
   }
   for (const auto& [occluder, count] : met) {
     if (count % 2 == 1) {
@@ -498,7 +500,7 @@ void GroundListener::Listen(double time) {
     for (Ground& ground : grounds_) {
       ++ground.looked;
       if (std::ranges::any_of(ground.triangles, [&](const Triangle& triangle) {
-            return Meets(from, way, triangle.data()).has_value();
+            return Meets(from, way, triangle).has_value();
           })) {
         continue;
       }

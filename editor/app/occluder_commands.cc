@@ -182,11 +182,10 @@ class OccluderWorker {
                            "change it with --set");
     }
     OccluderDocument occluder;
-    occluder.name = options_.add;
     if (const ShapeEntry* entry = FindShapeEntry(options_.shape)) {
-      occluder.shape = entry->usual;
-      occluder.blocks_sound = occluder.blocks_walking = entry->in_the_way;
+      occluder = NewOccluder(options_.add, entry->usual);
     } else {
+      occluder.name = options_.add;
       occluder.file = paths_.Shorten(options_.model);
     }
     LARARIUM_RETURN_IF_ERROR(Change(options_, occluder));

@@ -528,6 +528,14 @@ void ForgetSession(PlaceDocument& place, uint32_t session) {
   std::for_each(place.check_picks.begin(), place.check_picks.end(), forget);
 }
 
+OccluderDocument NewOccluder(const std::string& name, const OccluderShape& shape) {
+  OccluderDocument occluder;
+  occluder.name = name;
+  occluder.shape = shape;
+  occluder.blocks_sound = occluder.blocks_walking = EntryOf(shape.kind).in_the_way;
+  return occluder;
+}
+
 const OccluderDocument* PlaceDocument::FindOccluder(std::string_view occluder) const {
   const auto found = std::find_if(occluders.begin(), occluders.end(),
                                   [&](const auto& o) { return o.name == occluder; });

@@ -75,6 +75,9 @@ struct OccluderDocument {
   bool drawn() const { return kind() == Kind::kDrawn; }
 };
 
+// A new one of that shape: a floor is not in the way of sounds and people.
+OccluderDocument NewOccluder(const std::string& name, const OccluderShape& shape);
+
 // Of the corners of one occluder.
 inline constexpr size_t kMaxCorners = 64;
 inline constexpr double kMaxDepth = 1e3;  // metres

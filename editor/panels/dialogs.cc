@@ -223,8 +223,7 @@ void OccluderDialog(app::Workspace& workspace, EditorState& state) {
     if (fields.own_model) {
       occluder.file = DocumentPath(workspace, fields.file);
     } else {
-      occluder.shape = fields.shape;
-      occluder.blocks_sound = occluder.blocks_walking = app::EntryOf(fields.shape.kind).in_the_way;
+      occluder = app::NewOccluder(occluder.name, fields.shape);
       const auto& picture = workspace.picture();
       occluder.stage_from_mesh.translation =
           app::FloorBefore(picture != nullptr ? picture->camera_from_stage : std::nullopt);

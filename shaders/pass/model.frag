@@ -103,9 +103,9 @@ bool IsFront() {
   return gl_FrontFacing;
 }
 
-Arriving SunnyLightOn(vec3 normal) {
-  Arriving arriving = LightOn(normal, IsFront());
-  vec3 outward = IsFront() ? normal_in_stage : -normal_in_stage;
+// outward: of the side that is seen, without the bumps of normal.
+Arriving SunnyLightOn(vec3 normal, vec3 outward, bool front) {
+  Arriving arriving = LightOn(normal, front);
   if (has_sun == 1 && dot(outward, sun_direction) > 0.0) {
     arriving.sun_seen = SunSeen();
   }
@@ -114,7 +114,9 @@ Arriving SunnyLightOn(vec3 normal) {
 
 void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
   vec3 albedo = surface_albedo * colour_factor * texel.rgb / max(texel.a, 1.0 / 255.0);
-  vec3 normal = normalize(IsFront() ? normal_in_stage : -normal_in_stage);
+  bool front = IsFront();
+  vec3 outward = normalize(front ? normal_in_stage : -normal_in_stage);
+  vec3 normal = outward;
   mat2x3 tangents = TangentsAlong(normal);
   if (has_normal_texture == 1) {
     normal = MappedNormal(normal, tangents);
@@ -122,7 +124,8 @@ void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
   vec3 strand = tangents[1] - dot(tangents[1], normal) * normal;
   strand *= inversesqrt(max(dot(strand, strand), 1e-20));
   vec3 to_eye = normalize(eye_in_stage - position_in_stage);
-  Reflect(albedo, normal, strand, to_eye, roughness, SunnyLightOn(normal), matte, highlight);
+  Reflect(albedo, normal, strand, to_eye, roughness, SunnyLightOn(normal, outward, front),
+          matte, highlight);
 }
 #endif
 

@@ -219,8 +219,7 @@ void CatcherPass::BindSurfaces(const ShaderProgram& shaders,
   glBindTexture(GL_TEXTURE_2D, depth_.id());
   shaders.Set("surface_normal", static_cast<int>(first_unit));
   shaders.Set("surface_depth", static_cast<int>(first_unit + 1));
-  shaders.Set("catcher_bounds", glm::vec4(kept_bounds_.left, kept_bounds_.bottom,
-                                          kept_bounds_.right, kept_bounds_.top));
+  shaders.Set("catcher_bounds", Corners(kept_bounds_));
   shaders.Set("eye_in_stage", view.eye_in_stage);
   shaders.Set("ray_at_corner", view.ray_at_corner);
   shaders.Set("ray_per_column", view.ray_per_column);
@@ -292,9 +291,7 @@ void CatcherPass::DrawCaught(const SunPass& sun, const PictureView& view, const 
   bind(ratio_.id(), 2, "sky_ratio");
   bind(sky_irradiance_.id(), 3, "sky_irradiance");
   bind(hiding.people, 4, "people");
-  const PixelBounds& people = hiding.bounds;
-  caught_shaders_.Set("people_bounds",
-                      glm::vec4(people.left, people.bottom, people.right, people.top));
+  caught_shaders_.Set("people_bounds", Corners(hiding.bounds));
   caught_shaders_.Set("hidden_margin", hiding.margin + (step_ > 1 ? step_ : 0));
   caught_shaders_.Set("caught_step", step_);
   sun.BindFor(caught_shaders_);
@@ -309,8 +306,7 @@ void CatcherPass::BindFor(const ShaderProgram& shaders, uint32_t unit) const {
   glBindTexture(GL_TEXTURE_2D, caught_.id());
   shaders.Set("caught", static_cast<int>(unit));
   shaders.Set("caught_step", static_cast<float>(step_));
-  shaders.Set("catcher_bounds",
-              glm::vec4(bounds_.left, bounds_.bottom, bounds_.right, bounds_.top));
+  shaders.Set("catcher_bounds", Corners(bounds_));
 }
 
 }  // namespace lararium::render

@@ -109,7 +109,7 @@ void LookPass::BindFor(const ShaderProgram& composite,
                        const CameraLook& look,
                        const Smear& smear,
                        const PixelBounds& people) {
-  composite.Set("smeared_bounds", glm::vec4(people.left, people.bottom, people.right, people.top));
+  composite.Set("smeared_bounds", Corners(people));
   composite.Set("previous_from_pixel", smear.previous_from_pixel);
   composite.Set("shutter", smear.shutter);
   composite.Set("taps", glm::ivec2(smear.taps_along, smear.taps_across));

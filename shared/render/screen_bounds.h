@@ -29,6 +29,11 @@ struct PixelBounds {
   bool empty() const { return width() <= 0 || height() <= 0; }
 };
 
+// As shaders take them.
+inline glm::vec4 Corners(const PixelBounds& bounds) {
+  return glm::vec4(bounds.left, bounds.bottom, bounds.right, bounds.top);
+}
+
 // Bounds that hold both.
 PixelBounds Union(const PixelBounds& a, const PixelBounds& b);
 

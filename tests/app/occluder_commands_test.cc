@@ -77,6 +77,13 @@ TEST_F(Occluders, AShapeIsAddedMovedSizedAndRemoved) {
   EXPECT_EQ(LoadProject(paths_)->places[0].occluders.size(), 1u);
 }
 
+TEST_F(Occluders, AFloorIsNotInTheWay) {
+  ASSERT_TRUE(Run({.add = "ground", .shape = "floor", .sizes = {"depth=4"}}).ok());
+  const OccluderDocument ground = Saved(1);
+  EXPECT_EQ(ground.shape->depth, 4.0);
+  EXPECT_TRUE(ground.receives_shadow && !ground.blocks_sound && !ground.blocks_walking);
+}
+
 TEST_F(Occluders, AModelIsAddedByItsPathFromTheProject) {
   const auto file = paths_.folder / "models" / "counter.glb";
   ASSERT_TRUE(Run({.add = "counter", .model = file, .blocks_sound = "no"}).ok());
