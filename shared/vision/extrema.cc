@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "shared/core/parallel.h"
 
@@ -16,12 +17,13 @@ constexpr int kRowsPerJob = 32;
 
 // Of 3 x 3 x 3 samples, where sign * value is the largest.
 bool IsLargest(const Octave& octave, int level, int row, int column, float sign) {
-  const float value = sign * octave.differences[level].at<float>(row, column);
+  const float value = sign * octave.Difference(level, row, column);
   for (int l = level - 1; l <= level + 1; ++l) {
     for (int y = row - 1; y <= row + 1; ++y) {
-      const float* p = octave.differences[l].ptr<float>(y) + column;
-      if (sign * p[-1] > value || sign * p[0] > value || sign * p[1] > value) {
-        return false;
+      for (int x = column - 1; x <= column + 1; ++x) {
+        if (sign * octave.Difference(l, y, x) > value) {
+          return false;
+        }
       }
     }
   }
@@ -37,7 +39,7 @@ struct Quadratic {
 // features from interest point groups", BMVC 2002).
 Quadratic QuadraticAt(const Octave& octave, int level, int row, int column) {
   const auto at = [&](int dx, int dy, int dl) {
-    return octave.differences[level + dl].at<float>(row + dy, column + dx);
+    return octave.Difference(level + dl, row + dy, column + dx);
   };
   const float twice = 2.0f * at(0, 0, 0);
   const float xx = at(1, 0, 0) + at(-1, 0, 0) - twice;
@@ -54,10 +56,8 @@ Quadratic QuadraticAt(const Octave& octave, int level, int row, int column) {
 }
 
 bool Inside(const Octave& octave, int level, int row, int column) {
-  const int levels = static_cast<int>(octave.differences.size());
-  return level >= 1 && level < levels - 1 && row >= kBorder &&
-         row < octave.differences[0].rows - kBorder && column >= kBorder &&
-         column < octave.differences[0].cols - kBorder;
+  return level >= 1 && level < octave.difference_levels() - 1 && row >= kBorder &&
+         row < octave.rows() - kBorder && column >= kBorder && column < octave.columns() - kBorder;
 }
 
 bool LooksLikeEdge(const Quadratic& q, float edge_threshold) {
@@ -93,8 +93,7 @@ std::optional<Extremum> Refine(
       }
       continue;
     }
-    const float value =
-        octave.differences[level].at<float>(row, column) + 0.5f * q.gradient.dot(offset);
+    const float value = octave.Difference(level, row, column) + 0.5f * q.gradient.dot(offset);
     if (std::abs(value) * static_cast<float>(options.scales_per_octave) <
             options.contrast_threshold ||
         LooksLikeEdge(q, options.edge_threshold)) {
@@ -114,19 +113,25 @@ std::optional<Extremum> Refine(
   return std::nullopt;
 }
 
-// Marks the samples of a row that are beyond least and largest or smallest of
-// their 3 x 3 level. Of the few that are left the other levels decide.
-void MarkPeaks(const cv::Mat& difference,
-               int row,
+// A row of a level of the differences.
+void FillRow(const Octave& octave, int level, int row, std::vector<float>& differences) {
+  const float* finer = octave.gaussians[level].ptr<float>(row);
+  const float* coarser = octave.gaussians[level + 1].ptr<float>(row);
+  differences.resize(static_cast<size_t>(octave.columns()));
+  for (size_t x = 0; x < differences.size(); ++x) {
+    differences[x] = coarser[x] - finer[x];
+  }
+}
+
+// Marks the samples of a row, the middle one of three, that are beyond least and largest or
+// smallest of their 3 x 3 level. Of the few that are left the other levels decide.
+void MarkPeaks(const float* above,
+               const float* here,
+               const float* below,
                int begin,
                int end,
                float least,
-               std::vector<int32_t>& marks) {
-  const float* above = difference.ptr<float>(row - 1);
-  const float* here = difference.ptr<float>(row);
-  const float* below = difference.ptr<float>(row + 1);
-  marks.resize(difference.cols);
-  int32_t* mark = marks.data();
+               int32_t* mark) {
   for (int x = begin; x < end; ++x) {
     float high = std::max(above[x], below[x]);
     float low = std::min(above[x], below[x]);
@@ -143,23 +148,32 @@ void MarkPeaks(const cv::Mat& difference,
   }
 }
 
-void FindExtremaInRow(const Octave& octave,
-                      int level,
-                      int row,
-                      const FeatureOptions& options,
-                      std::vector<int32_t>& marks,
-                      std::vector<Extremum>& found) {
+// Of a level of an octave, in the rows from begin to end.
+void FindExtremaInRows(const Octave& octave,
+                       int level,
+                       int begin,
+                       int end,
+                       const FeatureOptions& options,
+                       ExtremaRows& memory,
+                       std::vector<Extremum>& found) {
   // Refinement may raise |D|; what is below half cannot reach the threshold.
   const float least =
       0.5f * options.contrast_threshold / static_cast<float>(options.scales_per_octave);
-  const cv::Mat& difference = octave.differences[level];
-  const float* values = difference.ptr<float>(row);
-  const int end = difference.cols - kBorder;
-  MarkPeaks(difference, row, kBorder, end, least, marks);
-  for (int x = kBorder; x < end; ++x) {
-    if (marks[x] != 0 && IsLargest(octave, level, row, x, values[x] > 0.0f ? 1.0f : -1.0f)) {
-      if (const auto extremum = Refine(octave, level, row, x, options)) {
-        found.push_back(*extremum);
+  auto& [above, here, below] = memory.differences;
+  memory.marks.resize(static_cast<size_t>(octave.columns()));
+  FillRow(octave, level, begin - 1, here);
+  FillRow(octave, level, begin, below);
+  for (int row = begin; row < end; ++row) {
+    std::swap(above, here);
+    std::swap(here, below);
+    FillRow(octave, level, row + 1, below);
+    const int last = octave.columns() - kBorder;
+    MarkPeaks(above.data(), here.data(), below.data(), kBorder, last, least, memory.marks.data());
+    for (int x = kBorder; x < last; ++x) {
+      if (memory.marks[x] != 0 && IsLargest(octave, level, row, x, here[x] > 0.0f ? 1.0f : -1.0f)) {
+        if (const auto extremum = Refine(octave, level, row, x, options)) {
+          found.push_back(*extremum);
+        }
       }
     }
   }
@@ -171,11 +185,9 @@ void ExtremaFinder::RunJob(std::span<const Octave> octaves,
                            const FeatureOptions& options,
                            Job& job) {
   const Octave& octave = octaves[job.octave];
-  const int end = std::min(job.row + kRowsPerJob, octave.differences[0].rows - kBorder);
+  const int end = std::min(job.row + kRowsPerJob, octave.rows() - kBorder);
   job.found.clear();
-  for (int row = job.row; row < end; ++row) {
-    FindExtremaInRow(octave, job.level, row, options, job.marks, job.found);
-  }
+  FindExtremaInRows(octave, job.level, job.row, end, options, job.rows, job.found);
   for (Extremum& extremum : job.found) {
     extremum.octave = job.octave;
   }
@@ -187,7 +199,7 @@ void ExtremaFinder::Find(std::span<const Octave> octaves,
   size_t count = 0;
   for (int o = 0; o < static_cast<int>(octaves.size()); ++o) {
     for (int level = 1; level <= options.scales_per_octave; ++level) {
-      const int end = octaves[o].differences[0].rows - kBorder;
+      const int end = octaves[o].rows() - kBorder;
       for (int row = kBorder; row < end; row += kRowsPerJob) {
         jobs_.resize(std::max(jobs_.size(), count + 1));
         Job& job = jobs_[count++];

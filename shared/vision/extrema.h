@@ -2,6 +2,7 @@
 
 // Extrema of the difference of Gaussians: Lowe, IJCV 2004, sections 3.1 and 4.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <tuple>
@@ -27,6 +28,13 @@ struct Extremum {
   auto Cell() const { return std::tie(octave, level, row, column); }
 };
 
+// Of a level, while its rows are searched: three rows of differences, and which samples of the
+// middle one may be extrema.
+struct ExtremaRows {
+  std::array<std::vector<float>, 3> differences;
+  std::vector<int32_t> marks;
+};
+
 // Keeps its memory from image to image.
 class ExtremaFinder {
  public:
@@ -41,7 +49,7 @@ class ExtremaFinder {
     int octave = 0;
     int level = 0;
     int row = 0;
-    std::vector<int32_t> marks;
+    ExtremaRows rows;
     std::vector<Extremum> found;
   };
   void RunJob(std::span<const Octave> octaves, const FeatureOptions& options, Job& job);

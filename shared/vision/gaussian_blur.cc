@@ -106,12 +106,9 @@ void BlurRow(const cv::Mat& image,
 
 }  // namespace
 
-void GaussianBlur::Apply(const cv::Mat& image, float sigma, cv::Mat& blurred, cv::Mat* difference) {
+void GaussianBlur::Apply(const cv::Mat& image, float sigma, cv::Mat& blurred) {
   FillHalfKernel(sigma, kernel_);
   blurred.create(image.size(), CV_32F);
-  if (difference != nullptr) {
-    difference->create(image.size(), CV_32F);
-  }
   constexpr int kRowsPerJob = 64;
   const auto count = static_cast<size_t>((image.rows + kRowsPerJob - 1) / kRowsPerJob);
   jobs_.resize(std::max(jobs_.size(), count));
@@ -122,15 +119,7 @@ void GaussianBlur::Apply(const cv::Mat& image, float sigma, cv::Mat& blurred, cv
     const int begin = static_cast<int>(j) * kRowsPerJob;
     const int end = std::min(begin + kRowsPerJob, image.rows);
     for (int y = begin; y < end; ++y) {
-      float* out = blurred.ptr<float>(y);
-      BlurRow(image, y, kernel_, job.row, job.taps, out);
-      if (difference != nullptr) {
-        const float* in = image.ptr<float>(y);
-        float* d = difference->ptr<float>(y);
-        for (int x = 0; x < image.cols; ++x) {
-          d[x] = out[x] - in[x];
-        }
-      }
+      BlurRow(image, y, kernel_, job.row, job.taps, blurred.ptr<float>(y));
     }
   });
 }

@@ -9,9 +9,8 @@ namespace lararium::vision {
 class GaussianBlur {
  public:
   // image: CV_32FC1; sigma in pixels, the kernel ends at 3 sigma, and the image is
-  // mirrored about its outer pixels. difference, when given, becomes blurred minus
-  // image. Neither may share pixels with image. Rows run in parallel.
-  void Apply(const cv::Mat& image, float sigma, cv::Mat& blurred, cv::Mat* difference);
+  // mirrored about its outer pixels. blurred may not share pixels with it. Rows run in parallel.
+  void Apply(const cv::Mat& image, float sigma, cv::Mat& blurred);
 
  private:
   struct Job {

@@ -73,11 +73,10 @@ void ScaleSpace::Build(const cv::Mat& grey, int first_octave, int scales_per_oct
     octaves_.resize(std::max(octaves_.size(), first_ + count_ + 1));
     Octave& octave = octaves_[first_ + count_];
     octave.gaussians.resize(scales_per_octave + 3);
-    octave.differences.resize(scales_per_octave + 2);
     octave.origin = start.origin;
     if (count_ == 0) {
       octave.pixel_size = start.pixel_size;
-      blur_.Apply(start.image, AddedSigma(start.sigma, kBaseSigma), octave.gaussians[0], nullptr);
+      blur_.Apply(start.image, AddedSigma(start.sigma, kBaseSigma), octave.gaussians[0]);
     } else {
       const Octave& finer = octaves_[first_ + count_ - 1];
       octave.pixel_size = 2.0f * finer.pixel_size;
@@ -86,8 +85,7 @@ void ScaleSpace::Build(const cv::Mat& grey, int first_octave, int scales_per_oct
     for (int level = 1; level < scales_per_octave + 3; ++level) {
       const float added =
           AddedSigma(SigmaOf(level - 1, scales_per_octave), SigmaOf(level, scales_per_octave));
-      blur_.Apply(octave.gaussians[level - 1], added, octave.gaussians[level],
-                  &octave.differences[level - 1]);
+      blur_.Apply(octave.gaussians[level - 1], added, octave.gaussians[level]);
     }
     rows /= 2;
     columns /= 2;

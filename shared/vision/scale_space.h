@@ -20,8 +20,16 @@ inline constexpr float kBaseSigma = 1.6f;
 struct Octave {
   float pixel_size = 1.0f;
   float origin = 0.0f;
-  std::vector<cv::Mat> gaussians;    // CV_32FC1 [scales + 3], grey 0..1
-  std::vector<cv::Mat> differences;  // CV_32FC1 [scales + 2], level l + 1 minus l
+  std::vector<cv::Mat> gaussians;  // CV_32FC1 [scales + 3], grey 0..1
+
+  int rows() const { return gaussians[0].rows; }
+  int columns() const { return gaussians[0].cols; }
+  // The differences of Gaussians: level l is that of l + 1 minus that of l. They are worked out
+  // where they are looked at: kept, they would be as large as all the rest.
+  int difference_levels() const { return static_cast<int>(gaussians.size()) - 1; }
+  float Difference(int level, int row, int column) const {
+    return gaussians[level + 1].at<float>(row, column) - gaussians[level].at<float>(row, column);
+  }
 };
 
 // Keeps its memory from image to image: images of one size find it again, whichever octave each

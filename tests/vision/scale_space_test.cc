@@ -22,9 +22,6 @@ std::vector<const uchar*> Memory(const ScaleSpace& space) {
     for (const cv::Mat& image : octave.gaussians) {
       memory.push_back(image.data);
     }
-    for (const cv::Mat& image : octave.differences) {
-      memory.push_back(image.data);
-    }
   }
   return memory;
 }
