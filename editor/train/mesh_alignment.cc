@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -23,7 +24,10 @@ using Eigen::Vector3f;
 using geometry::Similarity3;
 
 constexpr double kThin = 0.03;      // breadth over length: thinner is a line
-constexpr double kNarrowest = 0.2;  // of the search distance, in the end
+constexpr double kNarrowest = 0.1;  // of the search distance, in the end
+// Of it, where looking begins. Whatever stands on a model draws it away from far; a model that lies
+// well already is found again from near.
+constexpr double kBeginnings[] = {1.0, 0.4, 0.15};
 constexpr double kShrink = 0.8;
 constexpr int kRounds = 6;             // at each distance
 constexpr size_t kMaxPoints = 20'000;  // that are moved to; more say no more
@@ -57,11 +61,7 @@ class Refiner {
           const Similarity3& stage_from_mesh,
           std::span<const Vector3d> points,
           const RefineOptions& options)
-      : mesh_(mesh),
-        tree_(vision::Placed(mesh, {})),
-        start_(stage_from_mesh),
-        moved_(stage_from_mesh),
-        options_(options) {
+      : mesh_(mesh), tree_(vision::Placed(mesh, {})), start_(stage_from_mesh), options_(options) {
     // Nothing moves farther than the search distance, so nothing beyond twice that comes near.
     std::vector<char> near(points.size());
     ForChunks(points.size(), [&](size_t i) {
@@ -79,31 +79,41 @@ class Refiner {
     points_.resize(std::min(points_.size(), kMaxPoints));
   }
 
+  // Where most points lie on the surface in the end, wherever looking began.
   Result<RefineReport> Run(Progress& progress) {
-    double search = options_.search_m;
-    LARARIUM_RETURN_IF_ERROR(Match(search));
-    while (true) {
+    std::optional<Fit> best;
+    double most = 0.0;
+    Status failed;
+    for (size_t i = 0; i < std::size(kBeginnings); ++i) {
       progress.Report("moving the model",
-                      (options_.search_m - search) / (options_.search_m * (1.0 - kNarrowest)));
-      for (int round = 0; round < kRounds; ++round) {
-        if (progress.Cancelled()) {
-          return Status::Error("model", "cancelled");
-        }
-        const double step = Move(search);
-        LARARIUM_RETURN_IF_ERROR(Match(search));
-        if (step < 1e-4 * options_.search_m) {
-          break;
-        }
+                      static_cast<double>(i) / static_cast<double>(std::size(kBeginnings)));
+      fit_ = {start_};
+      const Status settled = Settle(kBeginnings[i] * options_.search_m, progress);
+      if (progress.Cancelled()) {
+        return Status::Error("model", "cancelled");
       }
-      if (search <= kNarrowest * options_.search_m) {
-        return Report();
+      if (!settled.ok()) {
+        failed = failed.ok() ? settled : failed;
+      } else if (const double weights = Weights(kNarrowest * options_.search_m); weights >= most) {
+        best = fit_;
+        most = weights;
       }
-      search = std::max(kShrink * search, kNarrowest * options_.search_m);
-      LARARIUM_RETURN_IF_ERROR(Match(search));
     }
+    if (!best) {
+      return failed;
+    }
+    fit_ = *std::move(best);
+    return Report();
   }
 
  private:
+  // How the model lies now.
+  struct Fit {
+    Similarity3 stage_from_mesh;
+    std::vector<SurfacePair> pairs = {};  // of the points that are near
+    int undetermined = 0;
+  };
+
   template <typename Body>
   static void ForChunks(size_t count, const Body& body) {
     constexpr size_t kChunk = 512;
@@ -112,6 +122,40 @@ class Refiner {
         body(i);
       }
     });
+  }
+
+  // By points that are nearer and nearer.
+  Status Settle(double search, Progress& progress) {
+    LARARIUM_RETURN_IF_ERROR(Match(search));
+    while (true) {
+      for (int round = 0; round < kRounds && !progress.Cancelled(); ++round) {
+        const double step = Move(search);
+        LARARIUM_RETURN_IF_ERROR(Match(search));
+        if (step < 1e-4 * options_.search_m) {
+          break;
+        }
+      }
+      if (search <= kNarrowest * options_.search_m || progress.Cancelled()) {
+        return Status();
+      }
+      search = std::max(kShrink * search, kNarrowest * options_.search_m);
+      LARARIUM_RETURN_IF_ERROR(Match(search));
+    }
+  }
+
+  // Tukey's.
+  static double WeightOf(double distance, double search) {
+    const double share = 1.0 - std::pow(distance / search, 2);
+    return share > 0.0 ? share * share : 0.0;
+  }
+
+  // Of all points that lie on the surface.
+  double Weights(double search) const {
+    double weights = 0.0;
+    for (const SurfacePair& pair : fit_.pairs) {
+      weights += WeightOf((pair.point - pair.on_surface).norm(), search);
+    }
+    return weights;
   }
 
   std::optional<SurfacePair> FindPair(const Vector3d& point,
@@ -139,20 +183,20 @@ class Refiner {
   Status Match(double search) {
     std::vector<std::optional<SurfacePair>> found(points_.size());
     ForChunks(points_.size(), [&](size_t i) {
-      found[i] = FindPair(points_[i], moved_, search);
+      found[i] = FindPair(points_[i], fit_.stage_from_mesh, search);
       if (found[i] && !LiesBefore(*found[i])) {
         found[i].reset();
       }
     });
-    pairs_.clear();
+    fit_.pairs.clear();
     for (const std::optional<SurfacePair>& pair : found) {
       if (pair) {
-        pairs_.push_back(*pair);
+        fit_.pairs.push_back(*pair);
       }
     }
-    if (pairs_.size() < static_cast<size_t>(options_.min_points)) {
+    if (fit_.pairs.size() < static_cast<size_t>(options_.min_points)) {
       return Status::Error("model",
-                           std::to_string(pairs_.size()) + " points of the map lie within " +
+                           std::to_string(fit_.pairs.size()) + " points of the map lie within " +
                                Metres(search) + " of its surface; at least " +
                                std::to_string(options_.min_points) + " are needed",
                            "move it closer, align it by points, or look farther");
@@ -163,12 +207,12 @@ class Refiner {
   // Moves the model by one step of least squares. How far a point of its surface moved, metres.
   double Move(double search) {
     Vector3d center = Vector3d::Zero();
-    for (const SurfacePair& pair : pairs_) {
-      center += pair.on_surface / static_cast<double>(pairs_.size());
+    for (const SurfacePair& pair : fit_.pairs) {
+      center += pair.on_surface / static_cast<double>(fit_.pairs.size());
     }
     double reach = 0.0;
-    for (const SurfacePair& pair : pairs_) {
-      reach += (pair.on_surface - center).squaredNorm() / static_cast<double>(pairs_.size());
+    for (const SurfacePair& pair : fit_.pairs) {
+      reach += (pair.on_surface - center).squaredNorm() / static_cast<double>(fit_.pairs.size());
     }
     reach = std::max(std::sqrt(reach), 1e-9);
     // Turns and scale as far as they move what is at that reach: all are metres then.
@@ -177,10 +221,9 @@ class Refiner {
     Eigen::Matrix<double, 7, 7> squares = Eigen::Matrix<double, 7, 7>::Zero();
     SurfaceMotion slope = SurfaceMotion::Zero();
     double weights = 0.0;
-    for (const SurfacePair& pair : pairs_) {
+    for (const SurfacePair& pair : fit_.pairs) {
       const double distance = PlaneDistance(pair, center, SurfaceMotion::Zero());
-      const double share = 1.0 - std::pow(distance / search, 2);
-      const double weight = share > 0.0 ? share * share : 0.0;
+      const double weight = WeightOf(distance, search);
       const SurfaceMotion derivative = PlaneDistanceDerivative(pair, center).cwiseProduct(unit);
       squares += weight * derivative * derivative.transpose();
       slope += weight * distance * derivative;
@@ -190,7 +233,7 @@ class Refiner {
       return 0.0;
     }
     const SurfaceMotion motion = Solve(squares / weights, slope / weights).cwiseProduct(unit);
-    moved_ = MotionAbout(center, motion) * moved_;
+    fit_.stage_from_mesh = MotionAbout(center, motion) * fit_.stage_from_mesh;
     return motion.segment<3>(3).norm() + reach * (motion.head<3>().norm() + std::abs(motion[6]));
   }
 
@@ -200,11 +243,11 @@ class Refiner {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
         Eigen::MatrixXd(squares.topLeftCorner(size, size)));
     SurfaceMotion motion = SurfaceMotion::Zero();
-    undetermined_ = 0;
+    fit_.undetermined = 0;
     for (Eigen::Index i = 0; i < size; ++i) {
       const Eigen::VectorXd direction = eigen.eigenvectors().col(i);
       if (eigen.eigenvalues()[i] < kUndetermined) {
-        ++undetermined_;
+        ++fit_.undetermined;
       } else {
         motion.head(size) -= direction * (direction.dot(slope.head(size)) / eigen.eigenvalues()[i]);
       }
@@ -214,12 +257,12 @@ class Refiner {
 
   Result<RefineReport> Report() const {
     RefineReport report;
-    report.stage_from_mesh = moved_;
-    report.points = static_cast<int>(pairs_.size());
-    report.undetermined = undetermined_;
+    report.stage_from_mesh = fit_.stage_from_mesh;
+    report.points = static_cast<int>(fit_.pairs.size());
+    report.undetermined = fit_.undetermined;
     for (const glm::vec3& vertex : mesh_.positions) {
       const Vector3d at = geometry::ToEigen(vertex);
-      report.moved_m = std::max(report.moved_m, (moved_ * at - start_ * at).norm());
+      report.moved_m = std::max(report.moved_m, (fit_.stage_from_mesh * at - start_ * at).norm());
     }
     if (!(report.moved_m <= options_.search_m)) {
       return Status::Error("model",
@@ -231,9 +274,9 @@ class Refiner {
       const auto pair = FindPair(point, stage_from_mesh, 4.0 * options_.search_m);
       return pair ? (pair->point - pair->on_surface).squaredNorm() : 0.0;
     };
-    for (const SurfacePair& pair : pairs_) {
+    for (const SurfacePair& pair : fit_.pairs) {
       report.rms_before_m += squared_at(pair.point, start_);
-      report.rms_after_m += squared_at(pair.point, moved_);
+      report.rms_after_m += squared_at(pair.point, fit_.stage_from_mesh);
     }
     report.rms_before_m = std::sqrt(report.rms_before_m / report.points);
     report.rms_after_m = std::sqrt(report.rms_after_m / report.points);
@@ -252,7 +295,7 @@ class Refiner {
       return part(at.x(), dx) << 42 | part(at.y(), dy) << 21 | part(at.z(), dz);
     };
     std::unordered_multimap<uint64_t, Vector3d> cells;
-    for (const SurfacePair& pair : pairs_) {
+    for (const SurfacePair& pair : fit_.pairs) {
       cells.emplace(key(pair.on_surface, 0, 0, 0), pair.on_surface);
     }
     const auto covered = [&](const Vector3d& at) {
@@ -293,8 +336,8 @@ class Refiner {
         u = 1.0 - u;
         v = 1.0 - v;
       }
-      points.push_back(
-          moved_ * (corner(i) + u * (corner(i + 1) - corner(i)) + v * (corner(i + 2) - corner(i))));
+      points.push_back(fit_.stage_from_mesh * (corner(i) + u * (corner(i + 1) - corner(i)) +
+                                               v * (corner(i + 2) - corner(i))));
     }
     return points;
   }
@@ -302,11 +345,9 @@ class Refiner {
   const geometry::TriangleMesh& mesh_;
   vision::OccluderTree tree_;  // in the mesh's coordinates
   Similarity3 start_;
-  Similarity3 moved_;
   RefineOptions options_;
-  std::vector<Vector3d> points_;    // of the map that may come near
-  std::vector<SurfacePair> pairs_;  // of those that are near now
-  int undetermined_ = 0;
+  std::vector<Vector3d> points_;  // of the map that may come near
+  Fit fit_;
 };
 
 }  // namespace

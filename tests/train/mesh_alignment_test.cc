@@ -193,6 +193,21 @@ TEST(RefineAlignment, FindsTheScaleTooAndDoesNotCollapseIt) {
   EXPECT_LT(FarthestOff(report->stage_from_mesh, found.stage_from_mesh), 0.012);
 }
 
+TEST(RefineAlignment, WhatStandsOnItDoesNotLiftIt) {
+  // Things all over the top, as high as is looked for and with as many points as the rest.
+  Found found = Scatter(1500, 0.004, 0.2, 19);
+  Random random(20);
+  for (int i = 0; i < 1500; ++i) {
+    found.points.push_back(found.stage_from_mesh * Vector3d(random.Uniform(0, 2000),
+                                                            random.Uniform(910, 1200),
+                                                            random.Uniform(0, 600)));
+  }
+  const Similarity3 start = Offset(found.stage_from_mesh, 0.4, {0.008, -0.006, 0.005}, 0.995);
+  const auto report = Refine(found, start, {.search_m = 0.3});
+  ASSERT_TRUE(report.ok()) << report.message();
+  EXPECT_LT(FarthestOff(report->stage_from_mesh, found.stage_from_mesh), 0.01);
+}
+
 TEST(RefineAlignment, LeavesAModelWhereItLiesWellAlready) {
   const Found found = Scatter(1500, 0.0, 0.0, 13);
   const auto report = Refine(found, found.stage_from_mesh, {.search_m = 0.1});
