@@ -17,11 +17,13 @@ namespace {
 using Eigen::Vector3d;
 using Kind = OccluderDocument::Kind;
 
+constexpr double kDegree = std::numbers::pi / 180.0;
+
 // Heading, then tilt and roll where they are given.
 Eigen::Quaterniond FromDegrees(const std::vector<double>& turn) {
   Vector3d angles = Vector3d::Zero();
   for (size_t i = 0; i < turn.size(); ++i) {
-    angles[static_cast<Eigen::Index>(i)] = turn[i] * std::numbers::pi / 180.0;
+    angles[static_cast<Eigen::Index>(i)] = turn[i] * kDegree;
   }
   return FromHeadingTiltRoll(angles);
 }
@@ -105,6 +107,20 @@ Status Change(const OccluderOptions& options, OccluderDocument& occluder) {
   return Status();
 }
 
+// As --at, --turn and --scale take it, to the millimetre and tenth of a degree.
+std::string DescribePose(const geometry::Similarity3& stage_from_mesh) {
+  const Vector3d& at = stage_from_mesh.translation;
+  std::string text = Text("; at %.3f,%.3f,%.3f", at.x(), at.y(), at.z());
+  const Vector3d turn = HeadingTiltRoll(stage_from_mesh.rotation) / kDegree;
+  if (turn.cwiseAbs().maxCoeff() >= 0.05) {
+    text += Text(", turned %.1f,%.1f,%.1f degrees", turn.x(), turn.y(), turn.z());
+  }
+  if (std::abs(stage_from_mesh.scale - 1.0) >= 5e-5) {
+    text += Text(", scaled by %.4f", stage_from_mesh.scale);
+  }
+  return text;
+}
+
 std::string Described(const OccluderDocument& occluder) {
   std::string text;
   switch (occluder.kind()) {
@@ -119,8 +135,7 @@ std::string Described(const OccluderDocument& occluder) {
       break;
   }
   if (!occluder.drawn()) {
-    const Vector3d& at = occluder.stage_from_mesh.translation;
-    text += Text("; at %g, %g, %g", at.x(), at.y(), at.z());
+    text += DescribePose(occluder.stage_from_mesh);
   }
   text += occluder.receives_shadow ? "" : "; receives no shadow";
   text += occluder.blocks_sound ? "" : "; does not block sound";

@@ -31,8 +31,9 @@ def commands_of(build):
 def run_chunk(command, seconds, corpus):
     """Exit status, processor seconds and output of one run."""
     options = [argument for argument in command[1:] if not argument.startswith(("-runs=", "-seed="))]
-    full = [command[0], *options, f"-max_total_time={seconds}", "-print_final_stats=1",
-            f"-artifact_prefix={corpus}/", str(corpus)]
+    # An input's own limit is wall time, of which a campaign beside other work has little.
+    full = [command[0], *options, f"-max_total_time={seconds}", "-timeout=60",
+            "-print_final_stats=1", f"-artifact_prefix={corpus}/", str(corpus)]
     environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
     log = corpus.parent / (corpus.name + ".log")
     with open(log, "w", encoding="utf-8", errors="replace") as out:
