@@ -22,4 +22,6 @@ void BeginPlaying() {
   ReturnBlocksFrom(kLargeInPlaying);
 }
 
+void AfterFirstPictures() { TrimHeap(); }
+
 }  // namespace lararium::player

@@ -12,4 +12,7 @@ void BeginLoading();
 // What loading left goes back, and what images need is kept for the next.
 void BeginPlaying();
 
+// What the first pictures left goes back too: drivers compile for them.
+void AfterFirstPictures();
+
 }  // namespace lararium::player

@@ -48,6 +48,8 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kInputInterval(10);
 constexpr std::chrono::seconds kPowerInterval(5);
 constexpr std::chrono::seconds kLongestSilence(8);
+// After these all that a show needs has been compiled.
+constexpr int64_t kFirstFrames = 90;
 
 // Not the drama's: switches the evidence view.
 constexpr std::string_view kEvidenceKey = "f2";
@@ -73,14 +75,15 @@ const render::Quality& QualityOf(size_t level) {
 }
 
 Result<show::ShowContent> LoadContent(const PlayOptions& options,
-                                      const show::LanguageChoice& languages) {
+                                      const show::LanguageChoice& languages,
+                                      float finest) {
   bundle::OpenOptions opening;
   if (!options.trust.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(opening.trusted, bundle::LoadPublicKey(options.trust));
   }
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle,
                             bundle::Bundle::Open(options.show, opening));
-  return show::LoadShowContent(bundle, options.place, languages);
+  return show::LoadShowContent(bundle, options.place, languages, finest);
 }
 
 // Where the device says nothing of its camera, each place keeps what the bundle says.
@@ -152,6 +155,8 @@ class Performance {
   show::LanguageChoice languages() const { return {choices_.language, choices_.captions}; }
   Result<show::ShowContent> LoadInChosenLanguages();
   Status ChooseHeadset();
+  // As show::LoadShowContent takes it.
+  float FinestDetail() const;
   Status ChooseView(const show::ShowContent& content);
   Status CreateTracker(const show::ShowContent& content);
   Status CreateShow(show::ShowContent content);
@@ -490,14 +495,23 @@ void Performance::ApplyLanguageOptions() {
   }
 }
 
+// In lock-step nothing may depend on when somebody is read in more detail.
+float Performance::FinestDetail() const {
+  if (options_.pace == Pace::kFast) {
+    return 0.0f;
+  }
+  const int width = options_.size ? options_.size->width : source_->width();
+  return show::FinestDetail(QualityOf(level()), width);
+}
+
 // What the last visitor chose may be of another show.
 Result<show::ShowContent> Performance::LoadInChosenLanguages() {
-  Result<show::ShowContent> loaded = LoadContent(options_, languages());
+  Result<show::ShowContent> loaded = LoadContent(options_, languages(), FinestDetail());
   if (!loaded.ok() && kiosk_) {
     choices_.language.clear();
     choices_.captions.clear();
     ApplyLanguageOptions();
-    loaded = LoadContent(options_, languages());
+    loaded = LoadContent(options_, languages(), FinestDetail());
   }
   if (loaded.ok()) {
     SetLook(options_, device_, *loaded);
@@ -599,7 +613,8 @@ void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
 // Another language needs other texts and voices; the drama goes on where it is.
 Status Performance::ChangeLanguages() {
   languages_changed_ = false;
-  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_, languages()));
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
+                            LoadContent(options_, languages(), FinestDetail()));
   SetLook(options_, device_, content);
   sound_.reset();
   LARARIUM_RETURN_IF_ERROR(CreateShow(std::move(content)));
@@ -747,6 +762,10 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
     kiosk_->AfterFrame(Seconds(last_shown_), staged, *show_);
   }
   TellStaff(staged);
+  if (drawn_frames_ == kFirstFrames) {
+    render::ReleaseShaderCompiler();
+    AfterFirstPictures();
+  }
   return recorder_->Add(staged, shown());
 }
 

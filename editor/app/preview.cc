@@ -162,9 +162,8 @@ PreviewPicture Preview::Worker::Describe() const {
   picture.trails = trails_.trails();
   for (const show::StagedActor& actor : staged_.actors) {
     const auto skin = staged_.skin.begin() + actor.skin_begin;
-    picture.actors.push_back({show_->content().cast[actor.cast].human,
-                              actor.stage_from_actor,
-                              {skin, skin + actor.skin_count}});
+    picture.actors.push_back(
+        {actor.figure, actor.stage_from_actor, {skin, skin + actor.skin_count}});
   }
   return picture;
 }

@@ -103,7 +103,7 @@ class VirtualScene {
                                                         const show::StagedFrame& staged) {
     std::vector<bake::SurfaceMesh> meshes;
     for (const show::StagedActor& actor : staged.actors) {
-      LARARIUM_RETURN_IF_ERROR(AddActor(*content.cast[actor.cast].human, actor, staged, meshes));
+      LARARIUM_RETURN_IF_ERROR(AddActor(*actor.figure, actor, staged, meshes));
     }
     for (const show::StagedObject& object : staged.objects) {
       LARARIUM_RETURN_IF_ERROR(

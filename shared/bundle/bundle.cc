@@ -2,7 +2,7 @@
 
 #include <zlib.h>
 
-#include <vector>
+#include <algorithm>
 
 #include "shared/bundle/member_name.h"
 #include "shared/bundle/zip_layout.h"
@@ -129,6 +129,23 @@ Result<std::span<const std::byte>> Bundle::member(std::string_view name) const {
     return Status::Error(place_, "there is no member '" + std::string(name) + "'");
   }
   return found->second;
+}
+
+Result<StoredMember> Bundle::stored(std::string_view name) const {
+  LARARIUM_ASSIGN_OR_RETURN(const std::span<const std::byte> bytes, member(name));
+  const auto listed = std::ranges::find(manifest_.members, name, &Member::name);
+  return StoredMember{place_, listed->name,
+                      static_cast<uint64_t>(bytes.data() - file_.bytes().data()), bytes.size(),
+                      listed->sha256};
+}
+
+Result<std::vector<std::byte>> StoredMember::Read() const {
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, ReadBytesAt(file, offset, size));
+  if (ComputeSha256(bytes) != sha256) {
+    return Status::Error(file.string(), "'" + name + "' was changed since it was opened",
+                         "start the show again");
+  }
+  return bytes;
 }
 
 }  // namespace lararium::bundle

@@ -10,7 +10,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "shared/bundle/sha256.h"
 #include "shared/bundle/show_manifest.h"
 #include "shared/bundle/signature.h"
 #include "shared/core/file.h"
@@ -22,6 +24,19 @@ struct OpenOptions {
   // Only what its owner signed is opened, and nothing of anything else is looked at but the
   // archive's structure. None: signatures do not count.
   std::optional<PublicKey> trusted = std::nullopt;
+};
+
+// Where a member of a bundle that was verified lies, so that it can be read when the bundle is
+// closed.
+struct StoredMember {
+  std::filesystem::path file;
+  std::string name;
+  uint64_t offset = 0;
+  size_t size = 0;
+  Sha256 sha256 = {};
+
+  // Fails where it is not what it was.
+  Result<std::vector<std::byte>> Read() const;
 };
 
 class Bundle {
@@ -39,6 +54,7 @@ class Bundle {
   // The bytes of a member where they are mapped, aligned to 64 bytes; they live
   // as long as the bundle. The members that manifest() names always exist.
   Result<std::span<const std::byte>> member(std::string_view name) const;
+  Result<StoredMember> stored(std::string_view name) const;
 
  private:
   Bundle(std::string place, MappedFile file) : place_(std::move(place)), file_(std::move(file)) {}

@@ -48,6 +48,26 @@ Result<uint64_t> RegularFileSize(const std::filesystem::path& path, int descript
   return static_cast<uint64_t>(info.st_size);
 }
 
+// Fills content from offset on.
+Status ReadFrom(const std::filesystem::path& path,
+                const Descriptor& file,
+                uint64_t offset,
+                auto& content) {
+  for (size_t done = 0; done < content.size();) {
+    const ssize_t count = ::pread(file.get(), content.data() + done, content.size() - done,
+                                  static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) {
+      continue;
+    }
+    if (count <= 0) {
+      return count == 0 ? Status::Error(path.string(), "became shorter while it was read")
+                        : SystemError(path, "cannot read");
+    }
+    done += static_cast<size_t>(count);
+  }
+  return Status();
+}
+
 Status ReadInto(const std::filesystem::path& path, uint64_t max_bytes, auto& content) {
   const Descriptor file(::open(path.c_str(), kReadFlags));
   if (file.get() < 0) {
@@ -59,18 +79,7 @@ Status ReadInto(const std::filesystem::path& path, uint64_t max_bytes, auto& con
                                             " bytes that are allowed here");
   }
   content.resize(size);
-  for (size_t done = 0; done < size;) {
-    const ssize_t count = ::read(file.get(), content.data() + done, size - done);
-    if (count < 0 && errno == EINTR) {
-      continue;
-    }
-    if (count <= 0) {
-      return count == 0 ? Status::Error(path.string(), "became shorter while it was read")
-                        : SystemError(path, "cannot read");
-    }
-    done += static_cast<size_t>(count);
-  }
-  return Status();
+  return ReadFrom(path, file, 0, content);
 }
 
 Status WriteAll(const std::filesystem::path& path,
@@ -94,6 +103,22 @@ Status WriteAll(const std::filesystem::path& path,
 Result<std::vector<std::byte>> ReadBytes(const std::filesystem::path& path, uint64_t max_bytes) {
   std::vector<std::byte> content;
   LARARIUM_RETURN_IF_ERROR(ReadInto(path, max_bytes, content));
+  return content;
+}
+
+Result<std::vector<std::byte>> ReadBytesAt(const std::filesystem::path& path,
+                                           uint64_t offset,
+                                           size_t size) {
+  const Descriptor file(::open(path.c_str(), kReadFlags));
+  if (file.get() < 0) {
+    return SystemError(path, "cannot open");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const uint64_t all, RegularFileSize(path, file.get()));
+  if (offset > all || size > all - offset) {
+    return Status::Error(path.string(), "is shorter than it was");
+  }
+  std::vector<std::byte> content(size);
+  LARARIUM_RETURN_IF_ERROR(ReadFrom(path, file, offset, content));
   return content;
 }
 

@@ -19,6 +19,10 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 30;
 
 Result<std::vector<std::byte>> ReadBytes(const std::filesystem::path& path,
                                          uint64_t max_bytes = kMaxFileBytes);
+// size bytes from offset on.
+Result<std::vector<std::byte>> ReadBytesAt(const std::filesystem::path& path,
+                                           uint64_t offset,
+                                           size_t size);
 Result<std::string> ReadText(const std::filesystem::path& path, uint64_t max_bytes = kMaxFileBytes);
 
 // Replaces path as a whole or leaves it as it was, also across a crash: writes

@@ -47,6 +47,21 @@ class BlockReader {
     }
   }
 
+  // The first `wanted` of `all` elements; all that there are where that is another number, so that
+  // whoever checks `to` finds out.
+  template <typename To, typename From>
+  void ReadFirst(const flatbuffers::Vector<From>* from,
+                 size_t wanted,
+                 size_t all,
+                 std::vector<To>& to) {
+    if (from == nullptr || from->size() != all || wanted >= all) {
+      Read(from, to);
+    } else if (Take(all * sizeof(To))) {
+      const To* first = reinterpret_cast<const To*>(from->Data());
+      to.assign(first, first + wanted);
+    }
+  }
+
   void Read(const flatbuffers::String* from, std::string& to) {
     if (from != nullptr && Take(from->size())) {
       to = from->str();
@@ -64,10 +79,10 @@ class BlockReader {
   }
 
   // One value of To for each table, by read(table, *this, value).
-  template <typename From, typename To>
+  template <typename From, typename To, typename ReadTable>
   void ReadTables(const flatbuffers::Vector<flatbuffers::Offset<From>>* from,
                   std::vector<To>& to,
-                  void (*read)(const From&, BlockReader&, To&)) {
+                  ReadTable read) {
     for (flatbuffers::uoffset_t i = 0; from != nullptr && i < from->size(); ++i) {
       if (!Take(sizeof(flatbuffers::uoffset_t))) {
         return;

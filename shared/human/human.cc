@@ -34,6 +34,11 @@ bool EachHasItsMesh(const std::vector<Cloth>& cloths) {
 
 }  // namespace
 
+Surface SkinnedMesh::SurfaceIn(std::span<const Material> materials) const {
+  return material >= 0 && size_t(material) < materials.size() ? materials[size_t(material)].surface
+                                                              : Surface::kPlain;
+}
+
 Status SkinnedMesh::Validate(size_t joint_count,
                              size_t material_count,
                              const std::string& place) const {
@@ -44,6 +49,9 @@ Status SkinnedMesh::Validate(size_t joint_count,
     return Status::Error(part, "its vertex arrays differ in length");
   }
   LARARIUM_RETURN_IF_ERROR(ValidateTriangles(indices, coarser, count, part));
+  if (!std::isfinite(error) || error < 0.0f) {
+    return Status::Error(part, "a level of detail has no possible error");
+  }
   if (material != Material::kNone && (material < 0 || size_t(material) >= material_count)) {
     return Status::Error(part, "names a material that does not exist");
   }

@@ -34,9 +34,13 @@ struct SkinnedMesh {
   std::vector<std::array<uint8_t, 4>> joints;  // of the four strongest influences
   std::vector<glm::vec4> weights;              // sum 1
   std::vector<uint32_t> indices;               // three for each triangle
-  std::vector<LevelOfDetail> coarser;          // each coarser than the one before
-  int16_t material = Material::kNone;          // index into Human::materials; none: plain albedo
+  // Metres, of indices from the full detail: not 0 where finer levels were left out (ParseHuman).
+  float error = 0.0f;
+  std::vector<LevelOfDetail> coarser;  // each coarser than the one before
+  int16_t material = Material::kNone;  // index into Human::materials; none: plain albedo
 
+  // kPlain where it has no material.
+  Surface SurfaceIn(std::span<const Material> materials) const;
   Status Validate(size_t joint_count, size_t material_count, const std::string& place) const;
 };
 
@@ -61,8 +65,13 @@ struct Human {
   Status Validate(const std::string& place) const;
 };
 
-Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& place);
+// finest: levels of detail that are finer than it takes to be off by so much (metres, as errors
+// count: ErrorShare) are not read, nor what only their vertices have. 0: all is read.
+Result<Human> ParseHuman(std::span<const std::byte> bytes,
+                         const std::string& place,
+                         float finest = 0.0f);
 Result<Human> LoadHuman(const std::filesystem::path& file);
+// Of one that was read whole.
 std::vector<std::byte> SerializeHuman(const Human& human);
 Status SaveHuman(const std::filesystem::path& file, const Human& human);
 

@@ -1,5 +1,8 @@
 // Reading and writing .larhuman files.
 
+#include <algorithm>
+
+#include "shared/core/check.h"
 #include "shared/core/file.h"
 #include "shared/core/flatbuffer_blocks.h"
 #include "shared/human/human.h"
@@ -50,29 +53,108 @@ void ReadLevel(const fb::LevelOfDetail& from, BlockReader& reader, LevelOfDetail
   reader.Read(from.indices(), to.indices);
 }
 
-void ReadMesh(const fb::SkinnedMesh& from, BlockReader& reader, SkinnedMesh& to) {
+// Of a mesh: how many vertices its file has, and how many of them, the first, are read.
+struct VertexCount {
+  size_t all = 0;
+  size_t read = 0;
+};
+
+// Of the mesh of an index, which files may name wrongly.
+VertexCount CountOf(std::span<const VertexCount> counts, size_t mesh) {
+  return mesh < counts.size() ? counts[mesh] : VertexCount();
+}
+
+// How many of the levels, the finest first, are left out where only so much detail is wanted.
+flatbuffers::uoffset_t LevelsLeftOut(const fb::SkinnedMesh& mesh, float finest) {
+  const flatbuffers::uoffset_t coarser = mesh.coarser() == nullptr ? 0 : mesh.coarser()->size();
+  flatbuffers::uoffset_t left_out = 0;
+  for (flatbuffers::uoffset_t i = 0; i < coarser && finest > 0.0f; ++i) {
+    left_out = mesh.coarser()->Get(i)->error() <= finest ? i + 1 : left_out;
+  }
+  return left_out;
+}
+
+// Vertices of coarser levels come first (import::OrderVertices).
+size_t CountVertices(const SkinnedMesh& mesh) {
+  size_t count = 0;
+  const auto take = [&](const std::vector<uint32_t>& indices) {
+    for (const uint32_t index : indices) {
+      count = std::max(count, size_t{index} + 1);
+    }
+  };
+  take(mesh.indices);
+  for (const LevelOfDetail& level : mesh.coarser) {
+    take(level.indices);
+  }
+  return count;
+}
+
+VertexCount ReadTriangles(const fb::SkinnedMesh& from,
+                          float finest,
+                          BlockReader& reader,
+                          SkinnedMesh& to) {
+  const size_t all = from.positions() == nullptr ? 0 : from.positions()->size();
+  const flatbuffers::uoffset_t left_out = LevelsLeftOut(from, finest);
+  if (left_out == 0) {
+    reader.Read(from.indices(), to.indices);
+    reader.ReadTables(from.coarser(), to.coarser, ReadLevel);
+    return {all, all};
+  }
+  LevelOfDetail level;
+  ReadLevel(*from.coarser()->Get(left_out - 1), reader, level);
+  to.indices = std::move(level.indices);
+  to.error = level.error;
+  for (flatbuffers::uoffset_t i = left_out; i < from.coarser()->size(); ++i) {
+    ReadLevel(*from.coarser()->Get(i), reader, to.coarser.emplace_back());
+  }
+  return {all, std::min(all, CountVertices(to))};
+}
+
+VertexCount ReadMesh(const fb::SkinnedMesh& from,
+                     std::span<const Material> materials,
+                     float finest,
+                     BlockReader& reader,
+                     SkinnedMesh& to) {
   reader.Read(from.name(), to.name);
-  reader.Read(from.positions(), to.positions);
-  reader.Read(from.normals(), to.normals);
-  reader.Read(from.albedo(), to.albedo);
-  reader.Read(from.uvs(), to.uvs);
-  reader.Read(from.joints(), to.joints);
-  reader.Read(from.weights(), to.weights);
-  reader.Read(from.indices(), to.indices);
-  reader.ReadTables(from.coarser(), to.coarser, ReadLevel);
   to.material = from.material();
+  const VertexCount count =
+      ReadTriangles(from, finest / ErrorShare(to.SurfaceIn(materials)), reader, to);
+  reader.ReadFirst(from.positions(), count.read, count.all, to.positions);
+  reader.ReadFirst(from.normals(), count.read, count.all, to.normals);
+  reader.ReadFirst(from.albedo(), count.read, count.all, to.albedo);
+  reader.ReadFirst(from.uvs(), count.read, count.all, to.uvs);
+  reader.ReadFirst(from.joints(), count.read, count.all, to.joints);
+  reader.ReadFirst(from.weights(), count.read, count.all, to.weights);
+  return count;
 }
 
-void ReadMorphPart(const fb::MorphPart& from, BlockReader& reader, MorphTarget::Part& to) {
+void ReadMorphPart(const fb::MorphPart& from,
+                   std::span<const VertexCount> counts,
+                   BlockReader& reader,
+                   MorphTarget::Part& to) {
   to.mesh = from.mesh();
-  reader.Read(from.vertices(), to.vertices);
-  reader.Read(from.position_deltas(), to.position_deltas);
-  reader.Read(from.normal_deltas(), to.normal_deltas);
+  const VertexCount count = CountOf(counts, to.mesh);
+  const size_t all = from.vertices() == nullptr ? 0 : from.vertices()->size();
+  size_t read = all;
+  if (count.read < count.all && all > 0) {
+    const uint32_t* vertices = from.vertices()->data();
+    read = static_cast<size_t>(std::lower_bound(vertices, vertices + all, count.read) - vertices);
+  }
+  reader.ReadFirst(from.vertices(), read, all, to.vertices);
+  reader.ReadFirst(from.position_deltas(), read, all, to.position_deltas);
+  reader.ReadFirst(from.normal_deltas(), read, all, to.normal_deltas);
 }
 
-void ReadMorph(const fb::MorphTarget& from, BlockReader& reader, MorphTarget& to) {
+void ReadMorph(const fb::MorphTarget& from,
+               std::span<const VertexCount> counts,
+               BlockReader& reader,
+               MorphTarget& to) {
   reader.Read(from.name(), to.name);
-  reader.ReadTables(from.parts(), to.parts, ReadMorphPart);
+  reader.ReadTables(
+      from.parts(), to.parts,
+      [counts](const fb::MorphPart& part, BlockReader& blocks, MorphTarget::Part& read) {
+        ReadMorphPart(part, counts, blocks, read);
+      });
 }
 
 void ReadFaceShape(const fb::FaceShape& from, BlockReader& reader, FaceShape& to) {
@@ -81,7 +163,10 @@ void ReadFaceShape(const fb::FaceShape& from, BlockReader& reader, FaceShape& to
   ReadTurns(from.turns(), reader, to.turns);
 }
 
-void ReadCloth(const fb::Cloth& from, BlockReader& reader, Cloth& to) {
+void ReadCloth(const fb::Cloth& from,
+               std::span<const VertexCount> counts,
+               BlockReader& reader,
+               Cloth& to) {
   reader.Read(from.name(), to.name);
   to.mesh = from.mesh();
   reader.Read(from.positions(), to.positions);
@@ -89,8 +174,9 @@ void ReadCloth(const fb::Cloth& from, BlockReader& reader, Cloth& to) {
   reader.Read(from.weights(), to.weights);
   reader.Read(from.reach(), to.reach);
   reader.Read(from.triangles(), to.triangles);
-  reader.Read(from.vertex_triangle(), to.vertex_triangle);
-  reader.Read(from.vertex_weights(), to.vertex_weights);
+  const VertexCount count = CountOf(counts, to.mesh);
+  reader.ReadFirst(from.vertex_triangle(), count.read, count.all, to.vertex_triangle);
+  reader.ReadFirst(from.vertex_weights(), count.read, count.all, to.vertex_weights);
   to.density = from.density();
   to.stretch_compliance = from.stretch_compliance();
   to.bend_compliance = from.bend_compliance();
@@ -120,27 +206,62 @@ void ReadKeyPose(const fb::KeyPose& from, BlockReader& reader, std::vector<Joint
   ReadTransforms(from.joints(), reader, to);
 }
 
-void ReadMeshLight(const fb::MeshLight& from, BlockReader& reader, LightTransfer::Mesh& to) {
-  reader.Read(from.receivers(), to.receivers);
-  reader.Read(from.weights(), to.weights);
-  reader.Read(from.coefficients(), to.coefficients);
-  reader.Read(from.scale(), to.scale);
-  reader.Read(from.backs(), to.backs);
+// [key pose][vertex], so many values each.
+template <typename T>
+void ReadVectors(const flatbuffers::Vector<T>* from,
+                 size_t poses,
+                 VertexCount count,
+                 size_t values,
+                 BlockReader& reader,
+                 std::vector<T>& to) {
+  if (from == nullptr || count.read >= count.all || from->size() != poses * count.all * values) {
+    reader.Read(from, to);
+  } else if (reader.Take(from->size() * sizeof(T))) {
+    to.reserve(poses * count.read * values);
+    for (size_t pose = 0; pose < poses; ++pose) {
+      const T* first = from->data() + pose * count.all * values;
+      to.insert(to.end(), first, first + count.read * values);
+    }
+  }
 }
 
-void ReadLight(const fb::LightTransfer* from, BlockReader& reader, LightTransfer& to) {
+void ReadMeshLight(const fb::MeshLight& from,
+                   const LightTransfer& light,
+                   VertexCount count,
+                   BlockReader& reader,
+                   LightTransfer::Mesh& to) {
+  const size_t poses = light.key_poses.size();
+  reader.ReadFirst(from.receivers(), count.read, count.all, to.receivers);
+  reader.ReadFirst(from.weights(), count.read, count.all, to.weights);
+  ReadVectors(from.coefficients(), poses, count, 3 * static_cast<size_t>(light.count), reader,
+              to.coefficients);
+  ReadVectors(from.scale(), poses, count, 1, reader, to.scale);
+  reader.ReadFirst(from.backs(), count.read, count.all, to.backs);
+}
+
+void ReadLight(const fb::LightTransfer* from,
+               std::span<const VertexCount> counts,
+               BlockReader& reader,
+               LightTransfer& to) {
   if (from != nullptr) {
     to.count = from->count();
     to.bounces = from->bounces();
     reader.ReadTables(from->key_poses(), to.key_poses, ReadKeyPose);
     reader.Read(from->blockers(), to.blockers);
     reader.Read(from->receivers(), to.receivers);
-    reader.ReadTables(from->meshes(), to.meshes, ReadMeshLight);
+    reader.ReadTables(
+        from->meshes(), to.meshes,
+        [&](const fb::MeshLight& mesh, BlockReader& blocks, LightTransfer::Mesh& read) {
+          ReadMeshLight(mesh, to, CountOf(counts, to.meshes.size() - 1), blocks, read);
+        });
   }
 }
 
 // Of a buffer whose structure has been verified.
-Result<Human> ReadHuman(const fb::Human& from, size_t file_size, const std::string& place) {
+Result<Human> ReadHuman(const fb::Human& from,
+                        size_t file_size,
+                        const std::string& place,
+                        float finest) {
   BlockReader reader(file_size);
   Human human;
   reader.Read(from.name(), human.name);
@@ -149,14 +270,24 @@ Result<Human> ReadHuman(const fb::Human& from, size_t file_size, const std::stri
   human.skinning = static_cast<Skinning>(from.skinning());
   reader.ReadTables(from.textures(), human.textures, ReadTexture<fb::Texture>);
   reader.ReadTables(from.materials(), human.materials, ReadMaterial<fb::Material>);
-  reader.ReadTables(from.meshes(), human.meshes, ReadMesh);
-  reader.ReadTables(from.morphs(), human.morphs, ReadMorph);
+  std::vector<VertexCount> counts;  // of each mesh
+  reader.ReadTables(from.meshes(), human.meshes,
+                    [&](const fb::SkinnedMesh& mesh, BlockReader& blocks, SkinnedMesh& to) {
+                      counts.push_back(ReadMesh(mesh, human.materials, finest, blocks, to));
+                    });
+  reader.ReadTables(from.morphs(), human.morphs,
+                    [&](const fb::MorphTarget& morph, BlockReader& blocks, MorphTarget& to) {
+                      ReadMorph(morph, counts, blocks, to);
+                    });
   reader.ReadTables(from.face(), human.face, ReadFaceShape);
-  reader.ReadTables(from.cloths(), human.cloths, ReadCloth);
+  reader.ReadTables(from.cloths(), human.cloths,
+                    [&](const fb::Cloth& cloth, BlockReader& blocks, Cloth& to) {
+                      ReadCloth(cloth, counts, blocks, to);
+                    });
   reader.ReadTables(from.springs(), human.springs, ReadSpring);
   reader.Read(from.capsules(), human.capsules);
   reader.ReadTables(from.clips(), human.clips, ReadClip);
-  ReadLight(from.light(), reader, human.light);
+  ReadLight(from.light(), counts, reader, human.light);
   if (!reader.ok()) {
     return Status::Error(place, "the file is damaged: its parts overlap", kRemedy);
   }
@@ -283,14 +414,14 @@ auto WriteLight(flatbuffers::FlatBufferBuilder& builder, const LightTransfer& li
 
 }  // namespace
 
-Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& place) {
+Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& place, float finest) {
   if (bytes.size() < 8 || bytes.size() >= FLATBUFFERS_MAX_BUFFER_SIZE ||
       !fb::HumanBufferHasIdentifier(bytes.data())) {
     return Status::Error(place, "not a .larhuman file", "import the figure again");
   }
   if (reinterpret_cast<uintptr_t>(bytes.data()) % alignof(std::max_align_t) != 0) {
     const std::vector<std::byte> aligned(bytes.begin(), bytes.end());
-    return ParseHuman(aligned, place);
+    return ParseHuman(aligned, place, finest);
   }
   flatbuffers::Verifier verifier(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
   // FlatBuffers pads to whole words; the verifier would not miss the padding.
@@ -305,7 +436,7 @@ Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& pl
                              std::to_string(kVersion) + ")",
                          kRemedy);
   }
-  return ReadHuman(human, bytes.size(), place);
+  return ReadHuman(human, bytes.size(), place, finest);
 }
 
 Result<Human> LoadHuman(const std::filesystem::path& file) {
@@ -314,6 +445,7 @@ Result<Human> LoadHuman(const std::filesystem::path& file) {
 }
 
 std::vector<std::byte> SerializeHuman(const Human& human) {
+  CHECK(std::ranges::all_of(human.meshes, [](const auto& mesh) { return mesh.error == 0.0f; }));
   flatbuffers::FlatBufferBuilder builder(size_t{1} << 20);
   const auto name = builder.CreateString(human.name);
   const auto credits = builder.CreateString(human.credits);

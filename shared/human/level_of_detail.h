@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/human/material.h"
 
 namespace lararium::human {
 
@@ -14,6 +15,9 @@ struct LevelOfDetail {
   float error = 0.0f;  // metres, from the full detail
   std::vector<uint32_t> indices;
 };
+
+// By how much the error of a surface counts: nobody looks at anything as closely as at faces.
+float ErrorShare(Surface surface);
 
 // Of a mesh and its coarser levels. place: what errors call the mesh.
 Status ValidateTriangles(const std::vector<uint32_t>& indices,

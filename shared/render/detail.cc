@@ -7,10 +7,6 @@ namespace lararium::render {
 namespace {
 
 constexpr double kNearest = 0.5;  // metres
-// Shares of errors. Where skin at the last step of quality counted as other surfaces do, faces
-// were smears.
-constexpr float kOfFaces = 2.5f;
-constexpr float kElsewhere = 0.5f;
 constexpr float kPressureStep = 1.25f;
 constexpr float kMostPressure = 64.0f;
 // The budget lets go only where that much of it would stay free.
@@ -55,21 +51,14 @@ bool MaySee(const geometry::CameraModel& display,
          inside(-centre.y(), display.fy, display.cy + 0.5);
 }
 
-float ErrorShare(human::Surface surface) {
-  const bool of_a_face = surface == human::Surface::kSkin || surface == human::Surface::kEye;
-  return of_a_face ? kOfFaces : kElsewhere;
-}
-
 std::vector<MeshLevel> FindMeshLevels(const human::Human& human, size_t index) {
   const human::SkinnedMesh& mesh = human.meshes[index];
-  const float share = mesh.material == human::Material::kNone
-                          ? kElsewhere
-                          : ErrorShare(human.materials[static_cast<size_t>(mesh.material)].surface);
+  const float share = human::ErrorShare(mesh.SurfaceIn(human.materials));
   const auto level = [](const std::vector<uint32_t>& indices, float error) {
     const auto last = std::max_element(indices.begin(), indices.end());
     return MeshLevel{error, indices.size() / 3, last == indices.end() ? 0 : size_t{*last} + 1};
   };
-  std::vector<MeshLevel> levels = {level(mesh.indices, 0.0f)};
+  std::vector<MeshLevel> levels = {level(mesh.indices, share * mesh.error)};
   for (const human::LevelOfDetail& coarser : mesh.coarser) {
     levels.push_back(level(coarser.indices, share * coarser.error));
   }

@@ -26,12 +26,9 @@ bool MaySee(const geometry::CameraModel& display,
             const glm::vec3& centre_in_stage,
             float radius);
 
-// By how much the error of a surface counts: nobody looks at anything as closely as at faces.
-float ErrorShare(human::Surface surface);
-
 // A level of detail of one mesh.
 struct MeshLevel {
-  float error = 0.0f;  // metres, from the finest, times its surface's share
+  float error = 0.0f;  // metres, from the full detail, times its surface's share
   size_t triangles = 0;
   // How many of the mesh's first vertices this and all coarser levels take. Files that
   // import::OrderVertices has been at have those of coarser levels first.

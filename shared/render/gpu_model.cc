@@ -186,7 +186,7 @@ PartSource Source(const human::Human& human, size_t index) {
   PartSource source{mesh.positions,
                     mesh.normals,
                     {},
-                    {{mesh.indices, 0.0f, levels.front().vertices}},
+                    {{mesh.indices, levels.front().error, levels.front().vertices}},
                     mesh.material};
   source.attributes.resize(mesh.positions.size());
   for (size_t v = 0; v < source.attributes.size(); ++v) {
@@ -212,7 +212,7 @@ PartSource Source(const stage::PropMesh& mesh, uint8_t joint) {
                                         mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[v],
                                         {joint, joint, joint, joint});
   }
-  const float share = ErrorShare(human::Surface::kPlain);
+  const float share = human::ErrorShare(human::Surface::kPlain);
   for (const human::LevelOfDetail& level : mesh.coarser) {
     source.levels.push_back({level.indices, share * level.error, mesh.positions.size()});
   }

@@ -108,4 +108,6 @@ bool DrawsOnProcessor(std::string_view device) {
          device.find("softpipe") != std::string_view::npos;
 }
 
+void ReleaseShaderCompiler() { glReleaseShaderCompiler(); }
+
 }  // namespace lararium::render

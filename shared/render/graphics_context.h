@@ -41,4 +41,8 @@ std::string GraphicsDeviceName();
 // Whether that is software (Mesa's), and no graphics card.
 bool DrawsOnProcessor(std::string_view device);
 
+// What the current context's compiler of shaders keeps for the next ones goes back; it is made
+// again when there are any. Takes milliseconds.
+void ReleaseShaderCompiler();
+
 }  // namespace lararium::render

@@ -283,7 +283,7 @@ float ModelPass::DetailOf(const ModelDraw& draw, const GpuModel::Part& part, Pha
   const float least = phase == Phase::kCaster ? kCasterDetail : 0.0f;
   const bool kept = phase == Phase::kCaster && draw.model->skin == GpuModel::Skin::kRigid;
   const float allowed = kept ? least : std::max(draw.detail, least);
-  return allowed * ErrorShare(part.surface) / ErrorShare(human::Surface::kPlain);
+  return allowed * human::ErrorShare(part.surface) / human::ErrorShare(human::Surface::kPlain);
 }
 
 void ModelPass::DrawPart(const ModelDraw& draw,

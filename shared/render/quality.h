@@ -35,8 +35,8 @@ struct Quality {
   // Noise, softness and motion blur of the camera; the camera's image is rectified by shaders then,
   // which can tell its pixels, and by the processor otherwise.
   bool camera_look = true;
-  // By how many pixels levels of detail may be off, as errors count (ErrorShare), and how many
-  // triangles all people together may have (DetailOptions).
+  // By how many pixels levels of detail may be off, as errors count (human::ErrorShare), and how
+  // many triangles all people together may have (DetailOptions).
   float detail_px = 0.5f;
   int triangles = 300'000;
   // How often textures are half as wide and high: 0 to 3. Where it becomes less they are decoded

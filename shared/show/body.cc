@@ -46,11 +46,10 @@ BodyDetail ChooseBodyDetail(float height_px, bool not_seen, const BodyDetail& be
 
 Body::Body(std::shared_ptr<const human::PerformanceModel> model)
     : performer_(std::move(model)),
-      cloth_model_(human()),
-      cloth_(cloth_model_),
+      figure_(performer_.model().human),
+      cloth_(figure_.cloth),
       spring_model_(human()),
       springs_(spring_model_),
-      morphs_(human::FindMeshMorphs(human())),
       is_cloth_(human().meshes.size(), false),
       pose_(human().skeleton.size()),
       actor_from_joint_(human().skeleton.size()),
@@ -80,14 +79,14 @@ void Body::Step(const stage::ActorState& state, double time, const BodyDetail& d
         springs_, pose_, actor_from_joint_);
   }
   human::ComputeSkinMatrices(human().skeleton, actor_from_joint_, skin_);
-  if (cloth_model_.cloth_count() > 0) {
+  if (figure_.cloth.cloth_count() > 0) {
     human::ClothStep step;
     step.actor_from_joint = actor_from_joint_;
     step.stage_from_actor = stage_from_actor;
     step.elapsed = elapsed;
     step.floor_height = state.position.y;
     step.detail = detail.cloth;
-    StepCloth(cloth_model_, step, cloth_);
+    StepCloth(figure_.cloth, step, cloth_);
   }
   FindMovingMeshes(detail);
 }
@@ -100,9 +99,10 @@ void Body::FindMovingMeshes(const BodyDetail& detail) {
   for (uint32_t cloth = 0; cloth < human().cloths.size(); ++cloth) {
     moving_.push_back({human().cloths[cloth].mesh, true, cloth});
   }
-  for (uint32_t i = 0; detail.face && i < morphs_.size(); ++i) {
-    if (!is_cloth_[morphs_[i].mesh] && morphs_[i].Active(performer_.morph_weights())) {
-      moving_.push_back({morphs_[i].mesh, false, i});
+  for (uint32_t i = 0; detail.face && i < figure_.morphs.size(); ++i) {
+    if (!is_cloth_[figure_.morphs[i].mesh] &&
+        figure_.morphs[i].Active(performer_.morph_weights())) {
+      moving_.push_back({figure_.morphs[i].mesh, false, i});
     }
   }
 }
@@ -125,11 +125,12 @@ Mouth Body::actor_from_mouth() const {
 void Body::ComputeVertices(const MovingMesh& moving,
                            std::span<glm::vec3> positions,
                            std::span<glm::vec3> normals) const {
-  const human::SkinnedMesh& mesh = human().meshes[moving.mesh];
+  const human::SkinnedMesh& mesh = figure_.human->meshes[moving.mesh];
   if (moving.posed) {
-    human::DrapeMesh(cloth_model_, cloth_, moving.source, mesh, skin_, positions, normals);
+    human::DrapeMesh(figure_.cloth, cloth_, moving.source, mesh, skin_, positions, normals);
   } else {
-    human::MorphJob{mesh, morphs_[moving.source], performer_.morph_weights(), positions, normals}
+    human::MorphJob{mesh, figure_.morphs[moving.source], performer_.morph_weights(), positions,
+                    normals}
         .Run();
   }
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "shared/human/cloth.h"
@@ -40,11 +41,26 @@ struct Mouth {
   glm::vec3 facing = glm::vec3(0.0f, 0.0f, -1.0f);
 };
 
+// What a body is drawn as: its vertices and what moves them.
+struct Figure {
+  explicit Figure(std::shared_ptr<const human::Human> drawn)
+      : human(std::move(drawn)), cloth(*human), morphs(human::FindMeshMorphs(*human)) {}
+
+  std::shared_ptr<const human::Human> human;
+  human::ClothModel cloth;
+  std::vector<human::MeshMorphs> morphs;
+};
+
 class Body {
  public:
   explicit Body(std::shared_ptr<const human::PerformanceModel> model);
 
   const human::Human& human() const { return performer_.human(); }
+  const std::shared_ptr<const human::Human>& figure() const { return figure_.human; }
+
+  // The same person in another detail (human::ParseHuman); at first that of the model. What moves
+  // goes on.
+  void SetFigure(Figure figure) { figure_ = std::move(figure); }
 
   // Poses the body as its actor is at a moment of the show and lets hair and cloth
   // follow. After a gap, a leap or going back they settle at once. Allocates nothing.
@@ -60,7 +76,7 @@ class Body {
   Mouth actor_from_mouth() const;
   // Meshes whose vertices are not those of the bind pose.
   struct MovingMesh {
-    uint32_t mesh = 0;    // index into Human::meshes
+    uint32_t mesh = 0;    // index into Human::meshes of the figure
     bool posed = false;   // cloth, in the actor frame; otherwise a morphed bind pose
     uint32_t source = 0;  // of cloth: index into Human::cloths; of morphs: Body's own
   };
@@ -74,11 +90,10 @@ class Body {
   void FindMovingMeshes(const BodyDetail& detail);
 
   human::Performer performer_;
-  human::ClothModel cloth_model_;
+  Figure figure_;
   human::ClothState cloth_;
   human::SpringModel spring_model_;
   human::SpringState springs_;
-  std::vector<human::MeshMorphs> morphs_;
   std::vector<bool> is_cloth_;  // of each mesh
   std::vector<human::JointTransform> pose_;
   std::vector<glm::mat4> actor_from_joint_;

@@ -164,6 +164,15 @@ PersonLight::PersonLight(std::shared_ptr<const human::Human> human,
   FindKeyLogs();
 }
 
+void PersonLight::SetFigure(std::shared_ptr<const human::Human> human,
+                            std::shared_ptr<const UnpackedLight> light) {
+  human_ = std::move(human);
+  transfers_ = std::move(light);
+  CHECK(transfers_->size() == human_->light.meshes.size());
+  meshes_.clear();
+  MakeMeshes();
+}
+
 void PersonLight::OrderReceivers() {
   const std::vector<LightTransfer::Receiver>& receivers = human_->light.receivers;
   std::map<uint32_t, std::vector<uint16_t>> by_joint;

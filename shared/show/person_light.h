@@ -50,6 +50,10 @@ class PersonLight {
   explicit PersonLight(std::shared_ptr<const human::Human> human,
                        std::shared_ptr<const UnpackedLight> light = nullptr);
 
+  // The same person in another detail (human::ParseHuman).
+  void SetFigure(std::shared_ptr<const human::Human> human,
+                 std::shared_ptr<const UnpackedLight> light);
+
   // Where the person's blockers are; before Update, and for other people's. Allocates
   // nothing, like all below.
   void Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor);

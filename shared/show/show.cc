@@ -30,7 +30,9 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
   CHECK(!content.places.empty());
   std::unique_ptr<Show> show(new Show(std::move(content)));
   LARARIUM_RETURN_IF_ERROR(show->FillStage());
+  show->finer_.emplace(show->content_.finer, show->content_.cast, log);
   LARARIUM_ASSIGN_OR_RETURN(show->sound_, SoundDirector::Create(show->content_, log));
+  show->DropSounds();
   LARARIUM_RETURN_IF_ERROR(show->sound_->Teach(show->stage_.sounds()));
   if (const Status status = show->PrepareFloor(); !status.ok()) {
     log.warn("{}", status.message());
@@ -81,6 +83,16 @@ Status Show::FillStage() {
     LARARIUM_RETURN_IF_ERROR(stage_.AddSpeech(speech.name, speech.visemes));
   }
   return Status();
+}
+
+// The library has what of them is heard.
+void Show::DropSounds() {
+  for (Speech& line : content_.speech) {
+    line.sound = {};
+  }
+  for (audio::SoundData& sound : content_.sounds) {
+    sound = {sound.name, {}, nullptr};
+  }
 }
 
 // The show goes on where nobody can walk, but for the walks.
@@ -302,6 +314,27 @@ void Show::ChooseDetails(const StagedFrame& staged) {
   }
   detail_chooser_.SetOptions(options);
   detail_chooser_.Choose(requests_);
+  for (size_t cast = 0; cast < requests_.size(); ++cast) {
+    if (requests_[cast].pixels_per_metre > 0.0f) {
+      finer_->Want(cast, requests_[cast].detail);
+    }
+  }
+}
+
+void Show::TakeFiner() {
+  std::optional<FinerCast::Person> person = finer_->Take();
+  if (!person) {
+    return;
+  }
+  const auto cast = static_cast<uint32_t>(person->cast);
+  const std::shared_ptr<const human::Human>& human = person->figure.human;
+  levels_[cast] = render::FindDetailLevels(*human);
+  light_->SetFigure(cast, human, std::move(person->light));
+  content_.cast[cast].light = nullptr;  // nobody is lit by it any more
+  if (!other_bodies_.empty()) {
+    other_bodies_[cast].SetFigure(Figure(human));
+  }
+  bodies_[cast].SetFigure(std::move(person->figure));
 }
 
 void Show::LayOutActors(StagedFrame& staged) {
@@ -310,6 +343,7 @@ void Show::LayOutActors(StagedFrame& staged) {
     const Body& body = bodies_[visible.cast];
     StagedActor& actor = staged.actors.emplace_back();
     actor.cast = visible.cast;
+    actor.figure = body.figure();
     actor.stage_from_actor = stage::StageFromActor(*visible.state);
     actor.detail = requests_[visible.cast].detail;
     actor.skin_begin = static_cast<uint32_t>(staged.skin.size());
@@ -318,7 +352,7 @@ void Show::LayOutActors(StagedFrame& staged) {
     actor.mesh_begin = static_cast<uint32_t>(staged.meshes.size());
     actor.mesh_count = static_cast<uint32_t>(body.moving_meshes().size());
     for (const Body::MovingMesh& mesh : body.moving_meshes()) {
-      const auto count = static_cast<uint32_t>(body.human().meshes[mesh.mesh].positions.size());
+      const auto count = static_cast<uint32_t>(actor.figure->meshes[mesh.mesh].positions.size());
       staged.meshes.push_back({mesh, vertices, count});
       vertices += count;
     }
@@ -592,6 +626,7 @@ void Show::StageSounds(StagedFrame& staged) {
 void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged) {
   time = std::max(time, 0.0);
   TakeRestart(time);
+  TakeFiner();
   Locate(std::move(tracked), staged);
   time = DramaTime(time);
   AdvanceTo(time);
@@ -626,8 +661,9 @@ Status Show::StageOther(double time, const StagedFrame& now, StagedFrame& other)
   other.opacity = now.opacity;
   other.gain = now.gain;
   if (other_bodies_.empty()) {
-    for (const stage::ActorId id : actor_ids_) {
-      other_bodies_.emplace_back(stage_.Find(id)->model);
+    for (size_t cast = 0; cast < actor_ids_.size(); ++cast) {
+      other_bodies_.emplace_back(stage_.Find(actor_ids_[cast])->model);
+      other_bodies_.back().SetFigure(Figure(bodies_[cast].figure()));
     }
   }
   for (Body& body : other_bodies_) {

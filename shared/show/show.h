@@ -24,6 +24,7 @@
 #include "shared/render/quality.h"
 #include "shared/show/body.h"
 #include "shared/show/camera_motion.h"
+#include "shared/show/finer_cast.h"
 #include "shared/show/gain_filter.h"
 #include "shared/show/lamp_shade.h"
 #include "shared/show/lost_guide.h"
@@ -41,6 +42,8 @@ namespace lararium::show {
 // A visible actor at the moment of a frame.
 struct StagedActor {
   uint32_t cast = 0;  // index into ShowContent::cast
+  // As whom they are drawn: the cast's human, or the same in more detail.
+  std::shared_ptr<const human::Human> figure;
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
   uint32_t skin_begin = 0;  // its matrices in StagedFrame::skin
   uint32_t skin_count = 0;
@@ -133,6 +136,7 @@ class Show {
                                               const drama::DramaOptions& options,
                                               Log& log);
 
+  // Without the bytes of sounds.
   const ShowContent& content() const { return content_; }
   const drama::Drama& drama() const { return *drama_; }
   // What StagedFrame::sound speaks of.
@@ -207,6 +211,7 @@ class Show {
   explicit Show(ShowContent content) : content_(std::move(content)) {}
 
   Status FillStage();
+  void DropSounds();
   Status PrepareFloor();
   void ShowTick();
   void AdvanceTo(double time);
@@ -223,6 +228,8 @@ class Show {
                          uint32_t place);
   // What of each visible actor is simulated, and how finely it is drawn, by how it is seen.
   void ChooseDetails(const StagedFrame& staged);
+  // Who was read in more detail since the last frame is drawn so.
+  void TakeFiner();
   // From drawn_ and what staged says of the camera.
   void StagePeopleAndThings(double time, StagedFrame& staged);
   // Bodies step, then write what moves; people are spread over the cores.
@@ -256,8 +263,9 @@ class Show {
   std::vector<std::vector<render::DetailLevel>> levels_;  // likewise
   std::vector<render::DetailRequest> requests_;           // likewise
   render::DetailChooser detail_chooser_;
-  int picture_width_ = 0;   // 0: the camera's
-  int picture_height_ = 0;  // likewise
+  std::optional<FinerCast> finer_;  // set when created
+  int picture_width_ = 0;           // 0: the camera's
+  int picture_height_ = 0;          // likewise
   ViewPart picture_part_;
   bool seen_around_ = false;
   std::vector<stage::ObjectId> object_ids_;  // of each object

@@ -104,29 +104,56 @@ Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
 
 namespace {
 
+CastMember MakeMember(const std::string& name, human::Human human, float finest) {
+  CastMember person;
+  person.name = name;
+  person.light = TakeLight(human.light);
+  person.human = std::make_shared<const human::Human>(std::move(human));
+  person.finest = finest;
+  return person;
+}
+
 Status LoadPerson(const bundle::Bundle& bundle,
                   const bundle::CastEntry& entry,
+                  float finest,
                   CastMember& person) {
   LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.human));
   LARARIUM_ASSIGN_OR_RETURN(human::Human human,
-                            human::ParseHuman(bytes, bundle.place() + ": " + entry.human));
-  person.name = entry.name;
-  person.light = TakeLight(human.light);
-  person.human = std::make_shared<const human::Human>(std::move(human));
+                            human::ParseHuman(bytes, bundle.place() + ": " + entry.human, finest));
+  person = MakeMember(entry.name, std::move(human), finest);
   return Status();
 }
 
 // Several at once: people are most of what is loaded.
-Status LoadCast(const bundle::Bundle& bundle, std::vector<CastMember>& cast) {
+Status LoadCast(const bundle::Bundle& bundle, float finest, std::vector<CastMember>& cast) {
   const std::span<const bundle::CastEntry> entries = bundle.manifest().cast;
   cast.resize(entries.size());
   std::vector<Status> loaded(entries.size());
   ParallelFor(entries.size(),
-              [&](size_t i) { loaded[i] = LoadPerson(bundle, entries[i], cast[i]); });
+              [&](size_t i) { loaded[i] = LoadPerson(bundle, entries[i], finest, cast[i]); });
   for (const Status& status : loaded) {
     LARARIUM_RETURN_IF_ERROR(status);
   }
   return Status();
+}
+
+// When the bundle is closed.
+Result<ReadPerson> ReadsAgain(const bundle::Bundle& bundle) {
+  std::vector<bundle::StoredMember> members;
+  std::vector<std::string> names;
+  for (const bundle::CastEntry& entry : bundle.manifest().cast) {
+    LARARIUM_ASSIGN_OR_RETURN(members.emplace_back(), bundle.stored(entry.human));
+    names.push_back(entry.name);
+  }
+  return ReadPerson([members, names](size_t cast, float finest) -> Result<CastMember> {
+    const bundle::StoredMember& member = members[cast];
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, member.Read());
+    LARARIUM_ASSIGN_OR_RETURN(
+        human::Human human,
+        human::ParseHuman(bytes, member.file.string() + ": " + member.name, finest));
+    human.clips.clear();
+    return MakeMember(names[cast], std::move(human), finest);
+  });
 }
 
 // Objects of one member share its model.
@@ -339,7 +366,8 @@ Result<std::string> ChooseLanguage(std::span<const std::string> languages,
 
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
                                     std::string_view place,
-                                    const LanguageChoice& languages) {
+                                    const LanguageChoice& languages,
+                                    float finest) {
   const bundle::ShowManifest& manifest = bundle.manifest();
   ShowContent content;
   content.title = manifest.title;
@@ -350,7 +378,10 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
     }
   }
 
-  LARARIUM_RETURN_IF_ERROR(LoadCast(bundle, content.cast));
+  LARARIUM_RETURN_IF_ERROR(LoadCast(bundle, finest, content.cast));
+  if (finest > 0.0f) {
+    LARARIUM_ASSIGN_OR_RETURN(content.finer, ReadsAgain(bundle));
+  }
   LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, content.objects));
   LARARIUM_RETURN_IF_ERROR(LoadLines(bundle, languages, content));
   LARARIUM_RETURN_IF_ERROR(LoadSounds(bundle, content.sounds));

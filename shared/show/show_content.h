@@ -2,6 +2,8 @@
 
 // All that one show needs at its places, ready to run.
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,7 +34,13 @@ struct CastMember {
   std::string title = {};  // as captions call the actor; empty: they do not
   // What was taken out of the human's light; nullptr: it has all of it.
   std::shared_ptr<const UnpackedLight> light = nullptr;
+  // In what detail the human was read (human::ParseHuman).
+  float finest = 0.0f;
 };
+
+// Reads one of the cast again, in other detail: for what is drawn of them, so without clips. From
+// any thread.
+using ReadPerson = std::function<Result<CastMember>(size_t cast, float finest)>;
 
 // A thing that people use, or scenery.
 struct StageObject {
@@ -83,6 +91,7 @@ struct ShowContent {
   // here too, so that the drama is the same everywhere. Only their occluders count.
   std::vector<stage::Place> elsewhere = {};
   std::vector<CastMember> cast;
+  ReadPerson finer = {};  // empty: there is no more detail to be had
   std::vector<StageObject> objects;
   std::vector<Speech> speech;
   std::vector<std::string> spoken_languages;   // that it could be heard in
@@ -111,9 +120,11 @@ Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
 
 // The content of a bundle at all of its places, or only at the named one. Every
 // member is checked by its own reader. A line that lacks the chosen language is in the
-// show's first.
+// show's first. finest: as human::ParseHuman takes it, of the cast; finer detail is had from the
+// bundle's file then.
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
                                     std::string_view place = {},
-                                    const LanguageChoice& languages = {});
+                                    const LanguageChoice& languages = {},
+                                    float finest = 0.0f);
 
 }  // namespace lararium::show

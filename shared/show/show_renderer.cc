@@ -35,7 +35,9 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
                             render::Renderer::Create(quality));
   std::unique_ptr<ShowRenderer> show(new ShowRenderer(std::move(renderer)));
   for (const CastMember& member : content.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(show->cast_.emplace_back(), show->renderer_->AddHuman(member.human));
+    LARARIUM_ASSIGN_OR_RETURN(const render::ModelHandle model,
+                              show->renderer_->AddHuman(member.human));
+    show->cast_.push_back({member.human, model});
   }
   LARARIUM_RETURN_IF_ERROR(show->AddObjects(content));
   LARARIUM_ASSIGN_OR_RETURN(show->captions_, ShowCaptions::Create(content));
@@ -87,6 +89,19 @@ Status ShowRenderer::AddObjects(const ShowContent& content) {
   return Status();
 }
 
+// Its textures are there: those of what was.
+Status ShowRenderer::UploadFigures(const StagedFrame& staged) {
+  for (const StagedActor& actor : staged.actors) {
+    CastModel& known = cast_[actor.cast];
+    if (known.figure != actor.figure) {
+      LARARIUM_ASSIGN_OR_RETURN(const render::ModelHandle model, renderer_->AddHuman(actor.figure));
+      renderer_->RemoveModel(known.model);
+      known = {actor.figure, model};
+    }
+  }
+  return Status();
+}
+
 void ShowRenderer::CollectHumans(const StagedFrame& staged) {
   humans_.clear();
   vertices_.clear();
@@ -96,7 +111,7 @@ void ShowRenderer::CollectHumans(const StagedFrame& staged) {
          std::span(staged.normals).subspan(mesh.vertex_begin, mesh.vertex_count), mesh.mesh.posed});
   }
   for (const StagedActor& actor : staged.actors) {
-    humans_.push_back({cast_[actor.cast], actor.stage_from_actor,
+    humans_.push_back({cast_[actor.cast].model, actor.stage_from_actor,
                        std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
                        std::span(vertices_).subspan(actor.mesh_begin, actor.mesh_count),
                        std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count),
@@ -150,7 +165,8 @@ void ShowRenderer::BlendReflections(const StagedFrame& staged) {
   }
 }
 
-render::RenderScene ShowRenderer::SceneOf(const StagedFrame& staged, int height) {
+Result<render::RenderScene> ShowRenderer::SceneOf(const StagedFrame& staged, int height) {
+  LARARIUM_RETURN_IF_ERROR(UploadFigures(staged));
   const PlaceScene& place = places_[staged.place];
   render::RenderScene scene;
   CollectHumans(staged);
@@ -211,7 +227,7 @@ void ShowRenderer::SetCamera(const StagedFrame& staged,
 Status ShowRenderer::DrawWhole(const StagedFrame& staged,
                                const render::RenderTarget& target,
                                const PictureEye& eye) {
-  render::RenderScene scene = SceneOf(staged, target.height());
+  LARARIUM_ASSIGN_OR_RETURN(render::RenderScene scene, SceneOf(staged, target.height()));
   SetCamera(staged, target, eye, scene);
   shadows_are_drawn_ = false;
   layer_place_ = staged.place;
@@ -228,7 +244,7 @@ Status ShowRenderer::DrawHalf(const StagedFrame& staged,
                                                                   CameraMotionTracker::kLongest)),
               drawn_by_halves_);
   }
-  render::RenderScene people = SceneOf(drawn_by_halves_, target.height());
+  LARARIUM_ASSIGN_OR_RETURN(render::RenderScene people, SceneOf(drawn_by_halves_, target.height()));
   SetCamera(drawn_by_halves_, target, {}, people);
   const auto half =
       shadows_are_drawn_ ? render::Renderer::Half::kPeople : render::Renderer::Half::kShadows;
@@ -253,7 +269,7 @@ Status ShowRenderer::Draw(const StagedFrame& staged,
 Status ShowRenderer::DrawSeeThrough(const StagedFrame& staged,
                                     const FreeEye& eye,
                                     const render::RenderTarget& target) {
-  render::RenderScene scene = SceneOf(staged, target.height());
+  LARARIUM_ASSIGN_OR_RETURN(render::RenderScene scene, SceneOf(staged, target.height()));
   scene.see_through = true;
   scene.display = eye.camera;
   scene.camera_from_stage = eye.eye_from_stage;
@@ -270,7 +286,7 @@ Status ShowRenderer::DrawGhosts(const StagedFrame& staged,
   if (!staged.camera_from_stage) {
     return Status::Error("ghosts", "cannot be drawn without a pose");
   }
-  render::RenderScene scene = SceneOf(staged, target.height());
+  LARARIUM_ASSIGN_OR_RETURN(render::RenderScene scene, SceneOf(staged, target.height()));
   for (render::SceneHuman& human : humans_) {
     human.mark = mark;
   }

@@ -91,8 +91,10 @@ class ShowRenderer {
       : renderer_(std::move(renderer)) {}
 
   Status AddObjects(const ShowContent& content);
+  // Uploads who is drawn in another detail than before, in the place of what was.
+  Status UploadFigures(const StagedFrame& staged);
   // All but from where it is seen.
-  render::RenderScene SceneOf(const StagedFrame& staged, int height);
+  Result<render::RenderScene> SceneOf(const StagedFrame& staged, int height);
   // The image and from where it is seen, as a part of the scene.
   void SetCamera(const StagedFrame& staged,
                  const render::RenderTarget& target,
@@ -111,7 +113,11 @@ class ShowRenderer {
 
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<ShowCaptions> captions_;
-  std::vector<render::ModelHandle> cast_;
+  struct CastModel {
+    std::shared_ptr<const human::Human> figure;
+    render::ModelHandle model;
+  };
+  std::vector<CastModel> cast_;
   std::vector<render::ModelHandle> objects_;  // of each object
   std::vector<PlaceScene> places_;
   bool matte_ = false;

@@ -6,16 +6,23 @@
 #include "shared/core/parallel.h"
 
 namespace lararium::show {
+namespace {
+
+size_t CountVertices(const human::Human& human) {
+  size_t vertices = 0;
+  for (const human::SkinnedMesh& mesh : human.meshes) {
+    vertices += mesh.positions.size();
+  }
+  return vertices;
+}
+
+}  // namespace
 
 StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast,
                        std::span<const std::shared_ptr<const UnpackedLight>> light) {
   for (size_t i = 0; i < cast.size(); ++i) {
     const std::shared_ptr<const human::Human>& human = cast[i];
-    size_t vertices = 0;
-    for (const human::SkinnedMesh& mesh : human->meshes) {
-      vertices += mesh.positions.size();
-    }
-    vertex_counts_.push_back(vertices);
+    vertex_counts_.push_back(CountVertices(*human));
     lights_.push_back(!human->light.empty());
     const bool shades = !human->light.blockers.empty();
     people_.push_back(lights_.back() || shades
@@ -24,6 +31,15 @@ StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast
   }
   matrices_.resize(people_.size());
   others_.resize(people_.size());
+}
+
+void StageLight::SetFigure(uint32_t cast,
+                           std::shared_ptr<const human::Human> human,
+                           std::shared_ptr<const UnpackedLight> light) {
+  vertex_counts_[cast] = CountVertices(*human);
+  if (people_[cast] != nullptr) {
+    people_[cast]->SetFigure(std::move(human), std::move(light));
+  }
 }
 
 const light::LightMatrix& StageLight::MatrixFor(const LitActor& actor) {

@@ -34,6 +34,11 @@ class StageLight {
   explicit StageLight(std::span<const std::shared_ptr<const human::Human>> cast,
                       std::span<const std::shared_ptr<const UnpackedLight>> light = {});
 
+  // The same member in another detail (human::ParseHuman).
+  void SetFigure(uint32_t cast,
+                 std::shared_ptr<const human::Human> human,
+                 std::shared_ptr<const UnpackedLight> light);
+
   bool Lights(uint32_t cast) const { return lights_[cast]; }
   // Vertices of all meshes of a member.
   size_t vertex_count(uint32_t cast) const { return vertex_counts_[cast]; }

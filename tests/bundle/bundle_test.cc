@@ -86,6 +86,30 @@ TEST_F(BundleTest, GivesBackWhatWasWritten) {
   EXPECT_FALSE(opened->member("nothing").ok());
 }
 
+TEST_F(BundleTest, AMemberIsReadAgainOnlyWhileItIsWhatItWas) {
+  const std::string good = GoodFile();
+  std::vector<StoredMember> members;
+  {
+    const auto opened = Bundle::Open(path_);
+    ASSERT_TRUE(opened.ok()) << opened.message();
+    EXPECT_FALSE(opened->stored("nothing").ok());
+    for (const MemberContent& member : Members()) {
+      members.push_back(*opened->stored(member.name));
+      EXPECT_EQ(Text(*members.back().Read()), Text(*opened->member(member.name)));
+    }
+  }
+  const StoredMember& member = members.back();
+  ASSERT_GT(member.size, 0u);
+  std::string changed = good;
+  changed[member.offset] ^= 1;
+  std::ofstream(path_, std::ios::binary) << changed;
+  EXPECT_THAT(member.Read().message(), HasSubstr(member.name));
+  std::ofstream(path_, std::ios::binary) << good.substr(0, member.offset);
+  EXPECT_FALSE(member.Read().ok());
+  std::filesystem::remove(path_);
+  EXPECT_THAT(member.Read().message(), HasSubstr(path_.string()));
+}
+
 TEST_F(BundleTest, TheSameContentGivesTheSameBytes) {
   const std::string first = GoodFile();
   EXPECT_EQ(GoodFile(), first);

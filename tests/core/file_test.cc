@@ -43,6 +43,17 @@ TEST(File, RefusesWhatIsTooLarge) {
   EXPECT_FALSE(ReadText(folder / "a", 4).ok());
 }
 
+TEST(File, ReadsAPartThatItHas) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "a", "0123456789").ok());
+  const std::vector<std::byte> part = ReadBytesAt(folder / "a", 3, 4).value();
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(part.data()), part.size()), "3456");
+  EXPECT_TRUE(ReadBytesAt(folder / "a", 10, 0).ok());
+  EXPECT_FALSE(ReadBytesAt(folder / "a", 3, 8).ok());
+  EXPECT_FALSE(ReadBytesAt(folder / "a", 11, 0).ok());
+  EXPECT_FALSE(ReadBytesAt(folder / "a", 3, ~size_t{0}).ok());
+}
+
 TEST(File, DoesNotHangOnAPipe) {
   const test::TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);

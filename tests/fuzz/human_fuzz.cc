@@ -1,6 +1,6 @@
 // libFuzzer harness: whatever the bytes are, parsing them ends, and what it accepts
 // keeps every promise of human.h, is written and read again, and can be shown: posed,
-// skinned, with its cloth and hair in motion.
+// skinned, with its cloth and hair in motion; and so is what is read of it coarsely.
 
 #include <cstddef>
 #include <cstdint>
@@ -62,6 +62,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     CHECK(parsed->Validate("fuzz").ok());
     CHECK(ParseHuman(SerializeHuman(*parsed), "again").ok());
     Show(std::make_shared<const Human>(*std::move(parsed)));
+  }
+  constexpr float kCoarse = 0.005f;  // metres
+  auto coarse = ParseHuman(bytes, "fuzz", kCoarse);
+  if (coarse.ok()) {
+    CHECK(coarse->Validate("fuzz").ok());
+    Show(std::make_shared<const Human>(*std::move(coarse)));
   }
   return 0;
 }

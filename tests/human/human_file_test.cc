@@ -141,6 +141,68 @@ TEST(HumanFile, RoundTripKeepsTheLightTransfer) {
   EXPECT_EQ(light.meshes[0].backs, human.light.meshes[0].backs);
 }
 
+// Of wool, with a level that leaves the last vertex out.
+Human WithACoarserLevel() {
+  Human human = RichHuman();
+  human.meshes[0].coarser = {{0.01f, {0, 1, 2}}, {0.5f, {}}};
+  return human;
+}
+
+TEST(HumanFile, ReadsOnlyTheDetailThatIsWanted) {
+  const Human human = WithACoarserLevel();
+  const float error = 0.01f * ErrorShare(Surface::kCloth);
+  const auto parsed = ParseHuman(SerializeHuman(human), "here", error);
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  const SkinnedMesh& all = human.meshes[0];
+  const SkinnedMesh& mesh = parsed->meshes[0];
+  const auto first = [](const auto& of, size_t count) {
+    return std::decay_t<decltype(of)>(of.begin(), of.begin() + static_cast<ptrdiff_t>(count));
+  };
+  EXPECT_EQ(mesh.error, 0.01f);
+  EXPECT_EQ(mesh.indices, all.coarser[0].indices);
+  ASSERT_EQ(mesh.coarser.size(), 1u);
+  EXPECT_EQ(mesh.coarser[0].error, 0.5f);
+  EXPECT_EQ(mesh.positions, first(all.positions, 3));
+  EXPECT_EQ(mesh.normals, first(all.normals, 3));
+  EXPECT_EQ(mesh.albedo, first(all.albedo, 3));
+  EXPECT_EQ(mesh.uvs, first(all.uvs, 3));
+  EXPECT_EQ(mesh.joints, first(all.joints, 3));
+  EXPECT_EQ(mesh.weights, first(all.weights, 3));
+  const MorphTarget::Part& morph = parsed->morphs[0].parts[0];
+  EXPECT_EQ(morph.vertices, (std::vector<uint32_t>{1}));
+  EXPECT_EQ(morph.position_deltas, first(human.morphs[0].parts[0].position_deltas, 1));
+  EXPECT_EQ(morph.normal_deltas, first(human.morphs[0].parts[0].normal_deltas, 1));
+  EXPECT_EQ(parsed->cloths[0].positions, human.cloths[0].positions);
+  EXPECT_EQ(parsed->cloths[0].vertex_triangle, first(human.cloths[0].vertex_triangle, 3));
+  EXPECT_EQ(parsed->cloths[0].vertex_weights, first(human.cloths[0].vertex_weights, 3));
+  const LightTransfer::Mesh& all_light = human.light.meshes[0];
+  const LightTransfer::Mesh& light = parsed->light.meshes[0];
+  EXPECT_EQ(light.receivers, first(all_light.receivers, 3));
+  EXPECT_EQ(light.weights, first(all_light.weights, 3));
+  EXPECT_EQ(light.backs, first(all_light.backs, 3));
+  constexpr size_t kVector = 3 * 9;
+  ASSERT_EQ(light.scale.size(), 2u * 3u);
+  ASSERT_EQ(light.coefficients.size(), 2u * 3u * kVector);
+  for (size_t pose = 0; pose < 2; ++pose) {
+    for (size_t v = 0; v < 3; ++v) {
+      EXPECT_EQ(light.scale[3 * pose + v], all_light.scale[4 * pose + v]);
+      for (size_t k = 0; k < kVector; ++k) {
+        EXPECT_EQ(light.coefficients[(3 * pose + v) * kVector + k],
+                  all_light.coefficients[(4 * pose + v) * kVector + k]);
+      }
+    }
+  }
+}
+
+TEST(HumanFile, ReadsAllWhereNoCoarserLevelWillDo) {
+  const Human human = WithACoarserLevel();
+  for (const float finest : {0.0f, 0.009f * ErrorShare(Surface::kCloth)}) {
+    const auto parsed = ParseHuman(SerializeHuman(human), "here", finest);
+    ASSERT_TRUE(parsed.ok()) << parsed.message();
+    EXPECT_EQ(SerializeHuman(*parsed), SerializeHuman(human)) << finest;
+  }
+}
+
 TEST(HumanFile, AHumanWithoutLightTransferHasNone) {
   const auto parsed = ParseHuman(SerializeHuman(TwoJointHuman()), "here");
   ASSERT_TRUE(parsed.ok()) << parsed.message();
@@ -281,11 +343,12 @@ TEST(HumanFile, RefusesEveryTruncation) {
     // A copy of its own size, so that sanitizers see any read beyond it.
     const std::vector<std::byte> cut(bytes.begin(), bytes.begin() + static_cast<long>(length));
     EXPECT_FALSE(ParseHuman(cut, "cut").ok()) << length;
+    EXPECT_FALSE(ParseHuman(cut, "cut", 1.0f).ok()) << length;
   }
 }
 
 TEST(HumanFile, SurvivesFlippedBits) {
-  const std::vector<std::byte> bytes = SerializeHuman(RichHuman());
+  const std::vector<std::byte> bytes = SerializeHuman(WithACoarserLevel());
   Random random(3);
   for (int trial = 0; trial < 20000; ++trial) {
     std::vector<std::byte> damaged = bytes;
@@ -293,9 +356,11 @@ TEST(HumanFile, SurvivesFlippedBits) {
       damaged[random.Below(static_cast<uint32_t>(damaged.size()))] ^=
           static_cast<std::byte>(1u << random.Below(8));
     }
-    const auto parsed = ParseHuman(damaged, "damaged");
-    if (parsed.ok()) {
-      EXPECT_TRUE(parsed->Validate("damaged").ok());
+    for (const float finest : {0.0f, 0.006f}) {
+      const auto parsed = ParseHuman(damaged, "damaged", finest);
+      if (parsed.ok()) {
+        EXPECT_TRUE(parsed->Validate("damaged").ok());
+      }
     }
   }
 }

@@ -280,12 +280,21 @@ end
 )";
 }
 
+// As the player has it.
+Result<show::ShowContent> Load(const std::string& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(file));
+  LARARIUM_ASSIGN_OR_RETURN(
+      show::ShowContent content,
+      show::LoadShowContent(bundle, {}, {},
+                            show::FinestDetail(render::QualityLadder().back(), kWidth)));
+  content.drama = WithErrors(std::move(content.drama));
+  return content;
+}
+
 Result<bool> Soak(const Options& options) {
   // A log whose disk is full.
   LARARIUM_ASSIGN_OR_RETURN(const std::shared_ptr<Log> log, MakeLog("/dev/full"));
-  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
-  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, show::LoadShowContent(bundle));
-  content.drama = WithErrors(std::move(content.drama));
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Load(options.show));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<capture::FrameSource> video,
                             capture::OpenVideo(options.video));
   const std::shared_ptr<capture::FrameSource> recording = capture::Loop(std::move(video));

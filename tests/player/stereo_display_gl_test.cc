@@ -41,6 +41,7 @@ class StereoDisplayTest : public render::GlTest {
     ASSERT_TRUE(renderer.ok()) << renderer.message();
     renderer_ = std::move(renderer).value();
     staged_.actors.resize(1);
+    staged_.actors[0].figure = content.cast[0].human;
     staged_.actors[0].skin_count = 1;
     staged_.actors[0].stage_from_actor =
         glm::mat4(glm::vec4(0.06f, 0.0f, 0.0f, 0.0f), glm::vec4(0.0f, 0.06f, 0.0f, 0.0f),

@@ -30,7 +30,7 @@ TEST(FindDetailLevels, SumsWhatEachMeshShowsAtAnError) {
   EXPECT_EQ(levels[1].triangles, all + half.size() / 3);
   EXPECT_EQ(levels[2].triangles, 2 * (half.size() / 3));
   EXPECT_EQ(levels[3].triangles, half.size() / 3 + 1);
-  EXPECT_FLOAT_EQ(levels[3].error, 0.004f * ErrorShare(human::Surface::kPlain));
+  EXPECT_FLOAT_EQ(levels[3].error, 0.004f * human::ErrorShare(human::Surface::kPlain));
 }
 
 TEST(FindMeshLevels, CountsTheFirstVerticesThatALevelAndAllCoarserOnesTake) {
@@ -47,8 +47,25 @@ TEST(FindMeshLevels, CountsTheFirstVerticesThatALevelAndAllCoarserOnesTake) {
     EXPECT_EQ(levels[i].triangles, triangles[i]) << i;
   }
   EXPECT_EQ(&LevelAllowed(levels, 0.0f), &levels[0]);
-  EXPECT_EQ(&LevelAllowed(levels, 0.003f * ErrorShare(human::Surface::kPlain)), &levels[2]);
+  EXPECT_EQ(&LevelAllowed(levels, 0.003f * human::ErrorShare(human::Surface::kPlain)), &levels[2]);
   EXPECT_EQ(&LevelAllowed(levels, 1.0f), &levels[3]);
+}
+
+TEST(FindMeshLevels, OfWhatWasReadCoarselyAreTheCoarserOnesOfAll) {
+  human::Human human = MakeHuman(BendingBox(glm::vec3(0.5f)), 3);
+  human.meshes[0].coarser = {{0.002f, {0, 1, 2}}, {0.004f, {0, 1, 1}}};
+  const float finest = 0.003f * human::ErrorShare(human::Surface::kPlain);
+  const auto coarse = human::ParseHuman(human::SerializeHuman(human), "here", finest);
+  ASSERT_TRUE(coarse.ok()) << coarse.message();
+  const std::vector<MeshLevel> all = FindMeshLevels(human, 0);
+  const std::vector<MeshLevel> levels = FindMeshLevels(*coarse, 0);
+  ASSERT_EQ(all.size(), 3u);
+  ASSERT_EQ(levels.size(), 2u);
+  for (size_t i = 0; i < levels.size(); ++i) {
+    EXPECT_EQ(levels[i].error, all[i + 1].error);
+    EXPECT_EQ(levels[i].triangles, all[i + 1].triangles);
+    EXPECT_EQ(levels[i].vertices, all[i + 1].vertices);
+  }
 }
 
 TEST(FindMeshLevels, CountErrorsOfSkinAndEyesMoreThanOthers) {
@@ -60,7 +77,7 @@ TEST(FindMeshLevels, CountErrorsOfSkinAndEyesMoreThanOthers) {
     human.materials[0].surface = surface;
     return FindMeshLevels(human, 0)[1].error;
   };
-  EXPECT_FLOAT_EQ(error(human::Surface::kSkin), 0.002f * ErrorShare(human::Surface::kSkin));
+  EXPECT_FLOAT_EQ(error(human::Surface::kSkin), 0.002f * human::ErrorShare(human::Surface::kSkin));
   EXPECT_FLOAT_EQ(error(human::Surface::kEye), error(human::Surface::kSkin));
   EXPECT_LT(error(human::Surface::kCloth), error(human::Surface::kSkin));
   EXPECT_LT(error(human::Surface::kHair), error(human::Surface::kSkin));

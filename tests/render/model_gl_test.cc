@@ -586,7 +586,7 @@ TEST_F(ModelTest, DrawsTheCoarsestAllowedLevel) {
   RenderScene scene = Scene();
   scene.humans = {&shown, 1};
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(10, 10), cv::Vec3b(255, 255, 255));
-  const float share = ErrorShare(human::Surface::kPlain);
+  const float share = human::ErrorShare(human::Surface::kPlain);
   shown.detail = 0.009f * share;
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(10, 10), cv::Vec3b(255, 255, 255));
   shown.detail = 0.011f * share;

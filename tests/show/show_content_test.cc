@@ -5,6 +5,7 @@
 #include "shared/bundle/bundle_writer.h"
 #include "shared/core/file.h"
 #include "shared/stage/mesh_file.h"
+#include "tests/human/rich_human.h"
 #include "tests/stage/test_props.h"
 #include "tests/support/synthetic_world.h"
 #include "tests/support/test_files.h"
@@ -35,7 +36,7 @@ class ShowContentTest : public ::testing::Test {
     manifest_.places[1].occluders = {{"wall", "wall.larmesh", {}}};
   }
 
-  Result<ShowContent> Load(std::string_view place = {}) {
+  Result<ShowContent> Load(std::string_view place = {}, float finest = 0.0f) {
     const std::string drama = "function main() end\n";
     const std::filesystem::path path = folder_ / "a.larshow";
     const Status written = bundle::WriteBundle(path, manifest_,
@@ -44,10 +45,11 @@ class ShowContentTest : public ::testing::Test {
                                                 {"yard.larscene", yard_},
                                                 {"wall.larmesh", wall_},
                                                 {"cup.larprop", cup_},
+                                                {"keeper.larhuman", human_},
                                                 {"hello.json", std::as_bytes(std::span(hello_))}});
     LARARIUM_RETURN_IF_ERROR(written);
     LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(path));
-    return LoadShowContent(bundle, place);
+    return LoadShowContent(bundle, place, {}, finest);
   }
 
   test::TemporaryFolder folder_;
@@ -56,6 +58,7 @@ class ShowContentTest : public ::testing::Test {
   std::vector<std::byte> yard_ = test::OnePointScene(60.0);
   std::vector<std::byte> wall_;
   std::vector<std::byte> cup_ = stage::SerializeProp(test::MakeCup());
+  std::vector<std::byte> human_ = human::SerializeHuman(human::RichHuman());
   std::string hello_ = R"({"schema": 1, "duration": 0.5, "visemes": [{"t": 0, "viseme": "aa"}]})";
 };
 
@@ -76,6 +79,34 @@ TEST_F(ShowContentTest, ObjectsOfOneMemberShareTheirModel) {
 
   cup_.resize(cup_.size() / 2);
   EXPECT_THAT(Load().message(), HasSubstr("cup.larprop"));
+}
+
+TEST_F(ShowContentTest, ThePeopleOfAClosedBundleAreReadInMoreDetail) {
+  human::Human human = human::RichHuman();
+  human.meshes[0].coarser = {{0.01f, {0, 1, 2}}};
+  human_ = human::SerializeHuman(human);
+  manifest_.cast = {{"keeper", "keeper.larhuman"}};
+  const auto whole = Load();
+  ASSERT_TRUE(whole.ok()) << whole.message();
+  EXPECT_EQ(whole->cast[0].human->meshes[0].positions.size(), 4u);
+  EXPECT_FALSE(whole->finer);
+
+  const auto content = Load({}, 1.0f);
+  ASSERT_TRUE(content.ok()) << content.message();
+  EXPECT_EQ(content->cast[0].human->meshes[0].positions.size(), 3u);
+  EXPECT_EQ(content->cast[0].finest, 1.0f);
+  ASSERT_TRUE(content->finer);
+  const auto finer = content->finer(0, 0.001f);
+  ASSERT_TRUE(finer.ok()) << finer.message();
+  EXPECT_EQ(finer->name, "keeper");
+  EXPECT_EQ(finer->human->meshes[0].positions, human.meshes[0].positions);
+  EXPECT_EQ(finer->light->at(0).vertices(), 4u);
+
+  // What lies there now was not opened.
+  human.meshes[0].positions[0].y += 1.0f;
+  human_ = human::SerializeHuman(human);
+  ASSERT_TRUE(Load().ok());
+  EXPECT_THAT(content->finer(0, 0.001f).message(), HasSubstr("keeper.larhuman"));
 }
 
 TEST_F(ShowContentTest, BrokenSpeechIsNamed) {

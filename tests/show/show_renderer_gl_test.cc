@@ -56,6 +56,7 @@ class ShowRendererTest : public render::GlTest {
     renderer_ = std::move(renderer).value();
     target_.emplace(MakeTarget(kCamera.width, kCamera.height));
     staged_.actors.resize(1);
+    staged_.actors[0].figure = content.cast[0].human;
     staged_.actors[0].skin_count = 1;
     staged_.actors[0].stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
     staged_.skin = {glm::mat4(1.0f)};
@@ -215,6 +216,19 @@ double BallAt(const cv::Mat& picture) {
   cv::Mat lit;
   cv::inRange(picture, cv::Scalar::all(60), cv::Scalar::all(255), lit);
   return cv::moments(lit, true).m10 / std::max(cv::moments(lit, true).m00, 1.0);
+}
+
+TEST_F(ShowRendererTest, WhoIsStagedInAnotherDetailIsDrawnInIt) {
+  Create(glm::vec3(0.5f), {{}});
+  SetLight(glm::vec3(1.0f));
+  const cv::Mat ball = Draw();
+  human::Human half = *staged_.actors[0].figure;
+  half.meshes[0].indices.resize(half.meshes[0].indices.size() / 6 * 3);
+  const auto coarse = std::make_shared<const human::Human>(half);
+  const auto fine = std::exchange(staged_.actors[0].figure, coarse);
+  EXPECT_FALSE(test::ImagesAgree(Draw(), ball, {.max = 1.0, .mean = 0.1}));
+  staged_.actors[0].figure = fine;
+  EXPECT_TRUE(test::ImagesAgree(Draw(), ball, {.max = 0.0, .mean = 0.0}));
 }
 
 TEST_F(ShowRendererTest, AtHalfTheRatePeopleMoveInEverySecondPicture) {

@@ -1,0 +1,66 @@
+#include "shared/show/finer_cast.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "shared/core/memory.h"
+
+namespace lararium::show {
+namespace {
+
+// Of the detail that is to be drawn.
+constexpr float kFiner = 0.7f;
+
+bool IsWhole(const human::Human& human) {
+  return std::ranges::all_of(human.meshes, [](const auto& mesh) { return mesh.error == 0.0f; });
+}
+
+Result<FinerCast::Person> ReadFiner(const ReadPerson& read, size_t cast, float finest) {
+  LARARIUM_ASSIGN_OR_RETURN(CastMember member, read(cast, finest));
+  FinerCast::Person person{cast, Figure(std::move(member.human)), std::move(member.light)};
+  TrimHeap();  // the file's bytes are many times what stays of them
+  return person;
+}
+
+}  // namespace
+
+float FinestDetail(const render::Quality& quality, int width) {
+  constexpr float kNear = 1.5f;          // metres
+  constexpr float kFocalOfWidth = 0.8f;  // of most cameras
+  return quality.detail_px * kNear / (kFocalOfWidth * static_cast<float>(width));
+}
+
+FinerCast::FinerCast(ReadPerson read, std::span<const CastMember> cast, Log& log)
+    : read_(std::move(read)), log_(log) {
+  for (const CastMember& member : cast) {
+    finest_.push_back(!read_ || IsWhole(*member.human) ? 0.0f : member.finest);
+  }
+}
+
+void FinerCast::Want(size_t cast, float detail) {
+  if (detail >= finest_[cast] || reading_.valid()) {
+    return;
+  }
+  reading_cast_ = cast;
+  reading_finest_ = kFiner * detail;
+  reading_ = std::async(std::launch::async, ReadFiner, std::cref(read_), cast, reading_finest_);
+}
+
+std::optional<FinerCast::Person> FinerCast::Take() {
+  if (!reading_.valid() ||
+      reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return std::nullopt;
+  }
+  Result<Person> person = reading_.get();
+  if (!person.ok()) {
+    finest_[reading_cast_] = 0.0f;
+    log_.warn("{}", person.message());
+    return std::nullopt;
+  }
+  const human::Human& human = *person->figure.human;
+  finest_[reading_cast_] = IsWhole(human) ? 0.0f : reading_finest_;
+  return std::move(person).value();
+}
+
+}  // namespace lararium::show
