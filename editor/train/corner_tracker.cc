@@ -42,13 +42,29 @@ CoverageFrame CornerTracker::Measure(const cv::Mat& grey, double time) {
   Follow(small);
   FindMore(small);
   for (size_t i = 0; i < corners_.size(); ++i) {
-    // c' = s (c + 0.5) - 0.5
-    const Eigen::Vector2d pixel((corners_[i].x + 0.5) / factor - 0.5,
-                                (corners_[i].y + 0.5) / factor - 0.5);
-    frame.tracks.push_back({ids_[i], camera_.PlaneFromPixel(pixel)});
+    frame.tracks.push_back({ids_[i], OnPlane(corners_[i].x, corners_[i].y, factor)});
   }
+  Describe(small, factor, frame);
   previous_ = small;
   return frame;
+}
+
+// Of a pixel of the small image.
+Eigen::Vector2d CornerTracker::OnPlane(double x, double y, double factor) const {
+  // c' = s (c + 0.5) - 0.5
+  return camera_.PlaneFromPixel({(x + 0.5) / factor - 0.5, (y + 0.5) / factor - 0.5});
+}
+
+void CornerTracker::Describe(const cv::Mat& small, double factor, CoverageFrame& frame) {
+  constexpr int kMostFeatures = 300;
+  const vision::FeatureOptions options{.first_octave = 0, .max_features = kMostFeatures};
+  if (!extractor_.Extract(small, options, features_).ok()) {
+    return;  // nothing is recognised by it
+  }
+  for (const vision::Keypoint& keypoint : features_.keypoints) {
+    frame.features.push_back(OnPlane(keypoint.x, keypoint.y, factor));
+  }
+  frame.descriptors = features_.descriptors;
 }
 
 void CornerTracker::Follow(const cv::Mat& small) {

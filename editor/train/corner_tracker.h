@@ -13,7 +13,8 @@
 namespace lararium::train {
 
 // Follows corners from frame to frame, on images of about 320 pixels width (Lucas & Kanade's
-// tracker on pyramids, checked backwards), and finds new ones where none are.
+// tracker on pyramids, checked backwards), and finds new ones where none are. Describes features of
+// these images, too, by which views are recognised.
 class CornerTracker {
  public:
   // Of the images; nothing needs to be exact.
@@ -25,9 +26,13 @@ class CornerTracker {
  private:
   void Follow(const cv::Mat& small);
   void FindMore(const cv::Mat& small);
+  Eigen::Vector2d OnPlane(double x, double y, double factor) const;
+  void Describe(const cv::Mat& small, double factor, CoverageFrame& frame);
 
   geometry::CameraModel camera_;
   MotionMeter meter_;
+  vision::FeatureExtractor extractor_;
+  vision::Features features_;
   cv::Mat previous_;
   std::vector<cv::Point2f> corners_;  // in previous_
   std::vector<uint32_t> ids_;         // of the same index

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/train/keyframes.h"
+#include "editor/train/matching.h"
 #include "shared/core/median.h"
 
 namespace lararium::train {
@@ -103,10 +104,35 @@ std::optional<double> NearestMissing(const CoverageGuide::Cells& cells,
 // did not turn: the parallax that it claims has to show in what turning alone leaves.
 bool Explains(const RelativePose& pose, const Turning& turning, const PointPairs& pairs) {
   constexpr double kMostTimes = 8.0;  // a wall seen straight on shows an eighth
+  constexpr double kMostOfWay = 16.0;  // of a way that is not short: somebody may go round a wall
   constexpr double kLeastShare = 0.6;
-  const bool shows = pose.median_angle < kMostTimes * turning.median_angle;
+  const double times = turning.median_angle > 3.0 * kNoise ? kMostOfWay : kMostTimes;
+  const bool shows = pose.median_angle < times * turning.median_angle;
   const auto inliers = static_cast<double>(pose.inliers.size());
   return shows && inliers > kLeastShare * static_cast<double>(pairs.size());
+}
+
+// Right and ahead. The baseline follows from the angle under which it is seen (law of sines, of
+// small angles).
+Vector2d MovedBy(const Quaterniond& world_from_view,
+                 const PointPairs& pairs,
+                 const RelativePose& pose) {
+  constexpr double kLeastSine = 0.1;
+  const Vector3d centre = pose.b_from_a.Center();  // of the camera, in the view; length 1
+  std::vector<double> sines;
+  for (const uint32_t i : pose.inliers) {
+    const Vector3d ray = pairs.a[i].homogeneous();
+    sines.push_back(std::sin(AngleBetween(ray, centre)));
+  }
+  const double sine = std::max(Median(std::move(sines)), kLeastSine);
+  const Vector3d moved = world_from_view * centre * (std::sin(pose.median_angle) / sine);
+  return {moved.x(), moved.z()};
+}
+
+// Whether a camera that is off a mere turn by this angle, in the median, moved as well.
+bool HasMoved(const Turning& turning) {
+  const double turn = Quaterniond::Identity().angularDistance(turning.b_from_a);
+  return turning.median_angle > kNoise + kShareOfTurn * turn;
 }
 
 }  // namespace
@@ -114,16 +140,17 @@ bool Explains(const RelativePose& pose, const Turning& turning, const PointPairs
 CoverageState CoverageGuide::Add(const CoverageFrame& frame) {
   const Quaterniond before = world_from_camera_;
   if (frames_ == 0) {
-    BeginView(frame);
+    BeginView(frame, false);
   }
   const Vector2d was_at = at_;
   const Way way = Follow(frame);
   moved_ = way.moved;
+  const double turn = before.angularDistance(world_from_camera_);
   NoteSights(frame, way.moved);
   if (!way.known || way.far) {
-    BeginView(frame);
+    BeginView(frame, !way.known);
   }
-  steps_.push_back({frame.time, frame.shift, before.angularDistance(world_from_camera_), was_at});
+  steps_.push_back({frame.time, frame.shift, turn, was_at});
   ++frames_;
   JudgeCells();
 
@@ -207,13 +234,13 @@ CoverageGuide::Way CoverageGuide::Follow(const CoverageFrame& frame) {
   const double turn = Quaterniond::Identity().angularDistance(camera_from_view);
   at_ = view_at_;
   double parallax = 0.0;
-  if (turning.median_angle > kNoise + kShareOfTurn * turn) {
+  if (HasMoved(turning)) {
     const auto pose = EstimateRelativePose(pairs, kSampson);
     if (pose && Explains(*pose, turning, pairs) && !Leaps(pose->b_from_a.rotation, frame.shift)) {
       camera_from_view = pose->b_from_a.rotation;
       parallax = pose->median_angle;
       way.moved = true;
-      Move(pairs, *pose);
+      at_ = view_at_ + MovedBy(world_from_view_, pairs, *pose);
     }
   }
   world_from_camera_ = (world_from_view_ * camera_from_view.conjugate()).normalized();
@@ -228,7 +255,7 @@ CoverageGuide::Way CoverageGuide::Follow(const CoverageFrame& frame) {
 bool CoverageGuide::Leaps(const Quaterniond& camera_from_view, double shift) const {
   constexpr double kSteady = 2.0 * kDegree;
   constexpr double kBegin =
-      6.0 * kDegree;  // what was taken for turning before may have been a step
+      10.0 * kDegree;  // what was taken for turning before may have been a step
   constexpr double kTimes = 3.0;
   const double diagonal = 2.0 * half_view_.norm();  // about an angle
   const Quaterniond world_from_camera = world_from_view_ * camera_from_view.conjugate();
@@ -236,27 +263,103 @@ bool CoverageGuide::Leaps(const Quaterniond& camera_from_view, double shift) con
          (moved_ ? kSteady : kBegin) + kTimes * shift * diagonal;
 }
 
-// The baseline follows from the angle under which it is seen (law of sines, of small angles).
-void CoverageGuide::Move(const PointPairs& pairs, const RelativePose& pose) {
-  constexpr double kLeastSine = 0.1;
-  const Vector3d centre = pose.b_from_a.Center();  // of the camera, in the view; length 1
-  std::vector<double> sines;
-  for (const uint32_t i : pose.inliers) {
-    const Vector3d ray = pairs.a[i].homogeneous();
-    sines.push_back(std::sin(AngleBetween(ray, centre)));
+// Those that share something with what the camera sees, by where it believes to look: the nearest
+// to the beginning first. Who is lost may be anywhere.
+std::vector<const CoverageGuide::KnownView*> CoverageGuide::ViewsToRecognise(bool lost) const {
+  constexpr double kShare = 40.0 * kDegree;
+  constexpr size_t kMost = 6;
+  std::vector<const KnownView*> views;
+  for (const KnownView& view : known_views_) {
+    const double aside = AngleBetween(view.world_from_view * Vector3d::UnitZ(),
+                                      world_from_camera_ * Vector3d::UnitZ());
+    if (lost || (view.links < links_ && aside < kShare)) {
+      views.push_back(&view);
+    }
   }
-  const double sine = std::max(Median(std::move(sines)), kLeastSine);
-  const Vector3d moved = world_from_view_ * centre * (std::sin(pose.median_angle) / sine);
-  at_ = view_at_ + Vector2d(moved.x(), moved.z());
+  std::ranges::stable_sort(views, {}, &KnownView::links);
+  views.resize(std::min(views.size(), lost ? views.size() : kMost));
+  return views;
 }
 
-void CoverageGuide::BeginView(const CoverageFrame& frame) {
+std::optional<CoverageGuide::Sighting> CoverageGuide::SightingFrom(const KnownView& view,
+                                                                   const CoverageFrame& frame) {
+  constexpr float kRatio = 0.8f;
+  constexpr size_t kFewest = 25;
+  constexpr double kLeastShare = 0.5;
+  PointPairs pairs;
+  for (const FeatureMatch& match : MatchDescriptors(view.descriptors, frame.descriptors, kRatio)) {
+    pairs.a.push_back(view.features[match.a]);
+    pairs.b.push_back(frame.features[match.b]);
+  }
+  if (pairs.size() < kFewest) {
+    return std::nullopt;
+  }
+  const auto pose = EstimateRelativePose(pairs, kSampson);
+  if (!pose || pose->inliers.size() < kFewest ||
+      static_cast<double>(pose->inliers.size()) < kLeastShare * static_cast<double>(pairs.size())) {
+    return std::nullopt;
+  }
+  PointPairs agreeing;
+  for (const uint32_t i : pose->inliers) {
+    agreeing.a.push_back(pairs.a[i]);
+    agreeing.b.push_back(pairs.b[i]);
+  }
+  const Turning turning = EstimateTurning(agreeing);
+  const bool moved = HasMoved(turning);
+  const Quaterniond camera_from_view = moved ? pose->b_from_a.rotation : turning.b_from_a;
+  Sighting sighting;
+  sighting.world_from_camera = (view.world_from_view * camera_from_view.conjugate()).normalized();
+  sighting.at = view.at;
+  if (moved) {
+    sighting.at += MovedBy(view.world_from_view, pairs, *pose);
+  }
+  sighting.links = view.links + 1;
+  return sighting;
+}
+
+// One view may mislead: of a flat scene there are two poses. Two that agree do not.
+bool CoverageGuide::Recognise(const CoverageFrame& frame, bool lost) {
+  constexpr double kAgree = 4.0 * kDegree;
+  std::vector<Sighting> sightings;
+  for (const KnownView* view : ViewsToRecognise(lost)) {
+    if (const auto sighting = SightingFrom(*view, frame)) {
+      sightings.push_back(*sighting);
+    }
+  }
+  for (const Sighting& sighting : sightings) {
+    const auto agree = std::ranges::count_if(sightings, [&](const Sighting& other) {
+      return other.world_from_camera.angularDistance(sighting.world_from_camera) < kAgree;
+    });
+    if (agree < 2) {
+      continue;
+    }
+    // What was seen keeps its angles to what is seen.
+    const Quaterniond corrected = sighting.world_from_camera * world_from_camera_.conjugate();
+    for (auto& [id, sight] : sights_) {
+      sight.first = corrected * sight.first;
+    }
+    world_from_camera_ = sighting.world_from_camera;
+    at_ = sighting.at;
+    links_ = sighting.links;
+    return true;
+  }
+  return false;
+}
+
+void CoverageGuide::BeginView(const CoverageFrame& frame, bool lost) {
+  constexpr size_t kMostViews = 400;
+  if (!Recognise(frame, lost) && frames_ > 0) {
+    ++links_;
+  }
   view_.clear();
   for (const CoverageTrack& track : frame.tracks) {
     view_[track.id] = track.on_plane;
   }
   world_from_view_ = world_from_camera_;
   view_at_ = at_;
+  if (known_views_.size() < kMostViews) {
+    known_views_.push_back({frame.features, frame.descriptors, world_from_view_, view_at_, links_});
+  }
   // Only here is the way known well: the parallax is wide.
   lowest_ = lowest_.cwiseMin(at_);
   highest_ = highest_.cwiseMax(at_);

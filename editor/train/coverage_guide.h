@@ -3,7 +3,8 @@
 // What of a place has been filmed as training needs it, while it is being filmed, and what to do
 // next. Judged by tracked corners alone: there is no map yet, and none is made up. Directions are
 // those of the camera's turning since the beginning; distances are shares of the median distance of
-// what is seen, and add up errors along a long walk.
+// what is seen. Both add up errors along a walk, until something is recognised that was seen nearer
+// to its beginning.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -11,10 +12,12 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "editor/train/two_view.h"
+#include "shared/vision/features.h"
 
 namespace lararium::train {
 
@@ -31,6 +34,10 @@ struct CoverageFrame {
   double brightness = 0.5;  // mean of the image, 0 to 1
   double clipped = 0.0;     // share of its pixels that are white or black
   std::vector<CoverageTrack> tracks;
+  // What is recognised when it is seen again: on the plane z = 1, and as many descriptors. May be
+  // empty: then nothing is.
+  std::vector<Eigen::Vector2d> features;
+  std::vector<vision::Descriptor> descriptors;
 };
 
 // What is wrong now, the most urgent first.
@@ -113,6 +120,21 @@ class CoverageGuide {
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
   };
 
+  // A frame that motion was measured from.
+  struct KnownView {
+    std::vector<Eigen::Vector2d> features;
+    std::vector<vision::Descriptor> descriptors;
+    Eigen::Quaterniond world_from_view = Eigen::Quaterniond::Identity();
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();
+    int links = 0;  // motions that were measured between the beginning and it
+  };
+  // Where the camera is by one of them.
+  struct Sighting {
+    Eigen::Quaterniond world_from_camera = Eigen::Quaterniond::Identity();
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();
+    int links = 0;  // to the camera
+  };
+
   // How the camera comes to be where it is from the view.
   struct Way {
     bool known = false;  // enough tracks connect the two
@@ -123,8 +145,10 @@ class CoverageGuide {
   CoverageFault FindFault(const CoverageFrame& frame);
   Way Follow(const CoverageFrame& frame);
   bool Leaps(const Eigen::Quaterniond& camera_from_view, double shift) const;
-  void Move(const PointPairs& pairs, const RelativePose& pose);
-  void BeginView(const CoverageFrame& frame);
+  std::vector<const KnownView*> ViewsToRecognise(bool lost) const;
+  static std::optional<Sighting> SightingFrom(const KnownView& view, const CoverageFrame& frame);
+  bool Recognise(const CoverageFrame& frame, bool lost);
+  void BeginView(const CoverageFrame& frame, bool lost);
   void NoteSights(const CoverageFrame& frame, bool moved);
   void JudgeCells();
   CoverageShares Shares() const;
@@ -138,6 +162,8 @@ class CoverageGuide {
   std::deque<double> sharpness_;
   std::deque<Step> steps_;
   std::map<uint32_t, Eigen::Vector2d> view_;  // tracks of the frame that motion is measured from
+  std::vector<KnownView> known_views_;
+  int links_ = 0;  // of the view
   Eigen::Quaterniond world_from_view_ = Eigen::Quaterniond::Identity();
   Eigen::Quaterniond world_from_camera_ = Eigen::Quaterniond::Identity();
   Eigen::Vector2d view_at_ = Eigen::Vector2d::Zero();

@@ -67,9 +67,23 @@ class CoverageGuideTest : public testing::Test {
       }
       seen_[i] = number_;
       frame.tracks.push_back({ids_[i], pixel / assumed_focal_});
+      if (describes_ && i % 3 == 0) {
+        frame.features.push_back(pixel / assumed_focal_);
+        frame.descriptors.push_back(DescriptorOf(i));
+      }
     }
     ++number_;
     return frame;
+  }
+
+  // The same whenever the point is seen.
+  static vision::Descriptor DescriptorOf(size_t point) {
+    Random random(1000 + point);
+    vision::Descriptor descriptor;
+    for (uint8_t& value : descriptor) {
+      value = static_cast<uint8_t>(random.Below(256));
+    }
+    return descriptor;
   }
 
   // Walks to a stand in so many frames.
@@ -92,6 +106,7 @@ class CoverageGuideTest : public testing::Test {
   uint32_t next_id_ = 0;
   int number_ = 0;
   double assumed_focal_ = kFocal;
+  bool describes_ = false;  // what is seen can be recognised
   Stand at_;
   CoverageGuide guide_{Eigen::Vector2d(kHalfWidth, kHalfHeight) / kFocal};
 };
@@ -220,6 +235,47 @@ TEST_F(CoverageGuideTest, GoesOnAfterAllCornersWereLost) {
   const CoverageState after = Go({.x = 1.1}, 30);
   EXPECT_EQ(after.fault, CoverageFault::kNone);
   EXPECT_GT(after.moved.x(), before.moved.x() + 0.1);
+}
+
+// Lost, turned and carried back, with nothing to follow on the way.
+TEST_F(CoverageGuideTest, WhatWasSeenBeforeSaysWhereTheCameraIs) {
+  describes_ = true;
+  Go({.x = 0.9, .yaw = 20.0 * kDegree}, 60);
+  Go({.x = 0.9, .yaw = 45.0 * kDegree}, 30);
+  const CoverageGuide::Cells before = guide_.cells();
+  CoverageFrame lost = Look(at_);
+  lost.tracks.clear();
+  lost.features.clear();
+  lost.descriptors.clear();
+  EXPECT_EQ(guide_.Add(lost).fault, CoverageFault::kBare);
+  number_ += 2;
+  at_ = {.x = 0.3, .yaw = 5.0 * kDegree};
+  const CoverageState state = guide_.Add(Look(at_));
+  EXPECT_NEAR(state.heading, 5.0 * kDegree, 3.0 * kDegree);
+  EXPECT_NEAR(state.moved.x(), 0.1, 0.05);
+  // To have been carried is no parallax.
+  for (size_t column = 18; column < CoverageGuide::kColumns; ++column) {
+    EXPECT_EQ(guide_.cells()[1][column], before[1][column]) << column;
+  }
+}
+
+TEST_F(CoverageGuideTest, ErrorsThatAddedUpGoAwayWhereItBegan) {
+  assumed_focal_ = 1.1 * kFocal;  // turns seem smaller than they are, all the more the more is seen
+  const auto error_after_a_walk = [&](bool describes) {
+    describes_ = describes;
+    guide_ = CoverageGuide(Eigen::Vector2d(kHalfWidth, kHalfHeight) / kFocal);
+    at_ = {};
+    CoverageState state;
+    for (int round = 0; round < 3; ++round) {
+      Go({.x = 0.8, .z = 0.5, .yaw = -40.0 * kDegree}, 40);
+      Go({.x = 0.9, .z = -0.4, .yaw = 30.0 * kDegree}, 50);
+      state = Go({}, 40);
+    }
+    return std::abs(state.heading);
+  };
+  const double by_following = error_after_a_walk(false);
+  EXPECT_GT(by_following, 4.0 * kDegree);
+  EXPECT_LT(error_after_a_walk(true), 0.5 * by_following);
 }
 
 }  // namespace
