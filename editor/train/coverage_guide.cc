@@ -103,7 +103,7 @@ std::optional<double> NearestMissing(const CoverageGuide::Cells& cells,
 // Of a short way the essential matrix is mostly noise, and may turn the camera by degrees that it
 // did not turn: the parallax that it claims has to show in what turning alone leaves.
 bool Explains(const RelativePose& pose, const Turning& turning, const PointPairs& pairs) {
-  constexpr double kMostTimes = 8.0;  // a wall seen straight on shows an eighth
+  constexpr double kMostTimes = 8.0;   // a wall seen straight on shows an eighth
   constexpr double kMostOfWay = 16.0;  // of a way that is not short: somebody may go round a wall
   constexpr double kLeastShare = 0.6;
   const double times = turning.median_angle > 3.0 * kNoise ? kMostOfWay : kMostTimes;
