@@ -44,7 +44,7 @@ CoverageFrame CornerTracker::Measure(const cv::Mat& grey, double time) {
   for (size_t i = 0; i < corners_.size(); ++i) {
     frame.tracks.push_back({ids_[i], OnPlane(corners_[i].x, corners_[i].y, factor)});
   }
-  Describe(small, factor, frame);
+  frame.describe = [this, small, factor] { return Describe(small, factor); };
   previous_ = small;
   return frame;
 }
@@ -55,16 +55,18 @@ Eigen::Vector2d CornerTracker::OnPlane(double x, double y, double factor) const 
   return camera_.PlaneFromPixel({(x + 0.5) / factor - 0.5, (y + 0.5) / factor - 0.5});
 }
 
-void CornerTracker::Describe(const cv::Mat& small, double factor, CoverageFrame& frame) {
+CoverageFeatures CornerTracker::Describe(const cv::Mat& small, double factor) {
   constexpr int kMostFeatures = 300;
   const vision::FeatureOptions options{.first_octave = 0, .max_features = kMostFeatures};
+  CoverageFeatures described;
   if (!extractor_.Extract(small, options, features_).ok()) {
-    return;  // nothing is recognised by it
+    return described;  // nothing is recognised by it
   }
   for (const vision::Keypoint& keypoint : features_.keypoints) {
-    frame.features.push_back(OnPlane(keypoint.x, keypoint.y, factor));
+    described.on_plane.push_back(OnPlane(keypoint.x, keypoint.y, factor));
   }
-  frame.descriptors = features_.descriptors;
+  described.descriptors = features_.descriptors;
+  return described;
 }
 
 void CornerTracker::Follow(const cv::Mat& small) {

@@ -27,7 +27,7 @@ class CornerTracker {
   void Follow(const cv::Mat& small);
   void FindMore(const cv::Mat& small);
   Eigen::Vector2d OnPlane(double x, double y, double factor) const;
-  void Describe(const cv::Mat& small, double factor, CoverageFrame& frame);
+  CoverageFeatures Describe(const cv::Mat& small, double factor);
 
   geometry::CameraModel camera_;
   MotionMeter meter_;

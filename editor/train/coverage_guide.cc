@@ -282,14 +282,15 @@ std::vector<const CoverageGuide::KnownView*> CoverageGuide::ViewsToRecognise(boo
 }
 
 std::optional<CoverageGuide::Sighting> CoverageGuide::SightingFrom(const KnownView& view,
-                                                                   const CoverageFrame& frame) {
+                                                                   const CoverageFeatures& seen) {
   constexpr float kRatio = 0.8f;
   constexpr size_t kFewest = 25;
   constexpr double kLeastShare = 0.5;
   PointPairs pairs;
-  for (const FeatureMatch& match : MatchDescriptors(view.descriptors, frame.descriptors, kRatio)) {
-    pairs.a.push_back(view.features[match.a]);
-    pairs.b.push_back(frame.features[match.b]);
+  for (const FeatureMatch& match :
+       MatchDescriptors(view.features.descriptors, seen.descriptors, kRatio)) {
+    pairs.a.push_back(view.features.on_plane[match.a]);
+    pairs.b.push_back(seen.on_plane[match.b]);
   }
   if (pairs.size() < kFewest) {
     return std::nullopt;
@@ -318,11 +319,11 @@ std::optional<CoverageGuide::Sighting> CoverageGuide::SightingFrom(const KnownVi
 }
 
 // One view may mislead: of a flat scene there are two poses. Two that agree do not.
-bool CoverageGuide::Recognise(const CoverageFrame& frame, bool lost) {
+bool CoverageGuide::Recognise(const CoverageFeatures& seen, bool lost) {
   constexpr double kAgree = 4.0 * kDegree;
   std::vector<Sighting> sightings;
   for (const KnownView* view : ViewsToRecognise(lost)) {
-    if (const auto sighting = SightingFrom(*view, frame)) {
+    if (const auto sighting = SightingFrom(*view, seen)) {
       sightings.push_back(*sighting);
     }
   }
@@ -348,7 +349,8 @@ bool CoverageGuide::Recognise(const CoverageFrame& frame, bool lost) {
 
 void CoverageGuide::BeginView(const CoverageFrame& frame, bool lost) {
   constexpr size_t kMostViews = 400;
-  if (!Recognise(frame, lost) && frames_ > 0) {
+  CoverageFeatures seen = frame.describe ? frame.describe() : CoverageFeatures();
+  if (!Recognise(seen, lost) && frames_ > 0) {
     ++links_;
   }
   view_.clear();
@@ -358,7 +360,7 @@ void CoverageGuide::BeginView(const CoverageFrame& frame, bool lost) {
   world_from_view_ = world_from_camera_;
   view_at_ = at_;
   if (known_views_.size() < kMostViews) {
-    known_views_.push_back({frame.features, frame.descriptors, world_from_view_, view_at_, links_});
+    known_views_.push_back({std::move(seen), world_from_view_, view_at_, links_});
   }
   // Only here is the way known well: the parallax is wide.
   lowest_ = lowest_.cwiseMin(at_);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -27,6 +28,12 @@ struct CoverageTrack {
   Eigen::Vector2d on_plane = Eigen::Vector2d::Zero();  // z = 1, x right, y down
 };
 
+// What is recognised when it is seen again: on the plane z = 1, and as many descriptors.
+struct CoverageFeatures {
+  std::vector<Eigen::Vector2d> on_plane;
+  std::vector<vision::Descriptor> descriptors;
+};
+
 struct CoverageFrame {
   double time = 0.0;        // seconds
   double shift = 0.0;       // see FrameMotion
@@ -34,10 +41,9 @@ struct CoverageFrame {
   double brightness = 0.5;  // mean of the image, 0 to 1
   double clipped = 0.0;     // share of its pixels that are white or black
   std::vector<CoverageTrack> tracks;
-  // What is recognised when it is seen again: on the plane z = 1, and as many descriptors. May be
-  // empty: then nothing is.
-  std::vector<Eigen::Vector2d> features;
-  std::vector<vision::Descriptor> descriptors;
+  // Of some frames only, for it takes milliseconds; while what the frame is from lives. None:
+  // nothing is recognised.
+  std::function<CoverageFeatures()> describe;
 };
 
 // What is wrong now, the most urgent first.
@@ -122,8 +128,7 @@ class CoverageGuide {
 
   // A frame that motion was measured from.
   struct KnownView {
-    std::vector<Eigen::Vector2d> features;
-    std::vector<vision::Descriptor> descriptors;
+    CoverageFeatures features;
     Eigen::Quaterniond world_from_view = Eigen::Quaterniond::Identity();
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
     int links = 0;  // motions that were measured between the beginning and it
@@ -146,8 +151,8 @@ class CoverageGuide {
   Way Follow(const CoverageFrame& frame);
   bool Leaps(const Eigen::Quaterniond& camera_from_view, double shift) const;
   std::vector<const KnownView*> ViewsToRecognise(bool lost) const;
-  static std::optional<Sighting> SightingFrom(const KnownView& view, const CoverageFrame& frame);
-  bool Recognise(const CoverageFrame& frame, bool lost);
+  static std::optional<Sighting> SightingFrom(const KnownView& view, const CoverageFeatures& seen);
+  bool Recognise(const CoverageFeatures& seen, bool lost);
   void BeginView(const CoverageFrame& frame, bool lost);
   void NoteSights(const CoverageFrame& frame, bool moved);
   void JudgeCells();

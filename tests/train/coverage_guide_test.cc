@@ -52,6 +52,7 @@ class CoverageGuideTest : public testing::Test {
     frame.time = number_ / kRate;
     frame.shift = 0.01;
     frame.sharpness = 100.0;
+    CoverageFeatures features;
     for (size_t i = 0; i < points_.size(); ++i) {
       const Vector3d in_camera =
           world_from_camera.conjugate() * (points_[i] - Vector3d(stand.x, 0.0, stand.z));
@@ -68,10 +69,11 @@ class CoverageGuideTest : public testing::Test {
       seen_[i] = number_;
       frame.tracks.push_back({ids_[i], pixel / assumed_focal_});
       if (describes_ && i % 3 == 0) {
-        frame.features.push_back(pixel / assumed_focal_);
-        frame.descriptors.push_back(DescriptorOf(i));
+        features.on_plane.push_back(pixel / assumed_focal_);
+        features.descriptors.push_back(DescriptorOf(i));
       }
     }
+    frame.describe = [features] { return features; };
     ++number_;
     return frame;
   }
@@ -245,8 +247,7 @@ TEST_F(CoverageGuideTest, WhatWasSeenBeforeSaysWhereTheCameraIs) {
   const CoverageGuide::Cells before = guide_.cells();
   CoverageFrame lost = Look(at_);
   lost.tracks.clear();
-  lost.features.clear();
-  lost.descriptors.clear();
+  lost.describe = {};
   EXPECT_EQ(guide_.Add(lost).fault, CoverageFault::kBare);
   number_ += 2;
   at_ = {.x = 0.3, .yaw = 5.0 * kDegree};
