@@ -62,8 +62,8 @@ void FindEdges(Ghost& ghost) {
     }
   }
   for (const auto& [edge, faces] : faces_of) {
-    const auto across = [&](size_t face) {
-      return AcrossEdge(ghost.corners, ghost.faces[face], edge.first, edge.second);
+    const auto across = [&ghost, from = edge.first, to = edge.second](size_t face) {
+      return AcrossEdge(ghost.corners, ghost.faces[face], from, to);
     };
     const Vector3d first = across(faces.front());
     bool bends = false;
