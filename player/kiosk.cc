@@ -34,21 +34,20 @@ Kiosk::Kiosk(std::filesystem::path folder, const ChildStart& start, Log& log)
   if (start.number > 0) {
     ++statistics_.Day(Today()).restarts;
   }
-  writer_ = std::jthread(
-      [this, folder = std::move(folder)](const std::stop_token& stop) { Write(folder, stop); });
+  writer_ = std::jthread([this, folder = std::move(folder)] { Write(folder); });
 }
 
 Kiosk::~Kiosk() {
   statistics_to_write_.Put(statistics_);
-  writer_.request_stop();
+  to_write_.Close();  // what was handed over last is written too
   writer_.join();
 }
 
 // On the writer's thread. Statistics come less often than the state, and go with it.
-void Kiosk::Write(const std::filesystem::path& folder, const std::stop_token& stop) {
+void Kiosk::Write(const std::filesystem::path& folder) {
   bool told = false;
   bool statistics_told = false;
-  while (const std::optional<KioskState> next = to_write_.Take(stop)) {
+  while (const std::optional<KioskState> next = to_write_.Take({})) {
     const Status status = SaveKioskState(folder, *next);
     if (!status.ok() && !told) {
       log_.warn("{}; after a failure the show will begin at its beginning", status.message());
@@ -78,18 +77,38 @@ void Kiosk::Remember(double now) {
   to_write_.Put(state_);
 }
 
+void Kiosk::Welcome(double now, show::Show& show) {
+  log_.info("a visitor came: the show begins");
+  visit_.Begin(now);
+  new_visitor_ = true;
+  show.RestartAt(0.0);
+}
+
+void Kiosk::BeforeFrame(show::StagedFrame& staged) const {
+  if (!visit_.over()) {
+    return;
+  }
+  staged.opacity *= visit_.shown();
+  staged.lines.clear();
+  staged.guide.opacity = visit_.farewell();
+  staged.guide.says = show::StagedGuide::Says::kFarewell;
+}
+
 void Kiosk::AfterFrame(double now, const show::StagedFrame& staged, show::Show& show) {
   const bool tracked = staged.tracked.camera_from_map.has_value();
   switch (watch_.Update(now, tracked ? staged.camera_from_stage : std::nullopt)) {
     case VisitorWatch::Event::kCame:
-      log_.info("a visitor came: the show begins");
-      show.RestartAt(0.0);
+      Welcome(now, show);
       break;
     case VisitorWatch::Event::kLeft:
       log_.info("the visitor left");
       break;
     case VisitorWatch::Event::kNone:
       break;
+  }
+  if (visit_.Update(now, watch_.noticed())) {
+    log_.info("the visit is over");
+    watch_.Leave();
   }
   Count(now, staged);
   state_.title = show.content().title;
@@ -127,12 +146,22 @@ void Kiosk::KeepStatistics(double now) {
 
 void Kiosk::Touch(double now, show::Show& show) {
   if (watch_.Touch(now) == VisitorWatch::Event::kCame) {
+    Welcome(now, show);
+  }
+}
+
+void Kiosk::BeginAgain(double now, show::Show& show) {
+  if (visit_.over()) {
+    watch_.Leave();
+    Touch(now, show);
+  } else {
     show.RestartAt(0.0);
   }
 }
 
-void Kiosk::Keep(const Choices& choices, double now) {
+void Kiosk::Keep(const Choices& choices, const Choices& house, double now) {
   state_.choices = choices;
+  state_.house = house;
   Remember(now);
 }
 

@@ -17,6 +17,18 @@ std::filesystem::path StateFile(const std::filesystem::path& folder) {
   return folder / "state.json";
 }
 
+Status ReadChoices(const JsonView& view, Choices& choices) {
+  LARARIUM_ASSIGN_OR_RETURN(choices.language, view.Text("language", kMaxText));
+  LARARIUM_ASSIGN_OR_RETURN(choices.captions, view.Text("captions", kMaxText));
+  LARARIUM_ASSIGN_OR_RETURN(choices.volume, view.Number("volume", 0.0, 1.0));
+  return Status();
+}
+
+Json ToJson(const Choices& choices) {
+  return {
+      {"language", choices.language}, {"captions", choices.captions}, {"volume", choices.volume}};
+}
+
 }  // namespace
 
 Result<KioskState> LoadKioskState(const std::filesystem::path& folder) {
@@ -39,9 +51,11 @@ Result<KioskState> ParseKioskState(std::string_view text, const std::string& pla
   }
   LARARIUM_ASSIGN_OR_RETURN(state.title, view.Text("title", kMaxText));
   LARARIUM_ASSIGN_OR_RETURN(state.seconds, view.Number("seconds", 0.0, kMaxSeconds));
-  LARARIUM_ASSIGN_OR_RETURN(state.choices.language, view.Text("language", kMaxText));
-  LARARIUM_ASSIGN_OR_RETURN(state.choices.captions, view.Text("captions", kMaxText));
-  LARARIUM_ASSIGN_OR_RETURN(state.choices.volume, view.Number("volume", 0.0, 1.0));
+  LARARIUM_RETURN_IF_ERROR(ReadChoices(view, state.choices));
+  if (view.Has("house")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView house, view.Field("house"));
+    LARARIUM_RETURN_IF_ERROR(ReadChoices(house, state.house));
+  }
   return state;
 }
 
@@ -52,12 +66,12 @@ Status SaveKioskState(const std::filesystem::path& folder, const KioskState& sta
     return Status::Error(folder.string(), "cannot be made: " + error.message(),
                          "name another folder with --state");
   }
-  return SaveJson(StateFile(folder), {{"schema", kSchema},
-                                      {"title", state.title},
-                                      {"seconds", state.seconds},
-                                      {"language", state.choices.language},
-                                      {"captions", state.choices.captions},
-                                      {"volume", state.choices.volume}});
+  Json json = ToJson(state.choices);
+  json["schema"] = kSchema;
+  json["title"] = state.title;
+  json["seconds"] = state.seconds;
+  json["house"] = ToJson(state.house);
+  return SaveJson(StateFile(folder), json);
 }
 
 }  // namespace lararium::player

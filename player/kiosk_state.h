@@ -22,7 +22,8 @@ struct Choices {
 struct KioskState {
   std::string title;     // of the show that the time is of
   double seconds = 0.0;  // of the drama
-  Choices choices;
+  Choices choices;       // of who was there
+  Choices house;         // of staff: how each visitor finds it
 
   friend bool operator==(const KioskState&, const KioskState&) = default;
 };

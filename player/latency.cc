@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
+#include "player/device_file.h"
 #include "player/flash_test.h"
 #include "player/screen.h"
 #include "shared/capture/frame_source.h"
@@ -23,8 +24,12 @@ constexpr int kSide = 64;  // of the picture, pixels: it is all of one colour
 }  // namespace
 
 Status MeasureLatency(const LatencyOptions& options) {
+  Device device;
+  if (!options.device.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(device, LoadDevice(options.device));
+  }
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<capture::FrameSource> source,
-                            capture::OpenCamera(options.camera));
+                            capture::OpenCamera(options.camera, device.capture));
   PlayOptions window;
   window.monitor = options.monitor;
   LARARIUM_ASSIGN_OR_RETURN(Screen screen, Screen::Open(window, "Latency"));

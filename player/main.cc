@@ -1,8 +1,10 @@
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <variant>
 
 #include "player/benchmark.h"
+#include "player/curtain.h"
 #include "player/doctor.h"
 #include "player/info.h"
 #include "player/latency.h"
@@ -72,6 +74,10 @@ int main(int argc, char** argv) {
   const int staff_link = *page != nullptr ? (*page)->link() : -1;
   if (!play->kiosk) {
     return Report(Play(*play, start, **log, {}, Heartbeat(), staff_link), **log);
+  }
+  std::optional<Curtain> curtain;
+  if (!play->headless && play->display != Display::kOpenXr) {
+    curtain.emplace(play->monitor, **log);
   }
   const auto child = [&](const ChildStart& number, Heartbeat& heartbeat) {
     const auto begun = number.number == 0 ? start : std::chrono::steady_clock::now();

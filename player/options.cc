@@ -122,6 +122,11 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
                                     "Full screen, watched over, for one visitor after the other");
   app.add_option("--state", play.state, "Folder in which a kiosk remembers where it was")
       ->needs(kiosk);
+  app.add_option("--visit-minutes", play.visit_minutes,
+                 "How long a kiosk's visit may take, where others wait; otherwise as long as the "
+                 "visitor stays")
+      ->check(CLI::Range(0.5, 240.0))
+      ->needs(kiosk);
   app.add_option_function<std::string>(
          "--pace",
          [&play](const std::string& pace) {
@@ -205,6 +210,8 @@ Command ParseCommandLine(int argc, const char* const* argv) {
       ->check(CLI::NonNegativeNumber);
   latency_command->add_option("--monitor", latency.monitor, "Full screen on this monitor")
       ->check(CLI::NonNegativeNumber);
+  latency_command->add_option("--device", latency.device, "Device file: how the camera is run")
+      ->check(CLI::ExistingFile);
 
   try {
     app.parse(argc, argv);

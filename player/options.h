@@ -63,6 +63,7 @@ struct PlayOptions {
   bool staff = false;           // how tracking is, in a corner of the picture
   bool kiosk = false;           // watched over, full screen, for one visitor after the other
   std::filesystem::path state;  // the kiosk's folder
+  double visit_minutes = 0.0;   // that a kiosk's visit takes at most; 0: as long as they stay
   bool loop = false;            // a recorded source begins again at its end
   Pace pace = Pace::kRealtime;
   int64_t frames = 0;  // 0: all
@@ -110,7 +111,8 @@ struct DoctorOptions {
 // Measures how late what is shown is seen.
 struct LatencyOptions {
   int camera = 0;
-  int monitor = -1;  // a window
+  std::filesystem::path device;  // how the camera is run; empty: as it comes
+  int monitor = -1;              // a window
 };
 
 // What to do, or the exit code where the command line asked for help or is wrong

@@ -46,8 +46,11 @@ using SteadyClock = std::chrono::steady_clock;
 
 // The drawing thread looks for input at least this often.
 constexpr std::chrono::milliseconds kInputInterval(10);
-constexpr std::chrono::seconds kPowerInterval(5);
+constexpr double kPowerSeconds = 5.0;
+// Without pictures it is still alive: the camera may take its time. Not while one image is
+// tracked, or staged, for longer than this: then a thread hangs.
 constexpr std::chrono::seconds kLongestSilence(8);
+constexpr double kLongestWork = 0.4;  // seconds
 // After these all that a show needs has been compiled.
 constexpr int64_t kFirstFrames = 90;
 
@@ -125,9 +128,12 @@ class Performance {
     }
     if (options.kiosk) {
       kiosk_.emplace(options.state.empty() ? DefaultStateFolder() : options.state, start, log);
+      kiosk_->SetVisit({.longest = 60.0 * options.visit_minutes});
       choices_ = kiosk_->state().choices;
+      house_ = kiosk_->state().house;
     }
-    ApplyLanguageOptions();
+    ApplyLanguageOptions(house_);
+    ApplyLanguageOptions(choices_);
   }
 
   Status Prepare();
@@ -138,7 +144,8 @@ class Performance {
   double Seconds(SteadyClock::time_point time) const {
     return std::chrono::duration<double>(time - started_).count();
   }
-  bool KeepGoing();
+  // longest_work: as RealtimePipeline has it.
+  bool KeepGoing(double longest_work = 0.0);
   void PressKeys();
   void PressKey(const std::string& key);
   void Do(Action action);
@@ -151,7 +158,7 @@ class Performance {
   void ToggleMenu();
   void ShowMenu(const show::StagedFrame& staged);
   Status OpenSource();
-  void ApplyLanguageOptions();
+  void ApplyLanguageOptions(Choices& choices) const;
   show::LanguageChoice languages() const { return {choices_.language, choices_.captions}; }
   Result<show::ShowContent> LoadInChosenLanguages();
   Status ChooseHeadset();
@@ -159,8 +166,11 @@ class Performance {
   float FinestDetail() const;
   Status ChooseView(const show::ShowContent& content);
   Status CreateTracker(const show::ShowContent& content);
-  Status CreateShow(show::ShowContent content);
+  Result<std::unique_ptr<show::Show>> MakeShow(show::ShowContent content) const;
+  void TellKiosk();
   Status PrepareDrawing(const show::ShowContent& content);
+  void BeginChangingLanguages();
+  bool OtherLanguagesAreReady();
   Status ChangeLanguages();
   void ChooseFirstLevel();
   void OpenSound();
@@ -172,7 +182,8 @@ class Performance {
   void ShowMenuTo(const geometry::CameraModel& picture);
   Status ServeOpenXr();
   const render::RenderTarget& shown() const { return stereo_ ? stereo_->panel() : *target_; }
-  Status DrawFrame(const show::StagedFrame& staged);
+  Status DrawFrame(show::StagedFrame& staged);
+  void AfterFrame(const show::StagedFrame& staged);
   void AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn);
   void ChooseQuality(SteadyClock::time_point now, double work_ms);
   void SetLevel(size_t level);
@@ -188,7 +199,8 @@ class Performance {
   double story_length_ = 0.0;  // seconds; 0: not known
   int64_t told_statistics_ = -1;
   Choices choices_;
-  bool languages_changed_ = false;
+  Choices house_;                         // of staff: how a kiosk's next visitor finds it
+  show::LanguageChoice shown_languages_;  // of show_, as they were chosen
   GazeMenu menu_;
   double drama_time_ = 0.0;  // of the frame drawn last
   Device device_;
@@ -199,7 +211,8 @@ class Performance {
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
   std::unique_ptr<show::Show> show_;
-  std::optional<Screen> screen_;  // before all that draws: destroyed after it
+  std::optional<drama::VisitorLog> visitor_;  // that is played again
+  std::optional<Screen> screen_;              // before all that draws: destroyed after it
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
   std::optional<StereoDisplay> stereo_;
@@ -208,21 +221,25 @@ class Performance {
   std::optional<StaffReporter> staff_;     // none: there is no page for staff
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
+  float loudness_ = 1.0f;                      // times what was chosen
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
   std::optional<show::QualityController> quality_;
-  SteadyClock::time_point power_read_;
+  std::optional<PowerWatch> power_;  // where the quality is not fixed
   show::ShowStatistics statistics_;
   SteadyClock::time_point last_shown_;
   int64_t drawn_frames_ = 0;
+  // A show in other languages, and which, while it is made. Last: it makes use of what is above.
+  show::LanguageChoice next_languages_;
+  std::future<Result<std::unique_ptr<show::Show>>> next_show_;
 };
 
-bool Performance::KeepGoing() {
+bool Performance::KeepGoing(double longest_work) {
   const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
   const bool keep_going = g_end_requested == 0 && !enough && screen_->KeepGoing();
   PressKeys();
   ObeyStaff();
-  // Alive as long as pictures come, also while the camera takes its time.
-  if (drawn_frames_ > 0 && SteadyClock::now() - last_shown_ < kLongestSilence) {
+  if (drawn_frames_ > 0 && SteadyClock::now() - last_shown_ < kLongestSilence &&
+      longest_work < kLongestWork) {
     heartbeat_.Beat();
   }
   if (options_.pace == Pace::kRealtime) {
@@ -269,7 +286,11 @@ void Performance::PressKey(const std::string& key) {
 void Performance::Do(Action action) {
   switch (action) {
     case Action::kRestart:
-      show_->RestartAt(0.0);
+      if (kiosk_) {
+        kiosk_->BeginAgain(Seconds(SteadyClock::now()), *show_);
+      } else {
+        show_->RestartAt(0.0);
+      }
       break;
     case Action::kFindAnew:
       poses_->FindAnew();
@@ -294,13 +315,11 @@ void Performance::Change(const Choices& choices) {
   }
   const Choices before = std::exchange(choices_, choices);
   if (choices_.volume != before.volume && sound_ != nullptr) {
-    sound_->SetVolume(static_cast<float>(choices_.volume));
+    sound_->SetVolume(static_cast<float>(choices_.volume) * loudness_);
   }
-  languages_changed_ = languages_changed_ || choices_.language != before.language ||
-                       choices_.captions != before.captions;
   menu_.SetItems(ItemsOf(show_->content(), choices_));
   if (kiosk_) {
-    kiosk_->Keep(choices_, Seconds(SteadyClock::now()));
+    kiosk_->Keep(choices_, house_, Seconds(SteadyClock::now()));
   }
 }
 
@@ -326,6 +345,9 @@ void Performance::Obey(const StaffCommand& command) {
   if (command.captions && (has(content.caption_languages, *command.captions) ||
                            *command.captions == show::kNoCaptions)) {
     choices.captions = *command.captions;
+  }
+  if (choices != choices_) {
+    house_ = choices;
   }
   Change(choices);
   if (command.action) {
@@ -420,20 +442,28 @@ Status Performance::OpenSource() {
   return Status();
 }
 
-Status Performance::CreateShow(show::ShowContent content) {
+// On any thread.
+Result<std::unique_ptr<show::Show>> Performance::MakeShow(show::ShowContent content) const {
   drama::DramaOptions drama;
   drama.seed = options_.seed;
   // A player goes back to the beginning alone, and plays for days.
   drama.past = options_.visitor_log.empty() ? drama::Past::kForgotten : drama::Past::kKept;
-  LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show,
+                            show::Show::Create(std::move(content), drama, log_));
+  show->SetLostLadder(device_.lost);
+  show->SetPictureSize(size_.width, size_.height, part_);
+  show->SetSeenAround(headset_ && headset_->runtime_shows_room);
+  if (visitor_) {
+    show->drama().SetVisitorLog(*visitor_);
+  }
+  return show;
+}
+
+void Performance::TellKiosk() {
   story_length_ = show_->drama().settings().length;
   if (kiosk_) {
     kiosk_->SetStoryLength(story_length_);
   }
-  show_->SetLostLadder(device_.lost);
-  show_->SetPictureSize(size_.width, size_.height, part_);
-  show_->SetSeenAround(headset_ && headset_->runtime_shows_room);
-  return Status();
 }
 
 Status Performance::ChooseHeadset() {
@@ -486,12 +516,12 @@ Status Performance::CreateTracker(const show::ShowContent& content) {
 }
 
 // They go before what the last visitor chose.
-void Performance::ApplyLanguageOptions() {
+void Performance::ApplyLanguageOptions(Choices& choices) const {
   if (!options_.language.empty()) {
-    choices_.language = options_.language;
+    choices.language = options_.language;
   }
   if (!options_.captions.empty()) {
-    choices_.captions = options_.captions;
+    choices.captions = options_.captions;
   }
 }
 
@@ -510,11 +540,12 @@ Result<show::ShowContent> Performance::LoadInChosenLanguages() {
   if (!loaded.ok() && kiosk_) {
     choices_.language.clear();
     choices_.captions.clear();
-    ApplyLanguageOptions();
+    ApplyLanguageOptions(choices_);
     loaded = LoadContent(options_, languages(), FinestDetail());
   }
   if (loaded.ok()) {
     SetLook(options_, device_, *loaded);
+    shown_languages_ = languages();
   }
   return loaded;
 }
@@ -530,19 +561,20 @@ Status Performance::Prepare() {
   for (const show::ShowPlace& place : content.places) {
     statistics_.places.push_back(place.stage.name);
   }
+  if (!options_.visitor.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(visitor_, drama::VisitorLog::Load(options_.visitor));
+  }
   // Drivers take their time, and so does the drama: beside each other.
   std::future<Status> prepared = std::async(std::launch::async, [&]() -> Status {
     LARARIUM_RETURN_IF_ERROR(CreateTracker(content));
-    return CreateShow(content);
+    LARARIUM_ASSIGN_OR_RETURN(show_, MakeShow(content));
+    return Status();
   });
   const Status drawing = PrepareDrawing(content);
   const Status playing = prepared.get();
   LARARIUM_RETURN_IF_ERROR(playing);
   LARARIUM_RETURN_IF_ERROR(drawing);
-  if (!options_.visitor.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(drama::VisitorLog visitor, drama::VisitorLog::Load(options_.visitor));
-    show_->drama().SetVisitorLog(std::move(visitor));
-  }
+  TellKiosk();
   if (kiosk_ && kiosk_->ResumeAt(content.title) > 0.0) {
     show_->RestartAt(kiosk_->ResumeAt(content.title));
   }
@@ -583,6 +615,7 @@ void Performance::ChooseFirstLevel() {
     const size_t levels = render::QualityLadder().size();
     quality_.emplace(show::QualityOptions::ForCamera(levels, source_->frames_per_second()),
                      levels - 1);
+    power_.emplace(kPowerSeconds);
   }
 }
 
@@ -599,9 +632,8 @@ void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
   const double time = Seconds(now);
   const size_t before = quality_->level();
   quality_->AddFrame(time, work_ms);
-  if (now - power_read_ > kPowerInterval) {
-    power_read_ = now;
-    quality_->SetPower(time, ReadPower());
+  if (const std::optional<show::PowerState> power = power_->Take()) {
+    quality_->SetPower(time, *power);
   }
   if (quality_->level() != before) {
     const show::QualityStep& step = quality_->steps().back();
@@ -610,17 +642,50 @@ void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
   }
 }
 
-// Another language needs other texts and voices; the drama goes on where it is.
+// Another language needs other texts and voices. The show goes on while they are read.
+void Performance::BeginChangingLanguages() {
+  next_languages_ = languages();
+  const auto make = [this, languages = next_languages_, finest = FinestDetail(),
+                     time = drama_time_]() -> Result<std::unique_ptr<show::Show>> {
+    LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_, languages, finest));
+    SetLook(options_, device_, content);
+    LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, MakeShow(std::move(content)));
+    if (options_.visitor_log.empty()) {  // otherwise it has to be told first what they did
+      LARARIUM_RETURN_IF_ERROR(show->drama().Seek(time));
+    }
+    return show;
+  };
+  next_show_ = std::async(std::launch::async, make);
+}
+
+// In lock-step a frame does not depend on how long anything takes.
+bool Performance::OtherLanguagesAreReady() {
+  if (!next_show_.valid() && languages() != shown_languages_) {
+    BeginChangingLanguages();
+  }
+  return next_show_.valid() &&
+         (options_.pace == Pace::kFast ||
+          next_show_.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
+}
+
+// The drama goes on where it is. While no frame is under way.
 Status Performance::ChangeLanguages() {
-  languages_changed_ = false;
-  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
-                            LoadContent(options_, languages(), FinestDetail()));
-  SetLook(options_, device_, content);
+  Result<std::unique_ptr<show::Show>> next = next_show_.get();
+  if (!next.ok()) {
+    log_.warn("{}; the languages stay", next.message());
+    choices_.language = shown_languages_.spoken;
+    choices_.captions = shown_languages_.captions;
+    return Status();
+  }
+  LARARIUM_RETURN_IF_ERROR((*next)->GoOnFrom(*show_));
+  LARARIUM_RETURN_IF_ERROR(recorder_->SetShow(**next));
   sound_.reset();
-  LARARIUM_RETURN_IF_ERROR(CreateShow(std::move(content)));
-  show_->RestartAt(drama_time_);
+  show_ = std::move(*next);
+  shown_languages_ = next_languages_;
+  TellKiosk();
+  show_->SetQuality(QualityOf(level()));
   OpenSound();
-  log_.info("language '{}', captions '{}'", choices_.language, choices_.captions);
+  log_.info("language '{}', captions '{}'", shown_languages_.spoken, shown_languages_.captions);
   menu_.SetItems(ItemsOf(show_->content(), choices_));
   return renderer_->SetTexts(show_->content());
 }
@@ -642,7 +707,7 @@ void Performance::OpenSound() {
   }
   sound_ = std::make_unique<audio::SoundPlayer>(
       std::move(*mixer), [] { return audio::CreateAudioOut(audio::AudioOutKind::kDevice); }, log_);
-  sound_->SetVolume(static_cast<float>(choices_.volume));
+  sound_->SetVolume(static_cast<float>(choices_.volume) * loudness_);
 }
 
 void Performance::ShowToStaff() {
@@ -688,7 +753,7 @@ Status Performance::DrawSeeThrough(const show::StagedFrame& staged, SteadyClock:
     LARARIUM_RETURN_IF_ERROR(renderer_->DrawSeeThrough(
         staged,
         {view->camera, view->room_from_eye.Inverse() * *anchor_.room_from_stage(),
-         anchor_.Opacity(now)},
+         anchor_.Opacity(now) * (kiosk_ ? kiosk_->loudness() : 1.0f)},
         *target_));
     LARARIUM_RETURN_IF_ERROR(openxr_->SetPicture(eye, *target_));
   }
@@ -736,7 +801,26 @@ Status Performance::DrawPicture(const show::StagedFrame& staged) {
   return stereo_ ? stereo_->Draw(staged, *renderer_, *target_) : renderer_->Draw(staged, *target_);
 }
 
-Status Performance::DrawFrame(const show::StagedFrame& staged) {
+// Tells the kiosk, whose next visitor may have come.
+void Performance::AfterFrame(const show::StagedFrame& staged) {
+  if (!kiosk_) {
+    return;
+  }
+  kiosk_->AfterFrame(Seconds(last_shown_), staged, *show_);
+  if (kiosk_->TakeNewVisitor()) {
+    menu_.Close();
+    Change(house_);
+  }
+  if (sound_ != nullptr && kiosk_->loudness() != loudness_) {
+    loudness_ = kiosk_->loudness();
+    sound_->SetVolume(static_cast<float>(choices_.volume) * loudness_);
+  }
+}
+
+Status Performance::DrawFrame(show::StagedFrame& staged) {
+  if (kiosk_) {
+    kiosk_->BeforeFrame(staged);
+  }
   drama_time_ = staged.time;
   if (options_.staff) {
     ShowToStaff();
@@ -758,9 +842,7 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
   const double draw_ms = std::chrono::duration<double, std::milli>(drawn - begin).count();
   ChooseQuality(last_shown_, std::max(draw_ms, staged.stage_ms));
   heartbeat_.Beat();
-  if (kiosk_) {
-    kiosk_->AfterFrame(Seconds(last_shown_), staged, *show_);
-  }
+  AfterFrame(staged);
   TellStaff(staged);
   if (drawn_frames_ == kFirstFrames) {
     render::ReleaseShaderCompiler();
@@ -773,7 +855,7 @@ Status Performance::RunLockStep() {
   std::optional<show::LockStep> lock_step(std::in_place, stages());
   show::StagedFrame staged;
   while (KeepGoing()) {
-    if (languages_changed_) {
+    if (OtherLanguagesAreReady()) {
       lock_step.reset();
       LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
       lock_step.emplace(stages());
@@ -790,8 +872,8 @@ Status Performance::RunLockStep() {
 
 Status Performance::RunRealtime() {
   std::optional<show::RealtimePipeline> pipeline(std::in_place, stages());
-  while (!pipeline->Finished() && KeepGoing()) {
-    if (languages_changed_) {
+  while (!pipeline->Finished() && KeepGoing(pipeline->LongestWork())) {
+    if (OtherLanguagesAreReady()) {
       pipeline.reset();
       LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
       pipeline.emplace(stages());

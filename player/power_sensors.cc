@@ -1,11 +1,15 @@
 #include "player/power_sensors.h"
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace lararium::player {
 namespace {
@@ -28,10 +32,12 @@ std::optional<double> Number(const std::filesystem::path& path) {
 
 template <typename Visit>
 void ForEachFolder(const std::filesystem::path& parent, const std::string& prefix, Visit visit) {
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(parent, ignored)) {
-    if (entry.path().filename().string().rfind(prefix, 0) == 0) {
-      visit(entry.path());
+  // Devices vanish while they are listed.
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(parent, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().filename().string().rfind(prefix, 0) == 0) {
+      visit(entry->path());
     }
   }
 }
@@ -78,6 +84,22 @@ std::optional<Battery> ReadBattery(const std::filesystem::path& sys) {
     }
   });
   return emptiest;
+}
+
+PowerWatch::PowerWatch(double seconds_between, Read read)
+    : thread_([this, seconds_between, read = std::move(read)](const std::stop_token& stop) {
+        Watch(seconds_between, read, stop);
+      }) {}
+
+void PowerWatch::Watch(double seconds_between, const Read& read, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  while (!stop.stop_requested()) {
+    power_.Put(read());
+    std::unique_lock lock(mutex);
+    never.wait_for(lock, stop, std::chrono::duration<double>(seconds_between),
+                   [] { return false; });
+  }
 }
 
 }  // namespace lararium::player

@@ -26,6 +26,9 @@ class Recorder {
                                  const render::RenderTarget& target,
                                  const show::Show& show);
 
+  // Goes on with another show (show::Show::GoOnFrom).
+  Status SetShow(const show::Show& show) { return sound_->SetShow(show); }
+
   // The frame that target shows, and what is heard until it. Where frames were dropped the
   // one before is shown for longer.
   Status Add(const show::StagedFrame& staged, const render::RenderTarget& target);

@@ -19,6 +19,12 @@ VisitorWatch::Event VisitorWatch::Arrive(double time) {
 
 VisitorWatch::Event VisitorWatch::Touch(double time) { return Arrive(time); }
 
+void VisitorWatch::Leave() {
+  present_ = false;
+  noticed_ = false;
+  moving_since_.reset();
+}
+
 VisitorWatch::Event VisitorWatch::Update(double time,
                                          const std::optional<geometry::Rigid3>& camera_from_stage) {
   last_sign_ = last_sign_.value_or(time);
@@ -41,9 +47,7 @@ VisitorWatch::Event VisitorWatch::Update(double time,
     }
   }
   if (present_ && time - *last_sign_ >= options_.idle_seconds) {
-    present_ = false;
-    noticed_ = false;
-    moving_since_.reset();
+    Leave();
     return Event::kLeft;
   }
   return Event::kNone;

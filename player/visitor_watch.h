@@ -28,6 +28,9 @@ class VisitorWatch {
   // A button was pressed: somebody is there.
   Event Touch(double time);
 
+  // Whoever moves from now on is another one.
+  void Leave();
+
   bool present() const { return present_; }
   // Whether somebody was noticed who has not left since: at the beginning somebody may be there,
   // and nobody knows.

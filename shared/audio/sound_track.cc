@@ -8,11 +8,17 @@ namespace lararium::audio {
 Result<std::unique_ptr<SoundTrack>> SoundTrack::Create(std::shared_ptr<const SoundLibrary> library,
                                                        bool hrtf,
                                                        Take take) {
+  std::unique_ptr<SoundTrack> track(new SoundTrack(hrtf, std::move(take)));
+  LARARIUM_RETURN_IF_ERROR(track->SetLibrary(std::move(library)));
+  return track;
+}
+
+Status SoundTrack::SetLibrary(std::shared_ptr<const SoundLibrary> library) {
   MixerOptions options = MixerOptions::ForFiles();
-  options.hrtf = hrtf;
-  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Mixer> mixer,
-                            Mixer::Create(std::move(library), options));
-  return std::unique_ptr<SoundTrack>(new SoundTrack(std::move(mixer), std::move(take)));
+  options.hrtf = hrtf_;
+  LARARIUM_ASSIGN_OR_RETURN(mixer_, Mixer::Create(std::move(library), options));
+  last_.voices.clear();
+  return Status();
 }
 
 Status SoundTrack::RenderUntil(const SoundScene& scene) {

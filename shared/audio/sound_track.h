@@ -22,6 +22,9 @@ class SoundTrack {
                                                     bool hrtf,
                                                     Take take);
 
+  // Goes on with other sounds, whose indices later scenes mean, at the sample where it is.
+  Status SetLibrary(std::shared_ptr<const SoundLibrary> library);
+
   // What was to be heard since the last call, until scene.frame_time. Going back gives nothing.
   // The same scenes give the same samples.
   Status RenderUntil(const SoundScene& scene);
@@ -29,12 +32,13 @@ class SoundTrack {
   Status RenderOn(double seconds);
 
  private:
-  SoundTrack(std::unique_ptr<Mixer> mixer, Take take)
-      : mixer_(std::move(mixer)), take_(std::move(take)), piece_(2 * kPieceFrames) {}
+  SoundTrack(bool hrtf, Take take)
+      : hrtf_(hrtf), take_(std::move(take)), piece_(2 * kPieceFrames) {}
 
   static constexpr size_t kPieceFrames = 16 * Mixer::kBlockFrames;
 
-  std::unique_ptr<Mixer> mixer_;
+  bool hrtf_;
+  std::unique_ptr<Mixer> mixer_;  // set when created
   Take take_;
   SoundScene last_;
   int64_t frames_ = 0;  // that were rendered

@@ -128,6 +128,14 @@ class LuaDrama : public Drama {
       (void)Seek(now).ok();
     }
   }
+  void SetPastVisitor(VisitorLog log, double until) override {
+    if (follows_log_ || forgets()) {
+      return;
+    }
+    CHECK(run_->tick() == 0);
+    visitors_ = std::move(log);
+    visited_until_ = std::llround(until * kTicksPerSecond);
+  }
   const VisitorLog& visitor_log() const override { return visitors_; }
 
   Status Seek(double time) override {

@@ -104,6 +104,10 @@ class Drama {
   virtual void SetVisitor(const Visitor& visitor) = 0;
   // Instead of all that: a recorded visitor, from the beginning on.
   virtual void SetVisitorLog(VisitorLog log) = 0;
+  // What they have done until a time (seconds), as another drama noted it: seeking until there
+  // plays it, and from then on they are what SetVisitor says. Before anything is played; does
+  // nothing where a recorded visitor is followed or the past is forgotten.
+  virtual void SetPastVisitor(VisitorLog log, double until) = 0;
   // What they have done so far; of a past that is forgotten, nothing.
   virtual const VisitorLog& visitor_log() const = 0;
 

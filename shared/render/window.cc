@@ -190,12 +190,16 @@ Result<Window> Window::Create(const WindowOptions& options) {
   glfwWindowHint(GLFW_DEPTH_BITS, 0);  // everything is drawn into render targets
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a message of the desktop hides no show
   state->window.reset(glfwCreateWindow(width, height, options.title.c_str(), monitor, nullptr));
   if (state->window == nullptr) {
     return LastError("it needs a graphics driver with OpenGL 3.3");
   }
   glfwMakeContextCurrent(state->window.get());
   glfwSwapInterval(options.vsync ? 1 : 0);
+  if (monitor != nullptr) {
+    glfwSetInputMode(state->window.get(), GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+  }
   state->Connect();
   return Window(std::move(state));
 }

@@ -19,7 +19,8 @@ struct WindowOptions {
   std::string title = "Lararium";
   int width = 1280;  // screen coordinates, of a window that is not full screen
   int height = 720;
-  std::optional<int> monitor = std::nullopt;  // full screen on this monitor, 0 is the primary one
+  std::optional<int> monitor =
+      std::nullopt;  // full screen there, without a pointer; 0: the primary
   bool vsync = true;
   bool visible = true;
 };

@@ -1,5 +1,6 @@
 #include "shared/show/frame_pipeline.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <utility>
 
@@ -82,6 +83,19 @@ Result<bool> LockStep::Next(StagedFrame& staged) {
   return more_;
 }
 
+class RealtimePipeline::Work {
+ public:
+  Work(RealtimePipeline& pipeline, Worker worker) : since_(pipeline.work_since_[worker]) {
+    since_.store(Clock::now().time_since_epoch().count(), std::memory_order_relaxed);
+  }
+  ~Work() { since_.store(0, std::memory_order_relaxed); }
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
+
+ private:
+  std::atomic<int64_t>& since_;
+};
+
 RealtimePipeline::RealtimePipeline(FrameStages stages)
     : stages_(stages),
       capture_thread_([this](const std::stop_token& stop) { Capture(stop); }),
@@ -105,6 +119,17 @@ void RealtimePipeline::Stop() {
 Status RealtimePipeline::status() const {
   const std::lock_guard lock(status_mutex_);
   return status_;
+}
+
+double RealtimePipeline::LongestWork() const {
+  const Clock::duration now = Clock::now().time_since_epoch();
+  Clock::duration longest(0);
+  for (const std::atomic<int64_t>& since : work_since_) {
+    if (const int64_t began = since.load(std::memory_order_relaxed); began != 0) {
+      longest = std::max(longest, now - Clock::duration(began));
+    }
+  }
+  return std::chrono::duration<double>(longest).count();
 }
 
 std::unique_ptr<StagedFrame> RealtimePipeline::Take(std::chrono::milliseconds timeout) {
@@ -150,6 +175,7 @@ void RealtimePipeline::Capture(const std::stop_token& stop) {
 
 void RealtimePipeline::Track(const std::stop_token& stop) {
   while (std::optional<CapturedFrame> captured = captured_.Take(stop)) {
+    const Work work(*this, kTracks);
     vision::TrackedFrame tracked = TimedTrack(stages_, captured->frame);
     located_.Put({std::move(tracked), captured->arrival, Clock::now()});
   }
@@ -159,6 +185,7 @@ void RealtimePipeline::Track(const std::stop_token& stop) {
 void RealtimePipeline::Simulate(const std::stop_token& stop) {
   FrameClock clock;
   while (std::optional<LocatedFrame> located = located_.Take(stop)) {
+    const Work work(*this, kStages);
     std::unique_ptr<StagedFrame> staged = SpareFrame();
     staged->arrival = located->arrival;
     staged->located = located->located;

@@ -4,6 +4,8 @@
 // (every frame once, in order: deterministic) and a pipeline of threads with
 // mailboxes in between (real time: a slow stage drops frames, it never queues).
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -91,6 +93,9 @@ class RealtimePipeline {
   bool Finished() const { return staged_.Finished(); }
   // Why the source ended, if it failed.
   Status status() const;
+  // Seconds for which one frame has been tracked, or one staged, by now, the longer of both; 0:
+  // neither is. A source that waits for its camera is no work. From any thread.
+  double LongestWork() const;
 
   // Stops early. Statistics are complete after this.
   void Stop();
@@ -106,6 +111,10 @@ class RealtimePipeline {
     std::chrono::steady_clock::time_point located;
   };
 
+  enum Worker : size_t { kTracks, kStages, kWorkers };
+  // Marks work while it lives.
+  class Work;
+
   void Capture(const std::stop_token& stop);
   void Track(const std::stop_token& stop);
   void Simulate(const std::stop_token& stop);
@@ -120,6 +129,8 @@ class RealtimePipeline {
   std::vector<std::unique_ptr<StagedFrame>> spare_;  // drawn, or skipped for newer ones
   mutable std::mutex status_mutex_;
   Status status_;
+  // When the work under way began, ticks of the steady clock; 0: there is none.
+  std::array<std::atomic<int64_t>, kWorkers> work_since_ = {};
   std::jthread capture_thread_;
   std::jthread track_thread_;
   std::jthread simulate_thread_;

@@ -10,18 +10,28 @@ struct Known {
   std::string_view language;
   std::string_view look;
   std::string_view dark;
+  std::string_view farewell;
 };
 
 constexpr Known kKnown[] = {
-    {"en", "Please look this way", "It is too dark here,\nor something covers the camera"},
-    {"la", "Quaeso, huc specta", "Nimis obscurum est,\naut aliquid oculum machinae tegit"},
-    {"de", "Bitte hierhin schauen", "Es ist zu dunkel,\noder etwas verdeckt die Kamera"},
-    {"el", "Παρακαλώ, κοιτάξτε προς τα εδώ", "Είναι πολύ σκοτεινά\nή κάτι καλύπτει την κάμερα"},
-    {"es", "Mire hacia aquí, por favor", "Está demasiado oscuro\no algo tapa la cámara"},
-    {"fr", "Veuillez regarder par ici", "Il fait trop sombre\nou quelque chose couvre la caméra"},
-    {"it", "Guardi da questa parte, per favore", "È troppo buio\no qualcosa copre la telecamera"},
-    {"nl", "Kijk alstublieft deze kant op", "Het is te donker\nof iets bedekt de camera"},
-    {"pt", "Olhe para este lado, por favor", "Está escuro demais\nou algo cobre a câmara"},
+    {"en", "Please look this way", "It is too dark here,\nor something covers the camera",
+     "That was it, thank you.\nPlease hand the headset back"},
+    {"la", "Quaeso, huc specta", "Nimis obscurum est,\naut aliquid oculum machinae tegit",
+     "Finis est, gratias.\nMachinam, quaeso, redde"},
+    {"de", "Bitte hierhin schauen", "Es ist zu dunkel,\noder etwas verdeckt die Kamera",
+     "Das war es, vielen Dank.\nBitte geben Sie die Brille zurück"},
+    {"el", "Παρακαλώ, κοιτάξτε προς τα εδώ", "Είναι πολύ σκοτεινά\nή κάτι καλύπτει την κάμερα",
+     "Αυτό ήταν, ευχαριστούμε.\nΠαρακαλώ, επιστρέψτε τη συσκευή"},
+    {"es", "Mire hacia aquí, por favor", "Está demasiado oscuro\no algo tapa la cámara",
+     "Esto es todo, gracias.\nDevuelva el visor, por favor"},
+    {"fr", "Veuillez regarder par ici", "Il fait trop sombre\nou quelque chose couvre la caméra",
+     "C'est fini, merci.\nVeuillez rendre le casque"},
+    {"it", "Guardi da questa parte, per favore", "È troppo buio\no qualcosa copre la telecamera",
+     "È tutto, grazie.\nRestituisca il visore, per favore"},
+    {"nl", "Kijk alstublieft deze kant op", "Het is te donker\nof iets bedekt de camera",
+     "Dat was het, dank u.\nGeef de bril alstublieft terug"},
+    {"pt", "Olhe para este lado, por favor", "Está escuro demais\nou algo cobre a câmara",
+     "É tudo, obrigado.\nDevolva os óculos, por favor"},
 };
 
 }  // namespace
@@ -40,10 +50,11 @@ GuideTexts BuiltInGuide(std::string_view language, const render::CaptionFont& fo
   const std::string_view plain = language.substr(0, language.find('-'));
   const auto* known = std::find_if(std::begin(kKnown), std::end(kKnown),
                                    [&](const Known& k) { return k.language == plain; });
-  if (known == std::end(kKnown) || !CanWrite(font, known->look) || !CanWrite(font, known->dark)) {
+  if (known == std::end(kKnown) || !CanWrite(font, known->look) || !CanWrite(font, known->dark) ||
+      !CanWrite(font, known->farewell)) {
     known = std::begin(kKnown);
   }
-  return {std::string(known->look), std::string(known->dark)};
+  return {std::string(known->look), std::string(known->dark), std::string(known->farewell)};
 }
 
 }  // namespace lararium::show

@@ -1,7 +1,8 @@
 #pragma once
 
-// What a visitor who has lost the place is told, in the languages that the program knows. An
-// author says it better, by the lines "guide_PLACE" or "guide" of the show.
+// What a visitor who has lost the place, or whose visit is over, is told, in the languages that
+// the program knows. An author says it better, by the lines "guide_PLACE", "guide" or "farewell"
+// of the show.
 
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@ namespace lararium::show {
 struct GuideTexts {
   std::string look;  // beside a picture of where to look
   std::string dark;  // the camera sees nothing
+  std::string farewell;
 };
 
 // English for languages that the program does not know, and where a font lacks letters.

@@ -95,7 +95,8 @@ void LostGuide::Update(float opacity,
     }
   }
   if (!tracked.camera_from_map) {
-    shown_.dark = tracked.reason == vision::TrackReason::kTooDark;
+    shown_.says = tracked.reason == vision::TrackReason::kTooDark ? StagedGuide::Says::kDark
+                                                                  : StagedGuide::Says::kLookThere;
   }
   guide = shown_;
 }

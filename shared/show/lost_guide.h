@@ -15,8 +15,14 @@ namespace lararium::show {
 
 // Of a frame.
 struct StagedGuide {
-  float opacity = 0.0f;         // 0: there is nothing to be drawn
-  bool dark = false;            // the camera sees nothing: a picture would not help
+  enum class Says {
+    kLookThere,
+    kDark,      // the camera sees nothing: a picture would not help
+    kFarewell,  // the visit is over
+  };
+
+  float opacity = 0.0f;  // 0: there is nothing to be drawn
+  Says says = Says::kLookThere;
   cv::Mat picture;              // CV_8UC1, small; empty: the map keeps none
   uint64_t picture_number = 0;  // another one for another picture
 };

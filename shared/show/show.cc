@@ -181,6 +181,14 @@ double Show::DramaTime(double time) {
   return std::clamp(time - start_ - held_seconds_, 0.0, drama::Drama::kMaxTime);
 }
 
+Status Show::GoOnFrom(const Show& before) {
+  sound_->GoOnFrom(*before.sound_);
+  const double time = before.drama_->time();
+  drama_->SetPastVisitor(before.drama_->visitor_log(), time);
+  RestartAt(time);
+  return drama_->Seek(time);
+}
+
 void Show::RestartAt(double seconds) {
   const std::lock_guard lock(input_mutex_);
   restart_ = std::clamp(seconds, 0.0, drama::Drama::kMaxTime);

@@ -154,6 +154,11 @@ class Show {
   // How finely people are shaped, lit and drawn from the next frame on.
   void SetQuality(const render::Quality& quality);
 
+  // Takes the place of another show between two frames, at the same time of the drama: pictures
+  // are counted on, and the drama knows what the visitor did so far where that is kept. Before the
+  // first frame; seeks, which a drama that was sought to about that time has done already.
+  Status GoOnFrom(const Show& before);
+
   // The next frame shows the drama at this time of its own (seconds), and from there on: for the
   // next visitor, or after a restart. Nobody is seen before they are found again.
   // From any thread.

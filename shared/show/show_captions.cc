@@ -134,6 +134,7 @@ Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& co
     captions->guides_.push_back(place.guide);
   }
   captions->dark_guide_ = content.dark_guide;
+  captions->farewell_ = content.farewell;
   LARARIUM_ASSIGN_OR_RETURN(
       captions->painter_,
       render::CaptionPainter::Create(content.caption_font.value_or(render::CaptionFont())));
@@ -144,12 +145,18 @@ Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& co
 void ShowCaptions::DrawGuide(const StagedFrame& staged, const render::RenderTarget& target) {
   render::Notice notice;
   notice.opacity = staged.guide.opacity;
-  if (staged.guide.dark) {
-    notice.text = dark_guide_;
-  } else {
-    notice.text = guides_[staged.place];
-    notice.picture = staged.guide.picture;
-    notice.picture_number = staged.guide.picture_number;
+  switch (staged.guide.says) {
+    case StagedGuide::Says::kLookThere:
+      notice.text = guides_[staged.place];
+      notice.picture = staged.guide.picture;
+      notice.picture_number = staged.guide.picture_number;
+      break;
+    case StagedGuide::Says::kDark:
+      notice.text = dark_guide_;
+      break;
+    case StagedGuide::Says::kFarewell:
+      notice.text = farewell_;
+      break;
   }
   render::DrawNotice(painter_->flat(), notice, target);
 }

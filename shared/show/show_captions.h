@@ -62,6 +62,7 @@ class ShowCaptions {
   CaptionTexts texts_;
   std::vector<std::string> guides_;  // of each place
   std::string dark_guide_;
+  std::string farewell_;
   std::optional<std::string> staff_;
   std::optional<render::Menu> menu_;
   std::unique_ptr<render::CaptionPainter> painter_;

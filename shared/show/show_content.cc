@@ -277,13 +277,17 @@ std::string FirstCaption(const CaptionBooks& books,
   return "";
 }
 
-// What is said to whoever has lost the place is to be read even where captions are off.
+// What is said to whoever has lost the place, or is to go, is read even where captions are off.
 void LoadGuide(const CaptionBooks& books, std::string_view language, ShowContent& content) {
   if (!content.caption_font) {
     return;
   }
   const GuideTexts known = BuiltInGuide(language, *content.caption_font);
   content.dark_guide = known.dark;
+  content.farewell = FirstCaption(books, "farewell", language);
+  if (content.farewell.empty()) {
+    content.farewell = known.farewell;
+  }
   for (ShowPlace& place : content.places) {
     place.guide = FirstCaption(books, "guide_" + place.stage.name, language);
     if (place.guide.empty()) {

@@ -65,6 +65,8 @@ struct Speech {
 struct LanguageChoice {
   std::string spoken;
   std::string captions;
+
+  friend bool operator==(const LanguageChoice&, const LanguageChoice&) = default;
 };
 inline constexpr std::string_view kNoCaptions = "off";
 
@@ -98,6 +100,7 @@ struct ShowContent {
   std::vector<std::string> caption_languages;  // likewise read
   std::optional<render::CaptionFont> caption_font;
   std::string dark_guide;                // what is said instead where the camera sees nothing
+  std::string farewell;                  // what is said when the visit is over
   std::vector<audio::SoundData> sounds;  // that things, places and the drama make
   stage::Paradata paradata;              // what is known of all that
   std::string language;                  // what is to be read is in it

@@ -32,6 +32,9 @@ class SoundDirector {
   // Another way in which a place is.
   void SetPlace(size_t index, const stage::Place& place);
 
+  // Goes on from another one's pictures: frame_time is counted from its first.
+  void GoOnFrom(const SoundDirector& before) { first_capture_ = before.first_capture_; }
+
   // A moment: first Begin, then what is heard, then Finish. Allocates nothing once the
   // scene has held as many voices.
   //

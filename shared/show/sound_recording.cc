@@ -30,6 +30,10 @@ Result<SoundRecording> SoundRecording::Create(const Show& show,
   return recording;
 }
 
+Status SoundRecording::SetShow(const Show& show) {
+  return track_ != nullptr ? track_->SetLibrary(show.sounds()) : Status();
+}
+
 Status SoundRecording::Add(const audio::SoundScene& scene) {
   return track_ != nullptr ? track_->RenderUntil(scene) : Status();
 }

@@ -26,6 +26,10 @@ class SoundRecording {
                                        capture::VideoWriter* video,
                                        const std::filesystem::path& file);
 
+  // Goes on with another show, whose frames go on from those of the one before
+  // (Show::GoOnFrom): in another language, say.
+  Status SetShow(const Show& show);
+
   // What is heard until a frame.
   Status Add(const audio::SoundScene& scene);
   // The last frame was shown for so long. Completes the file, not the video.

@@ -59,6 +59,26 @@ TEST(SoundTrack, GoingBackGivesNothing) {
   EXPECT_EQ(frames, 24'000u);
 }
 
+TEST(SoundTrack, GoesOnWithOtherSoundsAtTheSampleWhereItIs) {
+  const auto before = test::Library({test::Sound("other", test::Encode(test::Click(0.4), 1)),
+                                     test::Sound("more", test::Encode(test::Click(0.4), 1))});
+  const auto after = test::Library({test::Sound("click", test::Encode(test::Click(0.4), 1))});
+  std::vector<float> all;
+  auto track = SoundTrack::Create(before, false, [&](std::span<const float> stereo) {
+    all.insert(all.end(), stereo.begin(), stereo.end());
+    return Status();
+  });
+  ASSERT_TRUE(track.ok()) << track.message();
+  SoundScene scene = ClickAt(0.0, 0.5);
+  scene.voices.front().clip = 1;  // which the sounds after do not have
+  ASSERT_TRUE((*track)->RenderUntil(scene).ok());
+  ASSERT_TRUE((*track)->SetLibrary(after).ok());
+  ASSERT_TRUE((*track)->RenderUntil(ClickAt(0.75, 1.0)).ok());
+  ASSERT_EQ(all.size(), 2u * test::kRate);
+  const auto loudest = (std::max_element(all.begin() + test::kRate, all.end()) - all.begin()) / 2;
+  EXPECT_NEAR(static_cast<double>(loudest) - SoundGraph::kDelayFrames, 0.75 * test::kRate, 1.0);
+}
+
 TEST(AudioOut, AFileIsThereWhenItIsFinished) {
   const test::TemporaryFolder folder;
   auto out = CreateAudioOut(AudioOutKind::kFile, folder / "mix.wav");

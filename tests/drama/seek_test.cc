@@ -204,6 +204,28 @@ TEST_F(SeekingTest, AVisitorsLogPlaysTheSameDrama) {
   EXPECT_TRUE(Snapshot() == snapshot);
 }
 
+TEST_F(SeekingTest, AnotherDramaGoesOnWithWhatTheVisitorDid) {
+  const auto play = [](Drama& drama, int from, int to) {
+    for (int i = from * Drama::kTicksPerSecond; i < to * Drama::kTicksPerSecond; ++i) {
+      drama.SetVisitor(VisitorAt(drama.time()));
+      drama.Tick();
+    }
+  };
+  const auto whole = Make(kBusy);
+  play(*whole, 0, 30);
+  const auto snapshot = Snapshot();
+  const std::string log = whole->visitor_log().Write();
+
+  const auto before = Make(kBusy);
+  play(*before, 0, 20);
+  const auto after = Make(kBusy);
+  after->SetPastVisitor(before->visitor_log(), before->time());
+  ASSERT_TRUE(after->Seek(before->time()).ok());
+  play(*after, 20, 30);
+  EXPECT_TRUE(Snapshot() == snapshot);
+  EXPECT_EQ(after->visitor_log().Write(), log);
+}
+
 TEST_F(SeekingTest, AVisitorsLogThatIsNoneIsAnErrorWithItsLine) {
   const std::string header = "lararium visitor 1\n";
   const std::string good = "3 1 0 1.6 0 0 0 -1 9.5 space a\n";

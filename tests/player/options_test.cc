@@ -29,6 +29,15 @@ class OptionsTest : public ::testing::Test {
   std::string show_ = (folder_ / "a.larshow").string();
 };
 
+TEST_F(OptionsTest, OnlyAKiosksVisitsHaveTheirTime) {
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--kiosk"})).visit_minutes, 0.0);
+  EXPECT_EQ(
+      std::get<PlayOptions>(Parse({show_, "--kiosk", "--visit-minutes", "7.5"})).visit_minutes,
+      7.5);
+  EXPECT_EQ(ExitCode({show_, "--visit-minutes", "10"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--kiosk", "--visit-minutes", "0"}), 2);
+}
+
 TEST_F(OptionsTest, TheDisplayIsTheDevicesUnlessItIsGiven) {
   EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).display.has_value());
   EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "side-by-side"})).display,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <semaphore>
 
 #include "tests/support/test_files.h"
 
@@ -66,6 +67,26 @@ TEST_F(PowerSensorsTest, ABatteryIsKnownWhileItIsChargedToo) {
   Put("power_supply/BAT1/capacity", "20\n");
   EXPECT_EQ(ReadBattery(folder_.path())->share, 0.2) << "the emptiest";
   EXPECT_FALSE(ReadBattery(folder_.path())->charging);
+}
+
+TEST(PowerWatch, TellsWhatWasReadOnceAndDoesNotWait) {
+  std::counting_semaphore<> go_on(0);
+  int reads = 0;
+  PowerWatch watch(1e-3, [&] {
+    go_on.acquire();
+    show::PowerState power;
+    power.celsius = 40.0 + ++reads;
+    return power;
+  });
+  EXPECT_FALSE(watch.Take()) << "a sensor takes its time";
+  go_on.release();
+  std::optional<show::PowerState> power;
+  while (!power) {
+    power = watch.Take();
+  }
+  EXPECT_EQ(power->celsius, 41.0);
+  EXPECT_FALSE(watch.Take()) << "told already";
+  go_on.release(1000);
 }
 
 }  // namespace

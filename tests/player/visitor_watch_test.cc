@@ -111,5 +111,16 @@ TEST(VisitorWatch, AButtonIsASignOfSomebody) {
   EXPECT_EQ(watch.Touch(100.0), Event::kCame);
 }
 
+TEST(VisitorWatch, WhoGoesOnMovingAfterAnEndedVisitIsTheNext) {
+  VisitorWatch watch;
+  Play(watch, 0.0, 30.0, Watching);
+  watch.Leave();
+  EXPECT_FALSE(watch.noticed());
+  const auto events = Play(watch, 30.0, 2.0, Watching);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events.front().second, Event::kCame);
+  EXPECT_LT(events.front().first, 1.0);
+}
+
 }  // namespace
 }  // namespace lararium::player

@@ -25,6 +25,20 @@ class TellingPoses : public vision::PoseSource {
   std::counting_semaphore<> asked_{0};
 };
 
+// Keeps every frame until it is let go.
+class StuckPoses : public vision::PoseSource {
+ public:
+  vision::TrackedFrame Track(const geometry::Frame& frame) override {
+    go_on_.acquire();
+    return fake_.Track(frame);
+  }
+  void LetGo() { go_on_.release(1000); }
+
+ private:
+  test::FakePoses fake_;
+  std::counting_semaphore<> go_on_{0};
+};
+
 class FramePipelineTest : public ::testing::Test {
  protected:
   FrameStages Stages(test::FakeSource& source) { return {source, poses_, *show_, statistics_}; }
@@ -135,6 +149,23 @@ TEST_F(FramePipelineTest, RealtimeEndsWithTheFailureOfItsSource) {
     (void)pipeline.Take(std::chrono::milliseconds(20));
   }
   EXPECT_EQ(pipeline.status().message(), "fake: broken");
+}
+
+TEST_F(FramePipelineTest, RealtimeTellsForHowLongAFrameIsWorkedOn) {
+  test::FakeSource source(2);
+  StuckPoses poses;
+  RealtimePipeline pipeline({source, poses, *show_, statistics_});
+  while (pipeline.LongestWork() < 0.05) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const double before = pipeline.LongestWork();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_GE(pipeline.LongestWork(), before + 0.02);
+  poses.LetGo();
+  while (!pipeline.Finished()) {
+    (void)pipeline.Take(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(pipeline.LongestWork(), 0.0) << "nothing is left to work on";
 }
 
 TEST_F(FramePipelineTest, RealtimeCanBeAbandonedAtAnyMoment) {

@@ -86,9 +86,9 @@ TEST(LostGuide, SaysWhenTheCameraSeesNothing) {
   vision::TrackedFrame dark = Tracked(std::nullopt);
   dark.reason = vision::TrackReason::kTooDark;
   guide.Update(0.5f, dark, &map, shown);
-  EXPECT_TRUE(shown.dark);
+  EXPECT_EQ(shown.says, StagedGuide::Says::kDark);
   guide.Update(0.6f, Tracked(std::nullopt), &map, shown);
-  EXPECT_FALSE(shown.dark);
+  EXPECT_EQ(shown.says, StagedGuide::Says::kLookThere);
 }
 
 TEST(LostGuide, NeedsNoMap) {
@@ -126,6 +126,7 @@ TEST(BuiltInGuide, IsInTheLanguageWhereTheFontHasItsLetters) {
   for (const char* language : {"en", "la", "de", "nl"}) {
     EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, plain).look)) << language;
     EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, plain).dark)) << language;
+    EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, plain).farewell)) << language;
   }
 }
 
