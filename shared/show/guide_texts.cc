@@ -19,7 +19,7 @@ constexpr Known kKnown[] = {
     {"la", "Quaeso, huc specta", "Nimis obscurum est,\naut aliquid oculum machinae tegit",
      "Finis est, gratias.\nMachinam, quaeso, redde"},
     {"de", "Bitte hierhin schauen", "Es ist zu dunkel,\noder etwas verdeckt die Kamera",
-     "Das war es, vielen Dank.\nBitte geben Sie die Brille zurück"},
+     "Das war es, vielen Dank.\nBitte geben Sie die Brille wieder ab"},
     {"el", "Παρακαλώ, κοιτάξτε προς τα εδώ", "Είναι πολύ σκοτεινά\nή κάτι καλύπτει την κάμερα",
      "Αυτό ήταν, ευχαριστούμε.\nΠαρακαλώ, επιστρέψτε τη συσκευή"},
     {"es", "Mire hacia aquí, por favor", "Está demasiado oscuro\no algo tapa la cámara",
