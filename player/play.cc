@@ -651,7 +651,7 @@ void Performance::BeginChangingLanguages() {
     SetLook(options_, device_, content);
     LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, MakeShow(std::move(content)));
     if (options_.visitor_log.empty()) {  // otherwise it has to be told first what they did
-      LARARIUM_RETURN_IF_ERROR(show->drama().Seek(time));
+      LARARIUM_RETURN_IF_ERROR(show->PrepareAt(time));
     }
     return show;
   };

@@ -185,8 +185,14 @@ Status Show::GoOnFrom(const Show& before) {
   sound_->GoOnFrom(*before.sound_);
   const double time = before.drama_->time();
   drama_->SetPastVisitor(before.drama_->visitor_log(), time);
-  RestartAt(time);
-  return drama_->Seek(time);
+  return PrepareAt(time);
+}
+
+Status Show::PrepareAt(double seconds) {
+  LARARIUM_RETURN_IF_ERROR(drama_->Seek(seconds));
+  ShowTick();
+  RestartAt(seconds);
+  return Status();
 }
 
 void Show::RestartAt(double seconds) {

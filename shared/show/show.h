@@ -156,8 +156,10 @@ class Show {
 
   // Takes the place of another show between two frames, at the same time of the drama: pictures
   // are counted on, and the drama knows what the visitor did so far where that is kept. Before the
-  // first frame; seeks, which a drama that was sought to about that time has done already.
+  // first frame; plays the drama until there, but for what PrepareAt has played.
   Status GoOnFrom(const Show& before);
+  // As RestartAt, but the drama is played until there at once. Before the first frame.
+  Status PrepareAt(double seconds);
 
   // The next frame shows the drama at this time of its own (seconds), and from there on: for the
   // next visitor, or after a restart. Nobody is seen before they are found again.

@@ -397,6 +397,26 @@ TEST_F(ShowTest, TheNextVisitorSeesTheDramaFromItsBeginning) {
   EXPECT_NEAR(PositionX(At(*show, 21.2)), 0.7, 1e-4);
 }
 
+TEST_F(ShowTest, AnotherShowGoesOnWhereOneWas) {
+  const auto stage = [](Show& show, double capture_time, double time) {
+    StagedFrame staged;
+    vision::TrackedFrame tracked = test::FakePoses().Track({});
+    tracked.frame.capture_time = capture_time;
+    show.StageFrame(std::move(tracked), time, staged);
+    return staged;
+  };
+  const std::unique_ptr<Show> before = Make();
+  stage(*before, 7.0, 0.0);
+  const StagedFrame last = stage(*before, 7.4, 0.4);
+  const std::unique_ptr<Show> after = Make();
+  ASSERT_TRUE(after->GoOnFrom(*before).ok());
+  // A pipeline that begins anew counts its times from its first frame.
+  const StagedFrame next = stage(*after, 7.5, 0.0);
+  EXPECT_NEAR(PositionX(next), PositionX(last), 0.01);
+  EXPECT_NEAR(next.sound.frame_time, 0.5, 1e-9);
+  EXPECT_NEAR(PositionX(stage(*after, 7.7, 0.2)), 0.6, 0.01);
+}
+
 TEST_F(ShowTest, APoseThatIsFoundAnewIsTakenAsItIs) {
   // By how much the place moves that people are drawn at, when after a loss they are found
   // elsewhere.

@@ -60,6 +60,7 @@ broken() {
 
 new_project_with_place
 "$make_room_map" "$project/places/site/scene.larscene" 500 1 || fail "cannot make a map"
+printf 'id,speaker,notes,en\nhello,,,Hello\n' > "$project/lines.csv"  # a show with letters
 echo 'function main() while true do wait(1) end end' > "$project/drama.lua"
 "$editor" export "$project" --out "$show" > "$out/export.log" 2>&1 ||
   { cat "$out/export.log"; fail "nothing was exported"; }
