@@ -13,6 +13,7 @@
 
 #include "player/camera_choice.h"
 #include "player/device_file.h"
+#include "player/fault_log.h"
 #include "player/heap.h"
 #include "player/kiosk.h"
 #include "player/openxr_headset.h"
@@ -117,6 +118,7 @@ class Performance {
       : options_(options),
         started_(started),
         log_(log),
+        faults_(log),
         heartbeat_(heartbeat),
         restarts_(start.number) {
     // First: it hears of all that the log is told.
@@ -181,6 +183,7 @@ class Performance {
   const PlayOptions& options_;
   SteadyClock::time_point started_;
   Log& log_;
+  FaultLog faults_;
   Heartbeat heartbeat_;
   std::optional<Kiosk> kiosk_;
   int restarts_;               // before this run
@@ -402,13 +405,12 @@ Status Performance::OpenSource() {
     LARARIUM_ASSIGN_OR_RETURN(source_, open());
     source_ = capture::MakeSteady(
         std::move(source_),
-        capture::RealWorld(open, [this](bool connected, const std::string& why) {
-          if (connected) {
-            log_.info("the camera is back");
-          } else {
-            log_.warn("{}; waiting for it", why);
-          }
-        }));
+        capture::RealWorld(
+            open,
+            [this](bool connected, const std::string& why) {
+              faults_.CameraChanged(connected, why);
+            },
+            [this](bool steady, double leap) { faults_.ClockChanged(steady, leap); }));
     return Status();
   }
   LARARIUM_ASSIGN_OR_RETURN(source_, options_.video.empty()
@@ -755,6 +757,7 @@ Status Performance::DrawFrame(const show::StagedFrame& staged) {
     sound_->Show(staged.sound);
   }
   AddTimes(staged, drawn);
+  faults_.AfterFrame(staged.tracked);
   const double draw_ms = std::chrono::duration<double, std::milli>(drawn - begin).count();
   ChooseQuality(last_shown_, std::max(draw_ms, staged.stage_ms));
   heartbeat_.Beat();
