@@ -427,7 +427,11 @@ Status Performance::CreateShow(show::ShowContent content) {
   drama.seed = options_.seed;
   // A player goes back to the beginning alone, and plays for days.
   drama.past = options_.visitor_log.empty() ? drama::Past::kForgotten : drama::Past::kKept;
-  LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), drama, log_));
+  Result<std::unique_ptr<show::Show>> show = show::Show::Create(std::move(content), drama, log_);
+  if (!show.ok()) {
+    return show.status().At(options_.show.string());
+  }
+  show_ = *std::move(show);
   story_length_ = show_->drama().settings().length;
   if (kiosk_) {
     kiosk_->SetStoryLength(story_length_);
@@ -565,7 +569,12 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
   if (staff_) {
     staff_->Prepare(*target_);
   }
-  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content, QualityOf(level())));
+  Result<std::unique_ptr<show::ShowRenderer>> renderer =
+      show::ShowRenderer::Create(content, QualityOf(level()));
+  if (!renderer.ok()) {
+    return renderer.status().At(options_.show.string());
+  }
+  renderer_ = *std::move(renderer);
   renderer_->SetEvidence(options_.evidence);
   renderer_->SetPart(part_);
   if (headset_ && headset_->panel) {
