@@ -52,6 +52,9 @@ void Kiosk::Write(const std::filesystem::path& folder) {
     if (!status.ok() && !told) {
       log_.warn("{}; after a failure the show will begin at its beginning", status.message());
     }
+    if (status.ok() && told) {
+      log_.info("where the show is can be kept again");
+    }
     told = !status.ok();
     SaveStatistics(folder, statistics_told);
   }
@@ -63,6 +66,8 @@ void Kiosk::SaveStatistics(const std::filesystem::path& folder, bool& told) {
     const Status status = SaveVisitStatistics(folder, *statistics);
     if (!status.ok() && !told) {
       log_.warn("{}; what is counted is not kept", status.message());
+    } else if (status.ok() && told) {
+      log_.info("what is counted can be kept again");
     }
     told = !status.ok();
   }

@@ -13,6 +13,7 @@
 
 #include "player/camera_choice.h"
 #include "player/device_file.h"
+#include "player/fault_log.h"
 #include "player/heap.h"
 #include "player/kiosk.h"
 #include "player/openxr_headset.h"
@@ -120,6 +121,7 @@ class Performance {
       : options_(options),
         started_(started),
         log_(log),
+        faults_(log),
         heartbeat_(heartbeat),
         restarts_(start.number) {
     // First: it hears of all that the log is told.
@@ -192,6 +194,7 @@ class Performance {
   const PlayOptions& options_;
   SteadyClock::time_point started_;
   Log& log_;
+  FaultLog faults_;
   Heartbeat heartbeat_;
   std::optional<Kiosk> kiosk_;
   int restarts_;               // before this run
@@ -424,13 +427,12 @@ Status Performance::OpenSource() {
     LARARIUM_ASSIGN_OR_RETURN(source_, open());
     source_ = capture::MakeSteady(
         std::move(source_),
-        capture::RealWorld(open, [this](bool connected, const std::string& why) {
-          if (connected) {
-            log_.info("the camera is back");
-          } else {
-            log_.warn("{}; waiting for it", why);
-          }
-        }));
+        capture::RealWorld(
+            open,
+            [this](bool connected, const std::string& why) {
+              faults_.CameraChanged(connected, why);
+            },
+            [this](bool steady, double leap) { faults_.ClockChanged(steady, leap); }));
     return Status();
   }
   LARARIUM_ASSIGN_OR_RETURN(source_, options_.video.empty()
@@ -448,15 +450,18 @@ Result<std::unique_ptr<show::Show>> Performance::MakeShow(show::ShowContent cont
   drama.seed = options_.seed;
   // A player goes back to the beginning alone, and plays for days.
   drama.past = options_.visitor_log.empty() ? drama::Past::kForgotten : drama::Past::kKept;
-  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show,
-                            show::Show::Create(std::move(content), drama, log_));
-  show->SetLostLadder(device_.lost);
-  show->SetPictureSize(size_.width, size_.height, part_);
-  show->SetSeenAround(headset_ && headset_->runtime_shows_room);
-  if (visitor_) {
-    show->drama().SetVisitorLog(*visitor_);
+  Result<std::unique_ptr<show::Show>> made = show::Show::Create(std::move(content), drama, log_);
+  if (!made.ok()) {
+    return made.status().At(options_.show.string());
   }
-  return show;
+  show::Show& show = **made;
+  show.SetLostLadder(device_.lost);
+  show.SetPictureSize(size_.width, size_.height, part_);
+  show.SetSeenAround(headset_ && headset_->runtime_shows_room);
+  if (visitor_) {
+    show.drama().SetVisitorLog(*visitor_);
+  }
+  return made;
 }
 
 void Performance::TellKiosk() {
@@ -595,7 +600,12 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
   if (staff_) {
     staff_->Prepare(*target_);
   }
-  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content, QualityOf(level())));
+  Result<std::unique_ptr<show::ShowRenderer>> renderer =
+      show::ShowRenderer::Create(content, QualityOf(level()));
+  if (!renderer.ok()) {
+    return renderer.status().At(options_.show.string());
+  }
+  renderer_ = *std::move(renderer);
   renderer_->SetEvidence(options_.evidence);
   renderer_->SetPart(part_);
   if (headset_ && headset_->panel) {
@@ -839,6 +849,7 @@ Status Performance::DrawFrame(show::StagedFrame& staged) {
     sound_->Show(staged.sound);
   }
   AddTimes(staged, drawn);
+  faults_.AfterFrame(staged.tracked);
   const double draw_ms = std::chrono::duration<double, std::milli>(drawn - begin).count();
   ChooseQuality(last_shown_, std::max(draw_ms, staged.stage_ms));
   heartbeat_.Beat();

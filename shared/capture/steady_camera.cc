@@ -76,10 +76,23 @@ class SteadyCamera final : public FrameSource {
   // opening, and may leap.
   double OurTime(double theirs) {
     const double now = world_.now() - *start_;
-    if (!ours_from_theirs_ || std::abs(theirs + *ours_from_theirs_ - now) > kMostClockError) {
+    const double leap = ours_from_theirs_ ? theirs + *ours_from_theirs_ - now : 0.0;
+    const bool leaps = std::abs(leap) > kMostClockError;
+    if (!ours_from_theirs_ || leaps) {
       ours_from_theirs_ = now - theirs;
     }
+    WatchClock(now, leaps, leap);
     return theirs + *ours_from_theirs_;
+  }
+
+  // Tells of the first leap alone: a clock may leap with every image.
+  void WatchClock(double now, bool leaps, double leap) {
+    const bool was_steady = clock_steady_;
+    last_leap_ = leaps ? now : last_leap_;
+    clock_steady_ = !leaps && (was_steady || now - last_leap_ > options_.steady_clock);
+    if (clock_steady_ != was_steady && world_.clock_changed) {
+      world_.clock_changed(clock_steady_, leap);
+    }
   }
 
   // Time never stands and never goes back.
@@ -108,6 +121,8 @@ class SteadyCamera final : public FrameSource {
   int64_t next_index_ = 0;
   std::optional<double> start_;
   std::optional<double> ours_from_theirs_;
+  bool clock_steady_ = true;
+  double last_leap_ = 0.0;
   double last_time_ = -1.0;
   double next_attempt_ = 0.0;
 };
@@ -121,7 +136,8 @@ std::unique_ptr<FrameSource> MakeSteady(std::unique_ptr<FrameSource> camera,
 }
 
 SteadyCameraWorld RealWorld(std::function<Result<std::unique_ptr<FrameSource>>()> open,
-                            std::function<void(bool, const std::string&)> changed) {
+                            std::function<void(bool, const std::string&)> changed,
+                            std::function<void(bool, double)> clock_changed) {
   return {
       std::move(open),
       [] {
@@ -129,7 +145,7 @@ SteadyCameraWorld RealWorld(std::function<Result<std::unique_ptr<FrameSource>>()
         return std::chrono::duration<double>(now).count();
       },
       [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); },
-      std::move(changed)};
+      std::move(changed), std::move(clock_changed)};
 }
 
 }  // namespace lararium::capture

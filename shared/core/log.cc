@@ -1,27 +1,108 @@
 #include "shared/core/log.h"
 
-#include <spdlog/sinks/basic_file_sink.h>
+#include <fcntl.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/null_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdint>
+#include <mutex>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace lararium {
+namespace {
 
-Result<std::shared_ptr<Log>> MakeLog(const std::filesystem::path& file) {
-  std::vector<spdlog::sink_ptr> sinks = {std::make_shared<spdlog::sinks::stderr_color_sink_mt>()};
-  if (!file.empty()) {
-    try {
-      sinks.push_back(std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string()));
-    } catch (const spdlog::spdlog_ex& error) {
-      return Status::Error(file.string(), error.what(), "name a log file that can be written");
+// A file whose disk may be full for a while: then lines are counted in place of being written, the
+// log's other sinks are told once, and the file goes on as soon as it takes lines again.
+class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  FileSink(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
+  ~FileSink() override { close(descriptor_); }
+  FileSink(const FileSink&) = delete;
+  FileSink& operator=(const FileSink&) = delete;
+
+  // Of which this is a sink.
+  void SetLog(const Log* log) { log_ = log; }
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    if (lost_ > 0) {
+      const std::string gap =
+          fmt::format("{}{} lines could not be written here\n", torn_ ? "\n" : "", lost_);
+      if (!Write(gap)) {
+        ++lost_;
+        return;
+      }
+      Tell(spdlog::level::info,
+           fmt::format("{}: is written again, without {} lines", name_, lost_));
+      lost_ = 0;
+    }
+    if (!Write({line.data(), line.size()})) {
+      lost_ = 1;
+      Tell(spdlog::level::warn, fmt::format("{}: the log cannot be written: {}", name_,
+                                            std::generic_category().message(errno)));
     }
   }
-  auto log = std::make_shared<Log>("lararium", sinks.begin(), sinks.end());
+  void flush_() override {}  // each line is written at once
+
+ private:
+  bool Write(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = write(descriptor_, text.data(), text.size());
+      if (written < 0) {
+        return false;
+      }
+      text.remove_prefix(static_cast<size_t>(written));
+      torn_ = !text.empty();
+    }
+    return true;
+  }
+
+  void Tell(spdlog::level::level_enum level, const std::string& text) const {
+    for (const spdlog::sink_ptr& sink : log_->sinks()) {
+      if (sink.get() != this && sink->should_log(level)) {
+        sink->log({log_->name(), level, text});
+      }
+    }
+  }
+
+  int descriptor_;
+  std::string name_;
+  const Log* log_ = nullptr;
+  int64_t lost_ = 0;   // lines since the file was full
+  bool torn_ = false;  // its last line is not whole
+};
+
+Result<std::shared_ptr<FileSink>> OpenFile(const std::filesystem::path& file) {
+  std::error_code ignored;  // opening says it
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor < 0) {
+    return Status::Error(file.string(),
+                         "cannot be opened: " + std::generic_category().message(errno),
+                         "name a log file that can be written");
+  }
+  return std::make_shared<FileSink>(descriptor, file.string());
+}
+
+}  // namespace
+
+Result<std::shared_ptr<Log>> MakeLog(const std::filesystem::path& file) {
+  auto log =
+      std::make_shared<Log>("lararium", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
   log->set_pattern("%^%l%$ %v");
-  if (sinks.size() > 1) {
-    sinks.back()->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
-    log->flush_on(spdlog::level::warn);
+  if (!file.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::shared_ptr<FileSink> sink, OpenFile(file));
+    sink->SetLog(log.get());
+    sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
+    log->sinks().push_back(sink);
   }
   return log;
 }

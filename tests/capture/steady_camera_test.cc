@@ -58,6 +58,9 @@ struct World {
                        [this] { return now; }, [this](double seconds) { now += seconds; },
                        [this](bool connected, const std::string& why) {
                          changes.push_back(connected ? "back" : "away: " + why);
+                       },
+                       [this](bool steady, double leap) {
+                         changes.push_back(steady ? "steady" : leap > 0.0 ? "on" : "back");
                        }});
   }
 };
@@ -94,7 +97,6 @@ TEST(SteadyCamera, IsBlackWhileUnpluggedAndComesBackWithinARetry) {
     return **frame;
   };
   for (int cycle = 0; cycle < 5; ++cycle) {
-    world.clock = 1000.0 * cycle;  // the camera's clock leaps with each opening
     for (int i = 0; i < 30; ++i) {
       next();
     }
@@ -107,6 +109,7 @@ TEST(SteadyCamera, IsBlackWhileUnpluggedAndComesBackWithinARetry) {
       EXPECT_EQ(frame.bgr.size(), cv::Size(64, 48));
     }
     EXPECT_LE(world.opened - opened, 21) << "asked twice a second";
+    world.clock += 1000.0;  // the camera's clock begins anew with each opening
     world.plugged = true;
     const double back = world.now;
     while (IsBlack(next())) {
@@ -151,6 +154,21 @@ TEST(SteadyCamera, ALeapOfTheCamerasClockIsNotPassedOn) {
       last = time;
     }
   }
+}
+
+TEST(SteadyCamera, AClockThatLeapsAllTheTimeIsToldOnceAndWhenItIsSteady) {
+  World world;
+  const auto source = world.Make();
+  (void)source->Next();
+  for (int i = 0; i < 300; ++i) {
+    world.clock = i % 2 == 0 ? 700.0 : 0.0;
+    (void)source->Next();
+  }
+  EXPECT_EQ(world.changes, std::vector<std::string>({"on"}));
+  for (int i = 0; i < 300; ++i) {
+    (void)source->Next();
+  }
+  EXPECT_EQ(world.changes, std::vector<std::string>({"on", "steady"}));
 }
 
 }  // namespace

@@ -2,24 +2,37 @@
 //
 // Plays a show in a loop as the player does, on a recording, as fine as the machine is quick
 // enough for, and injects faults at the seams where the world comes in: the camera, its clock,
-// the sound device, the script, the log's disk.
-// Says of each how often it was injected, how it was noticed, and how long it took until people
-// were seen again. Fails where a fault was not recovered from, or memory grew.
+// the sound device, the script, the log's disk, the state's folder.
+// Says of each how often it was injected, how often it was noticed (the log has a line that tells
+// of it within five seconds, and no image without the place was given a pose), logged (another line
+// tells likewise of its end, and there are few in all) and recovered from (what failed works again,
+// and people are seen, within three seconds). Fails where one of them lacks, or memory grew.
+
+#include <fcntl.h>
+#include <spdlog/sinks/base_sink.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <deque>
+#include <filesystem>
 #include <fstream>
-#include <map>
+#include <iterator>
+#include <mutex>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "player/fault_log.h"
 #include "player/heap.h"
 #include "player/kiosk.h"
 #include "shared/audio/sound_player.h"
@@ -41,64 +54,177 @@ namespace lararium {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
 
 constexpr double kGoodSeconds = 7.0;
 constexpr double kFaultSeconds = 4.0;
-// After a fault has ended, until people must be seen again.
+// After a fault has ended, until what failed must work again.
 constexpr double kMostRecovery = 3.0;
+// After a fault has begun, and after it has ended, until the log must have told of it.
+constexpr double kMostToTell = 5.0;
+// Where the machine is slower than that, both are as long as so many images take: what the camera
+// gives in a second.
+constexpr int kFewImages = 30;
+// Of a fault and what follows until the next one, in the log.
+constexpr size_t kMostLines = 16;
+// Of the drama's time from the images', while their clock leaps: two images.
+constexpr double kMostTimeError = 2.0 / 30.0;
 constexpr double kMostGrowth = 0.02;
 constexpr double kMemoryInterval = 10.0;  // seconds
-constexpr double kScriptErrorSeconds = 15.0;
 constexpr int kWidth = 1280, kHeight = 720;
+constexpr const char* kErrorKey = "f12";
 
-enum class Fault { kNone, kUnplugged, kBlack, kCovered, kForeign, kClockJump, kSoundGone };
-constexpr Fault kFaults[] = {Fault::kUnplugged, Fault::kBlack,     Fault::kCovered,
-                             Fault::kForeign,   Fault::kClockJump, Fault::kSoundGone};
+enum class Fault {
+  kUnplugged,
+  kBlack,
+  kCovered,
+  kForeign,
+  kClockJump,
+  kSoundGone,
+  kScriptError,
+  kLogFull,
+  kStateGone,
+  kNone,
+};
+constexpr size_t kFaults = static_cast<size_t>(Fault::kNone);
 
-const char* Name(Fault fault) {
-  switch (fault) {
-    case Fault::kNone:
-      return "none";
-    case Fault::kUnplugged:
-      return "camera unplugged";
-    case Fault::kBlack:
-      return "black frames";
-    case Fault::kCovered:
-      return "covered lens";
-    case Fault::kForeign:
-      return "foreign images";
-    case Fault::kClockJump:
-      return "clock jumps";
-    case Fault::kSoundGone:
-      return "sound device gone";
-  }
-  return "";
-}
+struct FaultKind {
+  const char* name;
+  const char* begins;  // in the log; alternatives are separated by '|'
+  const char* ends;    // likewise; nullptr: it is over at once
+  bool blinds = false;
+};
+constexpr std::array<FaultKind, kFaults> kKinds = {{
+    {"camera unplugged", "waiting for it", "the camera is back", true},
+    {"black frames", "the place is not found: too dark", "the place is found after", true},
+    {"covered lens",
+     "the place is not found: too few features|the place is not found: too few matches",
+     "the place is found after", true},
+    {"foreign images",
+     "the place is not found: too few matches|the place is not found: no consistent",
+     "the place is found after", true},
+    {"clock jumps", "the camera's clock leapt", "the camera's clock is steady again"},
+    {"sound device gone", "the show goes on in silence", "sound goes to"},
+    {"script error", "soak: an error of the script", nullptr},
+    {"log's disk full", "the log cannot be written", "is written again"},
+    {"state folder gone", "after a failure the show will begin at its beginning",
+     "where the show is can be kept again"},
+}};
 
-// Which fault there is now: one after the other, with good times between.
+const FaultKind& KindOf(Fault fault) { return kKinds[static_cast<size_t>(fault)]; }
+
+double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+// Which fault there is now: one after the other, with good times between. One thread moves it on.
 class Schedule {
  public:
-  Fault Now() const {
+  Fault Now() const { return now_; }
+  // Whether another time has begun.
+  bool MoveOn() {
     const double cycle = kGoodSeconds + kFaultSeconds;
-    const double time = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double time = Seconds(Clock::now() - start_);
     const auto number = static_cast<size_t>(time / cycle);
     const bool good = time - static_cast<double>(number) * cycle < kGoodSeconds;
-    return good ? Fault::kNone : kFaults[number % std::size(kFaults)];
+    const Fault next = good ? Fault::kNone : static_cast<Fault>(number % kFaults);
+    return now_.exchange(next) != next;
   }
 
  private:
   Clock::time_point start_ = Clock::now();
+  std::atomic<Fault> now_ = Fault::kNone;
 };
+
+// Hears all that the log is told.
+class LogEar final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  // Whether one of the texts ("a|b") was said between two moments.
+  bool Heard(std::string_view texts, Clock::time_point from, Clock::time_point until) {
+    const std::lock_guard lock(mutex_);
+    while (true) {
+      const size_t end = texts.find('|');
+      const std::string_view text = texts.substr(0, end);
+      for (const auto& [time, line] : lines_) {
+        if (time >= from && time <= until && line.find(text) != std::string::npos) {
+          return true;
+        }
+      }
+      if (end == std::string_view::npos) {
+        return false;
+      }
+      texts.remove_prefix(end + 1);
+    }
+  }
+  size_t Count(Clock::time_point from) {
+    const std::lock_guard lock(mutex_);
+    return static_cast<size_t>(std::count_if(lines_.begin(), lines_.end(),
+                                             [&](const auto& line) { return line.first >= from; }));
+  }
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    if (lines_.size() == kKept) {
+      lines_.pop_front();
+    }
+    lines_.emplace_back(Clock::now(), std::string(message.payload.data(), message.payload.size()));
+  }
+  void flush_() override {}
+
+ private:
+  static constexpr size_t kKept = 500;
+  std::deque<std::pair<Clock::time_point, std::string>> lines_;
+};
+
+// What is true of an image, whatever its camera's clock says.
+struct Truth {
+  double time = 0.0;  // when it was taken, seconds
+  Fault fault = Fault::kNone;
+};
+
+// Photographs of other places; none where the data folder is not there.
+std::vector<cv::Mat> ForeignImages(cv::Size size) {
+  constexpr size_t kOfEach = 4;
+  std::vector<cv::Mat> images;
+  for (const char* name : {"fox-pinhole", "box", "fountain-P11"}) {
+    std::error_code error;
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(fs::path(LARARIUM_DATA_DIR) / name / "images", error)) {
+      files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    files.resize(std::min(files.size(), kOfEach));
+    for (const fs::path& file : files) {
+      const cv::Mat image = cv::imread(file.string(), cv::IMREAD_COLOR);
+      if (!image.empty()) {
+        cv::resize(image, images.emplace_back(), size, 0, 0, cv::INTER_AREA);
+      }
+    }
+  }
+  return images;
+}
+
+// The image's tiles in another order, turned over.
+void Shuffle(const cv::Mat& image, cv::Mat& shuffled) {
+  const int w = image.cols / 8, h = image.rows / 8;
+  for (int tile = 0; tile < 64; ++tile) {
+    const int from = (tile * 37 + 11) % 64;
+    cv::Mat piece;
+    cv::flip(image(cv::Rect(from % 8 * w, from / 8 * h, w, h)), piece, tile % 3 - 1);
+    piece.copyTo(shuffled(cv::Rect(tile % 8 * w, tile / 8 * h, w, h)));
+  }
+}
 
 // A camera that plays a recording, and everything that happens to cameras.
 class FaultyCamera final : public capture::FrameSource {
  public:
-  FaultyCamera(std::shared_ptr<capture::FrameSource> recording, const Schedule& schedule)
-      : recording_(std::move(recording)), schedule_(schedule) {}
+  FaultyCamera(std::shared_ptr<capture::FrameSource> recording,
+               const std::vector<cv::Mat>& foreign,
+               const Schedule& schedule,
+               Truth& truth)
+      : recording_(std::move(recording)), foreign_(foreign), schedule_(schedule), truth_(truth) {}
 
   Result<std::optional<geometry::Frame>> Next() override {
-    const Fault fault = schedule_.Now();
-    if (fault == Fault::kUnplugged) {
+    if (schedule_.Now() == Fault::kUnplugged) {
       return Status::Error("camera 0", "gives no image", "check that it is connected");
     }
     LARARIUM_ASSIGN_OR_RETURN(std::optional<geometry::Frame> frame, recording_->Next());
@@ -106,11 +232,12 @@ class FaultyCamera final : public capture::FrameSource {
       return frame;
     }
     Wait();
-    frame->capture_time = std::chrono::duration<double>(Clock::now() - start_).count();
-    if (fault == Fault::kClockJump) {
+    truth_ = {Seconds(Clock::now().time_since_epoch()), schedule_.Now()};
+    frame->capture_time = Seconds(Clock::now() - start_);
+    if (truth_.fault == Fault::kClockJump) {
       frame->capture_time += 1000.0 * static_cast<double>(frame->index / 40 % 3) - 500.0;
-    } else if (fault != Fault::kNone && fault != Fault::kSoundGone) {
-      Spoil(fault, *frame);
+    } else if (truth_.fault != Fault::kNone && KindOf(truth_.fault).blinds) {
+      Spoil(truth_.fault, *frame);
     }
     return frame;
   }
@@ -137,35 +264,85 @@ class FaultyCamera final : public capture::FrameSource {
       bgr.setTo(0);
     } else if (fault == Fault::kCovered) {
       cv::randn(bgr, cv::Scalar::all(45.0), cv::Scalar::all(5.0));  // light through a hand
+    } else if (foreign_.empty()) {
+      Shuffle(frame.bgr, bgr);
     } else {
-      // Another place: the image's tiles in another order, turned over.
-      const int w = bgr.cols / 8, h = bgr.rows / 8;
-      for (int tile = 0; tile < 64; ++tile) {
-        const int from = (tile * 37 + 11) % 64;
-        cv::Mat piece;
-        cv::flip(frame.bgr(cv::Rect(from % 8 * w, from / 8 * h, w, h)), piece, tile % 3 - 1);
-        piece.copyTo(bgr(cv::Rect(tile % 8 * w, tile / 8 * h, w, h)));
-      }
+      foreign_[static_cast<size_t>(frame.index / 15) % foreign_.size()].copyTo(bgr);
     }
     frame.bgr = bgr;
     cv::cvtColor(bgr, frame.grey, cv::COLOR_BGR2GRAY);
   }
 
   std::shared_ptr<capture::FrameSource> recording_;
+  const std::vector<cv::Mat>& foreign_;
   const Schedule& schedule_;
+  Truth& truth_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = Clock::now();
+};
+
+// What the pipeline reads: the steady camera, and the truth of each of its images.
+class KnownSource final : public capture::FrameSource {
+ public:
+  KnownSource(std::unique_ptr<capture::FrameSource> steady, Truth& truth)
+      : steady_(std::move(steady)), truth_(truth), truths_(kKept) {}
+
+  Result<std::optional<geometry::Frame>> Next() override {
+    truth_ = {NAN, Fault::kUnplugged};  // unless the camera says another
+    Result<std::optional<geometry::Frame>> frame = steady_->Next();
+    if (frame.ok() && frame->has_value()) {
+      const std::lock_guard lock(mutex_);
+      truths_[static_cast<size_t>((*frame)->index) % kKept] = truth_;
+    }
+    return frame;
+  }
+  // Of one of the last images.
+  Truth Of(int64_t index) const {
+    const std::lock_guard lock(mutex_);
+    return truths_[static_cast<size_t>(index) % kKept];
+  }
+  Status Seek(int64_t index) override { return steady_->Seek(index); }
+  std::optional<int64_t> frame_count() const override { return steady_->frame_count(); }
+  int width() const override { return steady_->width(); }
+  int height() const override { return steady_->height(); }
+  double frames_per_second() const override { return steady_->frames_per_second(); }
+  bool live() const override { return true; }
+  std::string FrameName(int64_t index) const override { return steady_->FrameName(index); }
+
+ private:
+  static constexpr size_t kKept = 1000;
+  std::unique_ptr<capture::FrameSource> steady_;
+  Truth& truth_;  // of the thread that reads
+  mutable std::mutex mutex_;
+  std::vector<Truth> truths_;
+};
+
+// What came through the sound device since it was opened last.
+struct Played {
+  std::atomic<int> openings = 0;
+  std::atomic<int> blocks = 0;
+  std::atomic<int> audible = 0;  // blocks that are not silence
+  std::atomic<int> wrong = 0;    // samples that are no numbers, ever
 };
 
 // A sound device that can be pulled out.
 class FaultySound final : public audio::AudioOut {
  public:
-  FaultySound(std::unique_ptr<audio::AudioOut> out, const Schedule& schedule)
-      : out_(std::move(out)), schedule_(schedule) {}
+  FaultySound(std::unique_ptr<audio::AudioOut> out, const Schedule& schedule, Played& played)
+      : out_(std::move(out)), schedule_(schedule), played_(played) {
+    ++played_.openings;
+    played_.blocks = 0;
+    played_.audible = 0;
+  }
   Status Write(std::span<const float> stereo) override {
     if (schedule_.Now() == Fault::kSoundGone) {
       return Status::Error("sound", "the device is gone");
     }
+    ++played_.blocks;
+    played_.audible +=
+        std::any_of(stereo.begin(), stereo.end(), [](float s) { return s != 0.0f; }) ? 1 : 0;
+    played_.wrong += static_cast<int>(
+        std::count_if(stereo.begin(), stereo.end(), [](float s) { return !std::isfinite(s); }));
     return out_->Write(stereo);
   }
   double latency() const override { return out_->latency(); }
@@ -175,13 +352,72 @@ class FaultySound final : public audio::AudioOut {
  private:
   std::unique_ptr<audio::AudioOut> out_;
   const Schedule& schedule_;
+  Played& played_;
+};
+
+// The files that the player writes, and their disk. Gone with it.
+class Disk {
+ public:
+  Disk() : folder_(fs::temp_directory_path() / ("lararium_soak." + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~Disk() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Disk(const Disk&) = delete;
+  Disk& operator=(const Disk&) = delete;
+
+  fs::path log() const { return folder_ / "log.txt"; }
+  fs::path state() const { return folder_ / "state"; }
+
+  // The log's open file, whoever has it, writes to a disk that is full.
+  void FillLog() const { Redirect(log(), "/dev/full"); }
+  void FreeLog() const { Redirect("/dev/full", log()); }
+  // In the folder's place there is a file: whoever asks, nothing can be written.
+  void TakeState() const {
+    fs::rename(state(), folder_ / "away");
+    std::ofstream(state()) << "not a folder";
+  }
+  void GiveStateBack() const {
+    fs::remove(state());
+    fs::rename(folder_ / "away", state());
+  }
+
+  bool LogHas(std::string_view text) const {
+    std::ifstream file(log());
+    const std::string all((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    return all.find(text) != std::string::npos;
+  }
+  bool StateWrittenSince(fs::file_time_type time) const {
+    std::error_code error;
+    const fs::file_time_type written = fs::last_write_time(state() / "state.json", error);
+    return !error && written > time && player::LoadKioskState(state()).ok();
+  }
+
+ private:
+  static void Redirect(const fs::path& from, const fs::path& to) {
+    for (const fs::directory_entry& entry : fs::directory_iterator("/proc/self/fd")) {
+      std::error_code error;
+      if (fs::read_symlink(entry.path(), error) == from) {
+        const int target = open(to.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+        dup3(target, std::stoi(entry.path().filename().string()), O_CLOEXEC);
+        close(target);
+        return;
+      }
+    }
+  }
+
+  fs::path folder_;
 };
 
 struct Outcome {
   int injected = 0;
-  int noticed = 0;       // frames that said so, or log lines
-  int recovered = 0;     // people were seen again in time
-  double longest = 0.0;  // seconds until then
+  int noticed = 0;
+  int logged = 0;
+  int recovered = 0;
+  double longest = 0.0;   // seconds until it was recovered from
+  size_t most_lines = 0;  // in the log
 };
 
 struct Options {
@@ -191,64 +427,183 @@ struct Options {
   std::string out;
 };
 
+// What the judge looks at.
+struct Scene {
+  const Schedule& schedule;
+  const KnownSource& source;
+  const Played& played;
+  const Disk& disk;
+  LogEar& ear;
+};
+
 // What happened, fault by fault.
 class Judge {
  public:
-  explicit Judge(const Schedule& schedule) : schedule_(schedule) {}
+  explicit Judge(const Scene& scene) : scene_(scene) {}
+
+  // A fault has just begun.
+  void Begin() {
+    Settle();
+    fault_ = scene_.schedule.Now();
+    begun_ = Clock::now();
+    told_until_ = begun_ + kToTell;
+    images_ = 0;
+    ended_.reset();
+    recovered_.reset();
+    time_error_ = 0.0;
+    posed_blind_ = false;
+  }
+  // It has just ended.
+  void End() {
+    ended_ = Clock::now();
+    end_told_until_ = *ended_ + kToTell;
+    images_since_end_ = 0;
+    ended_on_disk_ = fs::file_time_type::clock::now();
+    end_text_ = "soak: the end of fault " + std::to_string(++ends_);
+  }
+  // What the log says at the end, and its file must have.
+  const std::string& end_text() const { return end_text_; }
 
   void Frame(const show::StagedFrame& staged) {
-    const Clock::time_point now = Clock::now();
-    const Fault fault = schedule_.Now();
+    const Truth truth = scene_.source.Of(staged.tracked.frame.index);
     const bool tracked = staged.tracked.camera_from_map.has_value();
-    if (fault != fault_) {
-      if (fault != Fault::kNone) {
-        Settle();
-        ++outcomes_[fault].injected;
-      } else {
-        waiting_for_ = fault_;
-        ended_ = now;
-      }
-      fault_ = fault;
-    }
-    const bool shows = tracked && staged.opacity > 0.99f;
-    if (fault != Fault::kNone && (!tracked || fault == Fault::kClockJump)) {
-      ++outcomes_[fault].noticed;
-    }
-    if (waiting_for_ != Fault::kNone && shows) {
-      Outcome& outcome = outcomes_[waiting_for_];
-      const double seconds = std::chrono::duration<double>(now - ended_).count();
-      outcome.longest = std::max(outcome.longest, seconds);
-      outcome.recovered += seconds <= kMostRecovery ? 1 : 0;
-      waiting_for_ = Fault::kNone;
-    }
+    CountImage();
     // Never people in a place that no image shows: they have gone half a second after the hold.
     if (!tracked && staged.lost_seconds > 1.0 && staged.opacity > 0.0f) {
       ++ghosts_;
     }
+    if (truth.fault != Fault::kNone && KindOf(truth.fault).blinds && tracked) {
+      posed_blind_ = true;
+      ++ghosts_;
+    }
+    FollowTime(truth, staged.time);
+    const bool shows = tracked && staged.opacity > 0.99f && truth.fault == Fault::kNone;
+    if (fault_ != Fault::kNone && ended_ && !recovered_ && shows && WorksAgain(staged)) {
+      recovered_ = Seconds(Clock::now() - *ended_);
+      recovered_in_time_ = *recovered_ <= kMostRecovery || images_since_end_ <= kFewImages;
+    }
   }
   // The last fault may not have been waited for.
   void Settle() {
-    if (waiting_for_ != Fault::kNone) {
-      outcomes_[waiting_for_].longest = INFINITY;
-      waiting_for_ = Fault::kNone;
+    if (fault_ == Fault::kNone || !ended_ || Seconds(Clock::now() - *ended_) < kMostToTell) {
+      return;
     }
+    const FaultKind& kind = KindOf(fault_);
+    Outcome& outcome = outcomes_[static_cast<size_t>(fault_)];
+    const size_t lines = scene_.ear.Count(begun_);
+    const bool begin_told = scene_.ear.Heard(kind.begins, begun_, told_until_);
+    const bool end_told =
+        kind.ends == nullptr || scene_.ear.Heard(kind.ends, *ended_, end_told_until_);
+    ++outcome.injected;
+    outcome.noticed += begin_told && !posed_blind_ ? 1 : 0;
+    outcome.logged += begin_told && end_told && lines <= kMostLines ? 1 : 0;
+    outcome.recovered += recovered_ && recovered_in_time_ ? 1 : 0;
+    outcome.longest = std::max(outcome.longest, recovered_.value_or(INFINITY));
+    outcome.most_lines = std::max(outcome.most_lines, lines);
+    fault_ = Fault::kNone;
   }
-  void ForgetLast() {
-    if (waiting_for_ != Fault::kNone || fault_ != Fault::kNone) {
-      --outcomes_[waiting_for_ != Fault::kNone ? waiting_for_ : fault_].injected;
-    }
-  }
-  std::map<Fault, Outcome>& outcomes() { return outcomes_; }
+  const std::array<Outcome, kFaults>& outcomes() const { return outcomes_; }
   int ghosts() const { return ghosts_; }
+  double worst_time_error() const { return worst_time_error_; }
 
  private:
-  const Schedule& schedule_;
+  void CountImage() {
+    const Clock::time_point now = Clock::now();
+    if (++images_ <= kFewImages) {
+      told_until_ = std::max(told_until_, now);
+    }
+    if (++images_since_end_ <= kFewImages) {
+      end_told_until_ = std::max(end_told_until_, now);
+    }
+  }
+
+  // How far the drama's time is from the images', which began together before the fault.
+  void FollowTime(const Truth& truth, double drama_time) {
+    const bool back = last_drama_time_ > drama_time;
+    last_drama_time_ = drama_time;
+    if (!std::isfinite(truth.time)) {
+      return;
+    }
+    double error = back ? INFINITY : std::abs(drama_time - truth.time - reference_);
+    if (fault_ != Fault::kClockJump || (error > kMostTimeError && BegunAnew())) {
+      reference_ = drama_time - truth.time;
+      error = 0.0;
+    }
+    time_error_ = std::max(time_error_, error);
+    worst_time_error_ = std::max(worst_time_error_, error);
+  }
+  // For the next visitor.
+  bool BegunAnew() const { return scene_.ear.Heard("a visitor came", begun_, Clock::now()); }
+
+  bool WorksAgain(const show::StagedFrame& staged) const {
+    switch (fault_) {
+      case Fault::kClockJump:
+        return time_error_ <= kMostTimeError;
+      case Fault::kSoundGone:
+        return scene_.played.blocks > 10 &&
+               (scene_.played.audible > 0 || staged.sound.voices.empty());
+      case Fault::kLogFull:
+        return scene_.disk.LogHas(end_text_);
+      case Fault::kStateGone:
+        return scene_.disk.StateWrittenSince(ended_on_disk_);
+      default:
+        return true;
+    }
+  }
+
+  static constexpr Clock::duration kToTell =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kMostToTell));
+
+  Scene scene_;
   Fault fault_ = Fault::kNone;
-  Fault waiting_for_ = Fault::kNone;
-  Clock::time_point ended_;
-  std::map<Fault, Outcome> outcomes_;
+  Clock::time_point begun_;
+  Clock::time_point told_until_;  // when the log must have told of its beginning
+  int images_ = 0;                // since then
+  std::optional<Clock::time_point> ended_;
+  Clock::time_point end_told_until_;
+  int images_since_end_ = 0;
+  fs::file_time_type ended_on_disk_;
+  std::string end_text_;
+  int ends_ = 0;
+  std::optional<double> recovered_;  // after so many seconds
+  bool recovered_in_time_ = false;
+  bool posed_blind_ = false;
+  double reference_ = 0.0;
+  double last_drama_time_ = 0.0;
+  double time_error_ = 0.0;
+  double worst_time_error_ = 0.0;
+  std::array<Outcome, kFaults> outcomes_;
   int ghosts_ = 0;
 };
+
+// What the schedule asks for that no double does by itself.
+void Inject(const Schedule& schedule,
+            Fault before,
+            const Disk& disk,
+            Judge& judge,
+            show::Show& show,
+            Log& log) {
+  const Fault now = schedule.Now();
+  if (before == Fault::kLogFull) {
+    disk.FreeLog();
+  } else if (before == Fault::kStateGone) {
+    disk.GiveStateBack();
+  }
+  if (now == Fault::kNone) {
+    judge.End();
+    log.info("{}", judge.end_text());
+    return;
+  }
+  judge.Begin();
+  if (now == Fault::kLogFull) {
+    disk.FillLog();
+  } else if (now == Fault::kStateGone) {
+    disk.TakeState();
+  } else if (now == Fault::kScriptError) {
+    show.PressKey(kErrorKey);
+  }
+  log.info("soak: {}", KindOf(now).name);
+}
 
 // Medians of a minute each, from when it is warm and at the end: what is taken for a moment, by
 // places that are looked for again, does not count.
@@ -270,8 +625,8 @@ local soak_main = main
 function main()
   start(function()
     while true do
-      wait()" +
-         std::to_string(kScriptErrorSeconds) + R"()
+      wait_for(key(")" +
+         kErrorKey + R"("))
       start(function() error("soak: an error of the script") end)
     end
   end)
@@ -291,9 +646,35 @@ Result<show::ShowContent> Load(const std::string& file) {
   return content;
 }
 
+// Prints the table; whether all is well.
+bool Report(const std::array<Outcome, kFaults>& outcomes, Json& rows) {
+  bool good = true;
+  std::printf(
+      "| fault | injected | noticed | logged | recovered | longest, s | lines at most |\n"
+      "|---|---|---|---|---|---|---|\n");
+  for (size_t i = 0; i < kFaults; ++i) {
+    const Outcome& outcome = outcomes[i];
+    std::printf("| %s | %d | %d | %d | %d | %.2f | %zu |\n", kKinds[i].name, outcome.injected,
+                outcome.noticed, outcome.logged, outcome.recovered, outcome.longest,
+                outcome.most_lines);
+    rows.push_back({{"fault", kKinds[i].name},
+                    {"injected", outcome.injected},
+                    {"noticed", outcome.noticed},
+                    {"logged", outcome.logged},
+                    {"recovered", outcome.recovered},
+                    {"longest_s", outcome.longest},
+                    {"lines_at_most", outcome.most_lines}});
+    good = good && outcome.noticed == outcome.injected && outcome.logged == outcome.injected &&
+           outcome.recovered == outcome.injected;
+  }
+  return good;
+}
+
 Result<bool> Soak(const Options& options) {
-  // A log whose disk is full.
-  LARARIUM_ASSIGN_OR_RETURN(const std::shared_ptr<Log> log, MakeLog("/dev/full"));
+  const Disk disk;
+  LARARIUM_ASSIGN_OR_RETURN(const std::shared_ptr<Log> log, MakeLog(disk.log()));
+  const auto ear = std::make_shared<LogEar>();
+  log->sinks().push_back(ear);
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Load(options.show));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<capture::FrameSource> video,
                             capture::OpenVideo(options.video));
@@ -323,38 +704,48 @@ Result<bool> Soak(const Options& options) {
 
   player::BeginPlaying();
 
-  const Schedule schedule;
-  Judge judge(schedule);
+  Schedule schedule;
+  player::FaultLog faults(*log);
+  Truth truth;
+  const std::vector<cv::Mat> foreign = ForeignImages({recording->width(), recording->height()});
   std::atomic<int> losses = 0;
+  const auto make = [&]() -> std::unique_ptr<capture::FrameSource> {
+    return std::make_unique<FaultyCamera>(recording, foreign, schedule, truth);
+  };
   const auto open = [&]() -> Result<std::unique_ptr<capture::FrameSource>> {
     if (schedule.Now() == Fault::kUnplugged) {
       return Status::Error("camera 0", "cannot be opened");
     }
-    return std::unique_ptr<capture::FrameSource>(
-        std::make_unique<FaultyCamera>(recording, schedule));
+    return make();
   };
-  const std::unique_ptr<capture::FrameSource> source = capture::MakeSteady(
-      std::make_unique<FaultyCamera>(recording, schedule),
-      capture::RealWorld(open, [&](bool connected, const std::string&) { losses += connected; }));
-  std::atomic<int> sound_openings = 0;
+  KnownSource source(capture::MakeSteady(make(), capture::RealWorld(
+                                                     open,
+                                                     [&](bool connected, const std::string& why) {
+                                                       losses += connected ? 1 : 0;
+                                                       faults.CameraChanged(connected, why);
+                                                     },
+                                                     [&](bool steady, double leap) {
+                                                       faults.ClockChanged(steady, leap);
+                                                     })),
+                     truth);
+  Played played;
   std::unique_ptr<audio::SoundPlayer> sound;
   if (auto mixer = audio::Mixer::Create(show->sounds(), {}); mixer.ok()) {
     sound = std::make_unique<audio::SoundPlayer>(
         std::move(*mixer),
         [&]() -> Result<std::unique_ptr<audio::AudioOut>> {
-          ++sound_openings;
           if (schedule.Now() == Fault::kSoundGone) {
             return Status::Error("sound", "no device");
           }
           LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<audio::AudioOut> none,
                                     audio::CreateAudioOut(audio::AudioOutKind::kNone));
           return std::unique_ptr<audio::AudioOut>(
-              std::make_unique<FaultySound>(std::move(none), schedule));
+              std::make_unique<FaultySound>(std::move(none), schedule, played));
         },
         *log);
   }
-  // Its folder cannot be written.
-  player::Kiosk kiosk("/proc/lararium", {}, *log);
+  player::Kiosk kiosk(disk.state(), {}, *log);
+  Judge judge({schedule, source, played, disk, *ear});
 
   const std::span<const render::Quality> ladder = render::QualityLadder();
   show::QualityController quality(
@@ -364,16 +755,19 @@ Result<bool> Soak(const Options& options) {
   show->SetQuality(ladder.back());
   show::ShowStatistics statistics;
   std::vector<double> memory = {show::ResidentMebibytes()};
-  size_t script_errors = 0;
   const Clock::time_point begin = Clock::now();
   const double warm_seconds = std::min(300.0, 0.5 * options.seconds);
   {
-    show::RealtimePipeline pipeline({*source, *poses, *show, statistics});
+    show::RealtimePipeline pipeline({source, *poses, *show, statistics});
     double elapsed = 0.0;
     while (elapsed < options.seconds) {
       elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
       if (elapsed >= static_cast<double>(memory.size()) * kMemoryInterval) {
         memory.push_back(show::ResidentMebibytes());
+      }
+      const Fault before = schedule.Now();
+      if (schedule.MoveOn()) {
+        Inject(schedule, before, disk, judge, *show, *log);
       }
       std::unique_ptr<show::StagedFrame> staged = pipeline.Take(std::chrono::milliseconds(20));
       if (staged == nullptr) {
@@ -391,6 +785,7 @@ Result<bool> Soak(const Options& options) {
       if (sound != nullptr) {
         sound->Show(staged->sound);
       }
+      faults.AfterFrame(staged->tracked);
       judge.Frame(*staged);
       kiosk.AfterFrame(elapsed, *staged, *show);
       pipeline.Recycle(std::move(staged));
@@ -398,21 +793,10 @@ Result<bool> Soak(const Options& options) {
     pipeline.Stop();
     LARARIUM_RETURN_IF_ERROR(pipeline.status());
   }
-  script_errors = show->drama().errors().size();
-  judge.ForgetLast();
+  judge.Settle();
 
-  bool good = judge.ghosts() == 0;
   Json rows = Json::array();
-  std::printf("| fault | injected | recovered | longest, s |\n| --- | --- | --- | --- |\n");
-  for (const auto& [fault, outcome] : judge.outcomes()) {
-    std::printf("| %s | %d | %d | %.2f |\n", Name(fault), outcome.injected, outcome.recovered,
-                outcome.longest);
-    rows.push_back({{"fault", Name(fault)},
-                    {"injected", outcome.injected},
-                    {"recovered", outcome.recovered},
-                    {"longest_s", outcome.longest}});
-    good = good && outcome.recovered >= outcome.injected;
-  }
+  bool good = Report(judge.outcomes(), rows) && judge.ghosts() == 0 && played.wrong == 0;
   const auto [warm_mib, last_mib] = WarmAndLast(memory, warm_seconds);
   const double growth = last_mib / warm_mib - 1.0;
   statistics.quality = quality.ToJson();
@@ -423,24 +807,22 @@ Result<bool> Soak(const Options& options) {
   }
   std::printf("\n");
   std::printf(
-      "%.0f s, %lld frames, camera came back %d times, sound opened %d times, %zu script "
-      "errors; memory %.0f MiB after %.0f s, %.0f MiB at the end (%+.1f %%); %d frames with "
+      "%.0f s, %lld frames, camera came back %d times, sound opened %d times; the drama's time at "
+      "most %.3f s off while the camera's clock leapt; %zu foreign images; memory %.0f MiB after "
+      "%.0f s, %.0f MiB at the end (%+.1f %%); %d frames with "
       "people where none should be\n",
       options.seconds, static_cast<long long>(statistics.tracking.frames()), losses.load(),
-      sound_openings.load(), script_errors, warm_mib, warm_seconds, last_mib, 100.0 * growth,
-      judge.ghosts());
+      played.openings.load(), judge.worst_time_error(), foreign.size(), warm_mib, warm_seconds,
+      last_mib, 100.0 * growth, judge.ghosts());
   if (!options.out.empty()) {
     LARARIUM_RETURN_IF_ERROR(SaveJson(options.out, {{"faults", rows},
                                                     {"memory_warm_mib", warm_mib},
                                                     {"memory_end_mib", last_mib},
                                                     {"memory_every_10_s_mib", memory},
-                                                    {"script_errors", script_errors},
+                                                    {"time_error_s", judge.worst_time_error()},
+                                                    {"foreign_images", foreign.size()},
                                                     {"ghosts", judge.ghosts()},
                                                     {"statistics", tracking_json}}));
-  }
-  if (options.seconds > 2.0 * kScriptErrorSeconds && script_errors == 0) {
-    std::printf("the script's errors were not noticed\n");
-    good = false;
   }
   if (options.seconds >= 600.0 && growth > kMostGrowth) {
     std::printf("memory grew\n");
