@@ -119,21 +119,28 @@ CameraProbe ProbeCamera(const DoctorOptions& options,
   return probe;
 }
 
-Result<std::string> OpenGraphics() {
-  LARARIUM_ASSIGN_OR_RETURN(const render::OffscreenContext context,
-                            render::CreateOffscreenContext());
-  return render::GraphicsDeviceName();
+// Of the current context.
+std::string DescribeGraphics() {
+  return render::GraphicsDeviceName() + " with " +
+         std::string(render::Name(render::CurrentGraphicsApi()));
 }
 
-Result<DisplayProbe> OpenDisplay(int monitor) {
+Result<std::string> OpenGraphics(render::GraphicsChoice graphics) {
+  LARARIUM_ASSIGN_OR_RETURN(const render::OffscreenContext context,
+                            render::CreateOffscreenContext(graphics));
+  return DescribeGraphics();
+}
+
+Result<DisplayProbe> OpenDisplay(const DoctorOptions& options) {
   render::WindowOptions wanted;
   wanted.visible = false;
-  if (monitor >= 0) {
-    wanted.monitor = monitor;
+  wanted.graphics = options.graphics;
+  if (options.monitor >= 0) {
+    wanted.monitor = options.monitor;
   }
   LARARIUM_ASSIGN_OR_RETURN(const render::Window window, render::Window::Create(wanted));
   const render::Window::Size size = window.framebuffer_size();
-  return DisplayProbe{{size.width, size.height}, render::GraphicsDeviceName()};
+  return DisplayProbe{{size.width, size.height}, DescribeGraphics()};
 }
 
 // A session, as the player will have it.
@@ -464,13 +471,14 @@ bool RunDoctor(const DoctorOptions& options, Log& log) {
   }
   const CameraProbe camera = ProbeCamera(options, device, content ? &*content : nullptr);
   findings.push_back(JudgeCamera(camera));
-  const Result<std::string> graphics = OpenGraphics();
+  const Result<std::string> graphics = OpenGraphics(options.graphics);
   findings.push_back(JudgeGraphics(graphics));
   if (content && graphics.ok()) {
     const double wanted = camera.images > 1 ? camera.images / camera.seconds : kUsualRate;
-    findings.push_back(JudgeDrawing(ProbeDrawing(*content, options.size, wanted, log), wanted));
+    findings.push_back(
+        JudgeDrawing(ProbeDrawing(*content, options.size, options.graphics, wanted, log), wanted));
   }
-  const Result<DisplayProbe> display = OpenDisplay(options.monitor);
+  const Result<DisplayProbe> display = OpenDisplay(options);
   findings.push_back(JudgeDisplay(display, true));
   if (device.headset) {
     const bool filled = options.monitor >= 0 && display.ok();

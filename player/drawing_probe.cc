@@ -135,7 +135,11 @@ class Stopwatch {
   show::StagedFrame staged_;
 };
 
-Status Measure(const show::ShowContent& content, double wanted, Log& log, DrawingProbe& probe) {
+Status Measure(const show::ShowContent& content,
+               render::GraphicsChoice graphics,
+               double wanted,
+               Log& log,
+               DrawingProbe& probe) {
   if (const show::ShowPlace& place = content.places.front(); place.map->keyframes.empty()) {
     return Status::Error(place.stage.name, "has no keyframes to look from",
                          "train the place again");
@@ -143,7 +147,7 @@ Status Measure(const show::ShowContent& content, double wanted, Log& log, Drawin
   const std::span<const render::Quality> ladder = render::QualityLadder();
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(content, {}, log));
   show->SetPictureSize(probe.size.width, probe.size.height);
-  LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());
+  LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext(graphics));
   LARARIUM_ASSIGN_OR_RETURN(const auto renderer,
                             show::ShowRenderer::Create(show->content(), ladder.back()));
   LARARIUM_ASSIGN_OR_RETURN(const auto target,
@@ -164,12 +168,13 @@ Status Measure(const show::ShowContent& content, double wanted, Log& log, Drawin
 
 DrawingProbe ProbeDrawing(const show::ShowContent& content,
                           std::optional<PictureSize> size,
+                          render::GraphicsChoice graphics,
                           double wanted,
                           Log& log) {
   DrawingProbe probe;
   const geometry::CameraModel& camera = content.places.front().map->camera;
   probe.size = size.value_or(PictureSize{camera.width & ~1, camera.height & ~1});
-  probe.problem = Measure(content, wanted, log, probe);
+  probe.problem = Measure(content, graphics, wanted, log, probe);
   return probe;
 }
 

@@ -24,10 +24,11 @@ struct DrawingProbe {
 
 // Draws off screen, with nothing to track beside it: people of the drama a while after it began, as
 // that keyframe of the first place sees them that sees most of them. size: of the pictures;
-// nullopt: as the camera's images. wanted: pictures a second. Finer levels than one that is half as
-// slow are not tried. Takes seconds.
+// nullopt: as the camera's images. graphics: to draw with. wanted: pictures a second. Finer levels
+// than one that is half as slow are not tried. Takes seconds.
 DrawingProbe ProbeDrawing(const show::ShowContent& content,
                           std::optional<PictureSize> size,
+                          render::GraphicsChoice graphics,
                           double wanted,
                           Log& log);
 

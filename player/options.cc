@@ -30,6 +30,18 @@ std::map<std::string, Display> DisplayNames() {
           {"openxr", Display::kOpenXr}};
 }
 
+void AddGraphicsOption(CLI::App& app, render::GraphicsChoice& graphics, const std::string& help) {
+  app.add_option_function<std::string>(
+         "--graphics",
+         [&graphics](const std::string& name) {
+           graphics = name == "gl"     ? render::GraphicsChoice(render::GraphicsApi::kOpenGl33)
+                      : name == "gles" ? render::GraphicsChoice(render::GraphicsApi::kOpenGlEs30)
+                                       : std::nullopt;
+         },
+         help)
+      ->check(CLI::IsMember({"auto", "gl", "gles"}));
+}
+
 // nullopt: it is none.
 std::optional<PictureSize> ParseSize(const std::string& text) {
   PictureSize size;
@@ -99,6 +111,8 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
          "runtime drives")
       ->transform(CLI::Transformer(DisplayNames()));
   app.add_flag("--headless", play.headless, "Draw off screen");
+  AddGraphicsOption(app, play.graphics,
+                    "gl: OpenGL 3.3; gles: OpenGL ES 3.0; auto: the first, where it can be had");
   app.add_option("--monitor", play.monitor,
                  "Full screen on this monitor; a kiosk is on the first unless told otherwise")
       ->check(CLI::Range(0, kLargestCount));
@@ -200,6 +214,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   doctor_command->add_option("--display", doctor.display, "As the player will be told")
       ->transform(CLI::Transformer(DisplayNames()));
   AddSizeOption(*doctor_command, doctor.size, "As the player will be told");
+  AddGraphicsOption(*doctor_command, doctor.graphics, "As the player will be told");
   CLI::Option* doctor_page =
       doctor_command->add_option("--staff-page", doctor.staff_page, "As the player will be told");
   doctor_command->add_option("--staff-pin-file", doctor.staff_pin, "Likewise")->needs(doctor_page);
@@ -245,6 +260,12 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     }
     if (play.headless && play.display == Display::kOpenXr) {
       throw CLI::ValidationError("--display openxr", "cannot go with --headless");
+    }
+    for (const auto& [display, graphics] :
+         {std::pair(play.display, play.graphics), std::pair(doctor.display, doctor.graphics)}) {
+      if (display == Display::kOpenXr && graphics == render::GraphicsApi::kOpenGlEs30) {
+        throw CLI::ValidationError("--display openxr", "cannot go with --graphics gles");
+      }
     }
     if (play.headless && play.monitor >= 0) {
       throw CLI::ValidationError("--monitor", "cannot go with --headless");

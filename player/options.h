@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "shared/render/graphics_context.h"
 #include "shared/vision/pose_smoother.h"
 
 namespace lararium::player {
@@ -54,6 +55,7 @@ struct PlayOptions {
 
   // None: side by side where the device file has a headset's panel.
   std::optional<Display> display;
+  render::GraphicsChoice graphics;  // what pictures are drawn with, windows and headless
   bool headless = false;
   int monitor = -1;                 // full screen there; -1: a window
   std::optional<PictureSize> size;  // of the pictures; none: as the camera's images
@@ -105,6 +107,7 @@ struct DoctorOptions {
   int monitor = -1;                 // any
   std::optional<PictureSize> size;  // of the pictures; none: as the camera's images
   std::optional<Display> display;
+  render::GraphicsChoice graphics;
   bool json = false;
 };
 

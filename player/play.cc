@@ -615,6 +615,8 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
     LARARIUM_ASSIGN_OR_RETURN(openxr_, OpenXrHeadset::Open(*headset_, content.title, log_));
   }
   statistics_.gpu = render::GraphicsDeviceName();
+  statistics_.graphics = render::Name(render::CurrentGraphicsApi());
+  log_.info("drawn with {} by {}", statistics_.graphics, statistics_.gpu);
   return Status();
 }
 

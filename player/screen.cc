@@ -7,12 +7,15 @@ namespace lararium::player {
 Result<Screen> Screen::Open(const PlayOptions& options, const std::string& title) {
   Screen screen;
   if (options.headless) {
-    LARARIUM_ASSIGN_OR_RETURN(screen.offscreen_, render::CreateOffscreenContext());
+    LARARIUM_ASSIGN_OR_RETURN(screen.offscreen_, render::CreateOffscreenContext(options.graphics));
     return screen;
   }
   render::WindowOptions window;
   window.title = title;
   window.vsync = options.display != Display::kOpenXr;  // the headset has the pace
+  if (options.display != Display::kOpenXr) {           // which wants OpenGL 3.3
+    window.graphics = options.graphics;
+  }
   if (options.monitor >= 0) {
     window.monitor = options.monitor;
     screen.full_screen_ = true;

@@ -15,7 +15,7 @@
 
 namespace lararium::player {
 
-// Where the pictures go: a window, or nowhere that is seen. Its OpenGL context
+// Where the pictures go: a window, or nowhere that is seen. Its graphics context
 // is current on the thread that opened it.
 class Screen {
  public:

@@ -7,6 +7,8 @@
 
 #include <utility>
 
+#include "shared/render/graphics_choice.h"
+
 namespace lararium::render {
 namespace {
 
@@ -50,25 +52,44 @@ Result<EGLContext> CreateContext(EGLDisplay display, GraphicsApi api) {
                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                        EGL_NONE};
-  const EGLint es_attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
+  const EGLint es_attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0,
+                                  EGL_NONE};
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT,
                                               desktop ? desktop_attributes : es_attributes);
   if (context == EGL_NO_CONTEXT) {
-    return Status::Error(kPlace,
-                         desktop ? "the driver has no OpenGL 3.3" : "the driver has no OpenGL ES 3",
-                         kRemedy);
+    return Status::Error(kPlace, "the driver has no " + std::string(Name(api)), kRemedy);
   }
   return context;
 }
 
 }  // namespace
 
-Result<OffscreenContext> CreateOffscreenContext(GraphicsApi api) {
+std::string_view Name(GraphicsApi api) {
+  return api == GraphicsApi::kOpenGl33 ? "OpenGL 3.3" : "OpenGL ES 3.0";
+}
+
+// OpenGL ES 3.0 draws into floats by extensions only.
+Status CheckDriver() {
+  if (CurrentGraphicsApi() == GraphicsApi::kOpenGlEs30 &&
+      !epoxy_has_gl_extension("GL_EXT_color_buffer_float") &&
+      !epoxy_has_gl_extension("GL_EXT_color_buffer_half_float")) {
+    return Status::Error("graphics",
+                         "OpenGL ES 3.0 of " + GraphicsDeviceName() +
+                             " has neither GL_EXT_color_buffer_float nor "
+                             "GL_EXT_color_buffer_half_float",
+                         "update the driver, or play with --graphics gl");
+  }
+  return Status();
+}
+
+Result<OffscreenContext> CreateOffscreenContext(GraphicsChoice choice) {
   LARARIUM_ASSIGN_OR_RETURN(const EGLDisplay display, OpenDisplay());
-  LARARIUM_ASSIGN_OR_RETURN(const EGLContext egl_context, CreateContext(display, api));
-  OffscreenContext context(display, egl_context);
-  LARARIUM_RETURN_IF_ERROR(context.MakeCurrent());
-  return context;
+  return CreateChosen(choice, [display](GraphicsApi api) -> Result<OffscreenContext> {
+    LARARIUM_ASSIGN_OR_RETURN(const EGLContext egl_context, CreateContext(display, api));
+    OffscreenContext context(display, egl_context);
+    LARARIUM_RETURN_IF_ERROR(context.MakeCurrent());
+    return context;
+  });
 }
 
 OffscreenContext::OffscreenContext(OffscreenContext&& other) noexcept
@@ -96,6 +117,10 @@ Status OffscreenContext::MakeCurrent() {
     return Status::Error(kPlace, "the context cannot be used without a surface", kRemedy);
   }
   return Status();
+}
+
+GraphicsApi CurrentGraphicsApi() {
+  return epoxy_is_desktop_gl() ? GraphicsApi::kOpenGl33 : GraphicsApi::kOpenGlEs30;
 }
 
 std::string GraphicsDeviceName() {

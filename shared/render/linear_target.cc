@@ -16,12 +16,21 @@ Status CheckFramebuffer() {
   return Status();
 }
 
+// OpenGL ES knows them by format, and promises none of floats.
+int MostSamples() {
+  GLint most = 1;
+  if (epoxy_is_desktop_gl()) {
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+  } else {
+    glGetInternalformativ(GL_RENDERBUFFER, GL_RGBA16F, GL_SAMPLES, 1, &most);
+  }
+  return std::max(most, 1);
+}
+
 }  // namespace
 
 Status LinearTarget::Prepare(const ImageSize& size, int samples) {
-  GLint offered = 1;
-  glGetIntegerv(GL_MAX_SAMPLES, &offered);
-  samples = std::clamp(samples, 1, std::max(offered, 1));
+  samples = std::clamp(samples, 1, MostSamples());
   const bool resized = size != size_;
   if (!resized && samples == samples_) {
     return Status();

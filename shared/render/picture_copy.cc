@@ -14,7 +14,7 @@ void PictureCopy::Into(uint32_t texture, const RenderTarget& picture) const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
   glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
   glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_FRAMEBUFFER_SRGB);  // what is encoded stays as it is
+  glDisable(GL_FRAMEBUFFER_SRGB);  // what is encoded stays as it is; OpenGL ES would encode it
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glBlitFramebuffer(0, 0, width, height, 0, height, width, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);

@@ -1,6 +1,7 @@
 #pragma once
 
-// Copies pictures into the textures of others: a headset's runtime.
+// Copies pictures into the textures of others: a headset's runtime. With OpenGL 3.3, as that has
+// it.
 
 #include <cstdint>
 

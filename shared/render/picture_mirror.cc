@@ -58,7 +58,6 @@ void PictureMirror::Begin(const RenderTarget& picture) {
 
 void PictureMirror::Halve(uint32_t from, int width, int height, const Level& level) {
   glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_FRAMEBUFFER_SRGB);  // what is encoded stays as it is
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, level.framebuffer.id());

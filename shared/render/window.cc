@@ -1,12 +1,13 @@
 #include "shared/render/window.h"
 
-#include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include "shared/render/graphics_choice.h"
 
 namespace lararium::render {
 namespace {
@@ -167,10 +168,23 @@ Window::Window(Window&&) noexcept = default;
 Window& Window::operator=(Window&&) noexcept = default;
 Window::~Window() = default;
 
+namespace {
+
+void HintContext(GraphicsApi api) {
+  const bool desktop = api == GraphicsApi::kOpenGl33;
+  glfwWindowHint(GLFW_CLIENT_API, desktop ? GLFW_OPENGL_API : GLFW_OPENGL_ES_API);
+  glfwWindowHint(GLFW_CONTEXT_CREATION_API,
+                 desktop ? GLFW_NATIVE_CONTEXT_API : GLFW_EGL_CONTEXT_API);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, desktop ? 3 : 0);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, desktop ? GLFW_OPENGL_CORE_PROFILE : GLFW_OPENGL_ANY_PROFILE);
+}
+
+}  // namespace
+
 Result<Window> Window::Create(const WindowOptions& options) {
-  auto state = std::make_unique<State>();
-  state->library = GlfwLibrary::Start();
-  if (state->library == nullptr) {
+  const std::shared_ptr<GlfwLibrary> library = GlfwLibrary::Start();
+  if (library == nullptr) {
     return LastError("start it on a desktop, or run without a window");
   }
   GLFWmonitor* monitor = nullptr;
@@ -183,25 +197,27 @@ Result<Window> Window::Create(const WindowOptions& options) {
       height = mode->height;
     }
   }
-  glfwDefaultWindowHints();
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);  // everything is drawn into render targets
-  glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a message of the desktop hides no show
-  state->window.reset(glfwCreateWindow(width, height, options.title.c_str(), monitor, nullptr));
-  if (state->window == nullptr) {
-    return LastError("it needs a graphics driver with OpenGL 3.3");
-  }
-  glfwMakeContextCurrent(state->window.get());
-  glfwSwapInterval(options.vsync ? 1 : 0);
-  if (monitor != nullptr) {
-    glfwSetInputMode(state->window.get(), GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
-  }
-  state->Connect();
-  return Window(std::move(state));
+  return CreateChosen(options.graphics, [&](GraphicsApi api) -> Result<Window> {
+    auto state = std::make_unique<State>();
+    state->library = library;
+    glfwDefaultWindowHints();
+    HintContext(api);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // everything is drawn into render targets
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a message of the desktop hides no show
+    state->window.reset(glfwCreateWindow(width, height, options.title.c_str(), monitor, nullptr));
+    if (state->window == nullptr) {
+      return LastError("it needs a graphics driver with " + std::string(Name(api)));
+    }
+    glfwMakeContextCurrent(state->window.get());
+    glfwSwapInterval(options.vsync ? 1 : 0);
+    if (monitor != nullptr) {
+      glfwSetInputMode(state->window.get(), GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+    }
+    state->Connect();
+    return Window(std::move(state));
+  });
 }
 
 void Window::SetCallbacks(WindowCallbacks callbacks) { state_->callbacks = std::move(callbacks); }

@@ -1,6 +1,6 @@
 #pragma once
 
-// A window with an OpenGL 3.3 core context (GLFW).
+// A window with an OpenGL context (GLFW).
 
 #include <functional>
 #include <memory>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/render/graphics_context.h"
 
 struct GLFWwindow;
 
@@ -23,6 +24,7 @@ struct WindowOptions {
       std::nullopt;  // full screen there, without a pointer; 0: the primary
   bool vsync = true;
   bool visible = true;
+  GraphicsChoice graphics = GraphicsApi::kOpenGl33;
 };
 
 // Codes are GLFW's. Positions are in screen coordinates from the top-left corner.
@@ -47,7 +49,7 @@ bool IsButtonName(std::string_view name);
 class Window {
  public:
   // Makes the window's context current. Fails with a clear message where there
-  // is no display or no OpenGL 3.3.
+  // is no display, no such graphics, or a driver that lacks what pictures are drawn with.
   static Result<Window> Create(const WindowOptions& options);
   Window(Window&&) noexcept;
   Window& operator=(Window&&) noexcept;

@@ -93,7 +93,8 @@ Json ShowStatistics::ToJson() const {
           {"resident_mib", ResidentMebibytes()},
           {"startup_seconds", startup_seconds},
           {"dropped_frames", dropped_frames},
-          {"gpu", gpu}};
+          {"gpu", gpu},
+          {"graphics", graphics}};
 }
 
 }  // namespace lararium::show

@@ -59,6 +59,7 @@ struct ShowStatistics {
   uint64_t dropped_frames = 0;
   double startup_seconds = 0.0;  // from the start of the program to the first composite
   std::string gpu;
+  std::string graphics;  // what it is drawn with
 
   Json ToJson() const;
 };

@@ -4,6 +4,7 @@
 
 #include "player/drawing_probe.h"
 #include "shared/render/quality.h"
+#include "tests/render/gl_fixture.h"
 #include "tests/render/test_people.h"
 #include "tests/show/small_show.h"
 
@@ -30,7 +31,8 @@ show::ShowContent SmallContent() {
 TEST(DrawingProbe, DrawsASmallShowAtEveryLevelThatIsQuickEnough) {
   const show::ShowContent content = SmallContent();
   const auto log = MakeSilentLog();
-  const DrawingProbe probe = ProbeDrawing(content, std::nullopt, 0.001, *log);
+  const DrawingProbe probe =
+      ProbeDrawing(content, std::nullopt, render::TestedGraphics(), 0.001, *log);
   ASSERT_TRUE(probe.problem.ok()) << probe.problem.message();
   EXPECT_EQ(probe.size.width, 64);
   EXPECT_EQ(probe.size.height, 48);
@@ -43,7 +45,8 @@ TEST(DrawingProbe, DrawsASmallShowAtEveryLevelThatIsQuickEnough) {
 TEST(DrawingProbe, TriesNoFinerLevelThanOneThatIsTooSlow) {
   const show::ShowContent content = SmallContent();
   const auto log = MakeSilentLog();
-  const DrawingProbe probe = ProbeDrawing(content, PictureSize{32, 24}, 1e9, *log);
+  const DrawingProbe probe =
+      ProbeDrawing(content, PictureSize{32, 24}, render::TestedGraphics(), 1e9, *log);
   ASSERT_TRUE(probe.problem.ok()) << probe.problem.message();
   EXPECT_EQ(probe.size.width, 32);
   EXPECT_GT(probe.rates.back(), 0.0);
@@ -54,15 +57,17 @@ TEST(DrawingProbe, SaysThatAPlaceHasNoKeyframes) {
   show::ShowContent content = SmallContent();
   content.places.front().map = std::make_shared<const vision::SceneDatabase>();
   const auto log = MakeSilentLog();
-  EXPECT_THAT(ProbeDrawing(content, std::nullopt, 30.0, *log).problem.message(),
-              ::testing::HasSubstr("bar: has no keyframes"));
+  EXPECT_THAT(
+      ProbeDrawing(content, std::nullopt, render::TestedGraphics(), 30.0, *log).problem.message(),
+      ::testing::HasSubstr("bar: has no keyframes"));
 }
 
 TEST(DrawingProbe, SaysWhyADramaDoesNotBegin) {
   show::ShowContent content = SmallContent();
   content.drama = "this is no Lua";
   const auto log = MakeSilentLog();
-  const DrawingProbe probe = ProbeDrawing(content, std::nullopt, 30.0, *log);
+  const DrawingProbe probe =
+      ProbeDrawing(content, std::nullopt, render::TestedGraphics(), 30.0, *log);
   EXPECT_FALSE(probe.problem.ok());
 }
 

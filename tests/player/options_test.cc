@@ -48,6 +48,20 @@ TEST_F(OptionsTest, TheDisplayIsTheDevicesUnlessItIsGiven) {
   EXPECT_EQ(ExitCode({show_, "--display", "openxr", "--headless"}), 2);
 }
 
+TEST_F(OptionsTest, GraphicsAreWhatCanBeHadUnlessTheyAreGiven) {
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_})).graphics, std::nullopt);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "auto"})).graphics, std::nullopt);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "gl"})).graphics,
+            render::GraphicsApi::kOpenGl33);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "gles"})).graphics,
+            render::GraphicsApi::kOpenGlEs30);
+  EXPECT_EQ(std::get<DoctorOptions>(Parse({"doctor", "--graphics", "gles"})).graphics,
+            render::GraphicsApi::kOpenGlEs30);
+  EXPECT_EQ(ExitCode({show_, "--graphics", "vulkan"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--graphics", "gles", "--display", "openxr"}), 2);
+  EXPECT_EQ(ExitCode({"doctor", "--graphics", "gles", "--display", "openxr"}), 2);
+}
+
 TEST_F(OptionsTest, AStaffPageHasAPortAndMayHaveAPin) {
   const Command command = Parse({show_, "--staff-page", "0.0.0.0:8090", "--staff-pin-file", show_});
   const auto* play = std::get_if<PlayOptions>(&command);

@@ -1,21 +1,47 @@
 #pragma once
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "shared/render/graphics_context.h"
 #include "shared/render/render_target.h"
 
 namespace lararium::render {
 
-// A test that draws off screen.
+// LARARIUM_GRAPHICS=gles: tests that draw do so in OpenGL ES 3.0 (tests/CMakeLists.txt).
+inline GraphicsApi TestedGraphics() {
+  const char* name = std::getenv("LARARIUM_GRAPHICS");
+  return name != nullptr && std::string_view(name) == "gles" ? GraphicsApi::kOpenGlEs30
+                                                             : GraphicsApi::kOpenGl33;
+}
+
+// A test that draws off screen, and fails where the driver calls anything an error.
 class GlTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    auto context = CreateOffscreenContext();
+  void SetUp() override { Open(TestedGraphics()); }
+  void TearDown() override {
+    if (context_) {
+      EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    }
+  }
+
+  // In place of the context before.
+  void Open(GraphicsApi api) {
+    context_.reset();
+    auto context = CreateOffscreenContext(api);
     ASSERT_TRUE(context.ok()) << context.message();
     context_.emplace(std::move(context).value());
+    ASSERT_EQ(CurrentGraphicsApi(), api);
+    if (epoxy_has_gl_extension("GL_KHR_debug")) {
+      const bool desktop = epoxy_is_desktop_gl();
+      (desktop ? glDebugMessageCallback : glDebugMessageCallbackKHR)(&FailOnError, nullptr);
+      glEnable(GL_DEBUG_OUTPUT);
+    }
   }
 
   static RenderTarget MakeTarget(int width, int height) {
@@ -31,6 +57,18 @@ class GlTest : public ::testing::Test {
   }
 
  private:
+  static void APIENTRY FailOnError(GLenum /*source*/,
+                                   GLenum type,
+                                   GLuint /*id*/,
+                                   GLenum /*severity*/,
+                                   GLsizei length,
+                                   const GLchar* message,
+                                   const void* /*user*/) {
+    if (type == GL_DEBUG_TYPE_ERROR) {
+      ADD_FAILURE() << std::string_view(message, static_cast<size_t>(length));
+    }
+  }
+
   std::optional<OffscreenContext> context_;
 };
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <iostream>
+#include <optional>
 
 #include "shared/render/graphics_context.h"
 #include "shared/render/window.h"
@@ -33,6 +35,45 @@ TEST(GraphicsContext, MovesAndComesBackAfterAnother) {
   }
   EXPECT_TRUE(moved.MakeCurrent().ok());
   EXPECT_NE(GraphicsDeviceName(), "unknown");
+}
+
+TEST(GraphicsContext, IsWhatWasAskedFor) {
+  for (const GraphicsApi api : {GraphicsApi::kOpenGl33, GraphicsApi::kOpenGlEs30}) {
+    const auto context = CreateOffscreenContext(api);
+    ASSERT_TRUE(context.ok()) << context.message();
+    EXPECT_EQ(CurrentGraphicsApi(), api);
+  }
+  const auto context = CreateOffscreenContext(std::nullopt);
+  ASSERT_TRUE(context.ok()) << context.message();
+  EXPECT_EQ(CurrentGraphicsApi(), GraphicsApi::kOpenGl33);
+}
+
+// With a driver that has less than this machine's, in a process of its own: Mesa reads once what
+// it is to leave out. Ends with 0 and the API's name, or with 1 and the error.
+void TryWithout(const char* variable, const char* value, GraphicsChoice choice) {
+  ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/usr/share/glvnd/egl_vendor.d/50_mesa.json", 1);
+  ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  ::setenv(variable, value, 1);
+  const auto context = CreateOffscreenContext(choice);
+  std::cerr << (context.ok() ? Name(CurrentGraphicsApi()) : context.message());
+  std::exit(context.ok() ? 0 : 1);  // NOLINT(concurrency-mt-unsafe): the only thread
+}
+
+TEST(PoorDriver, WithoutOpenGl33DrawsInEsUnlessThatIsRefused) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  constexpr const char* kVariable = "MESA_GL_VERSION_OVERRIDE";
+  EXPECT_EXIT(TryWithout(kVariable, "3.1", std::nullopt), ::testing::ExitedWithCode(0),
+              "OpenGL ES 3.0");
+  EXPECT_EXIT(TryWithout(kVariable, "3.1", GraphicsApi::kOpenGl33), ::testing::ExitedWithCode(1),
+              "the driver has no OpenGL 3.3");
+}
+
+TEST(PoorDriver, InEsNeedsFloatsToDrawInto) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  constexpr const char* kVariable = "MESA_EXTENSION_OVERRIDE";
+  constexpr const char* kBoth = "-GL_EXT_color_buffer_float -GL_EXT_color_buffer_half_float";
+  EXPECT_EXIT(TryWithout(kVariable, kBoth, GraphicsApi::kOpenGlEs30), ::testing::ExitedWithCode(1),
+              "neither GL_EXT_color_buffer_float nor");
 }
 
 TEST(Window, SaysWhatToDoWithoutADisplay) {

@@ -1,5 +1,7 @@
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <string>
 
@@ -72,6 +74,57 @@ TEST_P(EveryShader, OfPicturesCompilesForEveryKindOfPicture) {
   const auto program =
       ShaderProgram::Create("full_screen.vert", "background.frag", "#define RECTIFIED\n");
   EXPECT_TRUE(program.ok()) << program.message();
+}
+
+// What the program in use takes of what drivers limit, outside of blocks. Arrays are not packed.
+struct Uniforms {
+  int vectors = 0;
+  int samplers = 0;
+};
+Uniforms CountUniforms() {
+  GLint program = 0;
+  GLint count = 0;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+  glGetProgramiv(static_cast<GLuint>(program), GL_ACTIVE_UNIFORMS, &count);
+  Uniforms uniforms;
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    GLint block = -1;
+    glGetActiveUniformsiv(static_cast<GLuint>(program), 1, &i, GL_UNIFORM_BLOCK_INDEX, &block);
+    GLint size = 0;
+    GLenum type = 0;
+    std::array<char, 64> name = {};
+    glGetActiveUniform(static_cast<GLuint>(program), i, name.size(), nullptr, &size, &type,
+                       name.data());
+    const bool sampler =
+        type == GL_SAMPLER_2D || type == GL_SAMPLER_3D || type == GL_SAMPLER_2D_SHADOW;
+    const int each = type == GL_FLOAT_MAT4 ? 4 : type == GL_FLOAT_MAT3 ? 3 : 1;
+    uniforms.samplers += sampler ? size : 0;
+    uniforms.vectors += sampler || block >= 0 ? 0 : size * each;
+  }
+  return uniforms;
+}
+
+// MAX_FRAGMENT_UNIFORM_VECTORS, the smaller of both kinds of shader, and MAX_TEXTURE_IMAGE_UNITS
+// may be no larger (OpenGL ES 3.0.6, tables 6.31 and 6.32).
+TEST(Shaders, TakeNoMoreThanEveryOpenGlEs30Has) {
+  const auto context = CreateOffscreenContext(GraphicsApi::kOpenGlEs30);
+  ASSERT_TRUE(context.ok()) << context.message();
+  const auto check = [](const std::string& vertex, const std::string& fragment,
+                        const std::string& defines) {
+    const auto program = ShaderProgram::Create(vertex, fragment, defines);
+    ASSERT_TRUE(program.ok()) << program.message();
+    program->Use();
+    const Uniforms uniforms = CountUniforms();
+    EXPECT_LE(uniforms.vectors, 224) << fragment << " " << defines;
+    EXPECT_LE(uniforms.samplers, 16) << fragment << " " << defines;
+  };
+  for (const auto& [fragment, vertex] : Passes()) {
+    check(vertex, fragment, "");
+  }
+  for (const char* more : {"#define COVERED\n#define REFLECTIONS\n", "#define LIT_AT_VERTICES\n"}) {
+    check("model.vert", "model.frag",
+          std::string("#define SURFACE_SKIN\n#define SKIN_DUAL_QUATERNION\n") + more);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Apis,

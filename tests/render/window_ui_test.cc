@@ -22,11 +22,15 @@ std::array<uint8_t, 3> WindowPixel(int x, int y) {
   return {rgba[0], rgba[1], rgba[2]};
 }
 
-TEST(WindowUi, OpensAndShowsATargetBetweenBlackBars) {
+class GraphicsUi : public ::testing::TestWithParam<GraphicsApi> {};
+
+TEST_P(GraphicsUi, OpensAndShowsATargetBetweenBlackBars) {
   REQUIRE_DISPLAY();
-  auto opened = Window::Create({.title = "test", .width = 400, .height = 200});
+  auto opened =
+      Window::Create({.title = "test", .width = 400, .height = 200, .graphics = GetParam()});
   ASSERT_TRUE(opened.ok()) << opened.message();
   Window window = std::move(opened).value();
+  EXPECT_EQ(CurrentGraphicsApi(), GetParam());
   window.PollEvents();
   const Window::Size size = window.framebuffer_size();
   ASSERT_EQ(size.width, 400);
@@ -49,6 +53,18 @@ TEST(WindowUi, OpensAndShowsATargetBetweenBlackBars) {
   EXPECT_EQ(WindowPixel(200, 150), (Rgb{255, 0, 0}));
   EXPECT_EQ(WindowPixel(200, 50), (Rgb{0, 255, 0}));
   window.SwapBuffers();
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+INSTANTIATE_TEST_SUITE_P(Apis,
+                         GraphicsUi,
+                         ::testing::Values(GraphicsApi::kOpenGl33, GraphicsApi::kOpenGlEs30));
+
+TEST(WindowUi, TakesOpenGl33WhereAllIsWelcome) {
+  REQUIRE_DISPLAY();
+  const auto window = Window::Create({.visible = false, .graphics = std::nullopt});
+  ASSERT_TRUE(window.ok()) << window.message();
+  EXPECT_EQ(CurrentGraphicsApi(), GraphicsApi::kOpenGl33);
 }
 
 TEST(WindowUi, ClosesOnRequestAndKeepsItsCallbacksWhenMoved) {

@@ -56,9 +56,9 @@ TEST(ShowStatistics, HoldsWhatTheDesignNames) {
   // Its frames pass several threads, whose processor time is not the frame's.
   EXPECT_TRUE(json["total"].contains("p95"));
   EXPECT_FALSE(json["total"].contains("cpu_p50"));
-  for (const char* key :
-       {"tracked_fraction", "followed_fraction", "relocalizations", "inliers", "confidence",
-        "frames_in_place", "peak_resident_mib", "startup_seconds", "dropped_frames", "gpu"}) {
+  for (const char* key : {"tracked_fraction", "followed_fraction", "relocalizations", "inliers",
+                          "confidence", "frames_in_place", "peak_resident_mib", "startup_seconds",
+                          "dropped_frames", "gpu", "graphics"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
 }
