@@ -1,5 +1,7 @@
 #include "player/kiosk_state.h"
 
+#include <array>
+#include <optional>
 #include <system_error>
 
 #include "shared/core/file.h"
@@ -15,6 +17,24 @@ constexpr double kMaxSeconds = 1e6;
 
 std::filesystem::path StateFile(const std::filesystem::path& folder) {
   return folder / "state.json";
+}
+
+// A choice of names; what an older player wrote lacks it.
+template <typename Choice, size_t n>
+Status ReadChoice(const JsonView& view,
+                  const char* key,
+                  const std::array<std::string_view, n>& names,
+                  Choice& choice) {
+  if (!view.Has(key)) {
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text(key, kMaxText));
+  const std::optional<Choice> found = render::ChoiceOf<Choice>(names, name);
+  if (!found) {
+    return view.Problem(std::string(key) + " cannot be \"" + name + "\"", "remove it");
+  }
+  choice = *found;
+  return Status();
 }
 
 }  // namespace
@@ -42,6 +62,10 @@ Result<KioskState> ParseKioskState(std::string_view text, const std::string& pla
   LARARIUM_ASSIGN_OR_RETURN(state.choices.language, view.Text("language", kMaxText));
   LARARIUM_ASSIGN_OR_RETURN(state.choices.captions, view.Text("captions", kMaxText));
   LARARIUM_ASSIGN_OR_RETURN(state.choices.volume, view.Number("volume", 0.0, 1.0));
+  render::CaptionStyle& style = state.choices.caption_style;
+  LARARIUM_RETURN_IF_ERROR(ReadChoice(view, "caption_size", render::kCaptionSizes, style.size));
+  LARARIUM_RETURN_IF_ERROR(
+      ReadChoice(view, "caption_contrast", render::kCaptionContrasts, style.contrast));
   return state;
 }
 
@@ -52,12 +76,16 @@ Status SaveKioskState(const std::filesystem::path& folder, const KioskState& sta
     return Status::Error(folder.string(), "cannot be made: " + error.message(),
                          "name another folder with --state");
   }
-  return SaveJson(StateFile(folder), {{"schema", kSchema},
-                                      {"title", state.title},
-                                      {"seconds", state.seconds},
-                                      {"language", state.choices.language},
-                                      {"captions", state.choices.captions},
-                                      {"volume", state.choices.volume}});
+  const render::CaptionStyle& style = state.choices.caption_style;
+  return SaveJson(StateFile(folder),
+                  {{"schema", kSchema},
+                   {"title", state.title},
+                   {"seconds", state.seconds},
+                   {"language", state.choices.language},
+                   {"captions", state.choices.captions},
+                   {"caption_size", NameOf(render::kCaptionSizes, style.size)},
+                   {"caption_contrast", NameOf(render::kCaptionContrasts, style.contrast)},
+                   {"volume", state.choices.volume}});
 }
 
 }  // namespace lararium::player

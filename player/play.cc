@@ -127,7 +127,7 @@ class Performance {
       kiosk_.emplace(options.state.empty() ? DefaultStateFolder() : options.state, start, log);
       choices_ = kiosk_->state().choices;
     }
-    ApplyLanguageOptions();
+    ApplyOptions();
   }
 
   Status Prepare();
@@ -151,7 +151,7 @@ class Performance {
   void ToggleMenu();
   void ShowMenu(const show::StagedFrame& staged);
   Status OpenSource();
-  void ApplyLanguageOptions();
+  void ApplyOptions();
   show::LanguageChoice languages() const { return {choices_.language, choices_.captions}; }
   Result<show::ShowContent> LoadInChosenLanguages();
   Status ChooseHeadset();
@@ -298,6 +298,7 @@ void Performance::Change(const Choices& choices) {
   }
   languages_changed_ = languages_changed_ || choices_.language != before.language ||
                        choices_.captions != before.captions;
+  renderer_->SetCaptionStyle(choices_.caption_style);
   menu_.SetItems(ItemsOf(show_->content(), choices_));
   if (kiosk_) {
     kiosk_->Keep(choices_, Seconds(SteadyClock::now()));
@@ -327,6 +328,9 @@ void Performance::Obey(const StaffCommand& command) {
                            *command.captions == show::kNoCaptions)) {
     choices.captions = *command.captions;
   }
+  render::CaptionStyle& style = choices.caption_style;
+  style.size = command.caption_size.value_or(style.size);
+  style.contrast = command.caption_contrast.value_or(style.contrast);
   Change(choices);
   if (command.action) {
     Do(*command.action);
@@ -375,8 +379,9 @@ void Performance::ToggleMenu() {
     menu_.Close();
     return;
   }
-  menu_.Open(std::move(items), Seconds(SteadyClock::now()),
-             ScaleFor(renderer_->PictureOf(camera_, size_.width, size_.height)));
+  const double scale =
+      ScaleFor(renderer_->PictureOf(camera_, size_.width, size_.height), items.size());
+  menu_.Open(std::move(items), Seconds(SteadyClock::now()), scale);
 }
 
 // Where the menu is in the frame, and what is chosen by looking at it.
@@ -391,7 +396,8 @@ void Performance::ShowMenu(const show::StagedFrame& staged) {
 }
 
 void Performance::ShowMenuTo(const geometry::CameraModel& picture) {
-  renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture)) : std::nullopt);
+  renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture, choices_.caption_style))
+                                  : std::nullopt);
 }
 
 Status Performance::OpenSource() {
@@ -486,13 +492,16 @@ Status Performance::CreateTracker(const show::ShowContent& content) {
 }
 
 // They go before what the last visitor chose.
-void Performance::ApplyLanguageOptions() {
+void Performance::ApplyOptions() {
   if (!options_.language.empty()) {
     choices_.language = options_.language;
   }
   if (!options_.captions.empty()) {
     choices_.captions = options_.captions;
   }
+  render::CaptionStyle& style = choices_.caption_style;
+  style.size = options_.caption_size.value_or(style.size);
+  style.contrast = options_.caption_contrast.value_or(style.contrast);
 }
 
 // In lock-step nothing may depend on when somebody is read in more detail.
@@ -510,7 +519,7 @@ Result<show::ShowContent> Performance::LoadInChosenLanguages() {
   if (!loaded.ok() && kiosk_) {
     choices_.language.clear();
     choices_.captions.clear();
-    ApplyLanguageOptions();
+    ApplyOptions();
     loaded = LoadContent(options_, languages(), FinestDetail());
   }
   if (loaded.ok()) {
@@ -565,6 +574,7 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
   }
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content, QualityOf(level())));
   renderer_->SetEvidence(options_.evidence);
+  renderer_->SetCaptionStyle(choices_.caption_style);
   renderer_->SetPart(part_);
   if (headset_ && headset_->panel) {
     LARARIUM_ASSIGN_OR_RETURN(stereo_, StereoDisplay::Create(*headset_));

@@ -99,6 +99,8 @@ std::string StaffJson(const StaffState& state, const StaffMachine& machine) {
       {"languages", FirstOf(state.languages)},
       {"captions", state.choices.captions},
       {"caption_languages", FirstOf(state.caption_languages)},
+      {"caption_size", NameOf(render::kCaptionSizes, state.choices.caption_style.size)},
+      {"caption_contrast", NameOf(render::kCaptionContrasts, state.choices.caption_style.contrast)},
       {"up_seconds", state.up_seconds},
       {"restarts", state.restarts},
       {"memory_mib", machine.memory_mib},

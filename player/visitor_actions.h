@@ -17,11 +17,13 @@ namespace lararium::player {
 enum class Action {
   kLouder,
   kQuieter,
-  kLanguage,  // the next that people speak
-  kCaptions,  // the next language of the captions; after the last, none
-  kRestart,   // the show from its beginning
-  kFindAnew,  // the place, from scratch
-  kMenu       // opens it, or closes it
+  kLanguage,         // the next that people speak
+  kCaptions,         // the next language of the captions; after the last, none
+  kCaptionSize,      // the next; after the largest, the normal one
+  kCaptionContrast,  // the other
+  kRestart,          // the show from its beginning
+  kFindAnew,         // the place, from scratch
+  kMenu              // opens it, or closes it
 };
 
 // Buttons of the controllers of a headset that OpenXR drives, of either hand.

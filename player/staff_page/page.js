@@ -106,6 +106,16 @@ function showSound(player) {
   fill(byId('choose-captions'), readable.length === 0 ? [] : [...readable, 'off'], player.captions);
 }
 
+// Whose values are the page's own.
+function showChoices(player) {
+  for (const what of ['caption_size', 'caption_contrast']) {
+    const select = document.querySelector(`select[data-do="${what}"]`);
+    if (document.activeElement !== select) {
+      select.value = player[what];
+    }
+  }
+}
+
 function showWarnings(warnings) {
   const items = warnings.map((warning) => {
     const item = document.createElement('li');
@@ -148,6 +158,7 @@ function showPlayer(player) {
   showTracking(player.tracking);
   showMachine(player);
   showSound(player);
+  showChoices(player);
   showWarnings(player.warnings);
   byId('begin-again').hidden = !player.kiosk;
 }

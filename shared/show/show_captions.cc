@@ -144,6 +144,7 @@ Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& co
 void ShowCaptions::DrawGuide(const StagedFrame& staged, const render::RenderTarget& target) {
   render::Notice notice;
   notice.opacity = staged.guide.opacity;
+  notice.style = style_;
   if (staged.guide.dark) {
     notice.text = dark_guide_;
   } else {
@@ -160,7 +161,8 @@ void ShowCaptions::Draw(const StagedFrame& staged,
   const bool has_letters = !painter_->flat().font().glyphs.empty();
   if (has_letters && (!staged.lines.empty() || evidence != nullptr)) {
     CollectCaptions(texts_, staged, captions_);
-    painter_->Draw(captions_, evidence != nullptr ? &evidence->LegendOf(staged) : nullptr, target);
+    painter_->Draw(captions_, evidence != nullptr ? &evidence->LegendOf(staged) : nullptr, style_,
+                   target);
   }
   if (staged.guide.opacity > 0.0f) {
     DrawGuide(staged, target);

@@ -48,6 +48,9 @@ class ShowCaptions {
   // From now on the tracking's state is shown, with this behind it; nullopt: not.
   void SetStaff(std::optional<std::string> more) { staff_ = std::move(more); }
 
+  // From now on; the menu has its own.
+  void SetStyle(const render::CaptionStyle& style) { style_ = style; }
+
   // From now on over all of it; nullopt: there is none.
   void SetMenu(std::optional<render::Menu> menu) { menu_ = std::move(menu); }
 
@@ -62,6 +65,7 @@ class ShowCaptions {
   CaptionTexts texts_;
   std::vector<std::string> guides_;  // of each place
   std::string dark_guide_;
+  render::CaptionStyle style_;
   std::optional<std::string> staff_;
   std::optional<render::Menu> menu_;
   std::unique_ptr<render::CaptionPainter> painter_;
