@@ -37,6 +37,14 @@ Status ReadChoice(const JsonView& view,
   return Status();
 }
 
+Status ReadSwitch(const JsonView& view, const char* key, bool& on) {
+  if (view.Has(key)) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+    LARARIUM_ASSIGN_OR_RETURN(on, field.Boolean());
+  }
+  return Status();
+}
+
 }  // namespace
 
 Result<KioskState> LoadKioskState(const std::filesystem::path& folder) {
@@ -66,6 +74,8 @@ Result<KioskState> ParseKioskState(std::string_view text, const std::string& pla
   LARARIUM_RETURN_IF_ERROR(ReadChoice(view, "caption_size", render::kCaptionSizes, style.size));
   LARARIUM_RETURN_IF_ERROR(
       ReadChoice(view, "caption_contrast", render::kCaptionContrasts, style.contrast));
+  LARARIUM_RETURN_IF_ERROR(ReadSwitch(view, "descriptions", state.choices.descriptions));
+  LARARIUM_RETURN_IF_ERROR(ReadSwitch(view, "reduced_motion", state.choices.reduced_motion));
   return state;
 }
 
@@ -85,6 +95,8 @@ Status SaveKioskState(const std::filesystem::path& folder, const KioskState& sta
                    {"captions", state.choices.captions},
                    {"caption_size", NameOf(render::kCaptionSizes, style.size)},
                    {"caption_contrast", NameOf(render::kCaptionContrasts, style.contrast)},
+                   {"descriptions", state.choices.descriptions},
+                   {"reduced_motion", state.choices.reduced_motion},
                    {"volume", state.choices.volume}});
 }
 

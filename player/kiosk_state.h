@@ -17,6 +17,8 @@ struct Choices {
   std::string captions;  // likewise
   double volume = 1.0;   // 0..1
   render::CaptionStyle caption_style;
+  bool descriptions = false;    // of what is to be seen are heard
+  bool reduced_motion = false;  // what glides elsewhere fades
 
   friend bool operator==(const Choices&, const Choices&) = default;
 };

@@ -21,6 +21,10 @@ struct MenuTexts {
   std::array<std::string_view, 3> sizes;  // by render::CaptionSize
   std::string_view contrast;
   std::array<std::string_view, 2> contrasts;  // by render::CaptionContrast
+  std::string_view descriptions;
+  std::array<std::string_view, 2> switches;  // they are not heard, and are
+  std::string_view motion;
+  std::array<std::string_view, 2> motions;  // all of it, reduced
   std::string_view restart;
   std::string_view find_anew;
   std::string_view close;

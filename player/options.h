@@ -39,6 +39,8 @@ struct PlayOptions {
   // None: as the last visitor of a kiosk chose, normal else.
   std::optional<render::CaptionSize> caption_size;
   std::optional<render::CaptionContrast> caption_contrast;
+  std::optional<bool> descriptions;    // likewise off
+  std::optional<bool> reduced_motion;  // likewise
 
   // Where images come from; at most one is set. None: camera 0.
   std::optional<int> camera;

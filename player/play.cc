@@ -280,7 +280,9 @@ void Performance::Do(Action action) {
       break;
     default: {
       Choices choices = choices_;
-      Choose(action, {show_->content().spoken_languages, show_->content().caption_languages},
+      const show::ShowContent& content = show_->content();
+      Choose(action,
+             {content.spoken_languages, content.caption_languages, content.has_descriptions},
              choices);
       Change(choices);
     }
@@ -299,6 +301,8 @@ void Performance::Change(const Choices& choices) {
   languages_changed_ = languages_changed_ || choices_.language != before.language ||
                        choices_.captions != before.captions;
   renderer_->SetCaptionStyle(choices_.caption_style);
+  show_->SetDescriptions(choices_.descriptions);
+  show_->SetReducedMotion(choices_.reduced_motion);
   menu_.SetItems(ItemsOf(show_->content(), choices_));
   if (kiosk_) {
     kiosk_->Keep(choices_, Seconds(SteadyClock::now()));
@@ -331,6 +335,8 @@ void Performance::Obey(const StaffCommand& command) {
   render::CaptionStyle& style = choices.caption_style;
   style.size = command.caption_size.value_or(style.size);
   style.contrast = command.caption_contrast.value_or(style.contrast);
+  choices.descriptions = command.descriptions.value_or(choices.descriptions);
+  choices.reduced_motion = command.reduced_motion.value_or(choices.reduced_motion);
   Change(choices);
   if (command.action) {
     Do(*command.action);
@@ -365,6 +371,7 @@ void Performance::FillStaffState(const show::StagedFrame& staged, StaffState& st
   state.audible = sound_ != nullptr;
   state.languages = content.spoken_languages;
   state.caption_languages = content.caption_languages;
+  state.has_descriptions = content.has_descriptions;
   state.up_seconds = Seconds(last_shown_);
   state.restarts = restarts_;
 }
@@ -396,7 +403,7 @@ void Performance::ShowMenu(const show::StagedFrame& staged) {
 }
 
 void Performance::ShowMenuTo(const geometry::CameraModel& picture) {
-  renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture, choices_.caption_style))
+  renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture, choices_))
                                   : std::nullopt);
 }
 
@@ -436,6 +443,8 @@ Status Performance::CreateShow(show::ShowContent content) {
   if (kiosk_) {
     kiosk_->SetStoryLength(story_length_);
   }
+  show_->SetDescriptions(choices_.descriptions);
+  show_->SetReducedMotion(choices_.reduced_motion);
   show_->SetLostLadder(device_.lost);
   show_->SetPictureSize(size_.width, size_.height, part_);
   show_->SetSeenAround(headset_ && headset_->runtime_shows_room);
@@ -502,6 +511,8 @@ void Performance::ApplyOptions() {
   render::CaptionStyle& style = choices_.caption_style;
   style.size = options_.caption_size.value_or(style.size);
   style.contrast = options_.caption_contrast.value_or(style.contrast);
+  choices_.descriptions = options_.descriptions.value_or(choices_.descriptions);
+  choices_.reduced_motion = options_.reduced_motion.value_or(choices_.reduced_motion);
 }
 
 // In lock-step nothing may depend on when somebody is read in more detail.

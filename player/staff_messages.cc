@@ -31,6 +31,11 @@ Result<Choice> ParseChoice(const JsonView& view, const std::array<std::string_vi
   return *choice;
 }
 
+Result<bool> ParseSwitch(const JsonView& view) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView value, view.Field("value"));
+  return value.Boolean();
+}
+
 }  // namespace
 
 bool SendStaffMessage(int link, StaffMessage kind, std::string_view content) {
@@ -76,6 +81,10 @@ Result<StaffCommand> ParseStaffCommand(std::string_view text) {
   } else if (what == "caption_contrast") {
     LARARIUM_ASSIGN_OR_RETURN(command.caption_contrast, ParseChoice<render::CaptionContrast>(
                                                             view, render::kCaptionContrasts));
+  } else if (what == "descriptions") {
+    LARARIUM_ASSIGN_OR_RETURN(command.descriptions, ParseSwitch(view));
+  } else if (what == "reduced_motion") {
+    LARARIUM_ASSIGN_OR_RETURN(command.reduced_motion, ParseSwitch(view));
   } else if (what == "end") {
     command.end = true;
   } else if (what == "begin_again") {

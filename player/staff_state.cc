@@ -101,6 +101,8 @@ std::string StaffJson(const StaffState& state, const StaffMachine& machine) {
       {"caption_languages", FirstOf(state.caption_languages)},
       {"caption_size", NameOf(render::kCaptionSizes, state.choices.caption_style.size)},
       {"caption_contrast", NameOf(render::kCaptionContrasts, state.choices.caption_style.contrast)},
+      {"descriptions", state.has_descriptions ? Json(state.choices.descriptions) : Json()},
+      {"reduced_motion", state.choices.reduced_motion},
       {"up_seconds", state.up_seconds},
       {"restarts", state.restarts},
       {"memory_mib", machine.memory_mib},

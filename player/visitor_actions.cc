@@ -23,6 +23,8 @@ constexpr Named kActions[] = {{"louder", Action::kLouder, {"page_up", "pad_up"}}
                               {"captions", Action::kCaptions, {"c", "pad_right"}},
                               {"caption_size", Action::kCaptionSize, {"s"}},
                               {"caption_contrast", Action::kCaptionContrast, {"k"}},
+                              {"descriptions", Action::kDescriptions, {"d"}},
+                              {"reduced_motion", Action::kReducedMotion, {"v"}},
                               {"restart", Action::kRestart, {"home", "pad_back"}},
                               {"find_anew", Action::kFindAnew, {"r", "pad_left_bumper"}},
                               {"menu", Action::kMenu, {"m", "pad_start", kHandMenu}}};
@@ -113,7 +115,7 @@ Result<Buttons> ParseButtons(const JsonView& view) {
   return buttons;
 }
 
-void Choose(Action action, const LanguageOffer& offer, Choices& choices) {
+void Choose(Action action, const Offer& offer, Choices& choices) {
   if (action == Action::kLouder || action == Action::kQuieter) {
     const double step = action == Action::kLouder ? kVolumeStep : -kVolumeStep;
     choices.volume = std::clamp(choices.volume + step, 0.0, 1.0);
@@ -128,6 +130,10 @@ void Choose(Action action, const LanguageOffer& offer, Choices& choices) {
   } else if (action == Action::kCaptionContrast) {
     choices.caption_style.contrast =
         After(choices.caption_style.contrast, render::kCaptionContrasts);
+  } else if (action == Action::kDescriptions && offer.descriptions) {
+    choices.descriptions = !choices.descriptions;
+  } else if (action == Action::kReducedMotion) {
+    choices.reduced_motion = !choices.reduced_motion;
   }
 }
 

@@ -50,6 +50,12 @@ std::vector<MenuItem> ItemsOf(const show::ShowContent& content, const Choices& c
     items.push_back({Action::kCaptionContrast,
                      Chosen(texts.contrast, NameOf(texts.contrasts, style.contrast))});
   }
+  if (content.has_descriptions) {
+    const std::string_view choice = texts.switches[choices.descriptions ? 1 : 0];
+    items.push_back({Action::kDescriptions, Chosen(texts.descriptions, choice)});
+  }
+  items.push_back({Action::kReducedMotion,
+                   Chosen(texts.motion, texts.motions[choices.reduced_motion ? 1 : 0])});
   items.push_back({Action::kRestart, std::string(texts.restart), false, true});
   items.push_back({Action::kFindAnew, std::string(texts.find_anew), false, true});
   items.push_back({std::nullopt, std::string(texts.close), false, true});
@@ -64,9 +70,10 @@ double ScaleFor(const geometry::CameraModel& picture, size_t items) {
 
 render::Menu PictureOf(const GazeMenu& menu,
                        const geometry::CameraModel& picture,
-                       const render::CaptionStyle& style) {
+                       const Choices& choices) {
   render::Menu drawn;
-  drawn.style = style;
+  drawn.style = choices.caption_style;
+  drawn.fades = choices.reduced_motion;
   drawn.gaze = PixelOf(picture, Eigen::Vector2d::Zero());
   for (const GazeMenu::Cell& cell : menu.Cells()) {
     drawn.cells.push_back({PixelOf(picture, cell.box.min()), PixelOf(picture, cell.box.max()),

@@ -21,6 +21,6 @@ double ScaleFor(const geometry::CameraModel& picture, size_t items);
 // picture: the pinhole of the target.
 render::Menu PictureOf(const GazeMenu& menu,
                        const geometry::CameraModel& picture,
-                       const render::CaptionStyle& style);
+                       const Choices& choices);
 
 }  // namespace lararium::player

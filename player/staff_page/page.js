@@ -108,11 +108,12 @@ function showSound(player) {
 
 // Whose values are the page's own.
 function showChoices(player) {
-  for (const what of ['caption_size', 'caption_contrast']) {
+  for (const what of ['caption_size', 'caption_contrast', 'descriptions', 'reduced_motion']) {
     const select = document.querySelector(`select[data-do="${what}"]`);
     if (document.activeElement !== select) {
-      select.value = player[what];
+      select.value = String(player[what]);
     }
+    select.closest('label').hidden = player[what] === null;
   }
 }
 
@@ -294,7 +295,7 @@ for (const button of document.querySelectorAll('button[data-do]')) {
 for (const select of document.querySelectorAll('select[data-do]')) {
   select.addEventListener('change', () => {
     select.blur();
-    tell(select.dataset.do, select.value);
+    tell(select.dataset.do, 'switch' in select.dataset ? select.value === 'true' : select.value);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 namespace lararium::render {
@@ -37,16 +38,18 @@ float EmOf(const CaptionFont& font, const Menu& menu) {
   return em;
 }
 
-void DrawCell(FlatPainter& painter, const MenuCell& cell, const CaptionStyle& style, float em) {
+void DrawCell(FlatPainter& painter, const MenuCell& cell, const Menu& menu, float em) {
   const glm::vec2 size = cell.to - cell.from;
   const float radius = kRadius * size.y;
-  const Colours& colours = style.is_high() ? kHigh : kNormal;
-  if (style.is_high()) {
+  const Colours& colours = menu.style.is_high() ? kHigh : kNormal;
+  if (menu.style.is_high()) {
     const float edge = kEdge * size.y;
     painter.Rectangle(cell.from - edge, cell.to + edge, radius + edge, kLetters);
   }
-  painter.Rectangle(cell.from, cell.to, radius, cell.selected ? colours.selected : colours.ground);
-  if (cell.progress > 0.0f) {
+  const glm::vec4 ground = cell.selected ? colours.selected : colours.ground;
+  const float faded = menu.fades ? cell.progress : 0.0f;
+  painter.Rectangle(cell.from, cell.to, radius, glm::mix(ground, colours.progress, faded));
+  if (cell.progress > 0.0f && !menu.fades) {
     const float wide = std::max(cell.progress * size.x, 2.0f * radius);
     painter.Rectangle(cell.from, {cell.from.x + wide, cell.to.y}, radius, colours.progress);
   }
@@ -54,7 +57,7 @@ void DrawCell(FlatPainter& painter, const MenuCell& cell, const CaptionStyle& st
   painter.Text(cell.text,
                {std::round(0.5f * (cell.from.x + cell.to.x - em * width)),
                 std::round(0.5f * (cell.from.y + cell.to.y + kCapitals * em))},
-               em, kLetters, BolderOf(style));
+               em, kLetters, BolderOf(menu.style));
 }
 
 }  // namespace
@@ -63,7 +66,7 @@ void DrawMenu(FlatPainter& painter, const Menu& menu, const RenderTarget& target
   const float em = EmOf(painter.font(), menu);
   painter.Begin(target);
   for (const MenuCell& cell : menu.cells) {
-    DrawCell(painter, cell, menu.style, em);
+    DrawCell(painter, cell, menu, em);
   }
   const float radius = std::max(kReticleShare * static_cast<float>(target.height()), 3.0f);
   const glm::vec2 half(radius);

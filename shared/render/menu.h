@@ -22,6 +22,7 @@ struct MenuCell {
 struct Menu {
   std::vector<MenuCell> cells;
   glm::vec2 gaze = glm::vec2(0.0f);
+  bool fades = false;  // cells change their colour evenly in place of being filled
   CaptionStyle style;  // its contrast; letters are as large as the cells let them be
 };
 

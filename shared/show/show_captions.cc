@@ -44,7 +44,10 @@ const stage::CaptionCue* CueOf(const CaptionTexts& texts, const StagedLine& line
 CaptionTexts TextsOf(const ShowContent& content) {
   CaptionTexts texts;
   for (const Speech& line : content.speech) {
-    texts.lines.push_back(line.captions);
+    std::vector<stage::CaptionCue>& cues = texts.lines.emplace_back(line.captions);
+    for (size_t i = 0; line.describes && i < cues.size(); ++i) {
+      cues[i].text = "[" + cues[i].text + "]";
+    }
   }
   for (const CastMember& member : content.cast) {
     texts.speakers.push_back(member.title);
@@ -105,7 +108,7 @@ void CollectCaptions(const CaptionTexts& texts,
     after_cast = next->cast;
     render::Caption& caption = captions.emplace_back();
     caption.text = CueOf(texts, *next)->text;
-    if (next->cast != StagedLine::kNobody) {
+    if (next->cast != StagedLine::kNobody && next->cast != StagedLine::kDescription) {
       caption.speaker = texts.speakers[next->cast];
       caption.colour = kColours[next->cast % kColours.size()];
       caption.side = SideOf(staged, next->cast);

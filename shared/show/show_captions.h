@@ -19,8 +19,9 @@ namespace lararium::show {
 
 // What captions need of a show.
 struct CaptionTexts {
-  std::vector<std::vector<stage::CaptionCue>> lines;  // by ShowContent::speech
-  std::vector<std::string> speakers;                  // by ShowContent::cast
+  // By ShowContent::speech; descriptions in brackets.
+  std::vector<std::vector<stage::CaptionCue>> lines;
+  std::vector<std::string> speakers;  // by ShowContent::cast
 };
 CaptionTexts TextsOf(const ShowContent& content);
 

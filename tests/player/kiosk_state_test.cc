@@ -16,7 +16,7 @@ TEST(KioskState, ComesBackAsItWasSaved) {
   const KioskState state = {
       "The thermopolium",
       73.25,
-      {"la", "en", 0.4, {render::CaptionSize::kLarge, render::CaptionContrast::kHigh}}};
+      {"la", "en", 0.4, {render::CaptionSize::kLarge, render::CaptionContrast::kHigh}, true, true}};
   ASSERT_TRUE(SaveKioskState(place, state).ok());
   EXPECT_EQ(*LoadKioskState(place), state);
 }
@@ -29,7 +29,8 @@ TEST(KioskState, WhatIsNoStateIsAnErrorThatSaysWhere) {
        R"({"schema":1,"title":"","seconds":-1,"language":"","captions":"","volume":1})",
        R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":7})",
        R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"caption_size":"huge"})",
-       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"caption_contrast":1})"}) {
+       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"caption_contrast":1})",
+       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"descriptions":"on"})"}) {
     std::ofstream(folder / "state.json", std::ios::trunc) << text;
     const auto state = LoadKioskState(folder.path());
     EXPECT_FALSE(state.ok()) << text;
@@ -43,6 +44,7 @@ TEST(KioskState, WhatAnOlderPlayerWroteLacksOnlyChoicesThatItDidNotKnow) {
   ASSERT_TRUE(state.ok()) << state.message();
   EXPECT_EQ(state->choices.captions, "en");
   EXPECT_EQ(state->choices.caption_style, render::CaptionStyle());
+  EXPECT_FALSE(state->choices.descriptions || state->choices.reduced_motion);
 }
 
 TEST(KioskState, AFullOrForbiddenFolderIsAnError) {

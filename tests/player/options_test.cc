@@ -58,6 +58,12 @@ TEST_F(OptionsTest, HowCaptionsLookIsLeftToTheVisitorUnlessItIsGiven) {
       Parse({show_, "--caption-size", "largest", "--caption-contrast", "high"}));
   EXPECT_EQ(play.caption_size, render::CaptionSize::kLargest);
   EXPECT_EQ(play.caption_contrast, render::CaptionContrast::kHigh);
+  EXPECT_FALSE(play.descriptions.has_value() || play.reduced_motion.has_value());
+  const auto other =
+      std::get<PlayOptions>(Parse({show_, "--descriptions", "on", "--reduced-motion", "off"}));
+  EXPECT_EQ(other.descriptions, true);
+  EXPECT_EQ(other.reduced_motion, false);
+  EXPECT_EQ(ExitCode({show_, "--descriptions", "maybe"}), 2);
   EXPECT_EQ(ExitCode({show_, "--caption-size", "huge"}), 2);
   EXPECT_EQ(ExitCode({show_, "--caption-contrast", "low"}), 2);
 }

@@ -87,6 +87,20 @@ TEST(Choices, SizesAndContrastsOfCaptionsComeRound) {
   EXPECT_EQ(choices, Choices());
 }
 
+TEST(Choices, DescriptionsAndReducedMotionAreSwitched) {
+  Choices choices;
+  const std::vector<std::string> none;
+  Choose(Action::kDescriptions, {none, none, false}, choices);
+  EXPECT_EQ(choices, Choices()) << "a show without any";
+  Choose(Action::kDescriptions, {none, none, true}, choices);
+  EXPECT_TRUE(choices.descriptions);
+  Choose(Action::kReducedMotion, {none, none, true}, choices);
+  EXPECT_TRUE(choices.reduced_motion);
+  Choose(Action::kDescriptions, {none, none, true}, choices);
+  Choose(Action::kReducedMotion, {none, none, true}, choices);
+  EXPECT_EQ(choices, Choices());
+}
+
 TEST(Choices, WhatAShowLacksCannotBeChosen) {
   Choices choices;
   const std::vector<std::string> none;

@@ -25,6 +25,7 @@ show::ShowContent Content() {
   content.language = "la";
   content.spoken_languages = {"la", "en"};
   content.caption_languages = {"la", "en", "de"};
+  content.has_descriptions = true;
   return content;
 }
 
@@ -38,19 +39,22 @@ std::vector<std::string> TextsOf(const std::vector<MenuItem>& items) {
 
 TEST(VisitorMenu, SpeaksTheVisitorsLanguageAndSaysWhatIsChosen) {
   show::ShowContent content = Content();
-  EXPECT_THAT(
-      TextsOf(ItemsOf(content, {})),
-      ElementsAre("Clarius", "Lenius", "Voces: Latina", "Inscriptiones: Latina", "Litterae: mediae",
-                  "Fundus: translucens", "Ab initio", "Locum denuo quaere", "Claude"));
+  EXPECT_THAT(TextsOf(ItemsOf(content, {})),
+              ElementsAre("Clarius", "Lenius", "Voces: Latina", "Inscriptiones: Latina",
+                          "Litterae: mediae", "Fundus: translucens", "Descriptiones: nullae",
+                          "Motus: omnis", "Ab initio", "Locum denuo quaere", "Claude"));
   content.language = "en-GB";
   Choices choices;
   choices.language = "en";
   choices.captions = show::kNoCaptions;
+  choices.descriptions = true;
+  choices.reduced_motion = true;
   choices.caption_style = {render::CaptionSize::kLargest, render::CaptionContrast::kHigh};
   EXPECT_THAT(
       TextsOf(ItemsOf(content, choices)),
       ElementsAre("Louder", "Quieter", "Voices: English", "Captions: off", "Letters: largest",
-                  "Contrast: high", "From the beginning", "Find the place again", "Close"));
+                  "Contrast: high", "Descriptions: on", "Motion: reduced", "From the beginning",
+                  "Find the place again", "Close"));
 }
 
 TEST(VisitorMenu, IsInEnglishWhereTheFontLacksLetters) {
@@ -65,11 +69,13 @@ TEST(VisitorMenu, OffersNoChoiceWhereThereIsOne) {
   show::ShowContent content = Content();
   content.spoken_languages = {"la"};
   content.caption_languages.clear();
+  content.has_descriptions = false;
   const std::vector<MenuItem> items = ItemsOf(content, {});
-  EXPECT_EQ(items.size(), 5u);
+  EXPECT_EQ(items.size(), 6u);
   for (const MenuItem& item : items) {
     EXPECT_NE(item.action, Action::kLanguage);
     EXPECT_NE(item.action, Action::kCaptions);
+    EXPECT_NE(item.action, Action::kDescriptions);
   }
   content.caption_font.reset();
   EXPECT_TRUE(ItemsOf(content, {}).empty()) << "nothing can be written";
