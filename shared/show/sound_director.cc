@@ -14,6 +14,8 @@ using audio::Voice;
 
 // Before the first pose: somebody who stands before the stage.
 constexpr glm::vec3 kVisitorsHead = {0.0f, 1.6f, 2.0f};
+// As loud as a voice two metres away.
+constexpr float kDescriptionGain = 0.5f;
 // Lines have names of their own, which no sound can have.
 constexpr const char* kLinePrefix = "line ";
 
@@ -166,6 +168,7 @@ void SoundDirector::AddDescription(size_t line, double began, SoundScene& scene)
   voice.clip = lines_[line];
   voice.bus = Bus::kDescription;
   voice.began = began;
+  voice.gain = kDescriptionGain;
   voice.head_locked = true;
 }
 

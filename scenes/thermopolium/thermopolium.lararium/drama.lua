@@ -25,7 +25,7 @@ track{
   captions = {{id = "title", at = 0.5, length = 5, line = "titulus"}},
   -- For visitors who do not see well; more of them stand where the script knows of a pause.
   descriptions = {
-    {at = 0.3, line = "d_bar"},
+    {at = 0, line = "d_bar"},
     {at = 9.6, line = "d_people"},
     {at = 195.5, line = "d_shrine", patience = 2},
   },
@@ -262,7 +262,6 @@ local function serve_the_visitor()
   keeper:express("joy", 0.6, 0.5)
   attended(keeper, 4)
   speak(keeper, "pompeianum", "explain")
-  describe("d_for_you")
   keeper:express("neutral", 0, 1)
   keeper:look_at()
   try(pour, "cup", 0.60)
@@ -270,6 +269,7 @@ local function serve_the_visitor()
   speak(keeper, "aquam_addo")
   keeper:look_at()
   try(keeper.take, keeper, "cup")
+  describe("d_for_you")
   attended(keeper, 6)
   try(keeper.put, keeper, "cup", "counter", "top")
   speak(keeper, "tibi_est", "offer")
