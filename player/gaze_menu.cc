@@ -20,6 +20,11 @@ bool IsOneOf(std::string_view button, std::initializer_list<std::string_view> bu
 
 }  // namespace
 
+Eigen::Vector2d GazeMenu::SizeOf(size_t items) {
+  const auto rows = static_cast<double>((items + 1) / 2);
+  return {2.0 * (kHalfWay + kCellWidth), (rows - 1.0) * kRowStep + kCellHeight};
+}
+
 void GazeMenu::Open(std::vector<MenuItem> items, double now, double scale) {
   *this = GazeMenu();
   open_ = true;

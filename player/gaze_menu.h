@@ -5,6 +5,7 @@
 // chosen by opening it.
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,7 +30,10 @@ class GazeMenu {
   static constexpr double kRepeat = 0.6;  // and chosen again
   static constexpr double kIdle = 10.0;   // without looking at any, until the menu goes
 
-  // scale: of its size; 1 spans 0.7 across on a plane one metre before the eye.
+  // Of a menu of so many items, on a plane one metre before the eye.
+  static Eigen::Vector2d SizeOf(size_t items);
+
+  // scale: of its size.
   void Open(std::vector<MenuItem> items, double now, double scale = 1.0);
   void Close() { open_ = false; }
   bool open() const { return open_; }

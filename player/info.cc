@@ -65,15 +65,18 @@ Status PrintInfo(const InfoOptions& options) {
   for (const bundle::CastEntry& member : manifest.cast) {
     std::printf("cast    %s\n", member.name.c_str());
   }
-  std::string spoken, captions;
+  std::string spoken, captions, descriptions;
   for (const bundle::SpokenLanguage& language : manifest.spoken) {
     spoken += " " + language.name;
   }
   for (const std::string& language : manifest.captions) {
     captions += " " + language;
   }
-  std::printf("lines   %zu, spoken:%s, captions:%s\n", manifest.lines.size(), spoken.c_str(),
-              captions.c_str());
+  for (const bundle::SpokenLanguage& language : manifest.descriptions) {
+    descriptions += " " + language.name;
+  }
+  std::printf("lines   %zu, spoken:%s, captions:%s, descriptions:%s\n", manifest.lines.size(),
+              spoken.c_str(), captions.c_str(), descriptions.c_str());
   LARARIUM_RETURN_IF_ERROR(PrintParadata(bundle));
   for (const bundle::Member& member : manifest.members) {
     std::printf("member  %-32s %12llu bytes\n", member.name.c_str(),

@@ -1,5 +1,7 @@
 #include "player/kiosk_state.h"
 
+#include <array>
+#include <optional>
 #include <system_error>
 
 #include "shared/core/file.h"
@@ -17,16 +19,53 @@ std::filesystem::path StateFile(const std::filesystem::path& folder) {
   return folder / "state.json";
 }
 
+// A choice of names; what an older player wrote lacks it.
+template <typename Choice, size_t n>
+Status ReadChoice(const JsonView& view,
+                  const char* key,
+                  const std::array<std::string_view, n>& names,
+                  Choice& choice) {
+  if (!view.Has(key)) {
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text(key, kMaxText));
+  const std::optional<Choice> found = render::ChoiceOf<Choice>(names, name);
+  if (!found) {
+    return view.Problem(std::string(key) + " cannot be \"" + name + "\"", "remove it");
+  }
+  choice = *found;
+  return Status();
+}
+
+Status ReadSwitch(const JsonView& view, const char* key, bool& on) {
+  if (view.Has(key)) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+    LARARIUM_ASSIGN_OR_RETURN(on, field.Boolean());
+  }
+  return Status();
+}
+
 Status ReadChoices(const JsonView& view, Choices& choices) {
   LARARIUM_ASSIGN_OR_RETURN(choices.language, view.Text("language", kMaxText));
   LARARIUM_ASSIGN_OR_RETURN(choices.captions, view.Text("captions", kMaxText));
   LARARIUM_ASSIGN_OR_RETURN(choices.volume, view.Number("volume", 0.0, 1.0));
-  return Status();
+  render::CaptionStyle& style = choices.caption_style;
+  LARARIUM_RETURN_IF_ERROR(ReadChoice(view, "caption_size", render::kCaptionSizes, style.size));
+  LARARIUM_RETURN_IF_ERROR(
+      ReadChoice(view, "caption_contrast", render::kCaptionContrasts, style.contrast));
+  LARARIUM_RETURN_IF_ERROR(ReadSwitch(view, "descriptions", choices.descriptions));
+  return ReadSwitch(view, "reduced_motion", choices.reduced_motion);
 }
 
 Json ToJson(const Choices& choices) {
-  return {
-      {"language", choices.language}, {"captions", choices.captions}, {"volume", choices.volume}};
+  const render::CaptionStyle& style = choices.caption_style;
+  return {{"language", choices.language},
+          {"captions", choices.captions},
+          {"caption_size", NameOf(render::kCaptionSizes, style.size)},
+          {"caption_contrast", NameOf(render::kCaptionContrasts, style.contrast)},
+          {"descriptions", choices.descriptions},
+          {"reduced_motion", choices.reduced_motion},
+          {"volume", choices.volume}};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "shared/core/status.h"
+#include "shared/render/caption_style.h"
 
 namespace lararium::player {
 
@@ -15,6 +16,9 @@ struct Choices {
   std::string language;  // spoken; empty: as the author chose
   std::string captions;  // likewise
   double volume = 1.0;   // 0..1
+  render::CaptionStyle caption_style;
+  bool descriptions = false;    // of what is to be seen are heard
+  bool reduced_motion = false;  // what glides elsewhere fades
 
   friend bool operator==(const Choices&, const Choices&) = default;
 };

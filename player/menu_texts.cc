@@ -1,7 +1,9 @@
 #include "player/menu_texts.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <span>
 
 #include "shared/show/guide_texts.h"
 
@@ -11,28 +13,172 @@ namespace {
 struct Known {
   std::string_view language;
   std::string_view name;
-  std::string_view louder, quieter, spoken, captions, off, restart, find_anew, close;
+  MenuTexts texts;
 };
 
 constexpr Known kKnown[] = {
-    {"en", "English", "Louder", "Quieter", "Voices", "Captions", "off", "From the beginning",
-     "Find the place again", "Close"},
-    {"la", "Latina", "Clarius", "Lenius", "Voces", "Inscriptiones", "nullae", "Ab initio",
-     "Locum denuo quaere", "Claude"},
-    {"de", "Deutsch", "Lauter", "Leiser", "Stimmen", "Untertitel", "aus", "Von vorn",
-     "Ort neu suchen", "Schließen"},
-    {"el", "Ελληνικά", "Πιο δυνατά", "Πιο σιγά", "Φωνές", "Υπότιτλοι", "χωρίς", "Από την αρχή",
-     "Εύρεση του χώρου ξανά", "Κλείσιμο"},
-    {"es", "Español", "Más alto", "Más bajo", "Voces", "Subtítulos", "no", "Desde el principio",
-     "Buscar el lugar de nuevo", "Cerrar"},
-    {"fr", "Français", "Plus fort", "Moins fort", "Voix", "Sous-titres", "sans", "Depuis le début",
-     "Retrouver le lieu", "Fermer"},
-    {"it", "Italiano", "Più forte", "Più piano", "Voci", "Sottotitoli", "no", "Dall'inizio",
-     "Ritrova il luogo", "Chiudi"},
-    {"nl", "Nederlands", "Harder", "Zachter", "Stemmen", "Ondertitels", "uit", "Vanaf het begin",
-     "Plaats opnieuw zoeken", "Sluiten"},
-    {"pt", "Português", "Mais alto", "Mais baixo", "Vozes", "Legendas", "não", "Desde o início",
-     "Procurar o lugar de novo", "Fechar"},
+    {"en",
+     "English",
+     {"Louder",
+      "Quieter",
+      "Voices",
+      "Captions",
+      "off",
+      "Letters",
+      {"normal", "large", "largest"},
+      "Contrast",
+      {"normal", "high"},
+      "Descriptions",
+      {"off", "on"},
+      "Motion",
+      {"all", "reduced"},
+      "From the beginning",
+      "Find the place again",
+      "Close"}},
+    {"la",
+     "Latina",
+     {"Clarius",
+      "Lenius",
+      "Voces",
+      "Inscriptiones",
+      "nullae",
+      "Litterae",
+      {"mediae", "magnae", "maximae"},
+      "Fundus",
+      {"translucens", "niger"},
+      "Descriptiones",
+      {"nullae", "audiuntur"},
+      "Motus",
+      {"omnis", "minor"},
+      "Ab initio",
+      "Locum denuo quaere",
+      "Claude"}},
+    {"de",
+     "Deutsch",
+     {"Lauter",
+      "Leiser",
+      "Stimmen",
+      "Untertitel",
+      "aus",
+      "Schrift",
+      {"normal", "groß", "sehr groß"},
+      "Kontrast",
+      {"normal", "hoch"},
+      "Beschreibungen",
+      {"aus", "an"},
+      "Bewegung",
+      {"normal", "weniger"},
+      "Von vorn",
+      "Ort neu suchen",
+      "Schließen"}},
+    {"el",
+     "Ελληνικά",
+     {"Πιο δυνατά",
+      "Πιο σιγά",
+      "Φωνές",
+      "Υπότιτλοι",
+      "χωρίς",
+      "Γράμματα",
+      {"κανονικά", "μεγάλα", "μέγιστα"},
+      "Αντίθεση",
+      {"κανονική", "υψηλή"},
+      "Περιγραφές",
+      {"χωρίς", "με"},
+      "Κίνηση",
+      {"πλήρης", "μειωμένη"},
+      "Από την αρχή",
+      "Εύρεση του χώρου ξανά",
+      "Κλείσιμο"}},
+    {"es",
+     "Español",
+     {"Más alto",
+      "Más bajo",
+      "Voces",
+      "Subtítulos",
+      "no",
+      "Letras",
+      {"normales", "grandes", "muy grandes"},
+      "Contraste",
+      {"normal", "alto"},
+      "Descripciones",
+      {"no", "sí"},
+      "Movimiento",
+      {"normal", "reducido"},
+      "Desde el principio",
+      "Buscar el lugar de nuevo",
+      "Cerrar"}},
+    {"fr",
+     "Français",
+     {"Plus fort",
+      "Moins fort",
+      "Voix",
+      "Sous-titres",
+      "sans",
+      "Lettres",
+      {"normales", "grandes", "très grandes"},
+      "Contraste",
+      {"normal", "élevé"},
+      "Descriptions",
+      {"sans", "avec"},
+      "Mouvements",
+      {"normaux", "réduits"},
+      "Depuis le début",
+      "Retrouver le lieu",
+      "Fermer"}},
+    {"it",
+     "Italiano",
+     {"Più forte",
+      "Più piano",
+      "Voci",
+      "Sottotitoli",
+      "no",
+      "Lettere",
+      {"normali", "grandi", "molto grandi"},
+      "Contrasto",
+      {"normale", "alto"},
+      "Descrizioni",
+      {"no", "sì"},
+      "Movimento",
+      {"normale", "ridotto"},
+      "Dall'inizio",
+      "Ritrova il luogo",
+      "Chiudi"}},
+    {"nl",
+     "Nederlands",
+     {"Harder",
+      "Zachter",
+      "Stemmen",
+      "Ondertitels",
+      "uit",
+      "Letters",
+      {"normaal", "groot", "heel groot"},
+      "Contrast",
+      {"normaal", "hoog"},
+      "Beschrijvingen",
+      {"uit", "aan"},
+      "Beweging",
+      {"normaal", "minder"},
+      "Vanaf het begin",
+      "Plaats opnieuw zoeken",
+      "Sluiten"}},
+    {"pt",
+     "Português",
+     {"Mais alto",
+      "Mais baixo",
+      "Vozes",
+      "Legendas",
+      "não",
+      "Letras",
+      {"normais", "grandes", "muito grandes"},
+      "Contraste",
+      {"normal", "alto"},
+      "Descrições",
+      {"não", "sim"},
+      "Movimento",
+      {"normal", "reduzido"},
+      "Desde o início",
+      "Procurar o lugar de novo",
+      "Fechar"}},
 };
 
 const Known* Find(std::string_view language) {
@@ -42,23 +188,23 @@ const Known* Find(std::string_view language) {
   return found == std::end(kKnown) ? nullptr : found;
 }
 
-bool CanWrite(const render::CaptionFont& font, const Known& known) {
-  const std::string_view texts[] = {known.louder, known.quieter, known.spoken,    known.captions,
-                                    known.off,    known.restart, known.find_anew, known.close};
-  return std::all_of(std::begin(texts), std::end(texts),
-                     [&](std::string_view text) { return show::CanWrite(font, text); });
+bool CanWrite(const render::CaptionFont& font, const MenuTexts& texts) {
+  const auto all_of = [&](std::span<const std::string_view> some) {
+    return std::all_of(some.begin(), some.end(),
+                       [&](std::string_view text) { return show::CanWrite(font, text); });
+  };
+  return all_of(std::array{texts.louder, texts.quieter, texts.language, texts.captions, texts.off,
+                           texts.caption_size, texts.contrast, texts.descriptions, texts.motion,
+                           texts.restart, texts.find_anew, texts.close}) &&
+         all_of(texts.sizes) && all_of(texts.contrasts) && all_of(texts.switches) &&
+         all_of(texts.motions);
 }
 
 }  // namespace
 
-MenuTexts TextsOfMenu(std::string_view language, const render::CaptionFont& font) {
+const MenuTexts& TextsOfMenu(std::string_view language, const render::CaptionFont& font) {
   const Known* known = Find(language);
-  if (known == nullptr || !CanWrite(font, *known)) {
-    known = std::begin(kKnown);
-  }
-  const auto text = [](std::string_view view) { return std::string(view); };
-  return {text(known->louder), text(known->quieter), text(known->spoken),    text(known->captions),
-          text(known->off),    text(known->restart), text(known->find_anew), text(known->close)};
+  return known != nullptr && CanWrite(font, known->texts) ? known->texts : kKnown[0].texts;
 }
 
 std::string NameOfLanguage(const std::string& language, const render::CaptionFont& font) {

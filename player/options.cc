@@ -1,6 +1,7 @@
 #include "player/options.h"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <map>
 
@@ -63,6 +64,31 @@ void AddSizeOption(CLI::App& app, std::optional<PictureSize>& size, const std::s
           "WxH"));
 }
 
+// An option that takes one of names.
+template <typename Choice, size_t n>
+void AddChoiceOption(CLI::App& app,
+                     const char* option,
+                     const std::array<std::string_view, n>& names,
+                     std::optional<Choice>& choice,
+                     const std::string& help) {
+  app.add_option_function<std::string>(
+         option,
+         [&choice, names](const std::string& name) {
+           choice = render::ChoiceOf<Choice>(names, name);
+         },
+         help)
+      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
+}
+
+void AddSwitchOption(CLI::App& app,
+                     const char* option,
+                     std::optional<bool>& on,
+                     const std::string& help) {
+  app.add_option_function<std::string>(
+         option, [&on](const std::string& word) { on = word == "on"; }, help)
+      ->check(CLI::IsMember({"on", "off"}));
+}
+
 void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
   app.add_option("--trust", play.trust, "Play only what was signed with the key of this .pub file")
@@ -72,6 +98,14 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
                  "Language that people speak, as la or en; otherwise as the author chose");
   app.add_option("--captions", play.captions,
                  "Language of the captions, or off; otherwise as the author chose");
+  AddChoiceOption(app, "--caption-size", render::kCaptionSizes, play.caption_size,
+                  "Letters of captions and of the guide");
+  AddChoiceOption(app, "--caption-contrast", render::kCaptionContrasts, play.caption_contrast,
+                  "high: captions, guide and menu bold, white and yellow on black");
+  AddSwitchOption(app, "--descriptions", play.descriptions,
+                  "on: what is to be seen is described, for visitors who do not see well");
+  AddSwitchOption(app, "--reduced-motion", play.reduced_motion,
+                  "on: nothing of what the player adds glides that can fade");
 
   CLI::Option_group* source = app.add_option_group("source", "Where images come from");
   source->add_option("--camera", play.camera, "Number of a camera (0 unless told otherwise)");

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "shared/render/caption_style.h"
 #include "shared/render/graphics_context.h"
 #include "shared/vision/pose_smoother.h"
 
@@ -36,6 +37,11 @@ struct PlayOptions {
 
   std::string language;  // that people speak; empty: as the author chose
   std::string captions;  // likewise what is to be read; "off": nothing
+  // None: as the last visitor of a kiosk chose, normal else.
+  std::optional<render::CaptionSize> caption_size;
+  std::optional<render::CaptionContrast> caption_contrast;
+  std::optional<bool> descriptions;    // likewise off
+  std::optional<bool> reduced_motion;  // likewise
 
   // Where images come from; at most one is set. None: camera 0.
   std::optional<int> camera;

@@ -134,8 +134,8 @@ class Performance {
       choices_ = kiosk_->state().choices;
       house_ = kiosk_->state().house;
     }
-    ApplyLanguageOptions(house_);
-    ApplyLanguageOptions(choices_);
+    ApplyOptions(house_);
+    ApplyOptions(choices_);
   }
 
   Status Prepare();
@@ -160,7 +160,7 @@ class Performance {
   void ToggleMenu();
   void ShowMenu(const show::StagedFrame& staged);
   Status OpenSource();
-  void ApplyLanguageOptions(Choices& choices) const;
+  void ApplyOptions(Choices& choices) const;
   show::LanguageChoice languages() const { return {choices_.language, choices_.captions}; }
   Result<show::ShowContent> LoadInChosenLanguages();
   Status ChooseHeadset();
@@ -170,6 +170,7 @@ class Performance {
   Status CreateTracker(const show::ShowContent& content);
   Result<std::unique_ptr<show::Show>> MakeShow(show::ShowContent content) const;
   void TellKiosk();
+  void TellShow();
   Status PrepareDrawing(const show::ShowContent& content);
   void BeginChangingLanguages();
   bool OtherLanguagesAreReady();
@@ -304,7 +305,9 @@ void Performance::Do(Action action) {
       break;
     default: {
       Choices choices = choices_;
-      Choose(action, {show_->content().spoken_languages, show_->content().caption_languages},
+      const show::ShowContent& content = show_->content();
+      Choose(action,
+             {content.spoken_languages, content.caption_languages, content.has_descriptions},
              choices);
       Change(choices);
     }
@@ -320,6 +323,8 @@ void Performance::Change(const Choices& choices) {
   if (choices_.volume != before.volume && sound_ != nullptr) {
     sound_->SetVolume(static_cast<float>(choices_.volume) * loudness_);
   }
+  renderer_->SetCaptionStyle(choices_.caption_style);
+  TellShow();
   menu_.SetItems(ItemsOf(show_->content(), choices_));
   if (kiosk_) {
     kiosk_->Keep(choices_, house_, Seconds(SteadyClock::now()));
@@ -349,6 +354,11 @@ void Performance::Obey(const StaffCommand& command) {
                            *command.captions == show::kNoCaptions)) {
     choices.captions = *command.captions;
   }
+  render::CaptionStyle& style = choices.caption_style;
+  style.size = command.caption_size.value_or(style.size);
+  style.contrast = command.caption_contrast.value_or(style.contrast);
+  choices.descriptions = command.descriptions.value_or(choices.descriptions);
+  choices.reduced_motion = command.reduced_motion.value_or(choices.reduced_motion);
   if (choices != choices_) {
     house_ = choices;
   }
@@ -386,6 +396,7 @@ void Performance::FillStaffState(const show::StagedFrame& staged, StaffState& st
   state.audible = sound_ != nullptr;
   state.languages = content.spoken_languages;
   state.caption_languages = content.caption_languages;
+  state.has_descriptions = content.has_descriptions;
   state.up_seconds = Seconds(last_shown_);
   state.restarts = restarts_;
 }
@@ -400,8 +411,9 @@ void Performance::ToggleMenu() {
     menu_.Close();
     return;
   }
-  menu_.Open(std::move(items), Seconds(SteadyClock::now()),
-             ScaleFor(renderer_->PictureOf(camera_, size_.width, size_.height)));
+  const double scale =
+      ScaleFor(renderer_->PictureOf(camera_, size_.width, size_.height), items.size());
+  menu_.Open(std::move(items), Seconds(SteadyClock::now()), scale);
 }
 
 // Where the menu is in the frame, and what is chosen by looking at it.
@@ -416,7 +428,8 @@ void Performance::ShowMenu(const show::StagedFrame& staged) {
 }
 
 void Performance::ShowMenuTo(const geometry::CameraModel& picture) {
-  renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture)) : std::nullopt);
+  renderer_->SetMenu(menu_.open() ? std::optional(PictureOf(menu_, picture, choices_))
+                                  : std::nullopt);
 }
 
 Status Performance::OpenSource() {
@@ -471,6 +484,12 @@ void Performance::TellKiosk() {
   }
 }
 
+// What does not go with the languages, but with who watches.
+void Performance::TellShow() {
+  show_->SetDescriptions(choices_.descriptions);
+  show_->SetReducedMotion(choices_.reduced_motion);
+}
+
 Status Performance::ChooseHeadset() {
   const bool has_panel = device_.headset && device_.headset->panel;
   const Display display =
@@ -521,13 +540,18 @@ Status Performance::CreateTracker(const show::ShowContent& content) {
 }
 
 // They go before what the last visitor chose.
-void Performance::ApplyLanguageOptions(Choices& choices) const {
+void Performance::ApplyOptions(Choices& choices) const {
   if (!options_.language.empty()) {
     choices.language = options_.language;
   }
   if (!options_.captions.empty()) {
     choices.captions = options_.captions;
   }
+  render::CaptionStyle& style = choices.caption_style;
+  style.size = options_.caption_size.value_or(style.size);
+  style.contrast = options_.caption_contrast.value_or(style.contrast);
+  choices.descriptions = options_.descriptions.value_or(choices.descriptions);
+  choices.reduced_motion = options_.reduced_motion.value_or(choices.reduced_motion);
 }
 
 // In lock-step nothing may depend on when somebody is read in more detail.
@@ -545,7 +569,7 @@ Result<show::ShowContent> Performance::LoadInChosenLanguages() {
   if (!loaded.ok() && kiosk_) {
     choices_.language.clear();
     choices_.captions.clear();
-    ApplyLanguageOptions(choices_);
+    ApplyOptions(choices_);
     loaded = LoadContent(options_, languages(), FinestDetail());
   }
   if (loaded.ok()) {
@@ -580,6 +604,7 @@ Status Performance::Prepare() {
   LARARIUM_RETURN_IF_ERROR(playing);
   LARARIUM_RETURN_IF_ERROR(drawing);
   TellKiosk();
+  TellShow();
   if (kiosk_ && kiosk_->ResumeAt(content.title) > 0.0) {
     show_->RestartAt(kiosk_->ResumeAt(content.title));
   }
@@ -607,6 +632,7 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
   }
   renderer_ = *std::move(renderer);
   renderer_->SetEvidence(options_.evidence);
+  renderer_->SetCaptionStyle(choices_.caption_style);
   renderer_->SetPart(part_);
   if (headset_ && headset_->panel) {
     LARARIUM_ASSIGN_OR_RETURN(stereo_, StereoDisplay::Create(*headset_));
@@ -695,6 +721,7 @@ Status Performance::ChangeLanguages() {
   show_ = std::move(*next);
   shown_languages_ = next_languages_;
   TellKiosk();
+  TellShow();
   show_->SetQuality(QualityOf(level()));
   OpenSound();
   log_.info("language '{}', captions '{}'", shown_languages_.spoken, shown_languages_.captions);

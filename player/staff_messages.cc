@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <iterator>
@@ -19,6 +20,21 @@ constexpr std::pair<std::string_view, Action> kActions[] = {{"restart", Action::
                                                             {"find_anew", Action::kFindAnew},
                                                             {"louder", Action::kLouder},
                                                             {"quieter", Action::kQuieter}};
+
+template <typename Choice, size_t n>
+Result<Choice> ParseChoice(const JsonView& view, const std::array<std::string_view, n>& names) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text("value", kMostLanguage));
+  const std::optional<Choice> choice = render::ChoiceOf<Choice>(names, name);
+  if (!choice) {
+    return view.Problem("there is no such value");
+  }
+  return *choice;
+}
+
+Result<bool> ParseSwitch(const JsonView& view) {
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView value, view.Field("value"));
+  return value.Boolean();
+}
 
 }  // namespace
 
@@ -59,6 +75,16 @@ Result<StaffCommand> ParseStaffCommand(std::string_view text) {
     LARARIUM_ASSIGN_OR_RETURN(command.language, view.Text("value", kMostLanguage));
   } else if (what == "captions") {
     LARARIUM_ASSIGN_OR_RETURN(command.captions, view.Text("value", kMostLanguage));
+  } else if (what == "caption_size") {
+    LARARIUM_ASSIGN_OR_RETURN(command.caption_size,
+                              ParseChoice<render::CaptionSize>(view, render::kCaptionSizes));
+  } else if (what == "caption_contrast") {
+    LARARIUM_ASSIGN_OR_RETURN(command.caption_contrast, ParseChoice<render::CaptionContrast>(
+                                                            view, render::kCaptionContrasts));
+  } else if (what == "descriptions") {
+    LARARIUM_ASSIGN_OR_RETURN(command.descriptions, ParseSwitch(view));
+  } else if (what == "reduced_motion") {
+    LARARIUM_ASSIGN_OR_RETURN(command.reduced_motion, ParseSwitch(view));
   } else if (what == "end") {
     command.end = true;
   } else if (what == "begin_again") {

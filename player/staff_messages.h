@@ -43,6 +43,10 @@ struct StaffCommand {
   std::optional<double> volume;  // 0..1
   std::optional<std::string> language;
   std::optional<std::string> captions;
+  std::optional<render::CaptionSize> caption_size;
+  std::optional<render::CaptionContrast> caption_contrast;
+  std::optional<bool> descriptions;
+  std::optional<bool> reduced_motion;
   bool end = false;          // the player; a kiosk too
   bool begin_again = false;  // the player: a kiosk's watchdog begins it again
 
@@ -50,7 +54,8 @@ struct StaffCommand {
 };
 
 // {"do": "restart" | "find_anew" | "louder" | "quieter" | "end" | "begin_again"}, or
-// {"do": "volume" | "language" | "captions", "value": ...}. It was written by anybody.
+// {"do": "volume" | "language" | "captions" | "caption_size" | "caption_contrast" |
+// "descriptions" | "reduced_motion", "value": ...}. It was written by anybody.
 Result<StaffCommand> ParseStaffCommand(std::string_view text);
 
 }  // namespace lararium::player

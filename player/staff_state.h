@@ -69,6 +69,7 @@ struct StaffState {
   bool audible = false;
   std::vector<std::string> languages;
   std::vector<std::string> caption_languages;
+  bool has_descriptions = false;
   double up_seconds = 0.0;  // of this run
   int restarts = 0;         // before it
 };

@@ -21,6 +21,10 @@ constexpr Named kActions[] = {{"louder", Action::kLouder, {"page_up", "pad_up"}}
                               {"quieter", Action::kQuieter, {"page_down", "pad_down"}},
                               {"language", Action::kLanguage, {"l", "pad_left"}},
                               {"captions", Action::kCaptions, {"c", "pad_right"}},
+                              {"caption_size", Action::kCaptionSize, {"s"}},
+                              {"caption_contrast", Action::kCaptionContrast, {"k"}},
+                              {"descriptions", Action::kDescriptions, {"d"}},
+                              {"reduced_motion", Action::kReducedMotion, {"v"}},
                               {"restart", Action::kRestart, {"home", "pad_back"}},
                               {"find_anew", Action::kFindAnew, {"r", "pad_left_bumper"}},
                               {"menu", Action::kMenu, {"m", "pad_start", kHandMenu}}};
@@ -33,6 +37,12 @@ std::string After(const std::string& chosen, const std::vector<std::string>& all
   const auto found = std::find(all.begin(), all.end(), chosen);
   const size_t index = found == all.end() ? 0 : static_cast<size_t>(found - all.begin());
   return all[(index + 1) % all.size()];
+}
+
+// The choice after one of so many.
+template <typename Choice, size_t n>
+Choice After(Choice chosen, const std::array<std::string_view, n>& /*names*/) {
+  return static_cast<Choice>((static_cast<size_t>(chosen) + 1) % n);
 }
 
 bool IsButton(std::string_view name) {
@@ -105,7 +115,7 @@ Result<Buttons> ParseButtons(const JsonView& view) {
   return buttons;
 }
 
-void Choose(Action action, const LanguageOffer& offer, Choices& choices) {
+void Choose(Action action, const Offer& offer, Choices& choices) {
   if (action == Action::kLouder || action == Action::kQuieter) {
     const double step = action == Action::kLouder ? kVolumeStep : -kVolumeStep;
     choices.volume = std::clamp(choices.volume + step, 0.0, 1.0);
@@ -115,6 +125,15 @@ void Choose(Action action, const LanguageOffer& offer, Choices& choices) {
     std::vector<std::string> all = offer.captions;
     all.emplace_back(show::kNoCaptions);
     choices.captions = After(choices.captions, all);
+  } else if (action == Action::kCaptionSize) {
+    choices.caption_style.size = After(choices.caption_style.size, render::kCaptionSizes);
+  } else if (action == Action::kCaptionContrast) {
+    choices.caption_style.contrast =
+        After(choices.caption_style.contrast, render::kCaptionContrasts);
+  } else if (action == Action::kDescriptions && offer.descriptions) {
+    choices.descriptions = !choices.descriptions;
+  } else if (action == Action::kReducedMotion) {
+    choices.reduced_motion = !choices.reduced_motion;
   }
 }
 

@@ -17,11 +17,15 @@ namespace lararium::player {
 enum class Action {
   kLouder,
   kQuieter,
-  kLanguage,  // the next that people speak
-  kCaptions,  // the next language of the captions; after the last, none
-  kRestart,   // the show from its beginning
-  kFindAnew,  // the place, from scratch
-  kMenu       // opens it, or closes it
+  kLanguage,         // the next that people speak
+  kCaptions,         // the next language of the captions; after the last, none
+  kCaptionSize,      // the next; after the largest, the normal one
+  kCaptionContrast,  // the other
+  kDescriptions,     // of what is to be seen are heard, or not
+  kReducedMotion,    // what glides elsewhere fades, or not
+  kRestart,          // the show from its beginning
+  kFindAnew,         // the place, from scratch
+  kMenu              // opens it, or closes it
 };
 
 // Buttons of the controllers of a headset that OpenXR drives, of either hand.
@@ -47,13 +51,14 @@ class Buttons {
 // The field "buttons" of a device file: for each action that is named, its buttons.
 Result<Buttons> ParseButtons(const JsonView& view);
 
-// The languages that a show has.
-struct LanguageOffer {
-  const std::vector<std::string>& spoken;
-  const std::vector<std::string>& captions;
+// What a show has to choose from.
+struct Offer {
+  const std::vector<std::string>& spoken;    // languages
+  const std::vector<std::string>& captions;  // likewise
+  bool descriptions = false;
 };
 
 // Changes what an action is about; others leave everything as it is.
-void Choose(Action action, const LanguageOffer& offer, Choices& choices);
+void Choose(Action action, const Offer& offer, Choices& choices);
 
 }  // namespace lararium::player

@@ -2,6 +2,7 @@
 
 // The visitor's menu of a show: its items in the visitor's language, and how it is drawn.
 
+#include <cstddef>
 #include <vector>
 
 #include "player/gaze_menu.h"
@@ -14,10 +15,12 @@ namespace lararium::player {
 // What can be chosen of a show; nothing where it has no letters.
 std::vector<MenuItem> ItemsOf(const show::ShowContent& content, const Choices& choices);
 
-// How large a menu fits into what a picture shows of the view.
-double ScaleFor(const geometry::CameraModel& picture);
+// How large a menu of so many items fits into what a picture shows of the view.
+double ScaleFor(const geometry::CameraModel& picture, size_t items);
 
 // picture: the pinhole of the target.
-render::Menu PictureOf(const GazeMenu& menu, const geometry::CameraModel& picture);
+render::Menu PictureOf(const GazeMenu& menu,
+                       const geometry::CameraModel& picture,
+                       const Choices& choices);
 
 }  // namespace lararium::player

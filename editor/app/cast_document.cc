@@ -59,6 +59,8 @@ Result<int> ParseSetting(const JsonView& view, std::string_view key, int otherwi
   return static_cast<int>(value);
 }
 
+}  // namespace
+
 Result<bake::VoiceSettings> ParseVoice(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"variant", "pitch", "range", "rate"}));
   bake::VoiceSettings voice;
@@ -79,8 +81,6 @@ Json FormatVoice(const bake::VoiceSettings& voice) {
   }
   return json;
 }
-
-}  // namespace
 
 Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member) {
   if (member.preset.empty()) {

@@ -52,6 +52,10 @@ Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member);
 Result<import::BoneNames> GivenBoneNames(const std::filesystem::path& bone_map,
                                          const import::BoneNames& bones);
 
+// {"variant", "pitch", "range", "rate"}, each of which may be missing.
+Result<bake::VoiceSettings> ParseVoice(const JsonView& view);
+Json FormatVoice(const bake::VoiceSettings& voice);
+
 Result<CastDocument> ParseCastMember(const JsonView& view);
 Json FormatCastMember(const CastDocument& member);
 

@@ -74,7 +74,7 @@ struct Word {
 struct WrittenCues {
   std::vector<Word> listened;  // marker("name")
   std::vector<Word> armed;     // on(...), first(...): the word
-  std::vector<Word> said;      // a:say("id")
+  std::vector<Word> said;      // a:say("id"), describe("id")
 };
 
 WrittenCues FindCues(const std::string& script) {
@@ -108,6 +108,10 @@ WrittenCues FindCues(const std::string& script) {
       }
     } else if (before == ":" || before == "." || before == "function") {
       continue;
+    } else if (word == "describe") {
+      if (auto id = argument(i)) {
+        add(found.said, *std::move(id));
+      }
     } else if (word == "marker") {
       if (auto name = argument(i)) {
         add(found.listened, *std::move(name));
@@ -153,6 +157,8 @@ bool IsKind(LaneKind lane, const TaskRecord& task) {
       return task.action == "look_at";
     case LaneKind::kExpressions:
       return task.action.starts_with("express");
+    case LaneKind::kDescriptions:
+      return task.action.starts_with("describe");
     case LaneKind::kCaptions:
       return task.action.starts_with("caption");
     case LaneKind::kMarkers:

@@ -37,7 +37,7 @@ std::vector<std::string> CheckTurns(std::span<const drama::TaskRecord> tasks);
 // a visitor is not judged.
 struct CuesSeen {
   std::vector<drama::CueRecord> cues;
-  std::set<std::string, std::less<>> lines;  // that were said or shown
+  std::set<std::string, std::less<>> lines;  // that were said, shown or described
   bool visited = false;
   double seconds = 0.0;  // that each run lasted
 };

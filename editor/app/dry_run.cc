@@ -242,6 +242,8 @@ class DryRunner {
       (*drama)->SetVisitorLog(*guest.log);
     }
     LineListener lines(stage, content);
+    DescriptionListener descriptions(stage, content,
+                                     LongestDescriptions(paths_, document_, lines_));
     StepListener steps(stage, places_);
     GroundListener ground(stage, places_);
     SeekCheck seeks(seek_count, Ticks());
@@ -257,6 +259,7 @@ class DryRunner {
         cpu += ThreadCpuMilliseconds() - begin;
         ++tick;
         lines.Listen((*drama)->time());
+        descriptions.Listen((*drama)->time());
         steps.Listen((*drama)->time());
         ground.Listen((*drama)->time());
         seeks.See(tick, stage);
@@ -271,8 +274,12 @@ class DryRunner {
     }
     seen.ran = true;
     seen.said = lines.said();
+    seen.cues.lines.insert(descriptions.described().begin(), descriptions.described().end());
     seen.cues.cues.assign((*drama)->cues().begin(), (*drama)->cues().end());
     Judge(**drama, steps, ground, seen);
+    for (const std::string& problem : descriptions.problems()) {
+      seen.report.problems.push_back(file_ + ": " + problem);
+    }
     seen.report.runs.push_back({{"language", language},
                                 {"visitor", guest.name},
                                 {"tasks", seen.report.tasks.size()},

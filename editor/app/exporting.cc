@@ -56,6 +56,13 @@ Status PackTexts(const ProjectPaths& paths,
                               MakeCaptions(paths, document, lines, language));
     content.spoken.push_back({language, stage::FormatCaptions(book)});
   }
+  for (const std::string& language : lines.captions) {
+    LARARIUM_ASSIGN_OR_RETURN(const stage::CaptionBook book,
+                              MakeDescriptions(paths, document, lines, language));
+    if (!book.lines.empty()) {
+      content.descriptions.push_back({language, stage::FormatCaptions(book)});
+    }
+  }
   content.captions = lines.captions;
   LARARIUM_ASSIGN_OR_RETURN(const stage::Paradata paradata, LoadParadata(paths));
   if (!paradata.empty()) {

@@ -31,31 +31,44 @@ bool Has(const std::vector<std::string>& list, std::string_view item) {
 struct WrittenLine {
   std::string id;
   size_t offset = 0;
+  bool described = false;
 };
 
-// name:say("id") and name:say "id"
+// name:say("id") and name:say "id", describe("id") and describe "id"
 std::vector<WrittenLine> FindSayings(const std::string& script) {
   std::vector<WrittenLine> found;
   drama::LuaTokens tokens(script);
-  bool colon = false, say = false;
+  bool colon = false, say = false, describe = false;
   for (drama::LuaToken token = tokens.Next();
        token.kind != drama::LuaToken::Kind::kEnd && token.kind != drama::LuaToken::Kind::kBad;
        token = tokens.Next()) {
     const std::string_view text =
         std::string_view(script).substr(token.begin, token.end - token.begin);
-    if (say && token.kind == drama::LuaToken::Kind::kText) {
+    if ((say || describe) && token.kind == drama::LuaToken::Kind::kText) {
       if (const std::optional<std::string> id = drama::TextOf(text)) {
-        found.push_back({*id, token.begin});
+        found.push_back({*id, token.begin, describe});
       }
     }
     say = (colon && text == "say") || (say && token.Is('('));
+    describe = (!colon && text == "describe") || (describe && token.Is('('));
     colon = token.Is(':');
   }
   return found;
 }
 
-std::string UnknownLine(const std::string& id) {
-  return "there is no line '" + id + "'; add it to lines.csv";
+// What is wrong with naming a line in the script; "": nothing.
+std::string ProblemOf(const ProjectDocument& document,
+                      const ProjectLines& lines,
+                      const std::string& id,
+                      bool described) {
+  const bake::Line* line = lines.table.Find(id);
+  if (line == nullptr) {
+    return "there is no line '" + id + "'; add it to lines.csv";
+  }
+  if (described && !ProjectLines::Describes(*line, document)) {
+    return "the line '" + id + "' is described, so its speaker must be 'description'";
+  }
+  return "";
 }
 
 // The longest that a line takes in any of the spoken languages.
@@ -127,13 +140,14 @@ void CheckTexts(const LinePlaces& places,
   for (const bake::Line& line : lines.table.lines) {
     const std::string where = places.Of(line.id);
     const bool name = ProjectLines::IsName(line, document);
+    const bool describes = ProjectLines::Describes(line, document);
     if (!name && line.speaker.empty()) {
       problems.push_back(where + ": it has no speaker; whoever says it has the plain voice");
-    } else if (!name && !cast.contains(line.speaker)) {
+    } else if (!name && !describes && !cast.contains(line.speaker)) {
       problems.push_back(where + ": nobody of the cast is called '" + line.speaker + "'");
     }
     for (const std::string& language : lines.table.languages) {
-      const bool spoken = !name && Has(lines.spoken, language);
+      const bool spoken = !name && !describes && Has(lines.spoken, language);
       const bool read = Has(lines.captions, language);
       if ((spoken || read) && !line.text.contains(language)) {
         problems.push_back(where + ": it has no text in '" + language + "', which is " +
@@ -174,6 +188,60 @@ void LineListener::Listen(double time) {
   }
 }
 
+DescriptionListener::DescriptionListener(const stage::Stage& stage,
+                                         const show::ShowContent& content,
+                                         std::map<std::string, double> longest)
+    : stage_(stage), content_(content), longest_(std::move(longest)) {}
+
+const std::string& DescriptionListener::NameOf(int line) const {
+  return content_.speech[static_cast<size_t>(line)].name;
+}
+
+void DescriptionListener::Tell(const std::string& problem, double time) {
+  problems_.push_back(problem + " (at " + Seconds(time) + ")");
+}
+
+void DescriptionListener::Listen(double time) {
+  const stage::StageDescription& now = stage_.description();
+  const bool begins = now.heard.speaking && now.heard.ticks == 0;
+  if (begins) {
+    const std::string& name = NameOf(now.heard.line);
+    const auto longest = longest_.find(name);
+    described_.insert(name);
+    last_ = name;
+    ends_ =
+        time + (longest != longest_.end() ? longest->second : stage_.SpeechSeconds(now.heard.line));
+  }
+  if (waiting_ >= 0 && now.waiting != waiting_ && !(begins && now.heard.line == waiting_)) {
+    Tell("the description '" + NameOf(waiting_) + "' finds no pause in which nobody speaks", time);
+  }
+  waiting_ = now.waiting;
+  for (const stage::ActorId id : stage_.actors()) {
+    const stage::Actor& actor = *stage_.Find(id);
+    const stage::Utterance& said = actor.state.utterance;
+    if (said.speaking && said.ticks == 0 && time < ends_) {
+      Tell("'" + actor.name + "' says '" + NameOf(said.line) + "' over the description '" + last_ +
+               "', which in the longest of its languages goes on for " + Seconds(ends_ - time),
+           time);
+    }
+  }
+}
+
+std::map<std::string, double> LongestDescriptions(const ProjectPaths& paths,
+                                                  const ProjectDocument& document,
+                                                  const ProjectLines& lines) {
+  std::map<std::string, double> longest;
+  const auto spoken = SpokenLines(paths, document, lines);
+  for (const bake::Line& line : lines.table.lines) {
+    if (spoken.ok() && ProjectLines::Describes(line, document)) {
+      if (const std::optional<double> seconds = SecondsOf(*spoken, line.id)) {
+        longest[line.id] = *seconds;
+      }
+    }
+  }
+  return longest;
+}
+
 std::vector<std::string> CheckScriptLines(const ProjectPaths& paths,
                                           const ProjectDocument& document,
                                           const ProjectLines& lines,
@@ -181,10 +249,10 @@ std::vector<std::string> CheckScriptLines(const ProjectPaths& paths,
   std::vector<std::string> problems;
   const std::string file = paths.Drama().filename().string();
   for (const WrittenLine& written : FindSayings(script)) {
-    if (lines.table.Find(written.id) == nullptr) {
+    const std::string problem = ProblemOf(document, lines, written.id, written.described);
+    if (!problem.empty()) {
       const drama::LuaPosition position = drama::PositionOf(script, written.offset);
-      problems.push_back(file + ":" + std::to_string(position.line) + ": " +
-                         UnknownLine(written.id));
+      problems.push_back(file + ":" + std::to_string(position.line) + ": " + problem);
     }
   }
   const auto timeline = drama::TimelineText::Read(script, file);
@@ -194,14 +262,17 @@ std::vector<std::string> CheckScriptLines(const ProjectPaths& paths,
   }
   for (size_t l = 0; l < timeline->lanes().size(); ++l) {
     const drama::TimelineLane& lane = timeline->lanes()[l];
-    for (size_t i = 0; lane.kind == drama::LaneKind::kSpeech && i < lane.size(); ++i) {
+    const bool described = lane.kind == drama::LaneKind::kDescriptions;
+    for (size_t i = 0; (described || lane.kind == drama::LaneKind::kSpeech) && i < lane.size();
+         ++i) {
       const std::optional<Json> id = timeline->Field({l, i}, "line");
       if (!id || !id->is_string()) {
         continue;
       }
       const std::string where = file + ":" + std::to_string(timeline->LineOf({l, i})) + ": ";
-      if (lines.table.Find(id->get<std::string>()) == nullptr) {
-        problems.push_back(where + UnknownLine(id->get<std::string>()));
+      const std::string problem = ProblemOf(document, lines, id->get<std::string>(), described);
+      if (!problem.empty()) {
+        problems.push_back(where + problem);
       }
       const std::optional<double> seconds = SecondsOf(*spoken, id->get<std::string>());
       if (seconds && lane.length[i] > 0.0 && *seconds > lane.length[i] + 0.01) {
@@ -237,6 +308,11 @@ std::vector<std::string> CheckTable(const ProjectPaths& paths,
           problems.push_back(place + ": line '" + id + "'" + text);
         }
       }
+    }
+  }
+  for (const std::string& language : lines.captions) {
+    if (const auto book = MakeDescriptions(paths, document, lines, language); !book.ok()) {
+      problems.push_back(book.message());
     }
   }
   if (!lines.captions.empty()) {

@@ -2,6 +2,8 @@
 
 // What is wrong with a project's lines, and what a drama says of them when.
 
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,8 +50,44 @@ class LineListener {
   std::vector<SaidLine> said_;
 };
 
-// Lines of the script that are written out, in `a:say("line")` and in speech lanes of tracks:
-// ids that the table lacks, and lanes whose items are shorter than what is said in them.
+// Listens to what is described: it is heard in pauses of what people say, in all languages.
+class DescriptionListener {
+ public:
+  // longest: seconds of each description, LongestDescriptions(). Borrows the rest.
+  DescriptionListener(const stage::Stage& stage,
+                      const show::ShowContent& content,
+                      std::map<std::string, double> longest);
+
+  // After a tick; time: of the drama.
+  void Listen(double time);
+  // That were heard.
+  const std::set<std::string>& described() const { return described_; }
+  // Descriptions that found no pause, lines that were begun before one had ended.
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  const std::string& NameOf(int line) const;
+  void Tell(const std::string& problem, double time);
+
+  const stage::Stage& stage_;
+  const show::ShowContent& content_;
+  std::map<std::string, double> longest_;
+  int waiting_ = -1;
+  std::string last_;    // that was heard
+  double ends_ = -1.0;  // when, in its longest language
+  std::set<std::string> described_;
+  std::vector<std::string> problems_;
+};
+
+// How long each description takes in the language in which it is longest, seconds. Those that
+// were not baked are not there.
+std::map<std::string, double> LongestDescriptions(const ProjectPaths& paths,
+                                                  const ProjectDocument& document,
+                                                  const ProjectLines& lines);
+
+// Lines of the script that are written out, in `a:say("line")`, in `describe("line")` and in their
+// lanes of tracks: ids that the table lacks, described lines that are none, and lanes whose items
+// are shorter than what is said in them.
 std::vector<std::string> CheckScriptLines(const ProjectPaths& paths,
                                           const ProjectDocument& document,
                                           const ProjectLines& lines,

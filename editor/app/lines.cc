@@ -8,6 +8,7 @@
 #include "editor/bake/caption_file.h"
 #include "editor/bake/caption_font.h"
 #include "editor/bake/caption_layout.h"
+#include "shared/bundle/show_manifest.h"
 #include "shared/core/file.h"
 #include "shared/show/evidence.h"
 #include "shared/stage/viseme_file.h"
@@ -63,11 +64,27 @@ Result<std::vector<stage::CaptionCue>> LoadPlacedCaptions(const std::filesystem:
   return cues;
 }
 
+// Cues of a line as it is said, by hand or laid out; empty where it has no text for them.
+Result<std::vector<stage::CaptionCue>> CuesOf(const ProjectPaths& paths,
+                                              const SpokenLine& spoken,
+                                              const human::VisemeTrack& visemes,
+                                              const std::string& captions) {
+  LARARIUM_ASSIGN_OR_RETURN(
+      std::vector<stage::CaptionCue> placed,
+      LoadPlacedCaptions(paths.Recordings(spoken.language), spoken.line->id + "." + captions));
+  const auto text = spoken.line->text.find(captions);
+  if (placed.empty() && text != spoken.line->text.end()) {
+    placed = bake::LayOutCaptions(text->second, visemes);
+  }
+  return placed;
+}
+
 Result<show::Speech> LoadLine(const SpokenLine& spoken,
                               const stage::CaptionBook& book,
                               const std::string& captions) {
   show::Speech speech;
   speech.name = spoken.line->id;
+  speech.describes = spoken.describes;
   LARARIUM_ASSIGN_OR_RETURN(speech.visemes, LoadVisemes(spoken));
   LARARIUM_ASSIGN_OR_RETURN(speech.sound, ReadBytes(spoken.sound));
   const auto of_line = book.lines.find(speech.name);
@@ -84,6 +101,11 @@ Result<show::Speech> LoadLine(const SpokenLine& spoken,
 
 bool ProjectLines::IsName(const bake::Line& line, const ProjectDocument& document) {
   return line.speaker.empty() && FindActor(document, line.id) != nullptr;
+}
+
+bool ProjectLines::Describes(const bake::Line& line, const ProjectDocument& document) {
+  return line.speaker == bundle::LineEntry::kDescription &&
+         FindActor(document, line.speaker) == nullptr;
 }
 
 Result<ProjectLines> LoadProjectLines(const ProjectPaths& paths, const ProjectDocument& document) {
@@ -114,7 +136,11 @@ Result<std::vector<SpokenLine>> SpokenLines(const ProjectPaths& paths,
       continue;
     }
     const CastDocument* speaker = FindActor(document, line.speaker);
-    for (const std::string& language : lines.spoken) {
+    const bool describes = ProjectLines::Describes(line, document);
+    const bake::VoiceSettings voice = describes            ? document.speech.description
+                                      : speaker != nullptr ? speaker->voice
+                                                           : bake::VoiceSettings();
+    for (const std::string& language : describes ? lines.captions : lines.spoken) {
       const auto text = line.text.find(language);
       if (text == line.text.end()) {
         continue;
@@ -124,8 +150,8 @@ Result<std::vector<SpokenLine>> SpokenLines(const ProjectPaths& paths,
       spoken.push_back(
           {&line,
            language,
-           {text->second, language, speaker != nullptr ? speaker->voice : bake::VoiceSettings(),
-            recording.value_or(std::filesystem::path())},
+           describes,
+           {text->second, language, voice, recording.value_or(std::filesystem::path())},
            paths.Speech(language, line.id + ".flac"),
            paths.Speech(language, line.id + ".visemes.json")});
     }
@@ -145,20 +171,32 @@ Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
   for (const SpokenLine& spoken : spoken_lines) {
-    if (spoken.language != language) {
+    if (spoken.language != language || spoken.describes) {
       continue;
     }
     LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
     for (const std::string& captions : lines.captions) {
-      const std::string stem = spoken.line->id + "." + captions;
-      LARARIUM_ASSIGN_OR_RETURN(std::vector<stage::CaptionCue> placed,
-                                LoadPlacedCaptions(paths.Recordings(language), stem));
-      const auto text = spoken.line->text.find(captions);
-      if (!placed.empty()) {
-        book.lines[spoken.line->id][captions] = std::move(placed);
-      } else if (text != spoken.line->text.end()) {
-        book.lines[spoken.line->id][captions] = bake::LayOutCaptions(text->second, visemes);
+      LARARIUM_ASSIGN_OR_RETURN(std::vector<stage::CaptionCue> cues,
+                                CuesOf(paths, spoken, visemes, captions));
+      if (!cues.empty()) {
+        book.lines[spoken.line->id][captions] = std::move(cues);
       }
+    }
+  }
+  return book;
+}
+
+Result<stage::CaptionBook> MakeDescriptions(const ProjectPaths& paths,
+                                            const ProjectDocument& document,
+                                            const ProjectLines& lines,
+                                            const std::string& language) {
+  stage::CaptionBook book;
+  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
+  for (const SpokenLine& spoken : spoken_lines) {
+    if (spoken.language == language && spoken.describes) {
+      LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
+      LARARIUM_ASSIGN_OR_RETURN(book.lines[spoken.line->id][language],
+                                CuesOf(paths, spoken, visemes, language));
     }
   }
   return book;
@@ -212,12 +250,19 @@ Status AddLines(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(
         captions, show::ChooseLanguage(lines.captions, languages.captions, "captions", place));
   }
-  LARARIUM_ASSIGN_OR_RETURN(const stage::CaptionBook book,
+  LARARIUM_ASSIGN_OR_RETURN(stage::CaptionBook book,
                             MakeCaptions(paths, document, lines, language));
+  const std::string described = !captions.empty()        ? captions
+                                : lines.captions.empty() ? language
+                                                         : lines.captions.front();
+  LARARIUM_ASSIGN_OR_RETURN(stage::CaptionBook descriptions,
+                            MakeDescriptions(paths, document, lines, described));
+  book.lines.merge(descriptions.lines);
   // In the wanted language, or else in the first that a line has.
   LARARIUM_ASSIGN_OR_RETURN(auto spoken, SpokenLines(paths, document, lines));
-  std::stable_partition(spoken.begin(), spoken.end(),
-                        [&](const SpokenLine& line) { return line.language == language; });
+  std::stable_partition(spoken.begin(), spoken.end(), [&](const SpokenLine& line) {
+    return line.language == (line.describes ? described : language);
+  });
   for (const SpokenLine& line : spoken) {
     const bool is_there =
         std::any_of(content.speech.begin(), content.speech.end(),

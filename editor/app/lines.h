@@ -26,13 +26,16 @@ struct ProjectLines {
 
   // A row that tells what captions call an actor: nobody says it.
   static bool IsName(const bake::Line& line, const ProjectDocument& document);
+  // What visitors who do not see well hear instead: in the language that others would read.
+  static bool Describes(const bake::Line& line, const ProjectDocument& document);
 };
 Result<ProjectLines> LoadProjectLines(const ProjectPaths& paths, const ProjectDocument& document);
 
-// A line that has a text in a language that is spoken.
+// A line that has a text in a language that is spoken; a description, in one of captions.
 struct SpokenLine {
   const bake::Line* line = nullptr;  // of the table
   std::string language;
+  bool describes = false;
   bake::SpeechSource source;
   std::filesystem::path sound;    // where it is baked
   std::filesystem::path visemes;  // likewise
@@ -46,6 +49,13 @@ Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
                                         const ProjectDocument& document,
                                         const ProjectLines& lines,
                                         const std::string& language);
+
+// What is to be read while descriptions are heard in a language: the same in that language. Fails
+// where one was not baked.
+Result<stage::CaptionBook> MakeDescriptions(const ProjectPaths& paths,
+                                            const ProjectDocument& document,
+                                            const ProjectLines& lines,
+                                            const std::string& language);
 
 // The letters of all captions and names. Adds a warning for characters that the font has not.
 // paradata: which the evidence view writes.

@@ -48,7 +48,7 @@ void AddLinesOf(const ProjectPaths& paths,
     return;  // told by whoever checks them
   }
   for (const bake::Line& line : lines->table.lines) {
-    if (!ProjectLines::IsName(line, document)) {
+    if (!ProjectLines::IsName(line, document) && !ProjectLines::Describes(line, document)) {
       subjects.push_back({Subject::kLine, line.id});
     }
   }

@@ -599,10 +599,14 @@ Status ParseLanguages(const JsonView& view, std::string_view key, std::vector<st
 }
 
 Result<SpeechDocument> ParseSpeech(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"spoken", "captions"}));
+  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"spoken", "captions", "description"}));
   SpeechDocument speech;
   LARARIUM_RETURN_IF_ERROR(ParseLanguages(view, "spoken", speech.spoken));
   LARARIUM_RETURN_IF_ERROR(ParseLanguages(view, "captions", speech.captions));
+  if (view.Has("description")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView voice, view.Field("description"));
+    LARARIUM_ASSIGN_OR_RETURN(speech.description, ParseVoice(voice));
+  }
   return speech;
 }
 
@@ -692,6 +696,9 @@ Json FormatProject(const ProjectDocument& document) {
   }
   if (!document.speech.empty()) {
     json["speech"] = {{"spoken", document.speech.spoken}, {"captions", document.speech.captions}};
+    if (document.speech.description != bake::VoiceSettings()) {
+      json["speech"]["description"] = FormatVoice(document.speech.description);
+    }
   }
   return json;
 }

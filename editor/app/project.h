@@ -159,10 +159,13 @@ std::string OccluderNames(const PlaceDocument& place);
 // The languages of the drama, of those of its lines. The first of each is what visitors hear
 // and read unless they choose another.
 struct SpeechDocument {
-  std::vector<std::string> spoken;    // voices are baked in these; none: the first of the lines
-  std::vector<std::string> captions;  // none: all of the lines
+  std::vector<std::string> spoken;       // voices are baked in these; none: the first of the lines
+  std::vector<std::string> captions;     // none: all of the lines
+  bake::VoiceSettings description = {};  // of what is described, where it is not recorded
 
-  bool empty() const { return spoken.empty() && captions.empty(); }
+  bool empty() const {
+    return spoken.empty() && captions.empty() && description == bake::VoiceSettings();
+  }
 };
 
 // All that a curator edits, but the drama, which is a file of its own.

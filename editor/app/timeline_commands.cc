@@ -147,7 +147,8 @@ class TimelineMaker {
       }
     }
     double length = lane.length[item];
-    if (length <= 0.0 && lane.kind == LaneKind::kSpeech) {
+    const bool said = lane.kind == LaneKind::kSpeech || lane.kind == LaneKind::kDescriptions;
+    if (length <= 0.0 && said) {
       const StageWords::Line* line = run_.words.FindLine(TextOf(fields, "line"));
       length = line == nullptr ? 0.0 : line->seconds;
     } else if (length <= 0.0 && lane.kind == LaneKind::kGestures) {

@@ -24,6 +24,7 @@ inline const char* NamingField(drama::LaneKind kind) {
       return "clip";
     case drama::LaneKind::kSpeech:
     case drama::LaneKind::kCaptions:
+    case drama::LaneKind::kDescriptions:
       return "line";
     case drama::LaneKind::kUses:
       return "object";

@@ -5,7 +5,8 @@
 //
 // lines.csv has a header: id, speaker, notes, and a language tag for each further column
 // (la, it, en). A row without a speaker whose id is an actor's name says how captions call
-// that actor.
+// that actor. A row whose speaker is "description" is a description for visitors who do not see
+// well, unless an actor is called so.
 
 #include <filesystem>
 #include <map>

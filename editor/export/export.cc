@@ -123,6 +123,15 @@ Status PackCaptions(const CaptionContent& content, size_t /*index*/, Packing& pa
   return Status();
 }
 
+Status PackDescriptions(const CaptionContent& content, size_t /*index*/, Packing& packing) {
+  LARARIUM_RETURN_IF_ERROR(
+      stage::ParseCaptions(content.captions, "descriptions in " + content.language).status());
+  const std::string member = "speech/" + content.language + "/descriptions.json";
+  packing.members.push_back({member, std::as_bytes(std::span(content.captions))});
+  packing.manifest.descriptions.push_back({content.language, member});
+  return Status();
+}
+
 Status PackCaptionFont(const ExportContent& content, Packing& packing) {
   if (content.caption_metrics.empty()) {
     return Status();
@@ -189,6 +198,7 @@ Status ExportBundle(const ExportContent& content,
   LARARIUM_RETURN_IF_ERROR(PackAll(content.objects, PackObject, packing, progress));
   LARARIUM_RETURN_IF_ERROR(PackAll(content.lines, PackSpoken, packing, progress));
   LARARIUM_RETURN_IF_ERROR(PackAll(content.spoken, PackCaptions, packing, progress));
+  LARARIUM_RETURN_IF_ERROR(PackAll(content.descriptions, PackDescriptions, packing, progress));
   packing.manifest.captions = content.captions;
   LARARIUM_RETURN_IF_ERROR(PackCaptionFont(content, packing));
   LARARIUM_RETURN_IF_ERROR(PackAll(content.sounds, PackSound, packing, progress));

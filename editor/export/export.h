@@ -57,10 +57,11 @@ struct ExportContent {
   std::vector<CastContent> cast;
   std::vector<ObjectContent> objects;
   std::vector<SpokenContent> lines;
-  std::vector<CaptionContent> spoken;    // the first unless another is asked for
-  std::vector<std::string> captions;     // languages, likewise
-  std::string caption_metrics;           // JSON: render::ParseCaptionFont; empty: no captions
-  std::vector<std::byte> caption_atlas;  // PNG
+  std::vector<CaptionContent> spoken;        // the first unless another is asked for
+  std::vector<CaptionContent> descriptions;  // of what is described, in each language
+  std::vector<std::string> captions;         // languages, likewise
+  std::string caption_metrics;               // JSON: render::ParseCaptionFont; empty: no captions
+  std::vector<std::byte> caption_atlas;      // PNG
   std::vector<audio::SoundData> sounds;
   std::string paradata;  // JSON: stage::ParseParadata; empty: none
 };

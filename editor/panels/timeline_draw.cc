@@ -58,6 +58,7 @@ ImVec4 LaneColour(LaneKind kind) {
     case LaneKind::kSounds:
       return {0.220f, 0.490f, 0.760f, 1.0f};
     case LaneKind::kCaptions:
+    case LaneKind::kDescriptions:
       return {0.337f, 0.706f, 0.914f, 1.0f};
     case LaneKind::kMarkers:
       return {0.780f, 0.800f, 0.840f, 1.0f};
@@ -87,6 +88,8 @@ const char* LaneTitle(LaneKind kind) {
       return Tr("Sounds");
     case LaneKind::kCaptions:
       return Tr("Captions");
+    case LaneKind::kDescriptions:
+      return Tr("Descriptions");
     case LaneKind::kMarkers:
       return Tr("Markers");
   }
@@ -115,6 +118,8 @@ const char* ItemTitle(LaneKind kind) {
       return Tr("Sound");
     case LaneKind::kCaptions:
       return Tr("Caption");
+    case LaneKind::kDescriptions:
+      return Tr("Description");
     case LaneKind::kMarkers:
       return Tr("Marker");
   }

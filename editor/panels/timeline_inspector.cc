@@ -17,6 +17,7 @@
 #include "editor/panels/timeline_rows.h"
 #include "editor/panels/widgets.h"
 #include "editor/panels/wrapped_field.h"
+#include "shared/bundle/show_manifest.h"
 #include "shared/human/face.h"
 #include "shared/stage/caption_file.h"
 
@@ -251,6 +252,11 @@ void UseFields(Item& item) {
   }
 }
 
+// Of lines that are written in the item's fields.
+std::string SpeakerOf(const Item& item) {
+  return item.kind == LaneKind::kDescriptions ? bundle::LineEntry::kDescription : item.actor;
+}
+
 // What the line says in one language.
 void LineText(Item& item, const bake::LineTable& table, const std::string& language) {
   const std::string id = item.TextOr("line", "");
@@ -263,7 +269,7 @@ void LineText(Item& item, const bake::LineTable& table, const std::string& langu
   ImGui::PushID(language.c_str());
   if (WrappedField("says", text, 2, 6)) {
     item.workspace.EditLines(Text(Tr("write %s"), id.c_str()),
-                             app::WithText(table, id, item.actor, language, text),
+                             app::WithText(table, id, SpeakerOf(item), language, text),
                              "line " + id + " " + language);
   }
   EndGestureWithItem(item.workspace);
@@ -311,9 +317,9 @@ void LineFields(Item& item) {
   PropertyLabel("");
   if (ImGui::Button(Tr("Another line"))) {
     const std::string next =
-        app::FreeLineId(*table, item.actor.empty() ? std::string("text") : item.actor);
+        app::FreeLineId(*table, SpeakerOf(item).empty() ? "text" : SpeakerOf(item));
     item.workspace.EditLines(Text(Tr("add the line %s"), next.c_str()),
-                             app::WithLine(*table, next, item.actor));
+                             app::WithLine(*table, next, SpeakerOf(item)));
     item.Set("line", next);
     item.workspace.EndGesture();
   }
@@ -325,6 +331,10 @@ void FieldsOfKind(Item& item) {
     case LaneKind::kSpeech:
     case LaneKind::kCaptions:
       LineFields(item);
+      break;
+    case LaneKind::kDescriptions:
+      LineFields(item);
+      NumberField(item, Tr("Patience"), "patience", 5.0, 0.1, 0.0, 600.0, "%.1f s");
       break;
     case LaneKind::kGestures:
       NameField(item, Tr("Clip"), "clip", ClipNames(item), nullptr);

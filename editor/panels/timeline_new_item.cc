@@ -1,6 +1,7 @@
 #include "editor/panels/timeline_new_item.h"
 
 #include "editor/app/line_edits.h"
+#include "shared/bundle/show_manifest.h"
 
 namespace lararium::panels {
 
@@ -39,6 +40,9 @@ Json NewFields(const app::Workspace& workspace,
     case LaneKind::kSpeech:
     case LaneKind::kCaptions:
       fields["line"] = LineFor(workspace, actor);
+      break;
+    case LaneKind::kDescriptions:
+      fields["line"] = LineFor(workspace, bundle::LineEntry::kDescription);
       break;
     case LaneKind::kGestures:
     case LaneKind::kClips: {

@@ -13,10 +13,10 @@ using drama::TaskRecord;
 namespace {
 
 // In which order a person's lanes are shown.
-constexpr LaneKind kOrder[] = {LaneKind::kSpeech,   LaneKind::kWalks,   LaneKind::kUses,
-                               LaneKind::kGestures, LaneKind::kGaze,    LaneKind::kExpressions,
-                               LaneKind::kClips,    LaneKind::kMarkers, LaneKind::kLights,
-                               LaneKind::kSounds,   LaneKind::kCaptions};
+constexpr LaneKind kOrder[] = {LaneKind::kSpeech,   LaneKind::kWalks,    LaneKind::kUses,
+                               LaneKind::kGestures, LaneKind::kGaze,     LaneKind::kExpressions,
+                               LaneKind::kClips,    LaneKind::kMarkers,  LaneKind::kLights,
+                               LaneKind::kSounds,   LaneKind::kCaptions, LaneKind::kDescriptions};
 
 using Blocks = std::vector<uint32_t>;
 

@@ -197,6 +197,13 @@ function Sound:stop(fade) end
 ---Seconds.
 function Sound:length() end
 
+---Describes what is to be seen to visitors who have chosen to hear that: a line whose speaker
+---is "description". It is said in the next pause of people's speech; not at all where that
+---takes longer than patience (5 s). Does not wait: the drama is the same for everybody.
+---@param line string
+---@param options? table
+function describe(line, options) end
+
 ---Settles the drama as a whole, while the script loads: {when_lost = "hold"}, time stands
 ---still while tracking is lost for longer than {patience = seconds}; "go_on": it runs on.
 ---{length = seconds}: when its story is told; life may go on after that.
@@ -335,7 +342,8 @@ function meet(point, ...) end
 ---track{ actor = "keeper", speech = {{at = 2, line = "salvete"}}, ... }
 ---Lanes of items. Each item has a time `at`, in seconds of the drama, and may have a
 ---length, an id and an ease. Of an actor: clips that lead its whole body, or gestures,
----speech, walks, uses, gaze, expressions; of the stage: lights, sounds, captions, markers.
+---speech, walks, uses, gaze, expressions; of the stage: lights, sounds, captions, descriptions,
+---markers.
 ---@param spec table
 function track(spec) end
 

@@ -29,13 +29,13 @@ function sound(name)
   return known[name]
 end
 
-local function number(options, key, default, least, most)
+local function number(options, key, default, least, most, word)
   local value = options[key]
   if value == nil then
     value = default
   end
   if type(value) ~= "number" or not (value >= least and value <= most) then
-    error("play: " .. key .. " must be a number from " .. least .. " to " .. most, 3)
+    error((word or "play") .. ": " .. key .. " must be a number from " .. least .. " to " .. most, 3)
   end
   return value
 end
@@ -80,4 +80,17 @@ end
 -- Seconds.
 function Sound:length()
   return self.seconds
+end
+
+-- Describes what is to be seen to visitors who have chosen to hear that: a line whose speaker
+-- is "description". It is said in the next pause of people's speech; not at all where that
+-- takes longer than patience (5 s). Does not wait: the drama is the same for everybody.
+function describe(line, options)
+  options = options or {}
+  if type(line) ~= "string" or type(options) ~= "table" then
+    error("describe: give the id of a line, as in describe(\"counter\", {patience = 5})", 2)
+  end
+  if not host.describe(line, number(options, "patience", 5, 0, 1e4, "describe")) then
+    error("describe: there is no line '" .. line .. "'; add it to lines.csv", 2)
+  end
 end

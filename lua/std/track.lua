@@ -138,6 +138,10 @@ end, function(item)
   sound(item.sound):stop(item.fade)
 end)
 
+host.play_lane("descriptions", function(item)
+  describe(item.line, item)
+end)
+
 -- Lanes of the stage that are played by the host.
 local of_stage = { "captions", "markers" }
 
@@ -149,7 +153,8 @@ end
 -- track{ actor = "keeper", speech = {{at = 2, line = "salvete"}}, ... }
 -- Lanes of items. Each item has a time `at`, in seconds of the drama, and may have a
 -- length, an id and an ease. Of an actor: clips that lead its whole body, or gestures,
--- speech, walks, uses, gaze, expressions; of the stage: lights, sounds, captions, markers.
+-- speech, walks, uses, gaze, expressions; of the stage: lights, sounds, captions, descriptions,
+-- markers.
 function track(spec)
   if type(spec) ~= "table" then
     error("track: give {actor = name, speech = {...}}", 2)

@@ -106,6 +106,17 @@ function showSound(player) {
   fill(byId('choose-captions'), readable.length === 0 ? [] : [...readable, 'off'], player.captions);
 }
 
+// Whose values are the page's own.
+function showChoices(player) {
+  for (const what of ['caption_size', 'caption_contrast', 'descriptions', 'reduced_motion']) {
+    const select = document.querySelector(`select[data-do="${what}"]`);
+    if (document.activeElement !== select) {
+      select.value = String(player[what]);
+    }
+    select.closest('label').hidden = player[what] === null;
+  }
+}
+
 function showWarnings(warnings) {
   const items = warnings.map((warning) => {
     const item = document.createElement('li');
@@ -148,6 +159,7 @@ function showPlayer(player) {
   showTracking(player.tracking);
   showMachine(player);
   showSound(player);
+  showChoices(player);
   showWarnings(player.warnings);
   byId('begin-again').hidden = !player.kiosk;
 }
@@ -283,7 +295,7 @@ for (const button of document.querySelectorAll('button[data-do]')) {
 for (const select of document.querySelectorAll('select[data-do]')) {
   select.addEventListener('change', () => {
     select.blur();
-    tell(select.dataset.do, select.value);
+    tell(select.dataset.do, 'switch' in select.dataset ? select.value === 'true' : select.value);
   });
 }
 

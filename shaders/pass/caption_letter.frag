@@ -3,6 +3,7 @@
 
 uniform sampler2D atlas;
 uniform float range_px;  // of the target, from the atlas' 0 to its 1
+uniform float bolder_px;
 
 in vec2 at;
 in vec4 paint;
@@ -11,6 +12,6 @@ in vec2 half_px;
 layout(location = 0) out vec4 colour;
 
 void main() {
-  float inside_px = (texture(atlas, at).r - 0.5) * range_px;
+  float inside_px = (texture(atlas, at).r - 0.5) * range_px + bolder_px;
   colour = vec4(paint.rgb, paint.a * clamp(inside_px + 0.5, 0.0, 1.0));
 }

@@ -205,8 +205,11 @@ void Mixer::Release(Slot& slot) {
 // Buses go down while somebody speaks, by as much as is heard of it.
 void Mixer::Duck(float seconds) {
   float heard = 0.0f;
+  bool described = false;
   for (const Slot& slot : slots_) {
-    if (slot.used && !slot.leaving && !slot.ended && slot.bus == Bus::kSpeech) {
+    const bool sounds = slot.used && !slot.leaving && !slot.ended;
+    described = described || (sounds && slot.bus == Bus::kDescription);
+    if (sounds && slot.bus == Bus::kSpeech) {
       const float distance =
           slot.head_locked ? 1.0f
                            : std::max(glm::distance(slot.state.position, listener_.position), 1.0f);
@@ -215,7 +218,7 @@ void Mixer::Duck(float seconds) {
   }
   const float depth = std::min(heard / kDuckingLevel, 1.0f);
   for (size_t bus = 0; bus < duck_db_.size(); ++bus) {
-    const float wanted = depth * kDuckDb[bus];
+    const float wanted = std::min(depth * kDuckDb[bus], described ? kDescribedDb[bus] : 0.0f);
     const float pace = wanted < duck_db_[bus] ? kDuckSeconds : kRecoverSeconds;
     duck_db_[bus] += Share(seconds, pace) * (wanted - duck_db_[bus]);
   }

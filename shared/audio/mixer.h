@@ -34,7 +34,9 @@ struct MixerOptions {
 };
 
 // Decibels by which a bus is lowered while somebody speaks nearby.
-inline constexpr std::array<float, 3> kDuckDb = {0.0f, -4.0f, -9.0f};  // by Bus
+inline constexpr std::array<float, 4> kDuckDb = {0.0f, -4.0f, -9.0f, 0.0f};  // by Bus
+// At least, while something is described.
+inline constexpr std::array<float, 4> kDescribedDb = {-6.0f, -8.0f, -9.0f, 0.0f};
 
 class Mixer {
  public:
@@ -98,7 +100,7 @@ class Mixer {
   MixerOptions options_;
   std::array<Slot, SoundGraph::kSources> slots_;
   std::vector<Onset> onsets_;
-  std::array<float, 3> duck_db_ = {};  // of each bus now
+  std::array<float, 4> duck_db_ = {};  // of each bus now
   Listener listener_;
   bool placed_ = false;  // listener_ was set
 };

@@ -12,8 +12,9 @@
 
 namespace lararium::audio {
 
-// What gives way to what: speech is never lowered, the others while somebody speaks.
-enum class Bus : uint8_t { kSpeech, kEffects, kAmbience };
+// What gives way to what: effects and ambience while somebody speaks, all while something is
+// described.
+enum class Bus : uint8_t { kSpeech, kEffects, kAmbience, kDescription };
 
 // Something that sounds.
 struct Voice {

@@ -318,6 +318,9 @@ Status ParseLines(const JsonView& json, ShowManifest& manifest) {
   LARARIUM_ASSIGN_OR_RETURN(manifest.lines, ParseOptionalList(json, "lines", kMaxLines, ParseLine));
   LARARIUM_ASSIGN_OR_RETURN(manifest.spoken,
                             ParseOptionalList(json, "spoken", kMaxLanguages, ParseSpokenLanguage));
+  LARARIUM_ASSIGN_OR_RETURN(
+      manifest.descriptions,
+      ParseOptionalList(json, "descriptions", kMaxLanguages, ParseSpokenLanguage));
   if (json.Has("captions")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView captions, json.Field("captions"));
     LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, captions.Array(kMaxLanguages));
@@ -343,9 +346,11 @@ void CollectLineMembers(const ShowManifest& manifest, std::vector<std::string_vi
       }
     }
   }
-  for (const SpokenLanguage& language : manifest.spoken) {
-    if (!language.captions.empty()) {
-      used.push_back(language.captions);
+  for (const std::vector<SpokenLanguage>* languages : {&manifest.spoken, &manifest.descriptions}) {
+    for (const SpokenLanguage& language : *languages) {
+      if (!language.captions.empty()) {
+        used.push_back(language.captions);
+      }
     }
   }
   if (manifest.caption_font) {
@@ -354,9 +359,23 @@ void CollectLineMembers(const ShowManifest& manifest, std::vector<std::string_vi
   }
 }
 
+Json FormatLanguages(const std::vector<SpokenLanguage>& languages) {
+  Json list = Json::array();
+  for (const SpokenLanguage& language : languages) {
+    list.push_back({{"name", language.name}});
+    if (!language.captions.empty()) {
+      list.back()["captions"] = language.captions;
+    }
+  }
+  return list;
+}
+
 void FormatLines(const ShowManifest& manifest, Json& json) {
   json["lines"] = Json::array();
-  json["spoken"] = Json::array();
+  json["spoken"] = FormatLanguages(manifest.spoken);
+  if (!manifest.descriptions.empty()) {
+    json["descriptions"] = FormatLanguages(manifest.descriptions);
+  }
   json["captions"] = manifest.captions;
   for (const LineEntry& line : manifest.lines) {
     Json spoken = Json::object();
@@ -368,12 +387,6 @@ void FormatLines(const ShowManifest& manifest, Json& json) {
     }
     json["lines"].push_back(
         {{"name", line.name}, {"speaker", line.speaker}, {"spoken", std::move(spoken)}});
-  }
-  for (const SpokenLanguage& language : manifest.spoken) {
-    json["spoken"].push_back({{"name", language.name}});
-    if (!language.captions.empty()) {
-      json["spoken"].back()["captions"] = language.captions;
-    }
   }
   if (manifest.caption_font) {
     json["caption_font"] = {{"metrics", manifest.caption_font->metrics},
@@ -436,6 +449,12 @@ Status CheckReferences(const ShowManifest& manifest, const JsonView& json) {
 }
 
 }  // namespace
+
+bool Describes(const ShowManifest& manifest, const LineEntry& line) {
+  return line.speaker == LineEntry::kDescription &&
+         std::none_of(manifest.cast.begin(), manifest.cast.end(),
+                      [&](const CastEntry& cast) { return cast.name == line.speaker; });
+}
 
 Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& place) {
   LARARIUM_ASSIGN_OR_RETURN(const Json root, ParseJson(text, place));

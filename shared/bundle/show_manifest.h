@@ -67,6 +67,10 @@ struct SpokenEntry {
 
 // What somebody can say.
 struct LineEntry {
+  // The speaker of what is described to visitors who do not see well, unless one of the cast is
+  // called so. It is heard in languages of captions.
+  static constexpr char kDescription[] = "description";
+
   std::string name;     // its id
   std::string speaker;  // of the cast, whose voice it has; may be empty
   std::map<std::string, SpokenEntry, std::less<>> spoken;  // by language
@@ -96,18 +100,22 @@ struct ShowManifest {
 
   std::string title;
   std::string credits;
-  std::string drama;                   // member, Lua source
-  std::vector<PlaceEntry> places;      // at least one; names are unique
-  std::vector<CastEntry> cast;         // names are unique
-  std::vector<ObjectEntry> objects;    // likewise; a bundle may lack the field
-  std::vector<LineEntry> lines;        // likewise
-  std::vector<SpokenLanguage> spoken;  // the first unless another is asked for
-  std::vector<std::string> captions;   // languages of captions, likewise
+  std::string drama;                         // member, Lua source
+  std::vector<PlaceEntry> places;            // at least one; names are unique
+  std::vector<CastEntry> cast;               // names are unique
+  std::vector<ObjectEntry> objects;          // likewise; a bundle may lack the field
+  std::vector<LineEntry> lines;              // likewise
+  std::vector<SpokenLanguage> spoken;        // the first unless another is asked for
+  std::vector<std::string> captions;         // languages of captions, likewise
+  std::vector<SpokenLanguage> descriptions;  // languages of what is described; may be empty
   std::optional<CaptionFontEntry> caption_font;
   std::vector<SoundEntry> sounds;  // names are unique
   std::string paradata;            // member, JSON: stage::ParseParadata; empty: it has none
   std::vector<Member> members;     // in their order in the file
 };
+
+// Whether a line of the manifest is described to visitors who do not see well.
+bool Describes(const ShowManifest& manifest, const LineEntry& line);
 
 // Checks every field, that names are unique, and that each member which an
 // entry names is listed. place: what errors call the text.

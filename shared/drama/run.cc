@@ -360,6 +360,7 @@ void Run::PushHost(lua_State* lua) {
                                      {"sound", Call<&Run::PushSound>},
                                      {"play_sound", Call<&Run::PlaySound>},
                                      {"stop_sound", Call<&Run::StopSound>},
+                                     {"describe", Call<&Run::Describe>},
                                      {nullptr, nullptr}};
   static_assert(std::size(kFunctions) <= 255, "the recording has a byte for them");
   lua_newtable(lua);

@@ -221,6 +221,7 @@ class Run {
   int PushSound(lua_State* lua);
   int PlaySound(lua_State* lua);
   int StopSound(lua_State* lua);
+  int Describe(lua_State* lua);
 
   std::unique_ptr<Sandbox> sandbox_;
   stage::Stage& stage_;

@@ -22,9 +22,10 @@ enum class LaneKind : uint8_t {
   kLights,
   kSounds,
   kCaptions,
+  kDescriptions,
   kMarkers,
 };
-inline constexpr int kLaneKinds = 11;
+inline constexpr int kLaneKinds = 12;
 
 struct LaneName {
   LaneKind kind;
@@ -42,6 +43,7 @@ inline constexpr std::array<LaneName, kLaneKinds> kLaneNames = {{
     {LaneKind::kLights, "lights", false},
     {LaneKind::kSounds, "sounds", false},
     {LaneKind::kCaptions, "captions", false},
+    {LaneKind::kDescriptions, "descriptions", false},
     {LaneKind::kMarkers, "markers", false},
 }};
 

@@ -55,4 +55,14 @@ int Run::StopSound(lua_State* lua) {
   return 0;
 }
 
+// describe(line, seconds that it waits for a pause) -> whether there is such a line
+int Run::Describe(lua_State* lua) {
+  const auto speech = stage_.FindSpeech(CheckText(lua, 1));
+  if (speech) {
+    stage_.Describe(*speech, CheckFinite(lua, 2, "patience"));
+  }
+  lua_pushboolean(lua, speech.has_value());
+  return 1;
+}
+
 }  // namespace lararium::drama

@@ -18,7 +18,11 @@ constexpr float kRowStep = 1.32f;   // em
 constexpr float kPadding = 0.5f;    // em
 constexpr float kMargin = 0.05f;    // of the height, below
 constexpr float kGap = 0.35f;       // em, between captions
+constexpr float kTallest = 0.42f;   // of the height: of larger letters than usual
+constexpr float kSmaller = 0.94f;   // from one size that is tried to the next
 constexpr float kGroundOpacity = 0.66f;
+constexpr float kEdge = 0.08f;  // em, about a ground of high contrast
+constexpr glm::vec3 kNameOfHighContrast(1.0f, 0.88f, 0.1f);
 constexpr float kLegendShare = 0.031f;  // of the height
 constexpr float kSmallestLegendPx = 12.0f;
 constexpr float kLegendWidth = 0.46f;                     // of the width: its text
@@ -38,49 +42,24 @@ float NameWidth(const CaptionFont& font, const Caption& caption) {
   return kNameSize * (TextWidth(font, caption.speaker) + arrow);
 }
 
-// A caption from its bottom edge upwards; gives its top edge.
-float LayOutOne(const CaptionFont& font,
-                const Caption& caption,
-                glm::vec2 size,
-                float bottom,
-                CaptionLayout& layout) {
-  float widest = NameWidth(font, caption);
-  int rows = 0;
-  ForEachRow(caption.text, [&](std::string_view row) {
-    widest = std::max(widest, TextWidth(font, row));
-    ++rows;
-  });
-  const float em = std::min(std::max(kLetterShare * size.y, kSmallestPx),
-                            kWidest * size.x / std::max(widest + 2.0f * kPadding, 1.0f));
-  const bool named = !caption.speaker.empty();
-  const float high = em * (kRowStep * (static_cast<float>(rows) + (named ? kNameSize : 0.0f)) +
-                           2.0f * kPadding - (kRowStep - 1.0f));
-  const float top = bottom - high;
-  const float half = em * (0.5f * widest + kPadding);
-  layout.grounds.push_back({{0.5f * size.x - half, top}, {0.5f * size.x + half, bottom}});
-  const auto middle = [&](float width_em, float y) {
-    return glm::vec2(std::round(0.5f * (size.x - em * width_em)), std::round(y));
-  };
-  float baseline = top + em * (kPadding + 0.78f * (named ? kNameSize : 1.0f));
-  if (named) {
-    layout.rows.push_back({caption.speaker, middle(NameWidth(font, caption), baseline),
-                           kNameSize * em, caption.colour, caption.side});
-    baseline += em * (kRowStep * kNameSize + 0.78f * (1.0f - kNameSize));
-  }
-  ForEachRow(caption.text, [&](std::string_view row) {
-    layout.rows.push_back({row, middle(TextWidth(font, row), baseline), em, glm::vec3(1.0f)});
-    baseline += em * kRowStep;
-  });
-  return top - kGap * em;
+// How wide a row is that may go on over breaks of its text, em.
+float RowWidth(const CaptionFont& font, std::string_view row) {
+  const auto breaks = static_cast<float>(std::count(row.begin(), row.end(), '\n'));
+  return TextWidth(font, row) + breaks * TextWidth(font, " ");
 }
+
+enum class Breaks { kKept, kFlow };
 
 // The first row of a text that is no wider than so many em: whole words, or one that is
 // wider. Takes it off the text.
-std::string_view TakeRow(const CaptionFont& font, float widest, std::string_view& text) {
+std::string_view TakeRow(const CaptionFont& font,
+                         float widest,
+                         Breaks breaks,
+                         std::string_view& text) {
   size_t end = 0;
-  while (end < text.size() && text[end] != '\n') {
+  while (end < text.size() && (text[end] != '\n' || breaks == Breaks::kFlow)) {
     const size_t next = std::min(text.find_first_of(" \n", end + 1), text.size());
-    if (end > 0 && TextWidth(font, text.substr(0, next)) > widest) {
+    if (end > 0 && RowWidth(font, text.substr(0, next)) > widest) {
       break;
     }
     end = next;
@@ -90,10 +69,125 @@ std::string_view TakeRow(const CaptionFont& font, float widest, std::string_view
   return row;
 }
 
+// A caption in rows. limit: no row is wider, em, and breaks of the text flow; 0: its rows are
+// those of the text.
+struct Block {
+  float em = 0.0f;  // pixels
+  float limit = 0.0f;
+  float widest = 0.0f;  // em
+  int rows = 0;
+};
+
+template <typename Visit>
+void ForEachRowOf(const CaptionFont& font, std::string_view text, float limit, Visit visit) {
+  if (limit <= 0.0f) {
+    ForEachRow(text, visit);
+    return;
+  }
+  while (!text.empty()) {
+    visit(TakeRow(font, limit, Breaks::kFlow, text));
+  }
+}
+
+Block BreakInto(const CaptionFont& font, const Caption& caption, float limit) {
+  Block block;
+  block.limit = limit;
+  block.widest = NameWidth(font, caption);
+  ForEachRowOf(font, caption.text, limit, [&](std::string_view row) {
+    block.widest = std::max(block.widest, RowWidth(font, row));
+    ++block.rows;
+  });
+  return block;
+}
+
+// em.
+float HeightOf(const Block& block, const Caption& caption) {
+  const float name = caption.speaker.empty() ? 0.0f : kNameSize;
+  return kRowStep * (static_cast<float>(block.rows) + name) + 2.0f * kPadding - (kRowStep - 1.0f);
+}
+
+// As few rows as fit, and these about as wide as each other.
+Block Flow(const CaptionFont& font, const Caption& caption, float limit) {
+  Block block = BreakInto(font, caption, limit);
+  float narrow = RowWidth(font, caption.text) / static_cast<float>(std::max(block.rows, 1));
+  for (; narrow < limit; narrow += 1.0f) {
+    const Block even = BreakInto(font, caption, narrow);
+    if (even.rows <= block.rows) {
+      return even;
+    }
+  }
+  return block;
+}
+
+// Larger letters as far as they fit, in the text's own rows if possible; else the usual ones,
+// smaller where a row would be too wide.
+Block FitInto(const CaptionFont& font,
+              const Caption& caption,
+              const CaptionStyle& style,
+              glm::vec2 size) {
+  const float usual = std::max(kLetterShare * size.y, kSmallestPx);
+  const Block own = BreakInto(font, caption, 0.0f);
+  for (float em = usual * ScaleOf(style.size); em > usual; em *= kSmaller) {
+    const float limit = kWidest * size.x / em - 2.0f * kPadding;
+    Block block = own.widest <= limit ? own : Flow(font, caption, limit);
+    if (block.widest <= limit && em * HeightOf(block, caption) <= kTallest * size.y) {
+      block.em = em;
+      return block;
+    }
+  }
+  Block block = own;
+  block.em = std::min(usual, kWidest * size.x / std::max(own.widest + 2.0f * kPadding, 1.0f));
+  return block;
+}
+
+// A row that goes on over breaks is laid out in pieces.
+void AddRow(const CaptionFont& font,
+            std::string_view row,
+            glm::vec2 baseline,
+            float em,
+            CaptionLayout& layout) {
+  ForEachRow(row, [&](std::string_view piece) {
+    layout.rows.push_back({piece, baseline, em, glm::vec3(1.0f)});
+    baseline.x += em * (TextWidth(font, piece) + TextWidth(font, " "));
+  });
+}
+
+// A caption from its bottom edge upwards; gives its top edge.
+float LayOutOne(const CaptionFont& font,
+                const Caption& caption,
+                const CaptionStyle& style,
+                glm::vec2 size,
+                float bottom,
+                CaptionLayout& layout) {
+  const Block block = FitInto(font, caption, style, size);
+  const float em = block.em;
+  const bool named = !caption.speaker.empty();
+  const float top = bottom - em * HeightOf(block, caption);
+  const float half = em * (0.5f * block.widest + kPadding);
+  layout.grounds.push_back(
+      {{0.5f * size.x - half, top}, {0.5f * size.x + half, bottom}, em * kEdge});
+  const auto middle = [&](float width_em, float y) {
+    return glm::vec2(std::round(0.5f * (size.x - em * width_em)), std::round(y));
+  };
+  float baseline = top + em * (kPadding + 0.78f * (named ? kNameSize : 1.0f));
+  if (named) {
+    layout.rows.push_back({caption.speaker, middle(NameWidth(font, caption), baseline),
+                           kNameSize * em, style.is_high() ? kNameOfHighContrast : caption.colour,
+                           caption.side});
+    baseline += em * (kRowStep * kNameSize + 0.78f * (1.0f - kNameSize));
+  }
+  ForEachRowOf(font, caption.text, block.limit, [&](std::string_view row) {
+    AddRow(font, row, middle(RowWidth(font, row), baseline), em, layout);
+    baseline += em * kRowStep;
+  });
+  return top - kGap * em;
+}
+
 }  // namespace
 
 void LayOut(const CaptionFont& font,
             std::span<const Caption> captions,
+            const CaptionStyle& style,
             int width,
             int height,
             CaptionLayout& layout) {
@@ -104,7 +198,7 @@ void LayOut(const CaptionFont& font,
   float bottom = size.y * (1.0f - kMargin);
   for (const Caption& caption : captions) {
     if (!caption.text.empty()) {
-      bottom = LayOutOne(font, caption, size, bottom, layout);
+      bottom = LayOutOne(font, caption, style, size, bottom, layout);
     }
   }
 }
@@ -124,7 +218,7 @@ void LayOutLegend(
     baseline += em * kRowStep;
   };
   const size_t ground = layout.grounds.size();
-  layout.grounds.push_back({corner, corner});
+  layout.grounds.push_back({corner, corner, em * kEdge});
   for (const LegendEntry& entry : legend.entries) {
     const glm::vec2 from(left, std::round(baseline - 0.83f * em));
     layout.swatches.push_back(
@@ -137,7 +231,7 @@ void LayOutLegend(
   }
   std::string_view text = legend.text;
   for (int row = 0; row < kMostLegendRows && !text.empty(); ++row) {
-    add(TakeRow(font, kLegendWidth * size.x / em, text), 0.0f, glm::vec3(1.0f));
+    add(TakeRow(font, kLegendWidth * size.x / em, Breaks::kKept, text), 0.0f, glm::vec3(1.0f));
   }
   layout.grounds[ground].to = {left + widest + em * kPadding,
                                baseline - em * (kRowStep - 0.22f - kPadding)};
@@ -154,8 +248,9 @@ Result<std::unique_ptr<CaptionPainter>> CaptionPainter::Create(CaptionFont font)
 
 void CaptionPainter::Draw(std::span<const Caption> captions,
                           const Legend* legend,
+                          const CaptionStyle& style,
                           const RenderTarget& target) {
-  LayOut(flat_->font(), captions, target.width(), target.height(), layout_);
+  LayOut(flat_->font(), captions, style, target.width(), target.height(), layout_);
   if (legend != nullptr) {
     LayOutLegend(flat_->font(), *legend, target.width(), target.height(), layout_);
   }
@@ -165,8 +260,7 @@ void CaptionPainter::Draw(std::span<const Caption> captions,
   const float radius_px = kRadius * static_cast<float>(target.height());
   flat_->Begin(target);
   for (const CaptionLayout::Ground& ground : layout_.grounds) {
-    flat_->Rectangle(ground.from, ground.to, radius_px,
-                     glm::vec4(0.0f, 0.0f, 0.0f, kGroundOpacity));
+    DrawGround(*flat_, {ground.from, ground.to, radius_px, ground.edge_px}, kGroundOpacity, style);
   }
   for (const CaptionLayout::Swatch& swatch : layout_.swatches) {
     flat_->Rectangle(swatch.place.from, swatch.place.to, 0.25f * radius_px,
@@ -174,13 +268,14 @@ void CaptionPainter::Draw(std::span<const Caption> captions,
   }
   for (const CaptionLayout::Row& row : layout_.rows) {
     const glm::vec4 colour(row.colour, 1.0f);
+    const float bolder = BolderOf(style);
     glm::vec2 pen = row.baseline;
     if (row.side == CaptionSide::kLeft) {
-      pen.x = flat_->Text(kArrowLeft, pen, row.em, colour);
+      pen.x = flat_->Text(kArrowLeft, pen, row.em, colour, bolder);
     }
-    pen.x = flat_->Text(row.text, pen, row.em, colour);
+    pen.x = flat_->Text(row.text, pen, row.em, colour, bolder);
     if (row.side == CaptionSide::kRight) {
-      flat_->Text(kArrowRight, pen, row.em, colour);
+      flat_->Text(kArrowRight, pen, row.em, colour, bolder);
     }
   }
   flat_->End();

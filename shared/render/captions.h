@@ -12,6 +12,7 @@
 
 #include "shared/core/status.h"
 #include "shared/render/caption_font.h"
+#include "shared/render/caption_style.h"
 #include "shared/render/flat_painter.h"
 #include "shared/render/render_target.h"
 
@@ -43,7 +44,9 @@ struct Legend {
 
 // Where the rows of captions come to lie; pixels of the target from its top-left corner.
 // Letters are 4.6 % of the height, at least 14 px, and smaller where a row would leave the
-// middle nine tenths of the width. The first caption is lowest.
+// middle nine tenths of the width. Larger ones (CaptionStyle) are in more rows instead, which may
+// go on over breaks of the text, and only as large as two such captions fit the height. The first
+// caption is lowest.
 struct CaptionLayout {
   struct Row {
     std::string_view text;
@@ -55,6 +58,7 @@ struct CaptionLayout {
   struct Ground {
     glm::vec2 from;
     glm::vec2 to;
+    float edge_px = 0.0f;  // in high contrast
   };
   struct Swatch {
     Ground place;
@@ -69,6 +73,7 @@ struct CaptionLayout {
 // Allocates nothing once the layout has held as many.
 void LayOut(const CaptionFont& font,
             std::span<const Caption> captions,
+            const CaptionStyle& style,
             int width,
             int height,
             CaptionLayout& layout);
@@ -87,7 +92,10 @@ class CaptionPainter {
   CaptionPainter& operator=(const CaptionPainter&) = delete;
 
   // Over what the target holds. legend: nullptr where there is none.
-  void Draw(std::span<const Caption> captions, const Legend* legend, const RenderTarget& target);
+  void Draw(std::span<const Caption> captions,
+            const Legend* legend,
+            const CaptionStyle& style,
+            const RenderTarget& target);
 
   // For what else is written in the same letters.
   FlatPainter& flat() { return *flat_; }

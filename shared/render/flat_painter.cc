@@ -56,14 +56,20 @@ struct FlatPainter::State {
   Kind kind = Kind::kNone;
   float size = 0.0f;  // of what is gathered: radius, or em
   Stripes stripes = {0, 1.0f};
+  float bolder = 0.0f;  // em
   glm::vec2 target_size = glm::vec2(1.0f);
 
-  void Gather(Kind wanted, float wanted_size, Stripes wanted_stripes = {0, 1.0f}) {
-    if (kind != wanted || size != wanted_size || stripes != wanted_stripes) {
+  void Gather(Kind wanted,
+              float wanted_size,
+              Stripes wanted_stripes = {0, 1.0f},
+              float wanted_bolder = 0.0f) {
+    if (kind != wanted || size != wanted_size || stripes != wanted_stripes ||
+        bolder != wanted_bolder) {
       Flush();
       kind = wanted;
       size = wanted_size;
       stripes = wanted_stripes;
+      bolder = wanted_bolder;
     }
   }
 
@@ -93,6 +99,7 @@ struct FlatPainter::State {
         letter_pass.Set("atlas", 0);
         // How many pixels of the target the whole range of the atlas' values spans.
         letter_pass.Set("range_px", 2.0f * font.rim_px * size / font.em_px);
+        letter_pass.Set("bolder_px", bolder * size);
         return letter_pass;
       default:
         glBindTexture(GL_TEXTURE_2D, picture.id());
@@ -174,9 +181,10 @@ void FlatPainter::Rectangle(
   state_->AddQuad(from, to, -half, half, colour);
 }
 
-float FlatPainter::Text(std::string_view text, glm::vec2 baseline, float em, glm::vec4 colour) {
+float FlatPainter::Text(
+    std::string_view text, glm::vec2 baseline, float em, glm::vec4 colour, float bolder) {
   State& state = *state_;
-  state.Gather(State::Kind::kLetter, em);
+  state.Gather(State::Kind::kLetter, em, {0, 1.0f}, bolder);
   const glm::vec2 atlas_size(state.font.atlas.cols, state.font.atlas.rows);
   for (size_t at = 0; at < text.size();) {
     const CaptionGlyph* glyph = state.font.Find(NextCharacter(text, at));
@@ -211,5 +219,22 @@ void FlatPainter::End() {
   glDisable(GL_BLEND);
   glBindVertexArray(0);
 }
+
+void DrawGround(FlatPainter& painter,
+                const Ground& ground,
+                float opacity,
+                const CaptionStyle& style,
+                float shown) {
+  if (style.is_high()) {
+    const glm::vec2 edge(ground.edge_px);
+    painter.Rectangle(ground.from - edge, ground.to + edge, ground.radius_px + ground.edge_px,
+                      glm::vec4(1.0f, 1.0f, 1.0f, shown));
+    opacity = 1.0f;
+  }
+  painter.Rectangle(ground.from, ground.to, ground.radius_px,
+                    glm::vec4(0.0f, 0.0f, 0.0f, opacity * shown));
+}
+
+float BolderOf(const CaptionStyle& style) { return style.is_high() ? 0.02f : 0.0f; }
 
 }  // namespace lararium::render

@@ -12,6 +12,7 @@
 
 #include "shared/core/status.h"
 #include "shared/render/caption_font.h"
+#include "shared/render/caption_style.h"
 #include "shared/render/render_target.h"
 
 namespace lararium::render {
@@ -39,8 +40,10 @@ class FlatPainter {
   // With round corners.
   void Rectangle(
       glm::vec2 from, glm::vec2 to, float radius_px, glm::vec4 colour, Stripes stripes = {0, 1.0f});
-  // A row from the left end of its baseline; says where it ends.
-  float Text(std::string_view text, glm::vec2 baseline, float em, glm::vec4 colour);
+  // A row from the left end of its baseline; says where it ends. bolder: em by which outlines are
+  // moved outwards.
+  float Text(
+      std::string_view text, glm::vec2 baseline, float em, glm::vec4 colour, float bolder = 0.0f);
   // picture: CV_8UC1. It is uploaded when its number is another than the last picture's.
   void Picture(
       const cv::Mat& picture, uint64_t number, glm::vec2 from, glm::vec2 to, float opacity);
@@ -52,5 +55,22 @@ class FlatPainter {
 
   std::unique_ptr<State> state_;
 };
+
+// What words stand on: dark and translucent; in high contrast black, within a white edge.
+struct Ground {
+  glm::vec2 from;
+  glm::vec2 to;
+  float radius_px = 0.0f;
+  float edge_px = 0.0f;  // of high contrast
+};
+// opacity: of normal contrast, 0..1; shown: of all of it, likewise.
+void DrawGround(FlatPainter& painter,
+                const Ground& ground,
+                float opacity,
+                const CaptionStyle& style,
+                float shown = 1.0f);
+
+// For FlatPainter::Text.
+float BolderOf(const CaptionStyle& style);
 
 }  // namespace lararium::render

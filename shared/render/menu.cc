@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 namespace lararium::render {
@@ -12,9 +13,18 @@ constexpr float kPadding = 0.25f;        // of a cell's height, at each end of a
 constexpr float kRadius = 0.25f;         // likewise
 constexpr float kCapitals = 0.72f;       // em
 constexpr float kReticleShare = 0.008f;  // of the picture's height
-const glm::vec4 kGround(0.05f, 0.05f, 0.06f, 0.72f);
-const glm::vec4 kSelected(0.22f, 0.22f, 0.25f, 0.85f);
-const glm::vec4 kProgress(0.86f, 0.62f, 0.24f, 0.85f);
+constexpr float kEdge = 0.035f;          // of a cell's height, in high contrast
+
+struct Colours {
+  glm::vec4 ground;
+  glm::vec4 selected;
+  glm::vec4 progress;
+};
+const Colours kNormal = {
+    {0.05f, 0.05f, 0.06f, 0.72f}, {0.22f, 0.22f, 0.25f, 0.85f}, {0.86f, 0.62f, 0.24f, 0.85f}};
+// White is read on all of them at 7 to 1 and more (WCAG 2.1, 1.4.6).
+const Colours kHigh = {
+    {0.0f, 0.0f, 0.0f, 1.0f}, {0.0f, 0.1f, 0.45f, 1.0f}, {0.0f, 0.3f, 0.6f, 1.0f}};
 const glm::vec4 kLetters(1.0f);
 
 // The largest letters that fit each cell: all are alike.
@@ -28,19 +38,26 @@ float EmOf(const CaptionFont& font, const Menu& menu) {
   return em;
 }
 
-void DrawCell(FlatPainter& painter, const MenuCell& cell, float em) {
+void DrawCell(FlatPainter& painter, const MenuCell& cell, const Menu& menu, float em) {
   const glm::vec2 size = cell.to - cell.from;
   const float radius = kRadius * size.y;
-  painter.Rectangle(cell.from, cell.to, radius, cell.selected ? kSelected : kGround);
-  if (cell.progress > 0.0f) {
+  const Colours& colours = menu.style.is_high() ? kHigh : kNormal;
+  if (menu.style.is_high()) {
+    const float edge = kEdge * size.y;
+    painter.Rectangle(cell.from - edge, cell.to + edge, radius + edge, kLetters);
+  }
+  const glm::vec4 ground = cell.selected ? colours.selected : colours.ground;
+  const float faded = menu.fades ? cell.progress : 0.0f;
+  painter.Rectangle(cell.from, cell.to, radius, glm::mix(ground, colours.progress, faded));
+  if (cell.progress > 0.0f && !menu.fades) {
     const float wide = std::max(cell.progress * size.x, 2.0f * radius);
-    painter.Rectangle(cell.from, {cell.from.x + wide, cell.to.y}, radius, kProgress);
+    painter.Rectangle(cell.from, {cell.from.x + wide, cell.to.y}, radius, colours.progress);
   }
   const float width = TextWidth(painter.font(), cell.text);
   painter.Text(cell.text,
                {std::round(0.5f * (cell.from.x + cell.to.x - em * width)),
                 std::round(0.5f * (cell.from.y + cell.to.y + kCapitals * em))},
-               em, kLetters);
+               em, kLetters, BolderOf(menu.style));
 }
 
 }  // namespace
@@ -49,7 +66,7 @@ void DrawMenu(FlatPainter& painter, const Menu& menu, const RenderTarget& target
   const float em = EmOf(painter.font(), menu);
   painter.Begin(target);
   for (const MenuCell& cell : menu.cells) {
-    DrawCell(painter, cell, em);
+    DrawCell(painter, cell, menu, em);
   }
   const float radius = std::max(kReticleShare * static_cast<float>(target.height()), 3.0f);
   const glm::vec2 half(radius);

@@ -22,6 +22,8 @@ struct MenuCell {
 struct Menu {
   std::vector<MenuCell> cells;
   glm::vec2 gaze = glm::vec2(0.0f);
+  bool fades = false;  // cells change their colour evenly in place of being filled
+  CaptionStyle style;  // its contrast; letters are as large as the cells let them be
 };
 
 // Letters are alike in all cells, and made smaller where a text would not fit its own.

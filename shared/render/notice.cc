@@ -11,6 +11,8 @@ namespace {
 constexpr float kLetterShare = 0.05f;  // of the height
 constexpr float kSmallestPx = 15.0f;
 constexpr float kWidest = 0.86f;        // of the width
+constexpr float kTallest = 0.94f;       // of the height
+constexpr float kEdge = 0.08f;          // em, of high contrast
 constexpr float kPictureShare = 0.38f;  // of the height, at most
 constexpr float kRowStep = 1.32f;       // em
 constexpr float kPadding = 0.8f;        // em
@@ -31,8 +33,12 @@ NoticeLayout LayOut(const CaptionFont& font, const Notice& notice, int width, in
     widest = std::max(widest, TextWidth(font, row));
     rows += 1.0f;
   });
-  layout.em = std::min(std::max(kLetterShare * size.y, kSmallestPx),
-                       kWidest * size.x / std::max(widest + 2.0f * kPadding, 1.0f));
+  const float usual = std::max(kLetterShare * size.y, kSmallestPx);
+  // The picture takes its share whatever the letters do; words have the rest of the height.
+  const float room = (kTallest - (notice.picture.empty() ? 0.0f : kPictureShare)) * size.y;
+  layout.em = std::min({usual * ScaleOf(notice.style.size),
+                        kWidest * size.x / std::max(widest + 2.0f * kPadding, 1.0f),
+                        std::max(room / (kRowStep * rows + 2.7f * kPadding), 1.0f)});
   const float padding = kPadding * layout.em;
   glm::vec2 picture(0.0f);
   if (!notice.picture.empty()) {
@@ -61,8 +67,10 @@ void DrawNotice(FlatPainter& painter, const Notice& notice, const RenderTarget& 
   const NoticeLayout layout = LayOut(painter.font(), notice, target.width(), target.height());
   const glm::vec4 white(1.0f, 1.0f, 1.0f, notice.opacity);
   painter.Begin(target);
-  painter.Rectangle(layout.from, layout.to, kRadius * static_cast<float>(target.height()),
-                    glm::vec4(0.0f, 0.0f, 0.0f, kGroundOpacity * notice.opacity));
+  DrawGround(
+      painter,
+      {layout.from, layout.to, kRadius * static_cast<float>(target.height()), kEdge * layout.em},
+      kGroundOpacity, notice.style, notice.opacity);
   if (!notice.picture.empty()) {
     painter.Picture(notice.picture, notice.picture_number, layout.picture_from, layout.picture_to,
                     notice.opacity);
@@ -71,7 +79,7 @@ void DrawNotice(FlatPainter& painter, const Notice& notice, const RenderTarget& 
   ForEachRow(notice.text, [&](std::string_view row) {
     const float wide = TextWidth(painter.font(), row) * layout.em;
     painter.Text(row, {std::round(0.5f * (layout.from.x + layout.to.x - wide)), baseline},
-                 layout.em, white);
+                 layout.em, white, BolderOf(notice.style));
     baseline += kRowStep * layout.em;
   });
   painter.End();

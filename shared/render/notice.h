@@ -18,6 +18,7 @@ struct Notice {
   cv::Mat picture;              // CV_8UC1; may be empty
   uint64_t picture_number = 0;  // another one for another picture
   float opacity = 1.0f;
+  CaptionStyle style;
 };
 
 // Where a notice comes to lie; pixels of the target from its top-left corner.
@@ -29,6 +30,7 @@ struct NoticeLayout {
   float em = 0.0f;
   float first_baseline = 0.0f;
 };
+// Letters are smaller than their style where they would leave the picture.
 NoticeLayout LayOut(const CaptionFont& font, const Notice& notice, int width, int height);
 
 void DrawNotice(FlatPainter& painter, const Notice& notice, const RenderTarget& target);

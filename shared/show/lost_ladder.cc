@@ -16,6 +16,7 @@ constexpr double kMotionSeconds = 0.25;
 constexpr double kLongestInterval = 0.2;  // between poses that tell a motion
 constexpr double kCorrectionSeconds = 0.25;
 constexpr double kLeaveSeconds = 0.12;   // people who are found elsewhere
+constexpr double kUnseenShiftPx = 1.5;   // nobody sees a jump by as much
 constexpr double kViewedDistance = 3.0;  // metres
 
 // What is left of a correction after a share of its time.
@@ -60,7 +61,11 @@ double PictureShiftOf(const geometry::CameraModel& display,
   return most;
 }
 
-void LostLadder::Reset() { *this = LostLadder(options_); }
+void LostLadder::Reset() {
+  const bool glides = glides_;
+  *this = LostLadder(options_);
+  glides_ = glides;
+}
 
 // Without a past everything is as the frame has it, at once: a seek must not fade.
 void LostLadder::Begin(double time, const std::optional<Rigid3>& pose, uint32_t place) {
@@ -94,9 +99,8 @@ void LostLadder::Track(double step,
   const bool found = lost_since_.has_value();
   if (found && shown_ && opacity_ > 0.0f) {
     const Rigid3 continued = leaving_ ? *shown_ : Continued(time);
-    leaving_ = place != place_ || PictureShiftOf(display, pose, continued) >
-                                      MostShift(PictureShiftOf(display, *last_pose_, pose));
-    offset_ = leaving_ ? Twist::Zero().eval() : vision::TwistBetween(pose, continued);
+    leaving_ = place != place_ || IsElsewhere(pose, continued, display);
+    offset_ = leaving_ || !glides_ ? Twist::Zero().eval() : vision::TwistBetween(pose, continued);
     found_time_ = time;
   } else if (found || !shown_) {
     offset_.setZero();
@@ -145,9 +149,14 @@ void LostLadder::Lose(double step, double time, bool dark) {
   }
 }
 
-// A correction is not seen while the whole picture moves by as much.
-double LostLadder::MostShift(double moved_px) const {
-  return std::clamp(0.5 * moved_px, options_.most_shift_px, 4.0 * options_.most_shift_px);
+// So far from where people are shown that they are not corrected. A correction is not seen while
+// the whole picture moves by as much.
+bool LostLadder::IsElsewhere(const Rigid3& pose,
+                             const Rigid3& continued,
+                             const geometry::CameraModel& display) const {
+  const double moved = PictureShiftOf(display, *last_pose_, pose);
+  const double most = std::clamp(0.5 * moved, options_.most_shift_px, 4.0 * options_.most_shift_px);
+  return PictureShiftOf(display, pose, continued) > (glides_ ? most : kUnseenShiftPx);
 }
 
 LostLadder::View LostLadder::MakeView(double time) const {

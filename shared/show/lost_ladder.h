@@ -63,6 +63,10 @@ class LostLadder {
   // The pose of the last frame that had one; where it was before anybody was lost.
   const std::optional<geometry::Rigid3>& last_pose() const { return last_pose_; }
 
+  // false: where the pose comes back elsewhere than people are shown, they go and come again
+  // instead of moving there.
+  void SetGlides(bool glides) { glides_ = glides; }
+
   // Another visitor: as if nothing had been seen.
   void Reset();
 
@@ -77,10 +81,13 @@ class LostLadder {
              const geometry::CameraModel& display);
   void Lose(double step, double time, bool dark);
   geometry::Rigid3 Continued(double time) const;
-  double MostShift(double moved_px) const;
+  bool IsElsewhere(const geometry::Rigid3& pose,
+                   const geometry::Rigid3& continued,
+                   const geometry::CameraModel& display) const;
   View MakeView(double time) const;
 
   LostLadderOptions options_;
+  bool glides_ = true;
   std::optional<double> time_;                 // of the last frame
   std::optional<double> lost_since_;           // none: it had a pose
   std::optional<geometry::Rigid3> last_pose_;  // that a frame had

@@ -252,6 +252,7 @@ LostLadder::View Show::Climb(const vision::TrackedFrame& tracked,
                              const std::optional<geometry::Rigid3>& camera_from_stage,
                              uint32_t place) {
   if (ladder_) {
+    ladder_->SetGlides(!reduced_motion_);
     return ladder_->Update(tracked.frame.capture_time, camera_from_stage, place, tracked.camera,
                            tracked.reason == vision::TrackReason::kTooDark);
   }
@@ -572,6 +573,12 @@ void Show::StageLines(double behind, StagedFrame& staged) const {
                             static_cast<double>(caption.ticks) * stage::Stage::kTickSeconds,
                             false});
   }
+  if (const stage::Utterance& heard = drawn_.description.heard; describes_ && heard.line >= 0) {
+    const double seconds =
+        stage::Stage::UtteredSeconds(heard) - behind * stage::Stage::kTickSeconds;
+    staged.lines.push_back({StagedLine::kDescription, static_cast<uint32_t>(heard.line),
+                            std::max(seconds, 0.0), heard.speaking});
+  }
 }
 
 // Who lies outside of the picture, or is not drawn, still has a mouth.
@@ -622,6 +629,10 @@ void Show::StageSounds(StagedFrame& staged) {
                       tick_time - stage::Stage::UtteredSeconds(utterance),
                       MouthOf(visible.cast, *visible.state), scene);
     }
+  }
+  if (const stage::Utterance& heard = drawn_.description.heard; describes_ && heard.line >= 0) {
+    sound_->AddDescription(static_cast<size_t>(heard.line),
+                           tick_time - stage::Stage::UtteredSeconds(heard), scene);
   }
   for (size_t i = 0; i < drawn_.objects.size(); ++i) {
     const stage::StageSnapshot::ObjectEntry& entry = drawn_.objects[i];

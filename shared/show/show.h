@@ -4,6 +4,7 @@
 // where that frame's place has it, and hands out what is to be drawn over it.
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <glm/mat4x4.hpp>
 #include <memory>
@@ -68,8 +69,11 @@ struct StagedMesh {
 // A line that somebody says at the moment of a frame, or that can still be read.
 struct StagedLine {
   static constexpr uint32_t kNobody = ~0u;
+  static constexpr uint32_t kDescription = ~0u - 1;
 
-  uint32_t cast = 0;      // index into ShowContent::cast: who says it; kNobody: it is only read
+  // Index into ShowContent::cast: who says it; kNobody: it is only read; kDescription: it is
+  // described.
+  uint32_t cast = 0;
   uint32_t line = 0;      // index into ShowContent::speech
   double seconds = 0.0;   // since it began
   bool speaking = false;  // false: said to its end
@@ -151,6 +155,11 @@ class Show {
   // From any thread.
   void PressKey(std::string_view key);
   void SetHour(float hour);
+  // Whether the visitor hears and reads what is described. The drama is the same either way.
+  // From any thread.
+  void SetDescriptions(bool on) { describes_ = on; }
+  // For visitors whom motion makes unwell: nothing glides that can fade. From any thread.
+  void SetReducedMotion(bool on) { reduced_motion_ = on; }
   // How finely people are shaped, lit and drawn from the next frame on.
   void SetQuality(const render::Quality& quality);
 
@@ -282,6 +291,8 @@ class Show {
   std::mutex input_mutex_;
   std::string keys_;    // pressed since the last frame
   float hour_ = -1.0f;  // of the day; below 0: unknown
+  std::atomic<bool> describes_ = false;
+  std::atomic<bool> reduced_motion_ = false;
   std::optional<double> restart_;
   bool forget_pose_ = false;
   double start_ = 0.0;  // of the drama, in the time of the frames

@@ -44,7 +44,10 @@ const stage::CaptionCue* CueOf(const CaptionTexts& texts, const StagedLine& line
 CaptionTexts TextsOf(const ShowContent& content) {
   CaptionTexts texts;
   for (const Speech& line : content.speech) {
-    texts.lines.push_back(line.captions);
+    std::vector<stage::CaptionCue>& cues = texts.lines.emplace_back(line.captions);
+    for (size_t i = 0; line.describes && i < cues.size(); ++i) {
+      cues[i].text = "[" + cues[i].text + "]";
+    }
   }
   for (const CastMember& member : content.cast) {
     texts.speakers.push_back(member.title);
@@ -105,7 +108,7 @@ void CollectCaptions(const CaptionTexts& texts,
     after_cast = next->cast;
     render::Caption& caption = captions.emplace_back();
     caption.text = CueOf(texts, *next)->text;
-    if (next->cast != StagedLine::kNobody) {
+    if (next->cast != StagedLine::kNobody && next->cast != StagedLine::kDescription) {
       caption.speaker = texts.speakers[next->cast];
       caption.colour = kColours[next->cast % kColours.size()];
       caption.side = SideOf(staged, next->cast);
@@ -145,6 +148,7 @@ Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& co
 void ShowCaptions::DrawGuide(const StagedFrame& staged, const render::RenderTarget& target) {
   render::Notice notice;
   notice.opacity = staged.guide.opacity;
+  notice.style = style_;
   switch (staged.guide.says) {
     case StagedGuide::Says::kLookThere:
       notice.text = guides_[staged.place];
@@ -167,7 +171,8 @@ void ShowCaptions::Draw(const StagedFrame& staged,
   const bool has_letters = !painter_->flat().font().glyphs.empty();
   if (has_letters && (!staged.lines.empty() || evidence != nullptr)) {
     CollectCaptions(texts_, staged, captions_);
-    painter_->Draw(captions_, evidence != nullptr ? &evidence->LegendOf(staged) : nullptr, target);
+    painter_->Draw(captions_, evidence != nullptr ? &evidence->LegendOf(staged) : nullptr, style_,
+                   target);
   }
   if (staged.guide.opacity > 0.0f) {
     DrawGuide(staged, target);

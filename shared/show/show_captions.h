@@ -19,8 +19,9 @@ namespace lararium::show {
 
 // What captions need of a show.
 struct CaptionTexts {
-  std::vector<std::vector<stage::CaptionCue>> lines;  // by ShowContent::speech
-  std::vector<std::string> speakers;                  // by ShowContent::cast
+  // By ShowContent::speech; descriptions in brackets.
+  std::vector<std::vector<stage::CaptionCue>> lines;
+  std::vector<std::string> speakers;  // by ShowContent::cast
 };
 CaptionTexts TextsOf(const ShowContent& content);
 
@@ -48,6 +49,9 @@ class ShowCaptions {
   // From now on the tracking's state is shown, with this behind it; nullopt: not.
   void SetStaff(std::optional<std::string> more) { staff_ = std::move(more); }
 
+  // From now on; the menu has its own.
+  void SetStyle(const render::CaptionStyle& style) { style_ = style; }
+
   // From now on over all of it; nullopt: there is none.
   void SetMenu(std::optional<render::Menu> menu) { menu_ = std::move(menu); }
 
@@ -63,6 +67,7 @@ class ShowCaptions {
   std::vector<std::string> guides_;  // of each place
   std::string dark_guide_;
   std::string farewell_;
+  render::CaptionStyle style_;
   std::optional<std::string> staff_;
   std::optional<render::Menu> menu_;
   std::unique_ptr<render::CaptionPainter> painter_;

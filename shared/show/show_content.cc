@@ -185,9 +185,10 @@ Result<std::string> LoadText(const bundle::Bundle& bundle, const std::string& me
 
 using CaptionBooks = std::map<std::string, stage::CaptionBook>;  // by spoken language
 
-Result<CaptionBooks> LoadCaptionBooks(const bundle::Bundle& bundle) {
+Result<CaptionBooks> LoadCaptionBooks(const bundle::Bundle& bundle,
+                                      const std::vector<bundle::SpokenLanguage>& languages) {
   CaptionBooks books;
-  for (const bundle::SpokenLanguage& language : bundle.manifest().spoken) {
+  for (const bundle::SpokenLanguage& language : languages) {
     if (!language.captions.empty()) {
       LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, language.captions));
       LARARIUM_ASSIGN_OR_RETURN(
@@ -201,9 +202,11 @@ Result<CaptionBooks> LoadCaptionBooks(const bundle::Bundle& bundle) {
 // The language in which a line is said: the wanted one, or else the first of the show's
 // that it has.
 const std::pair<const std::string, bundle::SpokenEntry>* FindSpoken(
-    const bundle::ShowManifest& manifest, const bundle::LineEntry& line, std::string_view wanted) {
+    const std::vector<bundle::SpokenLanguage>& languages,
+    const bundle::LineEntry& line,
+    std::string_view wanted) {
   auto found = line.spoken.find(wanted);
-  for (const bundle::SpokenLanguage& language : manifest.spoken) {
+  for (const bundle::SpokenLanguage& language : languages) {
     if (found != line.spoken.end()) {
       break;
     }
@@ -225,13 +228,15 @@ const T* FindIn(const stage::CaptionBook::ById<stage::CaptionBook::ByLanguage<T>
   return found == languages->second.end() ? nullptr : &found->second;
 }
 
+// said_in: languages that there are for what the line is, a voice or a description.
 Result<Speech> LoadLine(const bundle::Bundle& bundle,
                         const bundle::LineEntry& entry,
+                        const std::vector<bundle::SpokenLanguage>& said_in,
                         const LanguageChoice& languages,
                         const CaptionBooks& books) {
   Speech line;
   line.name = entry.name;
-  const auto* spoken = FindSpoken(bundle.manifest(), entry, languages.spoken);
+  const auto* spoken = FindSpoken(said_in, entry, languages.spoken);
   if (spoken == nullptr) {
     return line;  // nobody says it; it takes no time
   }
@@ -314,10 +319,22 @@ Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, Sho
     LARARIUM_ASSIGN_OR_RETURN(languages.captions, ChooseLanguage(manifest.captions, choice.captions,
                                                                  "captions", bundle.place()));
   }
-  LARARIUM_ASSIGN_OR_RETURN(const CaptionBooks books, LoadCaptionBooks(bundle));
+  std::string read = languages.captions;
+  if (read.empty()) {
+    read = manifest.captions.empty() ? languages.spoken : manifest.captions.front();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const CaptionBooks books, LoadCaptionBooks(bundle, manifest.spoken));
+  LARARIUM_ASSIGN_OR_RETURN(const CaptionBooks descriptions,
+                            LoadCaptionBooks(bundle, manifest.descriptions));
   for (const bundle::LineEntry& entry : manifest.lines) {
-    LARARIUM_ASSIGN_OR_RETURN(content.speech.emplace_back(),
-                              LoadLine(bundle, entry, languages, books));
+    const bool describes = bundle::Describes(manifest, entry);
+    LARARIUM_ASSIGN_OR_RETURN(
+        Speech line, describes ? LoadLine(bundle, entry, manifest.descriptions,
+                                          {read, languages.captions}, descriptions)
+                               : LoadLine(bundle, entry, manifest.spoken, languages, books));
+    line.describes = describes;
+    content.has_descriptions = content.has_descriptions || describes;
+    content.speech.push_back(std::move(line));
   }
   NameSpeakers(books, languages, content);
   // Also where no captions are wanted: guide and evidence view are read.
@@ -329,10 +346,6 @@ Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, Sho
         content.caption_font,
         render::ParseCaptionFont(metrics, atlas,
                                  bundle.place() + ": " + manifest.caption_font->metrics));
-  }
-  std::string read = languages.captions;
-  if (read.empty()) {
-    read = manifest.captions.empty() ? languages.spoken : manifest.captions.front();
   }
   content.language = read;
   LoadGuide(books, read, content);

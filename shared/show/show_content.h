@@ -59,6 +59,8 @@ struct Speech {
   // FLAC or Ogg; empty: nothing is heard. It begins with the visemes.
   std::vector<std::byte> sound = {};
   std::vector<stage::CaptionCue> captions = {};  // empty: nothing is to be read
+  // To visitors who do not see well, in the language that others read.
+  bool describes = false;
 };
 
 // What a show is to be heard and read in; empty: as its author chose. No captions: "off".
@@ -98,6 +100,7 @@ struct ShowContent {
   std::vector<Speech> speech;
   std::vector<std::string> spoken_languages;   // that it could be heard in
   std::vector<std::string> caption_languages;  // likewise read
+  bool has_descriptions = false;               // for visitors who do not see well
   std::optional<render::CaptionFont> caption_font;
   std::string dark_guide;                // what is said instead where the camera sees nothing
   std::string farewell;                  // what is said when the visit is over

@@ -66,6 +66,7 @@ void ShowRenderer::SetPlace(size_t index, const stage::Place& place) {
 
 Status ShowRenderer::SetTexts(const ShowContent& content) {
   LARARIUM_ASSIGN_OR_RETURN(captions_, ShowCaptions::Create(content));
+  captions_->SetStyle(caption_style_);
   evidence_.emplace(content);
   return Status();
 }

@@ -46,6 +46,12 @@ class ShowRenderer {
   // What a visitor chooses from, over the picture; nullopt: nothing.
   void SetMenu(std::optional<render::Menu> menu) { captions_->SetMenu(std::move(menu)); }
 
+  // How captions and what guides visitors are written from now on.
+  void SetCaptionStyle(const render::CaptionStyle& style) {
+    caption_style_ = style;
+    captions_->SetStyle(style);
+  }
+
   // Other texts, of the same show in another language.
   Status SetTexts(const ShowContent& content);
 
@@ -113,6 +119,7 @@ class ShowRenderer {
 
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<ShowCaptions> captions_;
+  render::CaptionStyle caption_style_;
   struct CastModel {
     std::shared_ptr<const human::Human> figure;
     render::ModelHandle model;

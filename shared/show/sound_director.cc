@@ -14,10 +14,12 @@ using audio::Voice;
 
 // Before the first pose: somebody who stands before the stage.
 constexpr glm::vec3 kVisitorsHead = {0.0f, 1.6f, 2.0f};
+// As loud as a voice two metres away.
+constexpr float kDescriptionGain = 0.5f;
 // Lines have names of their own, which no sound can have.
 constexpr const char* kLinePrefix = "line ";
 
-enum class Kind : uint64_t { kLine = 1, kAction, kState, kAmbience, kDrama };
+enum class Kind : uint64_t { kLine = 1, kAction, kState, kAmbience, kDrama, kDescription };
 
 uint64_t SourceId(Kind kind, size_t which, size_t part = 0) {
   return static_cast<uint64_t>(kind) << 56 | static_cast<uint64_t>(which) << 16 |
@@ -155,6 +157,19 @@ void SoundDirector::AddLine(
   voice.began = began;
   voice.position = mouth.position;
   voice.facing = mouth.facing;
+}
+
+void SoundDirector::AddDescription(size_t line, double began, SoundScene& scene) const {
+  if (lines_[line] < 0) {
+    return;
+  }
+  Voice& voice = scene.voices.emplace_back();
+  voice.source = SourceId(Kind::kDescription, 0);
+  voice.clip = lines_[line];
+  voice.bus = Bus::kDescription;
+  voice.began = began;
+  voice.gain = kDescriptionGain;
+  voice.head_locked = true;
 }
 
 void SoundDirector::AddObject(size_t object,

@@ -48,6 +48,8 @@ class SoundDirector {
   // The mouth in stage axes.
   void AddLine(
       size_t actor, size_t line, double began, const Mouth& mouth, audio::SoundScene& scene);
+  // In the middle of the listener's head.
+  void AddDescription(size_t line, double began, audio::SoundScene& scene) const;
   // tick_time: of the drama, when the state is so.
   void AddObject(size_t object,
                  const stage::ObjectState& state,

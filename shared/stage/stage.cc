@@ -508,6 +508,34 @@ void Stage::AdvanceCaptions() {
   std::erase_if(captions_, [](const StageCaption& caption) { return caption.ticks_left <= 0; });
 }
 
+void Stage::Describe(int speech, double patience) {
+  description_.waiting = speech;
+  description_.ticks_left = std::llround(patience / kTickSeconds);
+}
+
+// After everybody's utterances.
+void Stage::AdvanceDescription() {
+  Utterance& heard = description_.heard;
+  if (heard.line >= 0) {
+    ++heard.ticks;
+    const double over = UtteredSeconds(heard) - SpeechSeconds(heard.line);
+    heard.speaking = over < 0.0;
+    heard = over > kReadOnSeconds ? Utterance() : heard;
+  }
+  if (description_.waiting < 0) {
+    return;
+  }
+  const bool pause =
+      !heard.speaking &&
+      std::none_of(world_->actor_ids.begin(), world_->actor_ids.end(),
+                   [&](ActorId id) { return world_->actor(id).state.utterance.speaking; });
+  if (pause) {
+    description_ = {{description_.waiting, 0, true}, -1, 0};
+  } else if (--description_.ticks_left <= 0) {
+    description_.waiting = -1;
+  }
+}
+
 void Stage::Advance() {
   AdvanceCaptions();
   AdvanceDaylight();
@@ -540,6 +568,7 @@ void Stage::Advance() {
     }
     AdvanceUtterance(id);
   }
+  AdvanceDescription();
 }
 
 void Stage::Perform() {
@@ -567,6 +596,7 @@ void Stage::Reset() {
   daylight_ = {};
   sounds_.Reset();
   captions_.clear();
+  description_ = {};
   for (const ActorId id : world_->actor_ids) {
     ResetActor(world_->actor(id));
   }
@@ -599,6 +629,7 @@ void Stage::Capture(StageSnapshot& snapshot) const {
   }
   snapshot.sounds.assign(sounds_.playing().begin(), sounds_.playing().end());
   snapshot.captions.assign(captions_.begin(), captions_.end());
+  snapshot.description = description_;
 }
 
 void Stage::Settle() {
@@ -618,6 +649,7 @@ Stage::Checkpoint Stage::Save() const {
   checkpoint.daylight = daylight_;
   checkpoint.sounds = sounds_.Save();
   checkpoint.captions = captions_;
+  checkpoint.description = description_;
   checkpoint.tasks = tasks_.Save();
   checkpoint.navigation = world_->navigation;
   if (world_->navigation != nullptr) {
@@ -647,6 +679,7 @@ void Stage::Restore(const Checkpoint& checkpoint) {
   }
   sounds_.Restore(checkpoint.sounds);
   captions_ = checkpoint.captions;
+  description_ = checkpoint.description;
 }
 
 namespace {
@@ -693,6 +726,7 @@ void Interpolate(const StageSnapshot& previous,
   }
   result.sounds = current.sounds;
   result.captions = current.captions;
+  result.description = current.description;
 }
 
 }  // namespace lararium::stage

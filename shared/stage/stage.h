@@ -33,6 +33,16 @@ struct StageCaption {
   friend bool operator==(const StageCaption&, const StageCaption&) = default;
 };
 
+// What is described to visitors who do not see it: one thing at a time, in pauses of people's
+// speech. Nothing of the drama depends on it.
+struct StageDescription {
+  Utterance heard;         // now, or still to be read
+  int waiting = -1;        // the next, of the stage's speeches; -1: none
+  int64_t ticks_left = 0;  // that it still waits
+
+  friend bool operator==(const StageDescription&, const StageDescription&) = default;
+};
+
 // The states of everybody and everything at one moment, in the order of their slots.
 struct StageSnapshot {
   struct ActorEntry {
@@ -50,6 +60,7 @@ struct StageSnapshot {
   std::optional<double> hour;      // Daylight::hour
   std::vector<StageSound> sounds;  // that the drama plays
   std::vector<StageCaption> captions;
+  StageDescription description;
 
   friend bool operator==(const StageSnapshot&, const StageSnapshot&) = default;
 };
@@ -131,6 +142,10 @@ class Stage {
   // gives way.
   void Caption(int speech, double seconds);
   std::span<const StageCaption> captions() const { return captions_; }
+  // Describes it as soon as nobody speaks and nothing else is described, from the next tick on;
+  // not at all where that takes longer than so many seconds, or another is to be described.
+  void Describe(int speech, double patience);
+  const StageDescription& description() const { return description_; }
   // Plays a clip once on a part of the body, then goes on as before.
   void Gesture(ActorId id, int clip, human::BodyPart part);
 
@@ -171,6 +186,7 @@ class Stage {
     Daylight daylight;
     Sounds::Checkpoint sounds;
     std::vector<StageCaption> captions;
+    StageDescription description;
     std::shared_ptr<const Tasks::State> tasks;
     std::shared_ptr<Navigation> navigation;  // floors that were built are not built again
     std::shared_ptr<const Navigation::State> walkers;
@@ -192,12 +208,14 @@ class Stage {
   void AdvanceLights();
   void AdvanceUtterance(ActorId id);
   void AdvanceCaptions();
+  void AdvanceDescription();
 
   std::unique_ptr<World> world_;
   Tasks tasks_;
   Daylight daylight_;
   Sounds sounds_;
   std::vector<StageCaption> captions_;
+  StageDescription description_;
   NavigationOptions floor_;
   std::vector<std::pair<geometry::TriangleMesh, geometry::Similarity3>> solids_;
   std::vector<Gate> gates_;    // in the order of the navigation's

@@ -128,6 +128,81 @@ TEST_F(LineChecksTest, WhoSaysWhatIsHeardAndWhatIsBrokenOff) {
   EXPECT_THAT(problems, Not(Contains(HasSubstr("'keeper' says"))));
 }
 
+TEST_F(LineChecksTest, DescriptionsAreHeardInTheLanguagesOfCaptions) {
+  document_.speech = {{"la"}, {"en", "la"}};
+  document_.speech.description.rate = 170;
+  SetTable(
+      "id,speaker,la,en\n"
+      "salvete,keeper,Salvēte!,Greetings!\n"
+      "d_bar,description,Taberna.,A bar.\n"
+      "d_cup,description,Pōculum.,\n");
+  const auto spoken = SpokenLines(paths_, document_, lines_);
+  ASSERT_TRUE(spoken.ok()) << spoken.message();
+  std::vector<std::string> said;
+  for (const SpokenLine& line : *spoken) {
+    said.push_back(line.line->id + " " + line.language + (line.describes ? " described" : ""));
+    EXPECT_EQ(line.source.voice.rate, line.describes ? 170 : 150);
+  }
+  EXPECT_THAT(said, ::testing::ElementsAre("salvete la", "d_bar en described", "d_bar la described",
+                                           "d_cup la described"));
+  EXPECT_THAT(CheckTable(paths_, document_, lines_),
+              ::testing::ElementsAre(HasSubstr("line 'd_cup': it has no text in 'en'")));
+  EXPECT_FALSE(MakeCaptions(paths_, document_, lines_, "la")->lines.contains("d_bar"));
+  const auto book = MakeDescriptions(paths_, document_, lines_, "en");
+  ASSERT_TRUE(book.ok()) << book.message();
+  EXPECT_EQ(book->lines.at("d_bar").at("en")[0].text, "A bar.");
+  EXPECT_FALSE(book->lines.contains("salvete"));
+}
+
+TEST_F(LineChecksTest, WhatIsDescribedMustBeADescription) {
+  SetTable(
+      "id,speaker,la,en\n"
+      "salvete,keeper,Salvēte!,Greetings!\n"
+      "d_bar,description,Taberna.,A bar.\n");
+  const auto problems = CheckScriptLines(paths_, document_, lines_,
+                                         "track{descriptions = {\n"
+                                         "  {at = 1, line = \"d_bar\"},\n"
+                                         "  {at = 3, line = \"salvete\"},\n"
+                                         "}}\n"
+                                         "function main()\n"
+                                         "  describe(\"d_bar\")\n"
+                                         "  describe \"nothing\"\n"
+                                         "end\n");
+  EXPECT_THAT(problems, ::testing::UnorderedElementsAre(
+                            HasSubstr("drama.lua:3: the line 'salvete' is described, so its "
+                                      "speaker must be 'description'"),
+                            HasSubstr("drama.lua:7: there is no line 'nothing'")));
+}
+
+TEST_F(LineChecksTest, DescriptionsWithoutAPauseAndLinesOverThemAreTold) {
+  stage::Stage stage;
+  const stage::ActorId keeper = *stage.Add("keeper", test::MakeTestHuman());
+  show::ShowContent content;
+  human::VisemeTrack track;
+  track.duration = 1.0f;
+  for (const char* name : {"salvete", "d_bar"}) {
+    content.speech.push_back({name, track});
+    ASSERT_TRUE(stage.AddSpeech(name, track).ok());
+  }
+  DescriptionListener listener(stage, content, {{"d_bar", 1.5}});
+  for (int tick = 1; tick <= 900; ++tick) {
+    stage.Advance();
+    if (tick == 60) {
+      stage.Describe(1, 1.0);  // heard; in its longest language until 2 s
+    } else if (tick == 216) {
+      stage.Say(keeper, 0);  // 1.8 s
+    } else if (tick == 600) {
+      stage.Say(keeper, 0);
+      stage.Describe(1, 0.5);  // finds no pause
+    }
+    listener.Listen(tick * stage::Stage::kTickSeconds);
+  }
+  EXPECT_THAT(listener.described(), ::testing::ElementsAre("d_bar"));
+  EXPECT_THAT(listener.problems(),
+              ::testing::ElementsAre(HasSubstr("'keeper' says 'salvete' over the description"),
+                                     HasSubstr("the description 'd_bar' finds no pause")));
+}
+
 TEST_F(LineChecksTest, CaptionsPlacedByHandCountMore) {
   std::filesystem::create_directories(paths_.Recordings("la"));
   ASSERT_TRUE(WriteFileAtomically(paths_.Recordings("la") / "salvete.en.srt",

@@ -229,6 +229,22 @@ TEST(Mixer, WhoTurnsAwayIsHeardDuller) {
   EXPECT_LT(loss, 16.0);
 }
 
+TEST(Mixer, AllElseGoesDownWhileSomethingIsDescribed) {
+  const std::vector<float> silence(2 * kRate);
+  const auto library = test::Library(
+      {Sound("pause", Encode(silence, 1)), Sound("voice", Encode(test::Tone(6.0, 500.0), 1))});
+  Voice speaker = MakeVoice(1, {0, 0, -1});
+  speaker.source = 2;
+  speaker.bus = Bus::kSpeech;
+  Voice description = MakeVoice(0, {}, 1.0);
+  description.bus = Bus::kDescription;
+  description.head_locked = true;
+  const auto heard = Play(library, SceneOf({speaker, description}), 6.0);
+  const double before = Rms(heard, 0, 0.5, 1.0);
+  EXPECT_NEAR(Db(Rms(heard, 0, 2.0, 3.0) / before), kDescribedDb[0], 0.3);
+  EXPECT_NEAR(Db(Rms(heard, 0, 5.5, 5.9) / before), 0.0, 0.3);
+}
+
 TEST(Mixer, AmbienceGoesDownWhileSomebodySpeaksNearby) {
   const std::vector<float> silence(2 * kRate);
   const auto library = test::Library(

@@ -150,6 +150,8 @@ TEST(ShowManifest, KeepsObjectsLinesAndLanguages) {
                      "keeper",
                      {{"la", {"speech/0.json", "speech/0.flac"}}, {"en", {"speech/0.json", ""}}}}};
   manifest.spoken = {{"la", "captions.json"}, {"en", ""}};
+  manifest.members.push_back({"descriptions.json", 1, ComputeSha256({})});
+  manifest.descriptions = {{"it", "descriptions.json"}, {"en", ""}};
   manifest.captions = {"it", "en"};
   manifest.caption_font = {"font.json", "font.png"};
   const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "manifest.json");
@@ -165,8 +167,11 @@ TEST(ShowManifest, KeepsObjectsLinesAndLanguages) {
   EXPECT_EQ(line.spoken.at("en").sound, "");
   EXPECT_EQ(parsed->spoken.at(0).captions, "captions.json");
   EXPECT_EQ(parsed->captions, manifest.captions);
+  ASSERT_EQ(parsed->descriptions.size(), 2u);
+  EXPECT_EQ(parsed->descriptions[0].name, "it");
+  EXPECT_EQ(parsed->descriptions[0].captions, "descriptions.json");
   EXPECT_EQ(parsed->caption_font->atlas, "font.png");
-  for (const char* missing : {"speech/0.flac", "captions.json", "font.png"}) {
+  for (const char* missing : {"speech/0.flac", "captions.json", "descriptions.json", "font.png"}) {
     ShowManifest without = manifest;
     std::erase_if(without.members, [&](const Member& member) { return member.name == missing; });
     EXPECT_THAT(ParseShowManifest(FormatShowManifest(without), "m").message(),

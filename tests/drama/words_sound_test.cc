@@ -168,5 +168,45 @@ TEST_F(SoundWords, SoundsFadeInAndOut) {
   EXPECT_EQ(FirstError(*drama), "");
 }
 
+TEST_F(SoundWords, WhatIsDescribedNobodyWaitsFor) {
+  human::VisemeTrack track;
+  track.duration = 1.0f;
+  ASSERT_TRUE(stage_.AddSpeech("d_bar", track).ok());
+  ASSERT_TRUE(stage_.AddSpeech("d_cup", track).ok());
+  const auto drama = Make(R"(
+    track{ descriptions = { { at = 1, line = "d_bar" } } }
+    function main()
+      wait(3)
+      describe("d_cup", { patience = 2 })
+      keeper = actor("keeper")
+      keeper:place{ x = 1, z = -1 }
+    end)");
+  PlayTo(*drama, 1.5);
+  EXPECT_EQ(FirstError(*drama), "");
+  EXPECT_EQ(stage_.description().heard.line, *stage_.FindSpeech("d_bar"));
+  PlayTo(*drama, 2.9);
+  EXPECT_FALSE(stage_.description().heard.speaking);
+  PlayTo(*drama, 3.1);
+  EXPECT_EQ(stage_.description().heard.line, *stage_.FindSpeech("d_cup"));
+  EXPECT_EQ(State("keeper").position.x, 1.0f) << "while it is described";
+  const stage::StageSnapshot then = Snapshot();
+  PlayTo(*drama, 8.0);
+  ASSERT_TRUE(drama->Seek(3.1).ok());
+  EXPECT_TRUE(Snapshot() == then);
+}
+
+TEST_F(SoundWords, MistakesInDescriptionsAreToldWithTheirPlace) {
+  for (const auto& [call, problem] :
+       {std::pair("describe('nothing')", "there is no line 'nothing'"),
+        {"describe(3)", "give the id of a line"},
+        {"describe('nothing', 5)", "give the id of a line"},
+        {"describe('nothing', {patience = -1})", "describe: patience must be a number"}}) {
+    const auto drama = Make(std::string("function main()\n  ") + call + "\nend");
+    drama->Tick();
+    EXPECT_THAT(FirstError(*drama), HasSubstr(problem)) << call;
+    EXPECT_THAT(FirstError(*drama), HasSubstr("drama.lua:2")) << call;
+  }
+}
+
 }  // namespace
 }  // namespace lararium::drama

@@ -117,6 +117,7 @@ TEST(Export, ObjectsOfOneModelShareItsMember) {
   content.lines = {{"greeting", "keeper", "la", visemes, {std::byte{1}}},
                    {"greeting", "keeper", "en", visemes, {}}};
   content.spoken = {{"la", R"({"schema": 1, "names": {}, "lines": {}})"}};
+  content.descriptions = {{"en", R"({"schema": 1, "names": {}, "lines": {}})"}};
   content.captions = {"en"};
   NoProgress progress;
   const Status status = ExportBundle(content, folder / "a.larshow", progress);
@@ -134,6 +135,8 @@ TEST(Export, ObjectsOfOneModelShareItsMember) {
   EXPECT_EQ(line.spoken.at("la").sound, "speech/la/greeting.flac");
   EXPECT_EQ(line.spoken.at("en").visemes, "speech/en/greeting.visemes.json");
   EXPECT_EQ(opened->manifest().captions, content.captions);
+  ASSERT_EQ(opened->manifest().descriptions.size(), 1u);
+  EXPECT_EQ(opened->manifest().descriptions[0].captions, "speech/en/descriptions.json");
 
   content.objects[2].prop.resize(40);
   EXPECT_THAT(ExportBundle(content, folder / "b.larshow", progress).message(),

@@ -13,7 +13,11 @@ TEST(KioskState, ComesBackAsItWasSaved) {
   const test::TemporaryFolder folder;
   const std::filesystem::path place = folder / "new/state";
   EXPECT_EQ(*LoadKioskState(place), KioskState()) << "none yet";
-  const KioskState state = {"The thermopolium", 73.25, {"la", "en", 0.4}, {"it", "off", 0.7}};
+  const KioskState state = {
+      "The thermopolium",
+      73.25,
+      {"la", "en", 0.4, {render::CaptionSize::kLarge, render::CaptionContrast::kHigh}, true, true},
+      {"it", "off", 0.7}};
   ASSERT_TRUE(SaveKioskState(place, state).ok());
   EXPECT_EQ(*LoadKioskState(place), state);
 }
@@ -25,6 +29,9 @@ TEST(KioskState, WhatIsNoStateIsAnErrorThatSaysWhere) {
       {"", "{", "[]", "{\"schema\": 1}", "{\"schema\": 99}",
        R"({"schema":1,"title":"","seconds":-1,"language":"","captions":"","volume":1})",
        R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":7})",
+       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"caption_size":"huge"})",
+       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"caption_contrast":1})",
+       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"descriptions":"on"})",
        R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"house":1})",
        R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"house":{}})"}) {
     std::ofstream(folder / "state.json", std::ios::trunc) << text;
@@ -32,6 +39,15 @@ TEST(KioskState, WhatIsNoStateIsAnErrorThatSaysWhere) {
     EXPECT_FALSE(state.ok()) << text;
     EXPECT_THAT(state.message(), ::testing::HasSubstr("state.json")) << text;
   }
+}
+
+TEST(KioskState, WhatAnOlderPlayerWroteLacksOnlyChoicesThatItDidNotKnow) {
+  const auto state = ParseKioskState(
+      R"({"schema":1,"title":"A","seconds":2,"language":"","captions":"en","volume":1})", "old");
+  ASSERT_TRUE(state.ok()) << state.message();
+  EXPECT_EQ(state->choices.captions, "en");
+  EXPECT_EQ(state->choices.caption_style, render::CaptionStyle());
+  EXPECT_FALSE(state->choices.descriptions || state->choices.reduced_motion);
 }
 
 TEST(KioskState, AFullOrForbiddenFolderIsAnError) {

@@ -75,6 +75,22 @@ TEST_F(OptionsTest, AStaffPageHasAPortAndMayHaveAPin) {
   EXPECT_EQ(ExitCode({"doctor", "--size", "641x480"}), 2);
 }
 
+TEST_F(OptionsTest, HowCaptionsLookIsLeftToTheVisitorUnlessItIsGiven) {
+  EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).caption_size.has_value());
+  const auto play = std::get<PlayOptions>(
+      Parse({show_, "--caption-size", "largest", "--caption-contrast", "high"}));
+  EXPECT_EQ(play.caption_size, render::CaptionSize::kLargest);
+  EXPECT_EQ(play.caption_contrast, render::CaptionContrast::kHigh);
+  EXPECT_FALSE(play.descriptions.has_value() || play.reduced_motion.has_value());
+  const auto other =
+      std::get<PlayOptions>(Parse({show_, "--descriptions", "on", "--reduced-motion", "off"}));
+  EXPECT_EQ(other.descriptions, true);
+  EXPECT_EQ(other.reduced_motion, false);
+  EXPECT_EQ(ExitCode({show_, "--descriptions", "maybe"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--caption-size", "huge"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--caption-contrast", "low"}), 2);
+}
+
 TEST_F(OptionsTest, ReadsWhatTheDesignNames) {
   const Command command = Parse({show_, "--headless", "--pace", "fast", "--frames", "9",
                                  "--intrinsics", "500,500,320,240", "--record", "out.mp4"});

@@ -218,6 +218,20 @@ TEST_F(StaffPageTest, WithThePinCommandsReachThePlayerInTheirOrder) {
   EXPECT_TRUE(both[1].begin_again);
 }
 
+TEST(StaffCommand, TakesWhatMakesAShowEasierToFollow) {
+  const auto parse = [](const char* text) { return ParseStaffCommand(text); };
+  EXPECT_EQ(parse(R"({"do":"caption_size","value":"large"})")->caption_size,
+            render::CaptionSize::kLarge);
+  EXPECT_EQ(parse(R"({"do":"caption_contrast","value":"high"})")->caption_contrast,
+            render::CaptionContrast::kHigh);
+  EXPECT_EQ(parse(R"({"do":"descriptions","value":true})")->descriptions, true);
+  EXPECT_EQ(parse(R"({"do":"reduced_motion","value":false})")->reduced_motion, false);
+  for (const char* text : {R"({"do":"caption_size"})", R"({"do":"caption_size","value":"huge"})",
+                           R"({"do":"descriptions","value":"on"})", R"({"do":"reduced_motion"})"}) {
+    EXPECT_FALSE(parse(text).ok()) << text;
+  }
+}
+
 TEST_F(StaffPageTest, WhatIsNoCommandIsRefusedAndSaysWhy) {
   Open(true);
   Player();

@@ -73,6 +73,34 @@ TEST(Choices, LanguagesComeRoundAndCaptionsCanBeOff) {
   }
 }
 
+TEST(Choices, SizesAndContrastsOfCaptionsComeRound) {
+  Choices choices;
+  const std::vector<std::string> none;
+  for (const render::CaptionSize expected :
+       {render::CaptionSize::kLarge, render::CaptionSize::kLargest, render::CaptionSize::kNormal}) {
+    Choose(Action::kCaptionSize, {none, none}, choices);
+    EXPECT_EQ(choices.caption_style.size, expected);
+  }
+  Choose(Action::kCaptionContrast, {none, none}, choices);
+  EXPECT_TRUE(choices.caption_style.is_high());
+  Choose(Action::kCaptionContrast, {none, none}, choices);
+  EXPECT_EQ(choices, Choices());
+}
+
+TEST(Choices, DescriptionsAndReducedMotionAreSwitched) {
+  Choices choices;
+  const std::vector<std::string> none;
+  Choose(Action::kDescriptions, {none, none, false}, choices);
+  EXPECT_EQ(choices, Choices()) << "a show without any";
+  Choose(Action::kDescriptions, {none, none, true}, choices);
+  EXPECT_TRUE(choices.descriptions);
+  Choose(Action::kReducedMotion, {none, none, true}, choices);
+  EXPECT_TRUE(choices.reduced_motion);
+  Choose(Action::kDescriptions, {none, none, true}, choices);
+  Choose(Action::kReducedMotion, {none, none, true}, choices);
+  EXPECT_EQ(choices, Choices());
+}
+
 TEST(Choices, WhatAShowLacksCannotBeChosen) {
   Choices choices;
   const std::vector<std::string> none;

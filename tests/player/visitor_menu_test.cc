@@ -25,6 +25,7 @@ show::ShowContent Content() {
   content.language = "la";
   content.spoken_languages = {"la", "en"};
   content.caption_languages = {"la", "en", "de"};
+  content.has_descriptions = true;
   return content;
 }
 
@@ -40,14 +41,20 @@ TEST(VisitorMenu, SpeaksTheVisitorsLanguageAndSaysWhatIsChosen) {
   show::ShowContent content = Content();
   EXPECT_THAT(TextsOf(ItemsOf(content, {})),
               ElementsAre("Clarius", "Lenius", "Voces: Latina", "Inscriptiones: Latina",
-                          "Ab initio", "Locum denuo quaere", "Claude"));
+                          "Litterae: mediae", "Fundus: translucens", "Descriptiones: nullae",
+                          "Motus: omnis", "Ab initio", "Locum denuo quaere", "Claude"));
   content.language = "en-GB";
   Choices choices;
   choices.language = "en";
   choices.captions = show::kNoCaptions;
-  EXPECT_THAT(TextsOf(ItemsOf(content, choices)),
-              ElementsAre("Louder", "Quieter", "Voices: English", "Captions: off",
-                          "From the beginning", "Find the place again", "Close"));
+  choices.descriptions = true;
+  choices.reduced_motion = true;
+  choices.caption_style = {render::CaptionSize::kLargest, render::CaptionContrast::kHigh};
+  EXPECT_THAT(
+      TextsOf(ItemsOf(content, choices)),
+      ElementsAre("Louder", "Quieter", "Voices: English", "Captions: off", "Letters: largest",
+                  "Contrast: high", "Descriptions: on", "Motion: reduced", "From the beginning",
+                  "Find the place again", "Close"));
 }
 
 TEST(VisitorMenu, IsInEnglishWhereTheFontLacksLetters) {
@@ -62,11 +69,13 @@ TEST(VisitorMenu, OffersNoChoiceWhereThereIsOne) {
   show::ShowContent content = Content();
   content.spoken_languages = {"la"};
   content.caption_languages.clear();
+  content.has_descriptions = false;
   const std::vector<MenuItem> items = ItemsOf(content, {});
-  EXPECT_EQ(items.size(), 5u);
+  EXPECT_EQ(items.size(), 6u);
   for (const MenuItem& item : items) {
     EXPECT_NE(item.action, Action::kLanguage);
     EXPECT_NE(item.action, Action::kCaptions);
+    EXPECT_NE(item.action, Action::kDescriptions);
   }
   content.caption_font.reset();
   EXPECT_TRUE(ItemsOf(content, {}).empty()) << "nothing can be written";
@@ -75,11 +84,13 @@ TEST(VisitorMenu, OffersNoChoiceWhereThereIsOne) {
 TEST(VisitorMenu, LiesWithinThePictureAboutWhereTheVisitorLooks) {
   for (const geometry::CameraModel& picture :
        {geometry::CameraModel{640, 480, 525.0, 525.0, 310.0, 250.0},
-        geometry::CameraModel{400, 300, 700.0, 700.0, 199.5, 149.5}}) {
+        geometry::CameraModel{400, 300, 700.0, 700.0, 199.5, 149.5},
+        geometry::CameraModel{1280, 400, 800.0, 800.0, 639.5, 199.5}}) {
     GazeMenu menu;
-    menu.Open(ItemsOf(Content(), {}), 0.0, ScaleFor(picture));
-    const render::Menu drawn = PictureOf(menu, picture);
-    EXPECT_EQ(drawn.cells.size(), 7u);
+    const std::vector<MenuItem> items = ItemsOf(Content(), {});
+    menu.Open(items, 0.0, ScaleFor(picture, items.size()));
+    const render::Menu drawn = PictureOf(menu, picture, {});
+    EXPECT_EQ(drawn.cells.size(), items.size());
     EXPECT_NEAR(drawn.gaze.x, picture.cx + 0.5, 1e-3);
     for (const render::MenuCell& cell : drawn.cells) {
       EXPECT_GE(cell.from.x, 0.0f);

@@ -42,10 +42,10 @@ TEST_F(CaptionsTest, LettersAreWhiteOnADarkGroundWhereTheyWereLaidOut) {
   const RenderTarget target = MakeTarget(320, 240);
   Fill(target, 1.0f);
   const Caption caption = {"", glm::vec3(1.0f), CaptionSide::kHere, "a"};
-  (*painter)->Draw({&caption, 1}, nullptr, target);
+  (*painter)->Draw({&caption, 1}, nullptr, {}, target);
   const cv::Mat picture = Read(target);
   CaptionLayout layout;
-  LayOut(OneLetter(), {&caption, 1}, 320, 240, layout);
+  LayOut(OneLetter(), {&caption, 1}, {}, 320, 240, layout);
   ASSERT_EQ(layout.rows.size(), 1u);
   const CaptionLayout::Row& row = layout.rows[0];
   const auto at = [&](float em_x, float em_y) {
@@ -65,12 +65,46 @@ TEST_F(CaptionsTest, LettersAreWhiteOnADarkGroundWhereTheyWereLaidOut) {
   EXPECT_NEAR(white, 0.5f * row.em, 1.5f);
 }
 
+TEST_F(CaptionsTest, HighContrastIsBolderOnABlackGroundWithAnEdge) {
+  auto painter = CaptionPainter::Create(OneLetter());
+  ASSERT_TRUE(painter.ok()) << painter.message();
+  const RenderTarget target = MakeTarget(640, 480);
+  const Caption caption = {"", glm::vec3(1.0f), CaptionSide::kHere, "a"};
+  const auto white_in_the_letters_row = [&](const CaptionStyle& style, int& ground, int& edge) {
+    Fill(target, 0.5f);
+    (*painter)->Draw({&caption, 1}, nullptr, style, target);
+    const cv::Mat picture = Read(target);
+    CaptionLayout layout;
+    LayOut(OneLetter(), {&caption, 1}, style, 640, 480, layout);
+    const CaptionLayout::Ground& box = layout.grounds[0];
+    const auto middle_x = static_cast<int>(0.5f * (box.from.x + box.to.x));
+    ground = picture.at<cv::Vec3b>(static_cast<int>(box.to.y) - 4, middle_x)[1];
+    edge = picture.at<cv::Vec3b>(static_cast<int>(box.to.y + 0.5f * box.edge_px), middle_x)[1];
+    const auto y = static_cast<int>(layout.rows[0].baseline.y - 0.375f * layout.rows[0].em);
+    double white = 0.0;
+    for (int x = static_cast<int>(box.from.x) + 2; x < static_cast<int>(box.to.x) - 2; ++x) {
+      white += (picture.at<cv::Vec3b>(y, x)[1] - ground) / 255.0;
+    }
+    return white;
+  };
+  int ground = 0;
+  int edge = 0;
+  const double usual = white_in_the_letters_row({}, ground, edge);
+  EXPECT_GT(ground, 20);
+  EXPECT_LT(edge, 140);
+  const double bold =
+      white_in_the_letters_row({CaptionSize::kNormal, CaptionContrast::kHigh}, ground, edge);
+  EXPECT_EQ(ground, 0);
+  EXPECT_EQ(edge, 255);
+  EXPECT_GT(bold, usual + 0.5);
+}
+
 TEST_F(CaptionsTest, NothingToReadDrawsNothing) {
   auto painter = CaptionPainter::Create(OneLetter());
   ASSERT_TRUE(painter.ok()) << painter.message();
   const RenderTarget target = MakeTarget(64, 48);
   Fill(target, 1.0f);
-  (*painter)->Draw({}, nullptr, target);
+  (*painter)->Draw({}, nullptr, {}, target);
   EXPECT_EQ(cv::sum(Read(target))[0], 255.0 * 64 * 48);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
 #include "shared/core/json.h"
@@ -82,7 +83,7 @@ TEST(CaptionLayout, RowsAreCentredOneBelowTheOtherInsideTheirGround) {
   const CaptionFont font = BoxFont();
   const Caption caption = {"a", glm::vec3(1.0f, 0.0f, 0.0f), CaptionSide::kHere, "abc\nab"};
   CaptionLayout layout;
-  LayOut(font, {&caption, 1}, 1280, 720, layout);
+  LayOut(font, {&caption, 1}, {}, 1280, 720, layout);
   ASSERT_EQ(layout.rows.size(), 3u);
   ASSERT_EQ(layout.grounds.size(), 1u);
   EXPECT_EQ(layout.rows[0].text, "a");
@@ -105,7 +106,7 @@ TEST(CaptionLayout, LongRowsAreSmallerSoThatTheyStayInThePicture) {
   const std::string text(100, 'a');
   const Caption caption = {"", glm::vec3(1.0f), CaptionSide::kHere, text};
   CaptionLayout layout;
-  LayOut(font, {&caption, 1}, 640, 480, layout);
+  LayOut(font, {&caption, 1}, {}, 640, 480, layout);
   ASSERT_EQ(layout.grounds.size(), 1u);
   EXPECT_GE(layout.grounds[0].from.x, 0.0f);
   EXPECT_LE(layout.grounds[0].to.x, 640.0f);
@@ -116,11 +117,112 @@ TEST(CaptionLayout, TheSecondCaptionStandsAboveTheFirst) {
   const Caption captions[] = {{"a", glm::vec3(1.0f), CaptionSide::kHere, "abc"},
                               {"b", glm::vec3(1.0f), CaptionSide::kLeft, "abc\nabc"}};
   CaptionLayout layout;
-  LayOut(font, captions, 640, 480, layout);
+  LayOut(font, captions, {}, 640, 480, layout);
   ASSERT_EQ(layout.grounds.size(), 2u);
   EXPECT_LT(layout.grounds[1].to.y, layout.grounds[0].from.y);
-  LayOut(font, {}, 640, 480, layout);
+  LayOut(font, {}, {}, 640, 480, layout);
   EXPECT_TRUE(layout.rows.empty());
+}
+
+// As BoxFont(), with a space.
+CaptionFont FontOfWords() {
+  CaptionFont font = BoxFont();
+  font.glyphs.insert(font.glyphs.begin(), {' ', 0.25f});
+  return font;
+}
+
+// The longest caption that the editor makes: two rows of 42 letters.
+std::string LongCaption() {
+  std::string row;
+  for (int word = 0; word < 7; ++word) {
+    row += word == 0 ? "abcab" : " abcab";
+  }
+  return row + "\n" + row;
+}
+
+TEST(CaptionLayout, LargerLettersAreLargerWhereTheyFit) {
+  const CaptionFont font = FontOfWords();
+  const Caption caption = {"a", glm::vec3(1.0f), CaptionSide::kHere, "abc ab\nab"};
+  CaptionLayout layout;
+  std::vector<float> sizes;
+  for (const CaptionSize size :
+       {CaptionSize::kNormal, CaptionSize::kLarge, CaptionSize::kLargest}) {
+    LayOut(font, {&caption, 1}, {size}, 1280, 720, layout);
+    ASSERT_EQ(layout.rows.size(), 3u) << "its own rows";
+    sizes.push_back(layout.rows[1].em);
+  }
+  EXPECT_NEAR(sizes[1], 1.5f * sizes[0], 1e-3f);
+  EXPECT_NEAR(sizes[2], 2.0f * sizes[0], 1e-3f);
+}
+
+TEST(CaptionLayout, TwoLongCaptionsInTheLargestLettersStayInThePicture) {
+  const CaptionFont font = FontOfWords();
+  const std::string text = LongCaption();
+  const Caption both[] = {{"abc", glm::vec3(1.0f), CaptionSide::kLeft, text},
+                          {"abc", glm::vec3(1.0f), CaptionSide::kRight, text}};
+  for (const auto& [width, height] : {std::pair(1280, 720), {640, 480}, {480, 800}, {1440, 1440}}) {
+    CaptionLayout usual;
+    LayOut(font, both, {}, width, height, usual);
+    CaptionLayout layout;
+    LayOut(font, both, {CaptionSize::kLargest}, width, height, layout);
+    ASSERT_EQ(layout.grounds.size(), 2u);
+    for (const CaptionLayout::Ground& ground : layout.grounds) {
+      EXPECT_GE(ground.from.x, 0.0f) << width;
+      EXPECT_GE(ground.from.y, 0.0f) << width;
+      EXPECT_LE(ground.to.x, static_cast<float>(width)) << width;
+      EXPECT_LE(ground.to.y, static_cast<float>(height)) << width;
+    }
+    EXPECT_LT(layout.grounds[1].to.y, layout.grounds[0].from.y);
+    EXPECT_GT(layout.rows[1].em, 1.25f * usual.rows[1].em) << width << "x" << height;
+    for (const CaptionLayout::Row& row : layout.rows) {
+      const size_t ground = row.baseline.y > layout.grounds[0].from.y ? 0 : 1;
+      EXPECT_GE(row.baseline.x, layout.grounds[ground].from.x);
+      EXPECT_LE(row.baseline.x + row.em * TextWidth(font, row.text),
+                layout.grounds[ground].to.x + 1.0f);
+    }
+  }
+}
+
+TEST(CaptionLayout, NoWordIsLostWhereARowGoesOnOverABreak) {
+  const CaptionFont font = FontOfWords();
+  const std::string text = LongCaption();
+  const Caption caption = {"", glm::vec3(1.0f), CaptionSide::kHere, text};
+  CaptionLayout layout;
+  LayOut(font, {&caption, 1}, {CaptionSize::kLargest}, 1280, 720, layout);
+  size_t letters = 0;
+  float right = 0.0f;
+  float baseline = 0.0f;
+  for (const CaptionLayout::Row& row : layout.rows) {
+    letters += static_cast<size_t>(
+        std::count_if(row.text.begin(), row.text.end(), [](char letter) { return letter > ' '; }));
+    EXPECT_EQ(row.text.find('\n'), std::string_view::npos);
+    if (row.baseline.y == baseline) {
+      EXPECT_GE(row.baseline.x, right + 0.2f * row.em) << "a space is between the pieces";
+    }
+    baseline = row.baseline.y;
+    right = row.baseline.x + row.em * TextWidth(font, row.text);
+  }
+  EXPECT_EQ(letters, 70u);
+}
+
+TEST(CaptionLayout, AWordThatIsTooWideForLargeLettersMakesThemSmaller) {
+  const CaptionFont font = FontOfWords();
+  const std::string word(45, 'a');
+  const Caption caption = {"", glm::vec3(1.0f), CaptionSide::kHere, word};
+  CaptionLayout layout;
+  LayOut(font, {&caption, 1}, {CaptionSize::kLargest}, 1280, 720, layout);
+  ASSERT_EQ(layout.rows.size(), 1u);
+  EXPECT_GE(layout.grounds[0].from.x, 0.0f);
+  EXPECT_LE(layout.grounds[0].to.x, 1280.0f);
+}
+
+TEST(CaptionLayout, NamesAreYellowInHighContrast) {
+  const CaptionFont font = FontOfWords();
+  const Caption caption = {"a", glm::vec3(1.0f, 0.0f, 0.0f), CaptionSide::kHere, "abc"};
+  CaptionLayout layout;
+  LayOut(font, {&caption, 1}, {CaptionSize::kNormal, CaptionContrast::kHigh}, 1280, 720, layout);
+  EXPECT_GT(layout.rows[0].colour.g, 0.8f);
+  EXPECT_EQ(layout.rows[1].colour, glm::vec3(1.0f));
 }
 
 TEST(LegendLayout, StandsInTheUpperLeftCornerWithASwatchBesideEachEntry) {
@@ -128,7 +230,7 @@ TEST(LegendLayout, StandsInTheUpperLeftCornerWithASwatchBesideEachEntry) {
   const LegendEntry entries[] = {{glm::vec3(1.0f, 0.0f, 0.0f), 0, "abc"},
                                  {glm::vec3(0.0f, 1.0f, 0.0f), 2, "ab"}};
   CaptionLayout layout;
-  LayOut(font, {}, 1280, 720, layout);
+  LayOut(font, {}, {}, 1280, 720, layout);
   LayOutLegend(font, {entries, "a", glm::vec3(1.0f), ""}, 1280, 720, layout);
   ASSERT_EQ(layout.swatches.size(), 2u);
   ASSERT_EQ(layout.rows.size(), 3u);

@@ -34,6 +34,28 @@ TEST_F(MenuTest, FillsAsMuchOfACellAsItWasLookedAt) {
   EXPECT_LT(Bright(picture, 90, 35), 120);
 }
 
+TEST_F(MenuTest, FadesAsAWholeWhereNothingIsToMove) {
+  Menu menu;
+  menu.fades = true;
+  menu.gaze = {150.0f, 80.0f};
+  menu.cells = {{{20.0f, 20.0f}, {100.0f, 50.0f}, "", true, 0.0f}};
+  const int before = Bright(Draw(menu), 50, 35);
+  menu.cells[0].progress = 0.5f;
+  const cv::Mat picture = Draw(menu);
+  EXPECT_GT(Bright(picture, 30, 35), before + 30);
+  EXPECT_EQ(Bright(picture, 30, 35), Bright(picture, 90, 35));
+}
+
+TEST_F(MenuTest, IsBlackWithAWhiteEdgeInHighContrast) {
+  Menu menu;
+  menu.style.contrast = CaptionContrast::kHigh;
+  menu.gaze = {150.0f, 80.0f};
+  menu.cells = {{{20.0f, 20.0f}, {100.0f, 80.0f}, "", false, 0.0f}};
+  const cv::Mat picture = Draw(menu);
+  EXPECT_EQ(Bright(picture, 60, 50), 0);
+  EXPECT_EQ(Bright(picture, 60, 19), 255);
+}
+
 TEST_F(MenuTest, MarksThePointThatIsLookedAtOverItsCell) {
   Menu menu;
   menu.cells = {{{20.0f, 20.0f}, {100.0f, 50.0f}, "", false, 0.0f}};

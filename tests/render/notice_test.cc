@@ -55,6 +55,20 @@ TEST(Notice, WordsAloneAndAPictureAloneAreSmaller) {
   EXPECT_LT(height(picture), height(both));
 }
 
+TEST(Notice, LargerLettersAreAsLargeAsThePictureLetsThemBe) {
+  const CaptionFont font = Letters();
+  Notice notice;
+  notice.text = "look here\nplease";
+  const float usual = LayOut(font, notice, 1280, 720).em;
+  notice.style.size = CaptionSize::kLargest;
+  EXPECT_NEAR(LayOut(font, notice, 1280, 720).em, 2.0f * usual, 1e-3f);
+  notice.text = "look here\nplease\nor there\nas you like\nas you like";
+  notice.picture = cv::Mat(240, 320, CV_8UC1, cv::Scalar(0));
+  for (const auto& [width, height] : {std::pair(640, 480), {1280, 720}, {320, 240}, {480, 800}}) {
+    EXPECT_TRUE(IsWithin(LayOut(font, notice, width, height), width, height)) << width;
+  }
+}
+
 TEST(Notice, LongWordsBecomeSmallerRatherThanLeaveThePicture) {
   const CaptionFont font = Letters();
   Notice notice;

@@ -138,6 +138,36 @@ TEST(LostLadder, NothingThatIsSeenJumpsWhateverIsLost) {
   }
 }
 
+TEST(LostLadder, WithoutGlidingPeopleGoAndComeAgainWhereTheyAre) {
+  const geometry::Rigid3 shift = {Eigen::Quaterniond::Identity(), {0.02, 0.0, 0.0}};
+  const geometry::Rigid3 still = Walk(0.0);
+  for (const bool glides : {true, false}) {
+    LostLadder ladder;
+    ladder.SetGlides(glides);
+    double time = 0.0;
+    for (; time < 2.0; time += kFrame) {
+      ladder.Update(time, still, 0, Display());
+    }
+    ladder.Update(time, std::nullopt, 0, Display());
+    // Found a few pixels away: nothing that is seen is anywhere between.
+    double between = 0.0;
+    float least = 1.0f;
+    for (double end = time + 1.0; time < end;) {
+      time += kFrame;
+      const LostLadder::View view = ladder.Update(time, shift * still, 0, Display());
+      least = std::min(least, view.opacity);
+      if (view.camera_from_stage) {
+        between = std::max(
+            between, std::min(PictureShiftOf(Display(), still, *view.camera_from_stage),
+                              PictureShiftOf(Display(), shift * still, *view.camera_from_stage)));
+      }
+    }
+    EXPECT_EQ(between > 0.5, glides);
+    EXPECT_EQ(least < 0.1f, !glides);
+    EXPECT_EQ(ladder.Update(time + kFrame, shift * still, 0, Display()).opacity, 1.0f);
+  }
+}
+
 TEST(LostLadder, FoundAtAnotherPlacePeopleGoBeforeTheyComeThere) {
   LostLadder ladder;
   double time = Settle(ladder);

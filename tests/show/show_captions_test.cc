@@ -58,6 +58,25 @@ TEST(ShowCaptions, WhatNobodySaysHasNoNameAndStaysAsLongAsItIsShown) {
   EXPECT_EQ(captions[0].text, "second");
 }
 
+TEST(ShowCaptions, WhatIsDescribedIsInBracketsAndHasNoName) {
+  ShowContent content;
+  content.speech = {{"salvete", {}, {}, {{0.0, 1.0, "Greetings!"}}},
+                    {"d_bar", {}, {}, {{0.0, 2.0, "A bar\nat dawn."}}, true}};
+  StagedFrame staged;
+  staged.lines = {{StagedLine::kDescription, 1, 0.5, true}};
+  std::vector<render::Caption> captions;
+  const CaptionTexts texts = TextsOf(content);
+  CollectCaptions(texts, staged, captions);
+  ASSERT_EQ(captions.size(), 1u);
+  EXPECT_TRUE(captions[0].speaker.empty());
+  EXPECT_EQ(captions[0].side, CaptionSide::kHere);
+  EXPECT_EQ(captions[0].text, "[A bar\nat dawn.]");
+  EXPECT_EQ(texts.lines[0][0].text, "Greetings!");
+  staged.lines[0].seconds = 2.5;
+  CollectCaptions(texts, staged, captions);
+  EXPECT_TRUE(captions.empty()) << "it has a voice to follow";
+}
+
 TEST(ShowCaptions, AnArrowPointsToASpeakerOutOfView) {
   StagedFrame staged;
   staged.tracked.camera = {

@@ -179,5 +179,27 @@ TEST_F(ShowContentTest, OneBrokenPlaceIsAnErrorUnlessItIsNotWanted) {
   EXPECT_THAT(Load().message(), HasSubstr("wall.larmesh"));
 }
 
+TEST_F(ShowContentTest, DescriptionsAreInTheLanguageThatIsRead) {
+  manifest_.cast = {{"keeper", "keeper.larhuman"}};
+  manifest_.lines = {{"d_bar",
+                      bundle::LineEntry::kDescription,
+                      {{"it", {"hello.json", ""}}, {"en", {"keeper.larhuman", ""}}}},
+                     {"hello", "keeper", {{"la", {"hello.json", ""}}}}};
+  manifest_.spoken = {{"la", ""}};
+  manifest_.captions = {"it", "en"};
+  manifest_.descriptions = {{"it", ""}, {"en", ""}};
+  const auto content = Load();
+  ASSERT_TRUE(content.ok()) << content.message();
+  EXPECT_TRUE(content->has_descriptions);
+  EXPECT_TRUE(content->speech[0].describes);
+  EXPECT_FALSE(content->speech[1].describes);
+  EXPECT_EQ(content->speech[0].visemes.keys.size(), 1u) << "not that of another language";
+  // One of the cast may have that name.
+  manifest_.cast[0].name = "description";
+  const auto actors = Load();
+  ASSERT_TRUE(actors.ok()) << actors.message();
+  EXPECT_FALSE(actors->has_descriptions);
+}
+
 }  // namespace
 }  // namespace lararium::show

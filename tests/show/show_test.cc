@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "shared/core/random.h"
+#include "tests/audio/test_sounds.h"
 #include "tests/show/small_show.h"
 #include "tests/stage/test_human.h"
 #include "tests/stage/test_props.h"
@@ -383,6 +384,30 @@ TEST_F(ShowTest, WhileTrackingIsLostPeopleAreHeldThenFadeThenTheVisitorIsGuided)
   stage(time, true);
   EXPECT_LT(staged.opacity, 0.2f);
   EXPECT_TRUE(staged.camera_from_stage);
+}
+
+TEST_F(ShowTest, WhatIsDescribedIsHeardAndReadByWhoeverChoseIt) {
+  ShowContent content = test::SmallContent();
+  human::VisemeTrack track;
+  track.duration = 2.0f;
+  content.speech = {
+      {"d_bar", track, test::Encode(test::Noise(2.0), 1), {{0.0, 2.0, "A bar."}}, true}};
+  content.drama = "track{descriptions = {{at = 1, line = \"d_bar\"}}}";
+  const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
+  const StagedFrame without = At(*show, 1.5);
+  EXPECT_TRUE(without.lines.empty());
+  EXPECT_TRUE(without.sound.voices.empty());
+  show->SetDescriptions(true);
+  const StagedFrame with = At(*show, 1.5);
+  ASSERT_EQ(with.lines.size(), 1u);
+  EXPECT_EQ(with.lines[0].cast, StagedLine::kDescription);
+  EXPECT_NEAR(with.lines[0].seconds, 0.5, 0.02);
+  ASSERT_EQ(with.sound.voices.size(), 1u);
+  EXPECT_EQ(with.sound.voices[0].bus, audio::Bus::kDescription);
+  EXPECT_TRUE(with.sound.voices[0].head_locked);
+  EXPECT_NEAR(with.sound.voices[0].began, 1.0, 0.02);
+  show->SetDescriptions(false);
+  EXPECT_TRUE(At(*show, 1.6).sound.voices.empty());
 }
 
 TEST_F(ShowTest, TheNextVisitorSeesTheDramaFromItsBeginning) {

@@ -122,6 +122,65 @@ TEST(Stage, AnUtteranceIsSpokenThenReadOnThenGone) {
   EXPECT_EQ(utterance(), Utterance()) << "broken off";
 }
 
+TEST(Stage, WhatIsDescribedWaitsForAPauseOfSpeech) {
+  Stage stage;
+  const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
+  human::VisemeTrack track;
+  track.duration = 1.0f;
+  ASSERT_TRUE(stage.AddSpeech("salvete", track).ok());
+  ASSERT_TRUE(stage.AddSpeech("d_bar", track).ok());
+  const auto advance = [&stage](double seconds) {
+    for (double t = 0.0; t < seconds - 1e-9; t += Stage::kTickSeconds) {
+      stage.Advance();
+    }
+  };
+  const auto heard = [&]() -> const Utterance& { return stage.description().heard; };
+  stage.Describe(1, 5.0);
+  EXPECT_EQ(heard(), Utterance()) << "somebody may begin in the same tick";
+  stage.Say(id, 0);
+  advance(0.9);
+  EXPECT_EQ(heard(), Utterance());
+  advance(0.2);
+  EXPECT_TRUE(heard().speaking);
+  EXPECT_EQ(heard().line, 1);
+  // One thing at a time.
+  stage.Describe(1, 5.0);
+  advance(0.5);
+  EXPECT_EQ(stage.description().waiting, 1);
+  advance(0.6);
+  EXPECT_EQ(stage.description().waiting, -1);
+  EXPECT_NEAR(Stage::UtteredSeconds(heard()), 0.2, 0.05);
+  const Stage::Checkpoint then = stage.Save();
+  StageSnapshot before;
+  stage.Capture(before);
+  advance(1.0);
+  EXPECT_FALSE(heard().speaking);
+  EXPECT_EQ(heard().line, 1) << "still to be read";
+  advance(Stage::kReadOnSeconds + 0.1);
+  EXPECT_EQ(heard(), Utterance());
+  stage.Restore(then);
+  StageSnapshot after;
+  stage.Capture(after);
+  EXPECT_TRUE(before == after);
+  stage.Reset();
+  EXPECT_EQ(stage.description(), StageDescription());
+}
+
+TEST(Stage, WhatFindsNoPauseIsNotDescribed) {
+  Stage stage;
+  const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
+  human::VisemeTrack track;
+  track.duration = 3.0f;
+  ASSERT_TRUE(stage.AddSpeech("salvete", track).ok());
+  stage.Say(id, 0);
+  stage.Describe(0, 2.0);
+  for (int tick = 0; tick < 600; ++tick) {
+    stage.Advance();
+    EXPECT_EQ(stage.description().heard, Utterance());
+  }
+  EXPECT_EQ(stage.description().waiting, -1);
+}
+
 TEST(Place, TheNudgeMovesTheCameraAlongItsAxes) {
   Place place;
   place.map_from_stage.scale = 0.5;

@@ -23,6 +23,12 @@ local girl = actor("girl") -- Vetutia, their daughter
 
 track{
   captions = {{id = "title", at = 0.5, length = 5, line = "titulus"}},
+  -- For visitors who do not see well; more of them stand where the script knows of a pause.
+  descriptions = {
+    {at = 0, line = "d_bar"},
+    {at = 9.6, line = "d_people"},
+    {at = 195.5, line = "d_shrine", patience = 2},
+  },
   lights = {
     -- Embers of the night before, fanned, then left alone.
     -- By day they are a faint warmth on who stands beside them.
@@ -197,6 +203,7 @@ end
 -- The cup changes hands when he reaches for it; he thanks her when he has it.
 local function hand_over()
   try(server.take, server, "cup_of_guest")
+  describe("d_cup")
   server:look_at(patrician)
   local reaches = start(function()
     wait_for(timeout(2.5))
@@ -216,6 +223,7 @@ end
 local function serve_the_patrician()
   keeper:look_at(patrician)
   speak(keeper, "statim", "offer")
+  describe("d_order")
   keeper:look_at()
   together(function()
     pour("cup_of_guest", 1.55)
@@ -261,6 +269,7 @@ local function serve_the_visitor()
   speak(keeper, "aquam_addo")
   keeper:look_at()
   try(keeper.take, keeper, "cup")
+  describe("d_for_you")
   attended(keeper, 6)
   try(keeper.put, keeper, "cup", "counter", "top")
   speak(keeper, "tibi_est", "offer")
@@ -293,6 +302,7 @@ local function quarrel()
   wait_for(orders)
   labourer:express("neutral", 0, 1)
   speak(labourer, "bibamus", "shrug")
+  describe("d_after_quarrel")
   patrician:express("neutral", 0, 1)
   together(function()
     smile(keeper, 0.6, 2)
@@ -359,6 +369,7 @@ local function patrician_leaves()
     patrician:hide()
   end)
   speak(keeper, "redi_cras", "salute")
+  describe("d_leaves")
   keeper:look_at()
   try(function() keeper:use("chest", "open") end)
   wait(2)
@@ -383,6 +394,7 @@ local function carry_water()
   wait(3)
   labourer:look_at(server)
   speak(labourer, "aquam_porto")
+  describe("d_water")
   labourer:look_at()
   try(function()
     labourer:take("bucket")
@@ -423,6 +435,7 @@ local function farewell()
   keeper:look_at("visitor")
   keeper:express("joy", 0.6, 0.5)
   speak(keeper, "valete", "salute")
+  describe("d_end")
   keeper:express("neutral", 0, 1.5)
   keeper:look_at()
 end
