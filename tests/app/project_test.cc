@@ -74,6 +74,7 @@ ProjectDocument FullDocument() {
   document.cast[2].recipe->age = 31.0f;
   document.cast[3].name = "Puella";
   document.cast[3].preset = "girl";
+  document.speech.description = {"f3", 45, 40, 165};
   document.objects = {{"jug", "jug", "", {0.5, 0.95, -1.2}, 30.0},
                       {"statue", "", "props/statue.glb", {1.0, 0.0, 0.0}, 0.0}};
   return document;
@@ -125,6 +126,7 @@ TEST(Project, SurvivesWritingAndReading) {
   EXPECT_EQ(counter.model_pairs[1].anchor.name, "point 2");
   EXPECT_EQ(counter.model_pairs[1].anchor.picks[0].session, 1u);
   EXPECT_EQ(counter.model_pairs[1].anchor.picks[0].pixel, Eigen::Vector2d(7, 8));
+  EXPECT_EQ(loaded->speech.description, document.speech.description);
   ASSERT_EQ(loaded->check_points.size(), 2u);
   EXPECT_EQ(loaded->check_points[0].name, "counter, left");
   EXPECT_EQ(loaded->check_points[0].position, Eigen::Vector3d(-1.25, 0.9, 0.5));
