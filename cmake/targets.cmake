@@ -59,12 +59,11 @@ function(lararium_test name)
 endfunction()
 
 # lararium_gles_test(NAME FILTER filter): those of a GL test's tests once more, in OpenGL ES 3.0
-# (tests/render/gl_fixture.h). Mesa's is made to know no more than that.
+# (tests/render/gl_fixture.h).
 function(lararium_gles_test name)
   cmake_parse_arguments(arg "" "FILTER" "" ${ARGN})
   string(REGEX REPLACE "_gl_test$" "" room ${name})
   gtest_discover_tests(${name} NO_PRETTY_VALUES TEST_PREFIX "${room}_gles/" TEST_LIST ${name}_gles
     TEST_FILTER "${arg_FILTER}" DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS gl TIMEOUT 120
-      ENVIRONMENT "LARARIUM_GRAPHICS=gles\\;MESA_GLES_VERSION_OVERRIDE=3.0")
+    PROPERTIES LABELS gl TIMEOUT 120 ENVIRONMENT LARARIUM_GRAPHICS=gles)
 endfunction()

@@ -13,7 +13,7 @@
 
 namespace lararium::render {
 
-// LARARIUM_GRAPHICS=gles: tests that draw do so in OpenGL ES 3.0 (tests/CMakeLists.txt).
+// LARARIUM_GRAPHICS=gles: tests that draw do so in OpenGL ES 3.0 (lararium_gles_test).
 inline GraphicsApi TestedGraphics() {
   const char* name = std::getenv("LARARIUM_GRAPHICS");
   return name != nullptr && std::string_view(name) == "gles" ? GraphicsApi::kOpenGlEs30
@@ -33,6 +33,7 @@ class GlTest : public ::testing::Test {
   // In place of the context before.
   void Open(GraphicsApi api) {
     context_.reset();
+    ::setenv("MESA_GLES_VERSION_OVERRIDE", "3.0", 1);  // Mesa would let ES 3.2 pass
     auto context = CreateOffscreenContext(api);
     ASSERT_TRUE(context.ok()) << context.message();
     context_.emplace(std::move(context).value());
