@@ -457,7 +457,11 @@ void Follower::AddFrom(uint32_t keyframe,
     }
     Eigen::Vector2d pixel(fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy);
     if (camera.HasDistortion()) {
-      pixel = camera.PixelFromPlane(p.hnormalized().cast<double>());
+      const Eigen::Vector2d plane = p.hnormalized().cast<double>();
+      if (camera.FoldsBackAt(plane)) {
+        continue;
+      }
+      pixel = camera.PixelFromPlane(plane);
     }
     if (!InsideBy(camera, pixel, kBorderPx)) {
       continue;
@@ -540,6 +544,9 @@ bool Follower::ViewSlot(const CameraModel& camera,
     return false;
   }
   const Eigen::Vector2d plane = p.hnormalized();
+  if (camera.FoldsBackAt(plane)) {
+    return false;
+  }
   view.pixel = camera.PixelFromPlane(plane);
   if (!InsideBy(camera, view.pixel, kBorderPx)) {
     return false;
@@ -567,10 +574,8 @@ bool Follower::ViewSlot(const CameraModel& camera,
   view.acceleration.setZero();
   if (has_motion_) {
     const auto shift = [&](const Rigid3& motion) -> Eigen::Vector2d {
-      const Eigen::Vector3d moved = motion * p;
-      return moved.z() > 1e-9
-                 ? Eigen::Vector2d(camera.PixelFromPlane(moved.hnormalized()) - view.pixel)
-                 : Eigen::Vector2d::Zero();
+      const auto moved = camera.Project(motion * p);
+      return moved ? Eigen::Vector2d(*moved - view.pixel) : Eigen::Vector2d::Zero();
     };
     view.velocity = shutter_ * shift(velocity_);
     view.acceleration = shutter_ * shutter_ * shift(acceleration_);
