@@ -332,8 +332,7 @@ std::vector<VisiblePoint> VisiblePoints(std::span<const Vector3d> points,
     if (!pixel || !camera.Contains(*pixel)) {
       continue;
     }
-    // The undistorted pixel must be near the image too: the polynomials of the
-    // distortion fold back far outside it.
+    // Nor beyond what a lens shows, as the data sets' evaluator has it.
     const double x = camera.fx * in_camera.x() / in_camera.z() + camera.cx;
     const double y = camera.fy * in_camera.y() / in_camera.z() + camera.cy;
     if (x > -margin && y > -margin && x < camera.width + margin && y < camera.height + margin) {

@@ -78,7 +78,9 @@ class Session final : public OpenXrHeadset {
   Status LookAhead(const XrFrameState& frame);
   void AddQuad(Eye eye, std::vector<const XrCompositionLayerBaseHeader*>& layers);
   void AddEyes(std::vector<const XrCompositionLayerBaseHeader*>& layers);
-  XrTime TimeOf(SteadyClock::time_point time) const;
+  // None where the runtime does not say.
+  std::optional<XrTime> TimeOf(SteadyClock::time_point time) const;
+  std::optional<Rigid3> RoomFromHead(SteadyClock::time_point time) const;
   Status Check(XrResult result, const char* what) const {
     return ToStatus(instance_, result, what);
   }
@@ -274,12 +276,17 @@ Status Session::SetPicture(Eye eye, const render::RenderTarget& picture) {
   return Check(xrReleaseSwapchainImage(images.swapchain, nullptr), "handing over an image");
 }
 
-XrTime Session::TimeOf(SteadyClock::time_point time) const {
+std::optional<XrTime> Session::TimeOf(SteadyClock::time_point time) const {
   const auto since = std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch());
   const timespec monotonic = {since.count() / 1'000'000'000, since.count() % 1'000'000'000};
   XrTime converted = 0;
-  to_xr_time_(instance_, &monotonic, &converted);
-  return converted;
+  return XR_SUCCEEDED(to_xr_time_(instance_, &monotonic, &converted)) ? std::optional(converted)
+                                                                      : std::nullopt;
+}
+
+std::optional<Rigid3> Session::RoomFromHead(SteadyClock::time_point time) const {
+  const std::optional<XrTime> xr_time = TimeOf(time);
+  return xr_time ? heads_.At(*xr_time) : std::nullopt;
 }
 
 void Session::Place(const geometry::CameraModel& pinhole, SteadyClock::time_point taken) {
@@ -292,14 +299,14 @@ void Session::Place(const geometry::CameraModel& pinhole, SteadyClock::time_poin
       .translation = Eigen::Vector3d(across * (0.5 * (pinhole.width - 1) - pinhole.cx),
                                      along * (0.5 * (pinhole.height - 1) - pinhole.cy), distance)};
   const Rigid3 head_from_layer = headset_.head_from_camera * camera_from_layer;
-  const std::optional<Rigid3> room_from_head = heads_.At(TimeOf(taken));
+  const std::optional<Rigid3> room_from_head = RoomFromHead(taken);
   in_room_ = room_from_head.has_value();
   layer_pose_ = ToXr(in_room_ ? *room_from_head * head_from_layer : head_from_layer);
   placed_ = true;
 }
 
 std::optional<Rigid3> Session::RoomFromCamera(SteadyClock::time_point taken) const {
-  const std::optional<Rigid3> room_from_head = heads_.At(TimeOf(taken));
+  const std::optional<Rigid3> room_from_head = RoomFromHead(taken);
   return room_from_head ? std::optional(*room_from_head * headset_.head_from_camera) : std::nullopt;
 }
 
@@ -363,15 +370,18 @@ Status Session::Poll() {
 
 // Remembers where the head is now, and where the eyes are in it.
 Status Session::LocateHead(XrTime shown) {
-  const XrTime now = TimeOf(SteadyClock::now());
+  const std::optional<XrTime> now = TimeOf(SteadyClock::now());
   auto location = Typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
-  LARARIUM_RETURN_IF_ERROR(Check(xrLocateSpace(head_, room_, now, &location), "locating the head"));
-  if ((location.locationFlags & XR_SPACE_LOCATION_ORIENTATION_VALID_BIT) != 0) {
+  if (now) {
+    LARARIUM_RETURN_IF_ERROR(
+        Check(xrLocateSpace(head_, room_, *now, &location), "locating the head"));
+  }
+  if (now && (location.locationFlags & XR_SPACE_LOCATION_ORIENTATION_VALID_BIT) != 0) {
     Rigid3 room_from_head = FromXr(location.pose);
     if ((location.locationFlags & XR_SPACE_LOCATION_POSITION_VALID_BIT) == 0) {
       room_from_head.translation.setZero();  // a headset that only knows how it is turned
     }
-    heads_.Add(now, room_from_head);
+    heads_.Add(*now, room_from_head);
   }
   std::array<XrView, 2> views;
   LARARIUM_RETURN_IF_ERROR(LocateEyes(head_, shown, views).status());

@@ -30,6 +30,7 @@ std::vector<float> Distinctiveness(const SceneDatabase& db) {
   constexpr float kUsual = 200.0f * 200.0f;
   constexpr int kChecks = 48;
   constexpr size_t kJobs = 16;
+  CHECK(db.descriptors.empty() || !db.forest.roots.empty());
   std::vector<float> distinct(db.points.size(), 0.0f);
   ParallelFor(kJobs, [&](size_t job) {
     vision::ForestSearcher searcher(db.forest, db.descriptors);

@@ -500,6 +500,9 @@ class Merger {
     }
     db.mean_reprojection_error_px =
         error_sum / static_cast<double>(std::max<size_t>(1, db.observations.size()));
+    vision::ForestOptions forest;
+    forest.seed = options_.seed;
+    db.forest = vision::BuildForest(db.descriptors, forest);
     return db;
   }
 

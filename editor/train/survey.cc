@@ -173,9 +173,12 @@ Status ForOtherFrames(capture::FrameSource& source,
     if (progress.Cancelled()) {
       return CancelledStatus();
     }
+    while (frame && keyframe < survey.keyframes.size() &&
+           survey.keyframes[keyframe].frame_index < frame->index) {
+      ++keyframe;  // it was read then, but not now
+    }
     if (frame && keyframe < survey.keyframes.size() &&
         survey.keyframes[keyframe].frame_index == frame->index) {
-      ++keyframe;
       continue;
     }
     if (frame) {

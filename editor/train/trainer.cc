@@ -103,17 +103,21 @@ class Trainer {
       return Status();
     }
     FrameLocator locator(database);
-    size_t next = 0;  // frame report
-    return ForOtherFrames(source_, survey_, progress_, log_,
-                          [&](std::span<const geometry::Frame> batch) {
-                            const std::vector<LocatedView> views = locator.Locate(batch);
-                            for (size_t i = 0; i < batch.size(); ++i) {
-                              while (report_.frame_reports[next].frame_index != batch[i].index) {
-                                ++next;
-                              }
-                              Fill(report_.frame_reports[next], views[i]);
-                            }
-                          });
+    std::vector<FrameReport>& reports = report_.frame_reports;
+    size_t next = 0;  // of them
+    return ForOtherFrames(
+        source_, survey_, progress_, log_, [&](std::span<const geometry::Frame> batch) {
+          const std::vector<LocatedView> views = locator.Locate(batch);
+          for (size_t i = 0; i < batch.size(); ++i) {
+            while (next < reports.size() && reports[next].frame_index < batch[i].index) {
+              ++next;
+            }
+            // The survey may have failed to read it.
+            if (next < reports.size() && reports[next].frame_index == batch[i].index) {
+              Fill(reports[next], views[i]);
+            }
+          }
+        });
   }
 
   static void Fill(FrameReport& report, const LocatedView& view) {

@@ -14,30 +14,30 @@ class LoopedSource final : public FrameSource {
 
   Result<std::optional<Frame>> Next() override {
     LARARIUM_ASSIGN_OR_RETURN(std::optional<Frame> frame, recording_->Next());
-    if (!frame && round_ > 0) {
+    if (!frame && last_index_ >= first_index_) {
       LARARIUM_RETURN_IF_ERROR(recording_->Seek(0));
-      first_index_ += round_;
-      first_time_ = last_time_ + 1.0 / frames_per_second() - begin_;
-      round_ = 0;
       LARARIUM_ASSIGN_OR_RETURN(frame, recording_->Next());
+      if (frame) {
+        first_index_ = last_index_ + 1;
+        first_time_ = last_time_ + 1.0 / frames_per_second() - frame->capture_time;
+      }
     }
     if (!frame) {
       return frame;
     }
-    if (round_ == 0 && first_index_ == 0) {
-      begin_ = frame->capture_time;
-    }
-    ++round_;
     frame->index += first_index_;
     frame->capture_time += first_time_;
+    last_index_ = frame->index;
     last_time_ = frame->capture_time;
     return frame;
   }
 
   Status Seek(int64_t index) override {
+    LARARIUM_RETURN_IF_ERROR(recording_->Seek(index));
     first_index_ = 0;
     first_time_ = 0.0;
-    return recording_->Seek(index);
+    last_index_ = index - 1;
+    return Status();
   }
   std::optional<int64_t> frame_count() const override { return std::nullopt; }
   int width() const override { return recording_->width(); }
@@ -50,8 +50,7 @@ class LoopedSource final : public FrameSource {
   std::unique_ptr<FrameSource> recording_;
   int64_t first_index_ = 0;  // of this round
   double first_time_ = 0.0;  // what is added to its times
-  int64_t round_ = 0;        // frames of it so far
-  double begin_ = 0.0;       // of the recording's own times
+  int64_t last_index_ = -1;  // of the last frame
   double last_time_ = 0.0;
 };
 

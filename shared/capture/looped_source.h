@@ -9,7 +9,7 @@
 namespace lararium::capture {
 
 // Frames are numbered through, and time goes on from round to round. A recording without a single
-// frame ends at once.
+// frame ends at once. Seeking leads into the first round.
 std::unique_ptr<FrameSource> Loop(std::unique_ptr<FrameSource> recording);
 
 }  // namespace lararium::capture

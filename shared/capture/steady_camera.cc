@@ -58,6 +58,7 @@ class SteadyCamera final : public FrameSource {
  private:
   void Lose(const std::string& why) {
     camera_.reset();
+    told_of_size_ = false;
     next_attempt_ = world_.now() + options_.retry_seconds;
     world_.changed(false, why);
   }
@@ -65,11 +66,24 @@ class SteadyCamera final : public FrameSource {
   void TryToOpen() {
     Result<std::unique_ptr<FrameSource>> opened = world_.open();
     next_attempt_ = world_.now() + options_.retry_seconds;
-    if (opened.ok() && (*opened)->width() == width_ && (*opened)->height() == height_) {
-      camera_ = std::move(*opened);
-      ours_from_theirs_.reset();
-      world_.changed(true, "");
+    if (!opened.ok()) {
+      return;
     }
+    if ((*opened)->width() != width_ || (*opened)->height() != height_) {
+      if (!std::exchange(told_of_size_, true)) {
+        world_.changed(false, "the camera came back with " + SizeOf(**opened) +
+                                  " pixels instead of " + SizeOf(*this) +
+                                  "; set its mode as it was, or start anew");
+      }
+      return;
+    }
+    camera_ = std::move(*opened);
+    ours_from_theirs_.reset();
+    world_.changed(true, "");
+  }
+
+  static std::string SizeOf(const FrameSource& source) {
+    return std::to_string(source.width()) + "x" + std::to_string(source.height());
   }
 
   // The camera's own clock, which says best when an image was taken, begins anew with each
@@ -125,6 +139,7 @@ class SteadyCamera final : public FrameSource {
   double last_leap_ = 0.0;
   double last_time_ = -1.0;
   double next_attempt_ = 0.0;
+  bool told_of_size_ = false;  // since it went away
 };
 
 }  // namespace

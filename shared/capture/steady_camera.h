@@ -22,7 +22,7 @@ struct SteadyCameraWorld {
   std::function<Result<std::unique_ptr<FrameSource>>()> open;
   std::function<double()> now;        // seconds, monotonic
   std::function<void(double)> sleep;  // seconds
-  // Told of each change; why: of a loss.
+  // Told of each change; why: of a loss, and once of a camera that came back with another size.
   std::function<void(bool connected, const std::string& why)> changed;
   // Told when the camera's clock leaps, by so many seconds, and when it has not for a while; may be
   // empty.

@@ -274,6 +274,12 @@ class VideoSource final : public FrameSource {
     times_are_ordered_ =
         times_are_ordered_ && time != AV_NOPTS_VALUE && (times_.empty() || time > times_.back());
     times_.push_back(time);
+    if (times_are_ordered_) {
+      seconds_.push_back(static_cast<double>(time - times_[0]) *
+                         av_q2d(decoder_.stream->time_base));
+    } else {
+      seconds_.push_back(seconds_.empty() ? 0.0 : seconds_.back() + 1.0 / frames_per_second_);
+    }
     if (picture_->key_frame != 0) {
       key_frames_.push_back(next_index_);
     }
@@ -322,7 +328,7 @@ class VideoSource final : public FrameSource {
     LARARIUM_RETURN_IF_ERROR(PrepareScaler());
     Frame frame;
     frame.index = next_index_ - 1;
-    frame.capture_time = CaptureTime(frame.index);
+    frame.capture_time = seconds_[static_cast<size_t>(frame.index)];
     frame.bgr = pool_.Take(height_, width_, CV_8UC3);
     uint8_t* planes[] = {frame.bgr.data};
     const int strides[] = {static_cast<int>(frame.bgr.step)};
@@ -345,13 +351,6 @@ class VideoSource final : public FrameSource {
     return Status();
   }
 
-  double CaptureTime(int64_t index) const {
-    if (!times_are_ordered_) {
-      return static_cast<double>(index) / frames_per_second_;
-    }
-    return static_cast<double>(times_[index] - times_[0]) * av_q2d(decoder_.stream->time_base);
-  }
-
   std::filesystem::path file_;
   Decoder decoder_;
   LibavPtr<AVPacket> packet_;
@@ -368,6 +367,9 @@ class VideoSource final : public FrameSource {
   bool has_picture_ = false;    // picture_ is frame next_index_ - 1
   bool pending_ = false;        // ... and Next() has not handed it out yet
   std::vector<int64_t> times_;  // of the frames decoded so far, in the stream's time base
+  // Capture times of the same frames: from where the file's times lose their order, they go on
+  // at its rate.
+  std::vector<double> seconds_;
   std::vector<int64_t> key_frames_;
   bool times_are_ordered_ = true;
 };

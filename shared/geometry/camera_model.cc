@@ -84,7 +84,22 @@ std::optional<Eigen::Vector2d> CameraModel::Project(const Eigen::Vector3d& point
   if (point_in_camera.z() <= 1e-9) {
     return std::nullopt;
   }
-  return PixelFromPlane(point_in_camera.hnormalized());
+  const Eigen::Vector2d plane = point_in_camera.hnormalized();
+  if (FoldsBackAt(plane)) {
+    return std::nullopt;
+  }
+  return PixelFromPlane(plane);
+}
+
+bool CameraModel::FoldsBackAt(const Eigen::Vector2d& plane) const {
+  // The slope of r (1 + k1 r^2 + k2 r^4) is 1 + 3 k1 s + 5 k2 s^2 with s = r^2. It is 1 on the
+  // axis; it has a zero up to s if it is negative there, or fell below zero and rose again.
+  const double s = plane.squaredNorm();
+  if (1.0 + s * (3.0 * k1 + s * 5.0 * k2) <= 0.0) {
+    return true;
+  }
+  const bool rises_again = k1 < 0.0 && k2 > 0.0 && 10.0 * k2 * s > -3.0 * k1;
+  return rises_again && 9.0 * k1 * k1 >= 20.0 * k2;
 }
 
 Eigen::Vector2d CameraModel::PixelFromPlane(const Eigen::Vector2d& plane) const {

@@ -13,12 +13,14 @@
 namespace lararium::geometry {
 
 struct CameraModel {
-  int width = 0;
+  int width = 0;  // of the image, pixels
   int height = 0;
-  double fx = 0.0;
+  double fx = 0.0;  // focal lengths, pixels
   double fy = 0.0;
-  double cx = 0.0;
+  double cx = 0.0;  // principal point, a raw pixel
   double cy = 0.0;
+  // Of a point on the plane z = 1 at distance r from the axis, without unit: it moves out to
+  // r (1 + k1 r^2 + k2 r^4), and aside by the tangential p1 and p2.
   double k1 = 0.0;
   double k2 = 0.0;
   double p1 = 0.0;
@@ -35,9 +37,13 @@ struct CameraModel {
   // Mean focal length: turns lengths on the plane z = 1 into pixels.
   double Focal() const { return 0.5 * (fx + fy); }
 
-  // Raw pixel of a point in camera coordinates; nullopt behind the camera.
+  // Raw pixel of a point in camera coordinates, which may lie outside the image; nullopt behind
+  // the camera and where the distortion folds back.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& point_in_camera) const;
-  // Raw pixel of a point (x, y) on the plane z = 1.
+  // Whether the radial distortion folds back before it reaches a point (x, y) on the plane z = 1:
+  // what lies there is not seen, but the polynomial may put it into the image again.
+  bool FoldsBackAt(const Eigen::Vector2d& plane) const;
+  // Raw pixel of a point (x, y) on the plane z = 1; meaningless where the distortion folds back.
   Eigen::Vector2d PixelFromPlane(const Eigen::Vector2d& plane) const;
   // Point (x, y) on the plane z = 1 that is seen at a raw pixel: distortion
   // inverted by Newton's method, to 1e-10.

@@ -1,9 +1,11 @@
 #include "shared/render/screen_bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
+#include <limits>
 
 namespace lararium::render {
 
@@ -41,15 +43,25 @@ void ScreenBounds::Extend(const Box& box, const glm::mat4& clip_from_box) {
   if (box.empty()) {
     return;
   }
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec4 clip =
-        clip_from_box * glm::vec4((corner & 1) != 0 ? box.high.x : box.low.x,
-                                  (corner & 2) != 0 ? box.high.y : box.low.y,
-                                  (corner & 4) != 0 ? box.high.z : box.low.z, 1.0f);
-    if (!(clip.w > 1e-4f)) {
-      reaches_behind_viewer_ = true;
-      return;
-    }
+  constexpr float kNearest = 1e-4f;
+  std::array<glm::vec4, 8> corners;  // in clip space
+  float nearest = std::numeric_limits<float>::max();
+  float farthest = std::numeric_limits<float>::lowest();
+  for (size_t corner = 0; corner < corners.size(); ++corner) {
+    corners[corner] = clip_from_box * glm::vec4((corner & 1) != 0 ? box.high.x : box.low.x,
+                                                (corner & 2) != 0 ? box.high.y : box.low.y,
+                                                (corner & 4) != 0 ? box.high.z : box.low.z, 1.0f);
+    nearest = std::min(nearest, corners[corner].w);
+    farthest = std::max(farthest, corners[corner].w);
+  }
+  if (farthest <= 0.0f) {
+    return;  // all of it is behind the viewer
+  }
+  if (!(nearest > kNearest)) {
+    reaches_behind_viewer_ = true;
+    return;
+  }
+  for (const glm::vec4& clip : corners) {
     const glm::vec2 point = glm::vec2(clip) / clip.w;
     low_ = glm::min(low_, point);
     high_ = glm::max(high_, point);

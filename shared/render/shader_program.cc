@@ -2,8 +2,11 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <array>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
+#include <utility>
 
 #include "shared/render/shader_source.h"
 
@@ -82,8 +85,32 @@ Result<ShaderProgram> ShaderProgram::Create(std::string_view vertex,
 
 void ShaderProgram::Use() const { glUseProgram(program_.id()); }
 
-int ShaderProgram::Location(const char* name) const {
-  return glGetUniformLocation(program_.id(), name);
+ShaderProgram::ShaderProgram(GlProgram program) : program_(std::move(program)) {
+  constexpr std::string_view kFirst = "[0]";
+  GLint count = 0;
+  glGetProgramiv(program_.id(), GL_ACTIVE_UNIFORMS, &count);
+  std::array<char, 256> text{};
+  for (GLint i = 0; i < count; ++i) {
+    GLsizei length = 0;
+    GLint size = 0;
+    GLenum type = 0;
+    glGetActiveUniform(program_.id(), static_cast<GLuint>(i), static_cast<GLsizei>(text.size()),
+                       &length, &size, &type, text.data());
+    const int location = glGetUniformLocation(program_.id(), text.data());
+    std::string name(text.data(), static_cast<size_t>(length));
+    if (name.ends_with(kFirst)) {
+      name.resize(name.size() - kFirst.size());  // an array, which is set as a whole
+    }
+    if (location >= 0) {  // none of a block
+      uniforms_.push_back({std::move(name), location});
+    }
+  }
+  std::ranges::sort(uniforms_, {}, &Uniform::name);
+}
+
+int ShaderProgram::Location(std::string_view name) const {
+  const auto found = std::ranges::lower_bound(uniforms_, name, {}, &Uniform::name);
+  return found != uniforms_.end() && found->name == name ? found->location : -1;
 }
 
 void ShaderProgram::Set(const char* name, int value) const { glUniform1i(Location(name), value); }

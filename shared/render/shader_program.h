@@ -9,7 +9,9 @@
 #include <glm/vec4.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "shared/core/status.h"
 #include "shared/render/gl_object.h"
@@ -41,10 +43,16 @@ class ShaderProgram {
   void BindUniformBlock(const char* name, uint32_t binding) const;
 
  private:
-  explicit ShaderProgram(GlProgram program) : program_(std::move(program)) {}
-  int Location(const char* name) const;
+  struct Uniform {
+    std::string name;
+    int location = -1;
+  };
+
+  explicit ShaderProgram(GlProgram program);
+  int Location(std::string_view name) const;
 
   GlProgram program_;
+  std::vector<Uniform> uniforms_;  // by name: drivers are slow to look them up
 };
 
 // A program that is compiled when it is first wanted: a driver keeps a megabyte for each, and no

@@ -105,15 +105,16 @@ RealtimePipeline::RealtimePipeline(FrameStages stages)
 RealtimePipeline::~RealtimePipeline() { Stop(); }
 
 void RealtimePipeline::Stop() {
+  if (!capture_thread_.joinable()) {
+    return;  // it was stopped before
+  }
   for (std::jthread* thread : {&capture_thread_, &track_thread_, &simulate_thread_}) {
     thread->request_stop();
   }
   for (std::jthread* thread : {&capture_thread_, &track_thread_, &simulate_thread_}) {
-    if (thread->joinable()) {
-      thread->join();
-    }
+    thread->join();
   }
-  stages_.statistics.dropped_frames = captured_.dropped() + located_.dropped() + staged_.dropped();
+  stages_.statistics.dropped_frames += captured_.dropped() + located_.dropped() + staged_.dropped();
 }
 
 Status RealtimePipeline::status() const {

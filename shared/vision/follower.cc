@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "shared/core/check.h"
+
 namespace lararium::vision {
 namespace {
 
@@ -89,9 +91,11 @@ int CellIn(const CameraModel& camera, const Eigen::Vector2d& pixel, int columns,
 Follower::Follower(std::shared_ptr<const FollowMap> map)
     : map_(std::move(map)), not_before_(map_->database().points.size(), 0) {
   slots_.reserve(kMostSlots);
-  sights_.reserve(2 * kMostSlots);
-  matches_.reserve(2 * kMostSlots);
-  pose_.squares.reserve(2 * kMostSlots);
+  for (Fit* fit : {&fit_, &searched_}) {
+    fit->sights.reserve(kMostSlots);
+    fit->matches.reserve(kMostSlots);
+    fit->pose.squares.reserve(kMostSlots);
+  }
   seen_.reserve(kMostSlots);
   depths_.reserve(kMostSlots);
   const auto keyframes = static_cast<uint32_t>(map_->database().keyframes.size());
@@ -453,7 +457,11 @@ void Follower::AddFrom(uint32_t keyframe,
     }
     Eigen::Vector2d pixel(fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy);
     if (camera.HasDistortion()) {
-      pixel = camera.PixelFromPlane(p.hnormalized().cast<double>());
+      const Eigen::Vector2d plane = p.hnormalized().cast<double>();
+      if (camera.FoldsBackAt(plane)) {
+        continue;
+      }
+      pixel = camera.PixelFromPlane(plane);
     }
     if (!InsideBy(camera, pixel, kBorderPx)) {
       continue;
@@ -536,6 +544,9 @@ bool Follower::ViewSlot(const CameraModel& camera,
     return false;
   }
   const Eigen::Vector2d plane = p.hnormalized();
+  if (camera.FoldsBackAt(plane)) {
+    return false;
+  }
   view.pixel = camera.PixelFromPlane(plane);
   if (!InsideBy(camera, view.pixel, kBorderPx)) {
     return false;
@@ -563,10 +574,8 @@ bool Follower::ViewSlot(const CameraModel& camera,
   view.acceleration.setZero();
   if (has_motion_) {
     const auto shift = [&](const Rigid3& motion) -> Eigen::Vector2d {
-      const Eigen::Vector3d moved = motion * p;
-      return moved.z() > 1e-9
-                 ? Eigen::Vector2d(camera.PixelFromPlane(moved.hnormalized()) - view.pixel)
-                 : Eigen::Vector2d::Zero();
+      const auto moved = camera.Project(motion * p);
+      return moved ? Eigen::Vector2d(*moved - view.pixel) : Eigen::Vector2d::Zero();
     };
     view.velocity = shutter_ * shift(velocity_);
     view.acceleration = shutter_ * shutter_ * shift(acceleration_);
@@ -594,11 +603,18 @@ bool Follower::SampleSlot(const Slot& slot,
 
 // --- Finding the pose
 
-void Follower::AddMatch(const CameraModel& camera, uint32_t slot, int level, const PatchFit& fit) {
+void Follower::Fit::Clear() {
+  sights.clear();
+  matches.clear();
+}
+
+void Follower::AddSight(
+    const CameraModel& camera, uint32_t slot, int level, const PatchFit& patch, Fit& fit) const {
+  fit.sights.push_back({slot, PixelFromLevel(patch.centre, level)});
   const double size = 1 << level;
-  const Eigen::Vector2d pixel = PixelFromLevel(Eigen::Vector2d(fit.centre.cast<double>()), level);
+  const Eigen::Vector2d pixel = PixelFromLevel(Eigen::Vector2d(patch.centre.cast<double>()), level);
   const Eigen::Matrix2d information =
-      fit.information.cast<double>() / (kNoiseInflation * size * size);
+      patch.information.cast<double>() / (kNoiseInflation * size * size);
   // Inverse of (information^-1 + error^2), which stands edges.
   const double error2 =
       std::pow(kModelErrorPx * size, 2) + std::pow(static_cast<double>(slots_[slot].sigma_px), 2);
@@ -606,7 +622,7 @@ void Follower::AddMatch(const CameraModel& camera, uint32_t slot, int level, con
       information * (Eigen::Matrix2d::Identity() + error2 * information).inverse();
   Eigen::Matrix2d symmetric = 0.5 * (softened + softened.transpose());
   symmetric.diagonal().array() += 1e-9;
-  PatchMatch& match = matches_.emplace_back();
+  PatchMatch& match = fit.matches.emplace_back();
   match.point = slots_[slot].point_in_map;
   match.plane = camera.PlaneFromPixel(pixel);
   match.whitening = symmetric.llt().matrixU();
@@ -620,8 +636,7 @@ bool Follower::RunLevel(const ImagePyramid& image,
                         int stride,
                         Rigid3& camera_from_map,
                         int& expected) {
-  sights_.clear();
-  matches_.clear();
+  fit_.Clear();
   expected = 0;
   PatchTemplate patch;
   const bool last = stride == 1;
@@ -641,13 +656,12 @@ bool Follower::RunLevel(const ImagePyramid& image,
         fit.correlation < kLeastCorrelation) {
       continue;
     }
-    sights_.push_back({i, PixelFromLevel(fit.centre, level)});
-    AddMatch(camera, i, level, fit);
+    AddSight(camera, i, level, fit, fit_);
   }
-  if (!EstimatePatchPose(matches_, camera_from_map, kLeastScale, pose_)) {
+  if (!EstimatePatchPose(fit_.matches, camera_from_map, kLeastScale, fit_.pose)) {
     return false;
   }
-  camera_from_map = pose_.camera_from_map;
+  camera_from_map = fit_.pose.camera_from_map;
   return true;
 }
 
@@ -655,9 +669,10 @@ bool Follower::SearchLevel(const ImagePyramid& image,
                            const CameraModel& camera,
                            int level,
                            int stride,
+                           int least,
                            Rigid3& camera_from_map) {
   constexpr int kReach = 5;
-  matches_.clear();
+  searched_.Clear();
   PatchTemplate patch;
   for (auto i = uint32_t{0}; i < slots_.size(); i += static_cast<uint32_t>(stride)) {
     View view;
@@ -681,13 +696,15 @@ bool Follower::SearchLevel(const ImagePyramid& image,
     PatchFit fit;
     if (highest > kLeastCorrelation &&
         AlignPatch(image.level(level), patch, best, {.largest_shift = 1.5f}, fit)) {
-      AddMatch(camera, i, level, fit);
+      AddSight(camera, i, level, fit, searched_);
     }
   }
-  if (!EstimatePatchPose(matches_, camera_from_map, kLeastScale, pose_)) {
+  if (!EstimatePatchPose(searched_.matches, camera_from_map, kLeastScale, searched_.pose) ||
+      searched_.pose.inliers <= least) {
     return false;
   }
-  camera_from_map = pose_.camera_from_map;
+  std::swap(fit_, searched_);
+  camera_from_map = fit_.pose.camera_from_map;
   return true;
 }
 
@@ -768,14 +785,14 @@ double Follower::Likeness(const ImagePyramid& image,
   constexpr size_t kSample = 40;
   const double kept = std::exchange(shutter_, shutter);
   double sum = 0.0;
-  const size_t stride = std::max(size_t{1}, sights_.size() / kSample);
-  for (size_t i = 0; i < sights_.size(); i += stride) {
+  const size_t stride = std::max(size_t{1}, fit_.sights.size() / kSample);
+  for (size_t i = 0; i < fit_.sights.size(); i += stride) {
     View view;
     PatchTemplate patch;
-    if (pose_.squares[i] < kInlierSquare &&
-        ViewSlot(camera, camera_from_map, slots_[sights_[i].slot], view) &&
-        SampleSlot(slots_[sights_[i].slot], view, level, patch)) {
-      sum += CorrelatePatch(image.level(level), patch, LevelFromPixel(sights_[i].pixel, level));
+    if (fit_.pose.squares[i] < kInlierSquare &&
+        ViewSlot(camera, camera_from_map, slots_[fit_.sights[i].slot], view) &&
+        SampleSlot(slots_[fit_.sights[i].slot], view, level, patch)) {
+      sum += CorrelatePatch(image.level(level), patch, LevelFromPixel(fit_.sights[i].pixel, level));
     }
   }
   shutter_ = kept;
@@ -826,7 +843,7 @@ Matrix6d Follower::Accelerations() const {
 // exposure that the frames before do not foretell.
 Matrix6d Follower::Covariance() const {
   constexpr double kSharedErrors = 2.0;
-  Matrix6d covariance = kSharedErrors * pose_.covariance;
+  Matrix6d covariance = kSharedErrors * fit_.pose.covariance;
   if (has_motion_) {
     constexpr double kUnforeseen = 1.0 / 16.0;  // of the path's length, shutter^2 a
     const double share = kUnforeseen * shutter_ * shutter_;
@@ -862,10 +879,9 @@ FollowedPose Follower::Follow(const ImagePyramid& image,
     const int stride = std::max(1, static_cast<int>(slots_.size()) / wanted);
     Rigid3 moved = pose;
     bool found = RunLevel(image, camera, level, stride, moved, result.expected);
-    if (level == coarsest && (!found || 3 * pose_.inliers < result.expected)) {
+    if (level == coarsest && (!found || 3 * fit_.pose.inliers < result.expected)) {
       Rigid3 searched = pose;
-      const int inliers = found ? pose_.inliers : 0;
-      if (SearchLevel(image, camera, level, stride, searched) && pose_.inliers > inliers) {
+      if (SearchLevel(image, camera, level, stride, found ? fit_.pose.inliers : 0, searched)) {
         moved = searched;
         found = true;
       }
@@ -878,7 +894,7 @@ FollowedPose Follower::Follow(const ImagePyramid& image,
   }
   result.camera_from_map = pose;
   result.evidence.covariance = Covariance();
-  result.agreeing = pose_.inliers;
+  result.agreeing = fit_.pose.inliers;
   if (!has_motion_ && result.agreeing > 0) {
     // Blur of an unknown motion shows in patches that are not found; what it does to
     // the others they have in common.
@@ -894,18 +910,19 @@ FollowedPose Follower::Follow(const ImagePyramid& image,
 }
 
 void Follower::Judge(const CameraModel& camera, FollowedPose& pose) {
+  CHECK(fit_.sights.size() == fit_.pose.squares.size());
   std::array<bool, kSpreadColumns * kSpreadRows> covered{};
   int cells = 0;
   depths_.clear();
-  for (size_t i = 0; i < sights_.size(); ++i) {
-    if (pose_.squares[i] >= kInlierSquare) {
+  for (size_t i = 0; i < fit_.sights.size(); ++i) {
+    if (fit_.pose.squares[i] >= kInlierSquare) {
       continue;
     }
-    const Eigen::Vector2d pixel = sights_[i].pixel.cast<double>();
+    const Eigen::Vector2d pixel = fit_.sights[i].pixel.cast<double>();
     bool& cell = covered[static_cast<size_t>(CellIn(camera, pixel, kSpreadColumns, kSpreadRows))];
     cells += cell ? 0 : 1;
     cell = true;
-    depths_.push_back((pose.camera_from_map * matches_[i].point).z());
+    depths_.push_back((pose.camera_from_map * fit_.matches[i].point).z());
   }
   if (depths_.empty()) {
     return;
@@ -940,11 +957,11 @@ void Follower::Settle(const CameraModel& camera, const FollowedPose& pose) {
   for (Slot& slot : slots_) {
     ++slot.failures;
   }
-  for (size_t i = 0; i < sights_.size(); ++i) {
-    if (pose_.squares[i] < kInlierSquare) {
-      Slot& slot = slots_[sights_[i].slot];
+  for (size_t i = 0; i < fit_.sights.size(); ++i) {
+    if (fit_.pose.squares[i] < kInlierSquare) {
+      Slot& slot = slots_[fit_.sights[i].slot];
       slot.failures = 0;
-      seen_.push_back({slot.point, sights_[i].pixel});
+      seen_.push_back({slot.point, fit_.sights[i].pixel});
     }
   }
   SettleHidden(camera, pose.camera_from_map);

@@ -103,6 +103,16 @@ class Follower {
     Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
   };
 
+  // What was seen on a level, and the pose that it makes. Entry i of each list is of
+  // the same sight.
+  struct Fit {
+    std::vector<Sight> sights;
+    std::vector<PatchMatch> matches;
+    PatchPose pose;
+
+    void Clear();
+  };
+
   // An image whose patches are followed where no keyframe's serve.
   struct FreshFrame {
     ImagePyramid image;
@@ -132,13 +142,19 @@ class Follower {
                 int stride,
                 geometry::Rigid3& camera_from_map,
                 int& expected);
-  // Looks for whole pixels around, on the coarsest level, where alignment failed.
+  // Looks for whole pixels around, on the coarsest level, where alignment failed. false: it
+  // made no pose that more than least agree with, and changed nothing.
   bool SearchLevel(const ImagePyramid& image,
                    const geometry::CameraModel& camera,
                    int level,
                    int stride,
+                   int least,
                    geometry::Rigid3& camera_from_map);
-  void AddMatch(const geometry::CameraModel& camera, uint32_t slot, int level, const PatchFit& fit);
+  void AddSight(const geometry::CameraModel& camera,
+                uint32_t slot,
+                int level,
+                const PatchFit& patch,
+                Fit& fit) const;
   geometry::Rigid3 BestPrediction(const ImagePyramid& image,
                                   const geometry::CameraModel& camera,
                                   std::span<const geometry::Rigid3> predictions);
@@ -235,9 +251,8 @@ class Follower {
   int shutter_trials_ = 0;
 
   // Working memory.
-  std::vector<Sight> sights_;
-  std::vector<PatchMatch> matches_;
-  PatchPose pose_;
+  Fit fit_;  // that the pose stands on
+  Fit searched_;
   std::vector<SeenPoint> seen_;
   std::vector<double> depths_;
 };

@@ -305,14 +305,23 @@ class Tracker final : public PoseSource {
     // Both begin anew: what was followed has long let go of the patches that
     // contradict it.
     const Rigid3 ours = *tracked.camera_from_map;
-    const Rigid3 theirs = ours * checked_pose_->Inverse() * found;
+    Rigid3 since = ours * checked_pose_->Inverse();
+    if (located.map != map_) {
+      since.translation.setZero();  // it is in our map's unit, and each map has its own
+    }
+    const Rigid3 theirs = since * found;
     const double our_share = FollowAnew(map_, tracked.camera, ours).share();
     const FollowedPose followed = FollowAnew(located.map, tracked.camera, theirs);
     if (followed.honest && followed.share() > our_share) {
+      if (located.map == map_) {
+        motion_.Correct(followed.camera_from_map);
+      } else {
+        motion_.Forget();
+        motion_.Add(static_cast<double>(tracked.frame.index), followed.camera_from_map);
+      }
       map_ = located.map;
       Report(followed, tracked);
       tracked.followed = false;
-      motion_.Correct(followed.camera_from_map);
     } else if (located.map == map_) {
       followers_[map_]->Start(tracked.camera, ours);
     }

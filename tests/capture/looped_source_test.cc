@@ -48,6 +48,22 @@ TEST(LoopedSource, GoesOnFromRoundToRoundWithoutAGap) {
   EXPECT_FALSE(source->frame_count());
 }
 
+TEST(LoopedSource, GoesOnFromWhereItWasSoughtTo) {
+  const auto source = Loop(std::make_unique<Recording>(7));
+  for (const int before : {0, 10}) {  // frames: at once, and from the second round
+    for (int i = 0; i < before; ++i) {
+      (void)source->Next();
+    }
+    ASSERT_TRUE(source->Seek(4).ok());
+    for (int64_t i = 4; i < 30; ++i) {
+      const geometry::Frame frame = **source->Next();
+      EXPECT_EQ(frame.index, i);
+      EXPECT_NEAR(frame.capture_time, 3.0 + 0.1 * static_cast<double>(i), 1e-9);
+      EXPECT_EQ(frame.bgr.at<cv::Vec3b>(0, 0)[0], i % 7);
+    }
+  }
+}
+
 TEST(LoopedSource, WithoutAFrameEndsAtOnce) {
   const auto source = Loop(std::make_unique<Recording>(0));
   EXPECT_FALSE((*source->Next()).has_value());

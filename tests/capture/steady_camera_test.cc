@@ -134,6 +134,10 @@ TEST(SteadyCamera, ACameraOfAnotherSizeIsNotTaken) {
     EXPECT_EQ((*frame)->bgr.cols, 64);
     EXPECT_TRUE(IsBlack(**frame));
   }
+  ASSERT_EQ(world.changes.size(), 2u) << "it is told once why there is no picture";
+  EXPECT_EQ(world.changes[1],
+            "away: the camera came back with 32x48 pixels instead of 64x48; set its mode as it "
+            "was, or start anew");
   world.width = 64;
   for (int i = 0; i < 10; ++i) {
     (void)source->Next();

@@ -1,9 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
+#include <vector>
 
 #include "shared/capture/frame_source.h"
 #include "shared/capture/video_writer.h"
@@ -147,6 +152,54 @@ TEST_F(NumberedVideo, CutOffFilesAreOneClearError) {
     const auto source = OpenVideo(file);
     ASSERT_FALSE(source.ok()) << part;
     EXPECT_THAT(source.message(), HasSubstr("cut.mp4: "));
+  }
+}
+
+// Pictures at such times; two neighbours may have the same.
+void WriteTimedVideo(const std::filesystem::path& file, std::span<const int64_t> milliseconds) {
+  AVFormatContext* format = nullptr;
+  ASSERT_GE(avformat_alloc_output_context2(&format, nullptr, "matroska", file.c_str()), 0);
+  AVStream* stream = avformat_new_stream(format, nullptr);
+  stream->codecpar->codec_type = AVMEDIA_TYPE_VIDEO;
+  stream->codecpar->codec_id = AV_CODEC_ID_MJPEG;
+  stream->codecpar->width = kWidth;
+  stream->codecpar->height = kHeight;
+  stream->avg_frame_rate = {25, 1};
+  stream->time_base = {1, 1000};
+  ASSERT_GE(avio_open(&format->pb, file.c_str(), AVIO_FLAG_WRITE), 0);
+  ASSERT_GE(avformat_write_header(format, nullptr), 0);
+  const LibavPtr<AVPacket> packet(av_packet_alloc());
+  for (size_t i = 0; i < milliseconds.size(); ++i) {
+    std::vector<uint8_t> jpeg;
+    cv::imencode(".jpg", NumberedImage(static_cast<int>(i)), jpeg);
+    ASSERT_EQ(av_new_packet(packet.get(), static_cast<int>(jpeg.size())), 0);
+    std::copy(jpeg.begin(), jpeg.end(), packet->data);
+    packet->pts = packet->dts = milliseconds[i];
+    packet->flags = AV_PKT_FLAG_KEY;
+    ASSERT_GE(av_write_frame(format, packet.get()), 0);
+    av_packet_unref(packet.get());
+  }
+  ASSERT_EQ(av_write_trailer(format), 0);
+  avio_closep(&format->pb);
+  avformat_free_context(format);
+}
+
+TEST(OpenVideo, TimeGoesOnWhereTheFilesOwnTimesLoseTheirOrder) {
+  test::TemporaryFolder folder;
+  const auto file = folder / "times.mkv";
+  ASSERT_NO_FATAL_FAILURE(
+      WriteTimedVideo(file, std::array<int64_t, 6>{0, 100, 200, 300, 300, 400}));
+  const auto source = OpenVideo(file);
+  ASSERT_TRUE(source.ok()) << source.message();
+  const std::array<double, 6> expected = {0.0, 0.1, 0.2, 0.3, 0.34, 0.38};  // 25 a second
+  for (const size_t first : {size_t{0}, size_t{2}, size_t{0}}) {
+    ASSERT_TRUE((*source)->Seek(static_cast<int64_t>(first)).ok());
+    for (size_t i = first; i < expected.size(); ++i) {
+      const auto frame = (*source)->Next();
+      ASSERT_TRUE(frame.ok() && frame->has_value()) << i;
+      EXPECT_EQ(ReadNumber((*frame)->grey), static_cast<int>(i));
+      EXPECT_NEAR((*frame)->capture_time, expected[i], 1e-9) << i;
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -29,6 +30,46 @@ TEST(CameraModel, ProjectsThePrincipalRayToThePrincipalPoint) {
   EXPECT_LT((*kFox.Project({0, 0, 2}) - Eigen::Vector2d(kFox.cx, kFox.cy)).norm(), 1e-12);
   EXPECT_FALSE(kFox.Project({0, 0, -2}).has_value());
   EXPECT_FALSE(kFox.Project({0, 0, 0}).has_value());
+}
+
+// Beyond the largest radius up to which the distortion grows, its polynomial comes back into the
+// image.
+TEST(CameraModel, ShowsNothingFromBeyondTheFoldOfItsDistortion) {
+  CameraModel falling = kBarrel;  // its slope falls below zero
+  falling.k2 = 0.0;
+  CameraModel wavy = kBarrel;  // its slope falls below zero and rises again
+  wavy.k1 = -0.4;
+  wavy.k2 = 0.045;
+  CameraModel fox = kFox;
+  for (CameraModel camera : {falling, wavy, fox}) {
+    camera.p1 = camera.p2 = 0.0;
+    double fold = 0.0;  // the radius
+    const auto distorted = [&](double r) {
+      return r * (1.0 + camera.k1 * r * r + camera.k2 * r * r * r * r);
+    };
+    while (distorted(fold + 1e-4) > distorted(fold)) {
+      fold += 1e-4;
+    }
+    bool lands_inside = false;
+    for (double r = 0.0; r < 6.0; r += 0.01) {
+      const auto pixel = camera.Project({0.6 * r, 0.8 * r, 1.0});
+      if (std::abs(r - fold) > 0.01) {
+        EXPECT_EQ(pixel.has_value(), r < fold) << r;
+      }
+      lands_inside |= r > fold && camera.Contains(camera.PixelFromPlane({0.6 * r, 0.8 * r}));
+    }
+    EXPECT_TRUE(lands_inside);  // what the test is about
+  }
+}
+
+TEST(CameraModel, ShowsAllThatLiesInTheImage) {
+  for (const CameraModel& camera : {kFox, kBarrel}) {
+    for (const double x : {-0.5, 0.5 * camera.width, camera.width - 0.5}) {
+      for (const double y : {-0.5, 0.5 * camera.height, camera.height - 0.5}) {
+        EXPECT_TRUE(camera.Project(camera.PlaneFromPixel({x, y}).homogeneous()).has_value());
+      }
+    }
+  }
 }
 
 TEST(CameraModel, ResizingKeepsRays) {

@@ -8,7 +8,7 @@
 // blended with what is real, of the letters o (opaque), a (alpha), + (additive); o unless said.
 // passes: what is real can be shown by a layer (XR_FB_passthrough). press=PATH@N, several times: an
 // input of its simple controllers is held from the frame N on, for three frames. aside: another
-// program has the focus.
+// program has the focus. timeless=N: from the frame N on it converts no time.
 
 #include <epoxy/gl.h>
 
@@ -75,6 +75,7 @@ struct Runtime {
   std::FILE* log = nullptr;
   long exit_at = -1;
   long lose_at = -1;
+  long timeless_from = -1;
   bool away = false;
   double turn = 0.0;
   std::string blends = "o";
@@ -127,6 +128,8 @@ void ReadScript(Runtime& runtime, bool writes) {
       runtime.exit_at = std::stol(value);
     } else if (word.rfind("lose=", 0) == 0) {
       runtime.lose_at = std::stol(value);
+    } else if (word.rfind("timeless=", 0) == 0) {
+      runtime.timeless_from = std::stol(value);
     } else if (word.rfind("turn=", 0) == 0) {
       runtime.turn = std::stod(value);
     } else if (word.rfind("blends=", 0) == 0) {
@@ -667,6 +670,9 @@ XrResult EndFrame(XrSession /*session*/, const XrFrameEndInfo* end) {
 }
 
 XrResult ConvertTimespec(XrInstance /*instance*/, const timespec* time, XrTime* converted) {
+  if (g_runtime->timeless_from >= 0 && g_runtime->frames >= g_runtime->timeless_from) {
+    return XR_ERROR_TIME_INVALID;
+  }
   *converted = time->tv_sec * 1'000'000'000LL + time->tv_nsec;
   return XR_SUCCESS;
 }

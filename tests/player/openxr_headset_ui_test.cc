@@ -185,6 +185,17 @@ TEST_F(OpenXrTest, ShowsNothingBeforeThereIsAPicture) {
   EXPECT_FALSE(Lines("frame ").empty());
 }
 
+TEST_F(OpenXrTest, HangsThePictureBeforeTheHeadWhereTheRuntimeKnowsNoTime) {
+  ASSERT_TRUE(Open("turn=1 timeless=4").ok());
+  Run(3);
+  EXPECT_TRUE(xr_->RoomFromCamera(SteadyClock::now()).has_value());
+  Run(3);
+  EXPECT_FALSE(xr_->RoomFromCamera(SteadyClock::now()).has_value());
+  Show(SteadyClock::now());
+  Run(2);
+  EXPECT_EQ(LastQuad().space, "head");
+}
+
 TEST_F(OpenXrTest, HangsThePictureAsFarAwayAndAsLargeAsTheCameraSawIt) {
   headset_.head_from_camera.translation = Eigen::Vector3d(0.0, -0.05, 0.1);
   ASSERT_TRUE(Open("").ok());

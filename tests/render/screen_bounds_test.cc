@@ -38,6 +38,15 @@ TEST(ScreenBounds, AreEverythingWhenTheBoxReachesBehindTheViewer) {
   EXPECT_EQ(bounds.height(), kDisplay.height);
 }
 
+TEST(ScreenBounds, AreEmptyWhereAllOfTheBoxIsBehindTheViewer) {
+  Box box;
+  box.Extend({-0.2f, -0.1f, -2.0f});
+  box.Extend({0.3f, 0.2f, -1.0f});
+  ScreenBounds screen;
+  screen.Extend(box, ClipFromCamera(kDisplay, 0.1f, 50.0f));
+  EXPECT_TRUE(screen.Pixels(kDisplay.width, kDisplay.height).empty());
+}
+
 TEST(ScreenBounds, AreEmptyForNothingAndForWhatIsOutside) {
   ScreenBounds screen;
   EXPECT_TRUE(screen.Pixels(200, 100).empty());

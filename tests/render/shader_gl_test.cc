@@ -3,7 +3,9 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "shared/render/graphics_context.h"
 #include "shared/render/shader_program.h"
@@ -125,6 +127,36 @@ TEST(Shaders, TakeNoMoreThanEveryOpenGlEs30Has) {
     check("model.vert", "model.frag",
           std::string("#define SURFACE_SKIN\n#define SKIN_DUAL_QUATERNION\n") + more);
   }
+}
+
+int asked = 0;  // how often a driver was asked where a uniform is
+GLint (*ask)(GLuint, const GLchar*) = nullptr;
+GLint CountedLocation(GLuint program, const GLchar* name) {
+  ++asked;
+  return ask(program, name);
+}
+
+TEST_P(EveryShader, KnowsWhereItsUniformsAre) {
+  const auto context = CreateOffscreenContext(GetParam());
+  ASSERT_TRUE(context.ok()) << context.message();
+  const auto program = ShaderProgram::Create("full_screen.vert", "sky_ratio.frag");
+  ASSERT_TRUE(program.ok()) << program.message();
+  GLint id = 0;
+  program->Use();
+  glGetIntegerv(GL_CURRENT_PROGRAM, &id);
+  const auto name = static_cast<GLuint>(id);
+  const GLint second = glGetUniformLocation(name, "cones_x[1]");
+  ASSERT_GE(second, 0);
+  ask = std::exchange(glGetUniformLocation, CountedLocation);
+  const std::array<glm::vec4, 2> values = {glm::vec4(1.0f), glm::vec4(2.0f, 3.0f, 4.0f, 5.0f)};
+  program->Set("cones_x", std::span(values));
+  program->Set("no_such_name", 1.0f);
+  glGetUniformLocation = ask;
+  EXPECT_EQ(asked, 0);
+  glm::vec4 kept(0.0f);
+  glGetUniformfv(name, second, &kept.x);
+  EXPECT_EQ(kept, values[1]);
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 INSTANTIATE_TEST_SUITE_P(Apis,

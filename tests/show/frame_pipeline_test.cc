@@ -123,6 +123,25 @@ TEST_F(FramePipelineTest, RealtimeDeliversTheLastFrameAndNeverGoesBack) {
   EXPECT_TRUE(pipeline.status().ok());
 }
 
+TEST_F(FramePipelineTest, RealtimeCountsWhatItDroppedOnTopOfWhatOthersDid) {
+  int64_t shown = 0;
+  for (const int milliseconds : {100, 0}) {  // that drawing takes: the first drops frames
+    test::FakeSource source(15);
+    RealtimePipeline pipeline(Stages(source));
+    while (!pipeline.Finished()) {
+      if (std::unique_ptr<StagedFrame> staged = pipeline.Take(std::chrono::milliseconds(20))) {
+        ++shown;
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        pipeline.Recycle(std::move(staged));
+      }
+    }
+    pipeline.Stop();
+    pipeline.Stop();
+  }
+  EXPECT_GT(statistics_.dropped_frames, 0u);
+  EXPECT_EQ(shown + static_cast<int64_t>(statistics_.dropped_frames), 30);
+}
+
 TEST_F(FramePipelineTest, RealtimeStagesIntoThreeFramesHoweverSlowTheyAreDrawn) {
   constexpr size_t kServed = 1000;  // more than there are actors
   test::FakeSource source(30);

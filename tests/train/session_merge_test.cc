@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "editor/train/budget.h"
 #include "tests/support/synthetic_world.h"
 
 namespace lararium::train {
@@ -189,6 +190,22 @@ TEST(MergeSession, GivesTheSameBytesTwice) {
   ASSERT_TRUE(first.ok() && second.ok());
   EXPECT_EQ(vision::SerializeSceneDatabase(first->database),
             vision::SerializeSceneDatabase(second->database));
+}
+
+// Which points a merged map keeps is chosen among those of the whole one, by what they look like.
+TEST(MergeSession, WithinABudgetKeepsWhatPruningTheWholeKeeps) {
+  const TwoSessions sessions = MakeTwoSessions({});
+  const Result<MergedMap> whole = Merge(sessions);
+  MergeOptions options;
+  options.max_points = 120;
+  const Result<MergedMap> small =
+      MergeSession(sessions.map, sessions.session, sessions.features, options, *MakeSilentLog());
+  ASSERT_TRUE(whole.ok() && small.ok());
+  EXPECT_EQ(small->database.points.size(), 120u);
+  BudgetOptions budget;
+  budget.max_points = options.max_points;
+  EXPECT_EQ(vision::SerializeSceneDatabase(small->database),
+            vision::SerializeSceneDatabase(Prune(whole->database, budget)));
 }
 
 TEST(NextSession, FollowsTheHighest) {

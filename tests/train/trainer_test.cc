@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "shared/core/parallel.h"
 #include "shared/core/random.h"
@@ -51,6 +53,30 @@ class ListSource : public capture::FrameSource {
  private:
   std::vector<cv::Mat> images_;
   size_t next_ = 0;
+};
+
+// Fails to read some images at some readings; the others keep their numbers.
+class FlakySource : public ListSource {
+ public:
+  // fails: the readings, from 1, at which image i cannot be read.
+  FlakySource(std::vector<cv::Mat> images, std::map<int64_t, std::set<int>> fails)
+      : ListSource(std::move(images)), fails_(std::move(fails)) {}
+
+  Result<std::optional<Frame>> Next() override {
+    Result<std::optional<Frame>> frame = ListSource::Next();
+    if (frame->has_value() && fails_[(*frame)->index].contains(reading_)) {
+      return Status::Error("flaky", "cannot be read");
+    }
+    return frame;
+  }
+  Status Seek(int64_t index) override {
+    ++reading_;
+    return ListSource::Seek(index);
+  }
+
+ private:
+  std::map<int64_t, std::set<int>> fails_;
+  int reading_ = 0;
 };
 
 geometry::CameraModel Camera() {
@@ -201,6 +227,30 @@ TEST(Trainer, LocatesTheFramesBetweenKeyframes) {
   EXPECT_GE(result->report.located.size(), 13u);
   for (size_t i = 1; i < result->report.located.size(); ++i) {
     EXPECT_LT(result->report.located[i - 1].frame_index, result->report.located[i].frame_index);
+  }
+}
+
+// The survey reads a source once, then its keyframes, then all for the frames between.
+TEST(Trainer, TakesFramesThatReadOnlyOnce) {
+  TrainOptions options = KnownCamera();
+  options.max_keyframes = 6;
+  const Result<TrainResult> whole = TrainOn(WalkPast(14), options);
+  ASSERT_TRUE(whole.ok()) << whole.message();
+  int64_t keyframe = 0;  // one from the middle
+  for (const FrameReport& frame : whole->report.frame_reports) {
+    keyframe = frame.keyframe && frame.frame_index < 9 ? frame.frame_index : keyframe;
+  }
+  // Two that the survey misses, one of them the last; a keyframe that is missed later.
+  const int64_t missed = keyframe == 5 ? 4 : 5;
+  FlakySource source(WalkPast(14), {{missed, {1}}, {13, {1}}, {keyframe, {3}}});
+  NoProgress progress;
+  const Result<TrainResult> result = Train(source, options, progress, *MakeSilentLog());
+  ASSERT_TRUE(result.ok()) << result.message();
+  const std::vector<FrameReport>& reports = result->report.frame_reports;
+  ASSERT_EQ(reports.size(), 12u);
+  for (const FrameReport& frame : reports) {
+    EXPECT_NE(frame.frame_index, missed);
+    EXPECT_TRUE(frame.camera_from_map.has_value()) << frame.frame_index;
   }
 }
 

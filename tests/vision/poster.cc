@@ -61,7 +61,7 @@ cv::Mat MakePoster() {
   return poster;
 }
 
-cv::Mat MakePeriodicWall() {
+cv::Mat MakePeriodicWall(int marks) {
   Random random(6);
   const auto period = static_cast<int>(std::lround(kWallPeriod / kMetresPerPixel));
   cv::Mat wall(kPosterHeight, kPosterWidth + 2 * period, CV_8UC1, cv::Scalar(128));
@@ -69,6 +69,9 @@ cv::Mat MakePeriodicWall() {
     DrawBlob(random, wall, wall.cols / period);
   }
   wall = wall.colRange(period, period + kPosterWidth).clone();
+  if (marks > 0) {
+    random = Random(static_cast<uint64_t>(100 + marks));
+  }
   constexpr int kMark = 80;
   for (int y = 40; y + kMark <= wall.rows; y += 160) {
     for (int x = 30; x + kMark <= wall.cols; x += 240) {

@@ -17,9 +17,9 @@ inline const geometry::CameraModel kPosterCamera = {
 
 cv::Mat MakePoster();  // CV_8UC1
 
-// A poster that repeats itself to the right, but for a few marks.
+// A poster that repeats itself to the right, but for a few marks. marks: which ones.
 inline constexpr double kWallPeriod = 0.25;  // metres
-cv::Mat MakePeriodicWall();                  // CV_8UC1
+cv::Mat MakePeriodicWall(int marks = 0);     // CV_8UC1
 
 // The poster as a camera sees it, four rays for each pixel.
 geometry::Frame PhotographPoster(const cv::Mat& poster,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "shared/core/random.h"
@@ -277,6 +278,48 @@ TEST_F(TrackerAtAPeriodicWall, GoesOnWhereTheBackgroundAgrees) {
     EXPECT_EQ(tracked.followed, i != kLeap) << i;
     EXPECT_LT(CornerError(*tracked.camera_from_map, Pose(i)), 0.1) << i;
   }
+}
+
+std::shared_ptr<const SceneDatabase> InUnitsOf(double metres, const SceneDatabase& map) {
+  SceneDatabase other = map;
+  for (Eigen::Vector3f& point : other.points) {
+    point /= static_cast<float>(metres);
+  }
+  for (Keyframe& keyframe : other.keyframes) {
+    keyframe.camera_from_map.translation /= metres;
+  }
+  return std::make_shared<const SceneDatabase>(std::move(other));
+}
+
+// From kLeap on the camera walks along another wall, which differs in its marks only.
+TEST_F(TrackerAtAPeriodicWall, IsPutRightByAMapOfAnotherUnit) {
+  constexpr double kUnit = 100.0;  // metres, of the other wall's map
+  constexpr int kMost = 100;       // frames
+  const cv::Mat other = test::MakePeriodicWall(1);
+  TrackerOptions options;
+  options.background = BackgroundWork::kJoined;
+  const auto tracker =
+      *CreateTracker({map_, InUnitsOf(kUnit, *MapOfPoster(other))}, kCamera, options);
+  const auto pose = [](int frame) {
+    return PosterPose(0.0, 0.0, 1.1) *
+           Rigid3{Eigen::Quaterniond::Identity(), {0.15 - 0.002 * frame, 0.0, 0.0}};
+  };
+  std::optional<int> corrected;
+  for (int i = 0; i < corrected.value_or(kMost) + 5; ++i) {
+    const TrackedFrame tracked =
+        tracker->Track(PhotographPoster(i < kLeap ? wall_ : other, pose(i), i));
+    ASSERT_TRUE(tracked.camera_from_map.has_value()) << i;
+    if (tracked.map == 1 && !corrected) {
+      corrected = i;
+    }
+    EXPECT_EQ(tracked.map, corrected ? 1u : 0u) << i;
+    EXPECT_EQ(tracked.followed, i != 0 && i != corrected) << i;
+    Rigid3 found = *tracked.camera_from_map;
+    found.translation *= corrected ? kUnit : 1.0;
+    EXPECT_LT(CornerError(found, pose(i)), 0.3) << i;
+  }
+  ASSERT_TRUE(corrected.has_value());
+  EXPECT_GT(*corrected, kLeap);
 }
 
 // A wall before the left half of the poster, from there up and down without end.
