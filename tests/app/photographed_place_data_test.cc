@@ -1,0 +1,124 @@
+// A stage that is laid on a place of photographs, whose cameras a laser scan measured.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "editor/app/check_points.h"
+#include "editor/train/trainer.h"
+#include "shared/core/json.h"
+#include "shared/core/random.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::app {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using geometry::Rigid3;
+
+struct Surveyed {
+  geometry::CameraModel camera;
+  std::map<std::string, Rigid3> camera_from_world;  // by file name; metres
+};
+
+Surveyed LoadSurveyed(const std::filesystem::path& file) {
+  const Result<Json> json = LoadJson(file);
+  EXPECT_TRUE(json.ok());
+  Surveyed surveyed;
+  for (const Json& image : (*json)["images"]) {
+    geometry::CameraModel& camera = surveyed.camera;
+    camera.width = image["width"];
+    camera.height = image["height"];
+    camera.fx = image["K"][0];
+    camera.fy = image["K"][1];
+    camera.cx = image["K"][2];
+    camera.cy = image["K"][3];
+    const std::vector<double> r = image["world_to_camera"]["R"];
+    const std::vector<double> t = image["world_to_camera"]["t"];
+    const Eigen::Matrix3d rotation =
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
+    const std::filesystem::path name = image["file"].get<std::string>();
+    surveyed.camera_from_world[name.filename()] =
+        Rigid3::FromMatrix(rotation, Vector3d(t[0], t[1], t[2]));
+  }
+  return surveyed;
+}
+
+// The stage stands before the fountain: its origin on the pavement (the scan's z points down), its
+// x along the basin's front, its z towards the cameras.
+Rigid3 WorldFromStage() {
+  const Vector3d along = Vector3d(1.792, -0.558, 0.0).normalized();
+  const Vector3d up(0.0, 0.0, -1.0);
+  Eigen::Matrix3d axes;
+  axes << along, up, along.cross(up);
+  return Rigid3::FromMatrix(axes, Vector3d(-16.42, -8.83, 1.66));
+}
+
+TEST(PhotographedPlace, AStageLaidByFourPointsShowsPeopleWhereTheyStandToThePixel) {
+  LARARIUM_REQUIRE_DATA(folder, "fountain-P11");
+  const Surveyed surveyed = LoadSurveyed(folder / "ground_truth.json");
+  auto source = capture::OpenImageFolder(folder / "images");
+  ASSERT_TRUE(source.ok()) << source.message();
+  train::TrainOptions options;
+  options.intrinsics = surveyed.camera;
+  NoProgress progress;
+  const auto trained = train::Train(**source, options, progress, *MakeSilentLog());
+  ASSERT_TRUE(trained.ok()) << trained.message();
+  const vision::SceneDatabase& map = trained->database;
+
+  const auto seen = [&](const std::string& frame, const Vector3d& on_stage) {
+    return surveyed.camera.Project(surveyed.camera_from_world.at(frame) *
+                                   (WorldFromStage() * on_stage));
+  };
+  // The basin's foot and the wall behind it, picked with the errors of a hand.
+  ProjectDocument document;
+  document.check_points = {{"left", {-0.5, 0.0, 0.9}},
+                           {"right", {1.4, 0.0, 0.9}},
+                           {"niche", {0.45, 1.9, -0.8}},
+                           {"wall", {2.4, 1.2, -0.6}}};
+  PlaceDocument place;
+  Random random(1);
+  for (const auto& point : document.check_points) {
+    for (const vision::Keyframe& keyframe : map.keyframes) {
+      const auto pixel = seen(keyframe.name, point.position);
+      if (pixel && surveyed.camera.Contains(*pixel) && keyframe.frame_index % 2 == 1) {
+        const Vector2d error(random.Uniform(-1.5, 1.5), random.Uniform(-1.5, 1.5));
+        SetCheckPick(place, point.name, {keyframe.frame_index, keyframe.name, *pixel + error});
+      }
+    }
+  }
+  const CheckReport report = CheckStaging(document, place, map, geometry::Similarity3());
+  ASSERT_TRUE(report.map_from_stage.has_value()) << CheckText(report);
+  EXPECT_TRUE(report.fit_good) << CheckText(report);
+  EXPECT_LT(report.fit_rms_m, 0.01);
+
+  // Feet and heads of people elsewhere on that stage, in every photograph that sees them.
+  double sum = 0.0;
+  int count = 0;
+  for (const vision::Keyframe& keyframe : map.keyframes) {
+    const Rigid3 camera_from_stage =
+        geometry::CameraFromB(keyframe.camera_from_map, *report.map_from_stage);
+    for (const double x : {-1.0, 0.2, 1.9}) {
+      for (const double y : {0.0, 1.7}) {
+        const Vector3d at(x, y, 1.6);
+        const auto expected = seen(keyframe.name, at);
+        const auto shown = surveyed.camera.Project(camera_from_stage * at);
+        if (expected && shown && surveyed.camera.Contains(*expected)) {
+          sum += (*shown - *expected).squaredNorm();
+          ++count;
+        }
+      }
+    }
+  }
+  ASSERT_GT(count, 30);
+  const double rms = std::sqrt(sum / count);
+  RecordProperty("rms_px", std::to_string(rms));
+  std::printf("%d points: %.2f px, stage to %.1f mm\n", count, rms, 1000.0 * report.fit_rms_m);
+  EXPECT_LT(rms, 3.0);
+}
+
+}  // namespace
+}  // namespace lararium::app
