@@ -22,10 +22,10 @@ namespace lararium::audio {
 
 // How a source is heard now.
 struct SourceState {
-  float gain = 1.0f;
-  glm::vec3 position = glm::vec3(0.0f);
-  glm::vec3 facing = glm::vec3(0.0f);
-  float obstruction = 0.0f;
+  float gain = 1.0f;                     // factor of its amplitude
+  glm::vec3 position = glm::vec3(0.0f);  // stage, metres; unless head-locked
+  glm::vec3 facing = glm::vec3(0.0f);    // where a mouth points; zero: it sounds all around
+  float obstruction = 0.0f;              // 0: heard freely; 1: behind something solid
 };
 
 class SoundGraph {
@@ -54,8 +54,10 @@ class SoundGraph {
   // False once a clip has ended.
   bool Playing(size_t source);
 
+  // How a source is heard, and from where; they hold until they are set anew.
   void Set(size_t source, const SourceState& state);
   void SetListener(const Listener& listener);
+  // How the room answers. db: louder than rooms of its kind do.
   void SetReverb(stage::Reverb reverb, float db);
 
   // The next samples: left, right, left, ... What was set before is reached at the end

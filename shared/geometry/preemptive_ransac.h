@@ -28,21 +28,16 @@ struct PreemptiveRansacOptions {
 template <typename Hypothesis>
 class PreemptiveRansac {
  public:
-  struct Winner {
-    Hypothesis hypothesis;
-    double mean_cost = 0.0;  // over the observations that it was scored on
-  };
-
   // generate(random, hypotheses): appends what a random minimal sample gives,
   //   perhaps nothing. Called at most options.hypotheses times.
   // cost(hypothesis, observation): of one observation, truncated, lower is better.
-  // nullopt when no sample gave a hypothesis. The time is bounded by the options
+  // The best; nullopt when no sample gave a hypothesis. The time is bounded by the options
   // whatever the observations are; the same input gives the same winner.
   template <typename Generate, typename Cost>
-  std::optional<Winner> Run(size_t observation_count,
-                            const PreemptiveRansacOptions& options,
-                            Generate&& generate,
-                            Cost&& cost) {
+  std::optional<Hypothesis> Run(size_t observation_count,
+                                const PreemptiveRansacOptions& options,
+                                Generate&& generate,
+                                Cost&& cost) {
     CHECK(options.hypotheses > 0 && options.block_size > 0);
     Random random(options.seed);
     const auto most = static_cast<size_t>(options.hypotheses);
@@ -58,9 +53,8 @@ class PreemptiveRansac {
     for (size_t h = 0; h < hypotheses_.size(); ++h) {
       ranking_.push_back({0.0, static_cast<uint32_t>(h)});
     }
-    const size_t scored = ScoreBlocks(options, cost);
-    const Ranked& best = *std::min_element(ranking_.begin(), ranking_.end());
-    return Winner{hypotheses_[best.second], best.first / static_cast<double>(scored)};
+    ScoreBlocks(options, cost);
+    return hypotheses_[std::min_element(ranking_.begin(), ranking_.end())->second];
   }
 
  private:
@@ -74,9 +68,8 @@ class PreemptiveRansac {
     }
   }
 
-  // Returns how many observations were looked at.
   template <typename Cost>
-  size_t ScoreBlocks(const PreemptiveRansacOptions& options, Cost& cost) {
+  void ScoreBlocks(const PreemptiveRansacOptions& options, Cost& cost) {
     const auto block_size = static_cast<size_t>(options.block_size);
     size_t begin = 0;
     while (begin < order_.size()) {
@@ -98,7 +91,6 @@ class PreemptiveRansac {
         break;
       }
     }
-    return begin;
   }
 
   std::vector<Hypothesis> hypotheses_;

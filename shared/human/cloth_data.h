@@ -66,9 +66,10 @@ struct ClothRange {
   bool has_plain_skin = false;        // some vertices follow no triangle
 };
 
+// A part of the body that cloth stays out of: two balls and the cone about them. Metres.
 struct ClothCapsule {
   uint32_t joint = 0;
-  glm::vec3 a = glm::vec3(0.0f);  // joint frame
+  glm::vec3 a = glm::vec3(0.0f);  // centres of the balls, joint frame
   glm::vec3 b = glm::vec3(0.0f);
   float radius_a = 0.0f;
   float radius_b = 0.0f;
@@ -88,10 +89,11 @@ struct ClothModel::Data {
   std::vector<std::array<uint8_t, 4>> joints;
   std::vector<glm::vec4> weights;
   std::vector<float> inverse_mass;  // 1/kg; 0: pinned
-  std::vector<float> reach;
-  std::vector<float> thickness;
-  std::vector<float> friction;
-  std::vector<uint16_t> cloth_of;
+  std::vector<float> reach;         // metres that it may be from its plain skin
+  std::vector<float> thickness;     // metres that it keeps from body and floor
+  std::vector<float> friction;      // Coulomb's, without unit
+  std::vector<uint16_t> cloth_of;   // index in cloths
+  // All particles, parted into those that follow the skin and those that move.
   std::vector<uint32_t> pinned;
   std::vector<uint32_t> free;
 
@@ -99,36 +101,38 @@ struct ClothModel::Data {
   std::vector<ClothEdge> edges;
   std::vector<ClothHinge> hinges;
   std::vector<ClothTether> tethers;
-  std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<float> triangle_density;  // kg/m^2
+  std::vector<std::array<uint32_t, 3>> triangles;  // their particles
+  std::vector<float> triangle_density;             // kg/m^2
 
   // What a particle keeps from a capsule's surface: the cloth's thickness and what its
   // triangles cut off between particles, but no more than it has as bound. A capsule is
-  // a rough body: what lies in it from the start may stay as deep. [capsule][particle]
+  // a rough body: what lies in it from the start may stay as deep. Metres, [capsule][particle].
   std::vector<float> standoff;
   float largest_standoff = 0.0f;
 
   float contact_distance = 0.0f;  // metres kept between two places of cloth
 };
 
+// A particle that may meet the body within the next beats.
 struct ClothContact {
   uint32_t particle = 0;
   uint32_t capsule = 0;
-  float standoff = 0.0f;
+  float standoff = 0.0f;  // metres: Data::standoff of both
 };
 
 // A ball around particles that follow one another in ClothModel::Data::free.
 struct ClothBlock {
   static constexpr size_t kSize = 8;
 
-  Float4 centre;
-  float radius = 0.0f;
+  Float4 centre;        // frame of simulation
+  float radius = 0.0f;  // metres
 };
 
+// Two particles, of different places of the cloth, that may touch.
 struct ClothPair {
   uint32_t a = 0;
   uint32_t b = 0;
-  float distance = 0.0f;
+  float distance = 0.0f;  // metres that they keep
 };
 
 // Particles sorted into cubic cells, found by hashing.

@@ -73,7 +73,7 @@ class QualityController {
   // Frames that were drawn at each level.
   std::span<const int64_t> frames() const { return frames_; }
 
-  // {"level", "levels": frames of each, "step_count", "steps": [{"time", "from", "to", "why"}]}
+  // {"level", "frames": at each level, "step_count", "steps": [{"time", "from", "to", "why"}]}
   Json ToJson() const;
 
  private:

@@ -180,7 +180,7 @@ class Show {
   void ForgetPose();
 
   // For interactive staging: another transform, nudge, light or occluders of
-  // places[index].
+  // places[index]. Not while a frame is being staged.
   void SetPlace(size_t index, stage::Place place) {
     sound_->SetPlace(index, place);
     lamp_shades_[index] = LampShade(place.occluders);

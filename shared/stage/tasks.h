@@ -121,32 +121,34 @@ class Tasks {
     Stage stage = Stage::kWaiting;
     Phase phase = Phase::kApproach;
     bool is_over = false;  // for whoever asked; it may linger
+    // What was asked for.
     ActorId actor;
-    ActorId partner;
-    ObjectId object;
-    int action = -1;
-    PutTarget target;
-    glm::vec2 goal = glm::vec2(0.0f);
-    std::optional<float> heading;
-    float speed = 0.0f;
+    ActorId partner;                   // who is given something
+    ObjectId object;                   // that is used, taken, put or given
+    int action = -1;                   // of the object
+    PutTarget target;                  // of kPut
+    glm::vec2 goal = glm::vec2(0.0f);  // of kWalk: (x, z), stage, metres
+    std::optional<float> heading;      // there, radians
+    float speed = 0.0f;                // m/s, rad/s where it only turns; 0: a comfortable one
     bool only_turns = false;
-    float seconds = 0.0f;
+    float seconds = 0.0f;  // that the action lasts at least
 
-    float time = 0.0f;  // in the phase
-    float waited = 0.0f;
-    ObjectId place_of;  // the object at one of whose places it is done
-    int place = -1;
-    int spot = -1;
-    HandGrips hands = kNoHands;
-    HandGrips partner_hands = kNoHands;
-    float reach_seconds = 0.0f;
-    float held_up = 0.0f;  // seconds that a moving part has waited for room
+    // How far it is.
+    float time = 0.0f;                   // in the phase, seconds
+    float waited = 0.0f;                 // for its turn, seconds
+    ObjectId place_of;                   // the object at one of whose places it is done
+    int place = -1;                      // which of them
+    int spot = -1;                       // of the surface: where it is put
+    HandGrips hands = kNoHands;          // of the actor
+    HandGrips partner_hands = kNoHands;  // of who is given something
+    float reach_seconds = 0.0f;  // that hands take to reach, or the way back to a seat takes
+    float held_up = 0.0f;        // seconds that a moving part has waited for room
     std::array<float, ObjectUse::kMaxJoints> joints = {};  // when the action began
     Pose begin;                                            // of whatever moves in the phase
     Pose seat;                                             // stage frame, on its surface
     Pose stand;                                            // of the actor that sits down
-    int clip_before = -1;
-    std::string message;
+    int clip_before = -1;                                  // that it played before
+    std::string message;                                   // TaskReport::message
   };
 
   Result<TaskId> Begin(Task task);

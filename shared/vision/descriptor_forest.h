@@ -36,15 +36,16 @@ struct DescriptorForest {
 };
 
 struct ForestOptions {
-  int trees = 4;
-  int leaf_size = 8;
+  int trees = 4;      // searched together: more of them find more, and take more memory
+  int leaf_size = 8;  // the most descriptors of a leaf
   uint64_t seed = 1;
 };
 
+// The same descriptors and options give the same forest. Without descriptors it is empty.
 DescriptorForest BuildForest(std::span<const Descriptor> descriptors, const ForestOptions& options);
 
 struct Neighbour {
-  uint32_t descriptor = 0;
+  uint32_t descriptor = 0;  // its index
   uint32_t squared_distance = 0;
 };
 
@@ -92,6 +93,7 @@ class ForestSearcher {
   int checks_left_ = 0;
 };
 
+// Euclidean, in units of the descriptors' bytes.
 uint32_t SquaredDistance(const Descriptor& a, const Descriptor& b);
 
 }  // namespace lararium::vision

@@ -358,7 +358,7 @@ std::optional<Rigid3> Localizer::FindPose(const CameraModel& camera) {
   if (!winner) {
     return std::nullopt;
   }
-  const Pose& pose = winner->hypothesis;
+  const Pose& pose = *winner;
   return Rigid3::FromMatrix(pose.leftCols<3>(), pose.col(3));
 }
 

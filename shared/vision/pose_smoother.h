@@ -38,11 +38,11 @@ enum class Smoothing {
 
 struct PoseSmootherOptions {
   bool correct = true;
-  double correction_seconds = 0.25;
-  double correction_px = 4.0;  // larger ones are dropped at once
+  double correction_seconds = 0.25;  // in which a correction is taken back
+  double correction_px = 4.0;        // of the picture; larger ones are dropped at once
 
   bool filter = false;
-  double still_cutoff_hz = 1.0;
+  double still_cutoff_hz = 1.0;    // where the camera stands
   double cutoff_per_speed = 0.02;  // Hz for each standard deviation per second
   double speed_cutoff_hz = 1.0;    // of the low-pass on the velocity
   double most_deviations = 3.0;    // between the filtered pose and the tracker's

@@ -141,42 +141,6 @@ Result<PoseRecord> ReadRecord(const JsonView& view) {
   return record;
 }
 
-// ------------------------------------------------------------ replaying
-
-class RecordedPoses final : public PoseSource {
- public:
-  explicit RecordedPoses(std::vector<PoseRecord> poses) : poses_(std::move(poses)) {}
-
-  TrackedFrame Track(const geometry::Frame& frame) override {
-    TrackedFrame tracked;
-    tracked.frame = frame;
-    const bool known = frame.index >= 0 && static_cast<size_t>(frame.index) < poses_.size();
-    if (known) {
-      const PoseRecord& record = poses_[frame.index];
-      tracked.camera = record.camera;
-      if (record.tracked && record.camera_from_world) {
-        tracked.camera_from_map = record.camera_from_world;
-        tracked.state = TrackState::kTracking;
-        const TrackingDetails details =
-            record.details.value_or(TrackingDetails{.confidence = 1.0f});
-        tracked.map = details.map;
-        tracked.followed = details.followed;
-        tracked.confidence = details.confidence;
-        tracked.gain = details.gain;
-        had_pose_ = true;
-        return tracked;
-      }
-    }
-    tracked.state = had_pose_ ? TrackState::kLost : TrackState::kSearching;
-    tracked.reason = TrackReason::kNoConsistentPose;
-    return tracked;
-  }
-
- private:
-  std::vector<PoseRecord> poses_;
-  bool had_pose_ = false;
-};
-
 }  // namespace
 
 PoseRecord MakePoseRecord(std::string file, const TrackedFrame& tracked) {
@@ -205,10 +169,6 @@ Result<std::vector<PoseRecord>> LoadPoses(const std::filesystem::path& path) {
     poses.push_back(std::move(record));
   }
   return poses;
-}
-
-std::unique_ptr<PoseSource> CreateRecordedPoses(std::vector<PoseRecord> poses) {
-  return std::make_unique<RecordedPoses>(std::move(poses));
 }
 
 }  // namespace lararium::vision

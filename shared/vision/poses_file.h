@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,10 +39,7 @@ struct PoseRecord {
 PoseRecord MakePoseRecord(std::string file, const TrackedFrame& tracked);
 
 Status SavePoses(const std::filesystem::path& path, std::span<const PoseRecord> poses);
-// Of the details, what replaying needs is read back: all but state and reason.
+// Of the details all but state and reason are read back.
 Result<std::vector<PoseRecord>> LoadPoses(const std::filesystem::path& path);
-
-// Gives frame i the pose of poses[i]: replays a recording without the tracker.
-std::unique_ptr<PoseSource> CreateRecordedPoses(std::vector<PoseRecord> poses);
 
 }  // namespace lararium::vision

@@ -63,7 +63,7 @@ struct SeenPoint {
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
 };
 
-// Gives frames their poses: the SIFT tracker, recorded poses, a headset.
+// Gives frames their poses: the SIFT tracker, or what smooths its poses.
 class PoseSource {
  public:
   virtual ~PoseSource() = default;

@@ -58,8 +58,8 @@ TEST(PreemptiveRansac, FindsTheLineAmongSeventyPercentOutliers) {
     const auto winner =
         ransac.Run(problem.points.size(), {.seed = seed}, problem.Generate(), problem.Cost());
     ASSERT_TRUE(winner.has_value());
-    EXPECT_NEAR(winner->hypothesis.slope, 2.0, 0.1) << "seed " << seed;
-    EXPECT_NEAR(winner->hypothesis.offset, -1.0, 0.05) << "seed " << seed;
+    EXPECT_NEAR(winner->slope, 2.0, 0.1) << "seed " << seed;
+    EXPECT_NEAR(winner->offset, -1.0, 0.05) << "seed " << seed;
   }
 }
 
@@ -85,8 +85,8 @@ TEST(PreemptiveRansac, RepeatsItselfFromOneSeed) {
   const auto first = ransac.Run(300, {.seed = 9}, problem.Generate(), problem.Cost());
   const auto second = ransac.Run(300, {.seed = 9}, problem.Generate(), problem.Cost());
   ASSERT_TRUE(first && second);
-  EXPECT_EQ(first->hypothesis.slope, second->hypothesis.slope);
-  EXPECT_EQ(first->mean_cost, second->mean_cost);
+  EXPECT_EQ(first->slope, second->slope);
+  EXPECT_EQ(first->offset, second->offset);
 }
 
 TEST(PreemptiveRansac, FindsNothingWithoutHypothesesOrObservations) {

@@ -91,16 +91,14 @@ TEST(PosesFile, KeepsWhatTheTrackerSays) {
   EXPECT_EQ(images[1]["state"], "lost");
   EXPECT_EQ(images[1]["reason"], "too dark");
 
-  const auto source = CreateRecordedPoses(LoadPoses(folder / "poses.json").value());
-  geometry::Frame frame;
-  frame.index = 0;
-  const TrackedFrame replayed = source->Track(frame);
-  EXPECT_EQ(replayed.map, 2u);
-  EXPECT_TRUE(replayed.followed);
-  EXPECT_EQ(replayed.confidence, 0.75f);
-  EXPECT_EQ(replayed.gain, tracked.gain);
-  frame.index = 1;
-  EXPECT_EQ(source->Track(frame).state, TrackState::kLost);
+  const auto loaded = LoadPoses(folder / "poses.json");
+  ASSERT_TRUE(loaded.ok()) << loaded.message();
+  const TrackingDetails& details = (*loaded)[0].details.value();
+  EXPECT_EQ(details.map, 2u);
+  EXPECT_TRUE(details.followed);
+  EXPECT_EQ(details.confidence, 0.75f);
+  EXPECT_EQ(details.gain, tracked.gain);
+  EXPECT_FALSE((*loaded)[1].tracked);
 }
 
 TEST(PosesFile, RefusesWhatItCannotUse) {
@@ -139,25 +137,6 @@ TEST(PosesFile, RefusesWhatItCannotUse) {
   EXPECT_FALSE(LoadPoses(folder / "none.json").ok());
   ASSERT_TRUE(WriteFileAtomically(folder / "list.json", std::string_view("[]")).ok());
   EXPECT_FALSE(LoadPoses(folder / "list.json").ok());
-}
-
-TEST(RecordedPoses, ReplayByFrameIndex) {
-  const auto source = CreateRecordedPoses(Records());
-  geometry::Frame frame;
-  frame.index = 1;
-  EXPECT_EQ(source->Track(frame).state, TrackState::kSearching);
-  frame.index = 0;
-  const TrackedFrame tracked = source->Track(frame);
-  EXPECT_EQ(tracked.state, TrackState::kTracking);
-  EXPECT_EQ(tracked.camera, kCamera);
-  EXPECT_TRUE(tracked.camera_from_map.has_value());
-  for (const int64_t index : {1, 2, 3, -1}) {
-    frame.index = index;
-    const TrackedFrame lost = source->Track(frame);
-    EXPECT_EQ(lost.state, TrackState::kLost);
-    EXPECT_FALSE(lost.camera_from_map.has_value());
-    EXPECT_NE(lost.reason, TrackReason::kNone);
-  }
 }
 
 }  // namespace
