@@ -16,7 +16,7 @@ struct Choices {
   std::string language;  // spoken; empty: as the author chose
   std::string captions;  // likewise
   double volume = 1.0;   // 0..1
-  render::CaptionStyle caption_style;
+  render::CaptionStyle caption_style = {};
   bool descriptions = false;    // of what is to be seen are heard
   bool reduced_motion = false;  // what glides elsewhere fades
 

@@ -87,7 +87,7 @@ TEST_F(FaultLogTest, AKioskWhoseFolderCannotBeWrittenTellsSoOnceAndWhenItCanBeAg
     const auto keep_until = [&](const char* said) {
       for (int i = 0;
            i < 1000 && (Lines().empty() || Lines().back().find(said) == std::string::npos); ++i) {
-        kiosk.Keep({}, 0.0);
+        kiosk.Keep({}, {}, 0.0);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }
     };
