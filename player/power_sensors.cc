@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <cstdlib>
 #include <fstream>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include "shared/core/sleep.h"
 
 namespace lararium::player {
 namespace {
@@ -92,13 +92,12 @@ PowerWatch::PowerWatch(double seconds_between, Read read)
       }) {}
 
 void PowerWatch::Watch(double seconds_between, const Read& read, const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any never;
+  using Clock = std::chrono::steady_clock;
+  const auto between =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds_between));
   while (!stop.stop_requested()) {
     power_.Put(read());
-    std::unique_lock lock(mutex);
-    never.wait_for(lock, stop, std::chrono::duration<double>(seconds_between),
-                   [] { return false; });
+    SleepUntil(Clock::now() + between, stop);
   }
 }
 

@@ -1,8 +1,9 @@
 #include "shared/show/frame_pipeline.h"
 
 #include <algorithm>
-#include <condition_variable>
 #include <utility>
+
+#include "shared/core/sleep.h"
 
 namespace lararium::show {
 namespace {
@@ -31,14 +32,6 @@ void TimedStage(const FrameStages& stages,
   }
   staged.staged = Clock::now();
   staged.stage_ms = std::chrono::duration<double, std::milli>(staged.staged - begin).count();
-}
-
-// Sleeps until due, or until stop is requested.
-void SleepUntil(Clock::time_point due, const std::stop_token& stop) {
-  std::mutex mutex;
-  std::unique_lock lock(mutex);
-  std::condition_variable_any never;
-  never.wait_until(lock, stop, due, [] { return false; });
 }
 
 }  // namespace
