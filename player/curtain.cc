@@ -6,7 +6,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -47,8 +47,8 @@ class Kiosk {
 
   // Before a frame is drawn: nobody is left in it when the visit is over.
   void BeforeFrame(show::StagedFrame& staged) const;
-  // How loud what is heard is, times what was chosen: it goes with people.
-  float loudness() const { return visit_.shown(); }
+  // How much of people is seen, and of what is chosen to be heard: less when the visit is over.
+  float shown() const { return visit_.shown(); }
   // After a frame was shown, seconds by a steady clock. Begins the show anew for the next visitor,
   // keeps where it is and counts.
   void AfterFrame(double now, const show::StagedFrame& staged, show::Show& show);

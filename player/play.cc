@@ -153,6 +153,10 @@ class Performance {
   void Do(Action action);
   void Change(const Choices& choices);
   void ObeyStaff();
+  Offer offer() const {
+    const show::ShowContent& content = show_->content();
+    return {content.spoken_languages, content.caption_languages, content.has_descriptions};
+  }
   void Obey(const StaffCommand& command);
   void TellStaff(const show::StagedFrame& staged);
   void FillStaffState(const show::StagedFrame& staged, StaffState& state) const;
@@ -171,6 +175,9 @@ class Performance {
   Result<std::unique_ptr<show::Show>> MakeShow(show::ShowContent content) const;
   void TellKiosk();
   void TellShow();
+  // How much is heard and seen of a visit that may be over.
+  float Shown() const { return kiosk_ ? kiosk_->shown() : 1.0f; }
+  void SetVolume();
   Status PrepareDrawing(const show::ShowContent& content);
   void BeginChangingLanguages();
   bool OtherLanguagesAreReady();
@@ -225,7 +232,6 @@ class Performance {
   std::optional<StaffReporter> staff_;     // none: there is no page for staff
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
-  float loudness_ = 1.0f;                      // times what was chosen
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
   std::optional<show::QualityController> quality_;
   std::optional<PowerWatch> power_;  // where the quality is not fixed
@@ -305,10 +311,7 @@ void Performance::Do(Action action) {
       break;
     default: {
       Choices choices = choices_;
-      const show::ShowContent& content = show_->content();
-      Choose(action,
-             {content.spoken_languages, content.caption_languages, content.has_descriptions},
-             choices);
+      Choose(action, offer(), choices);
       Change(choices);
     }
   }
@@ -319,15 +322,19 @@ void Performance::Change(const Choices& choices) {
   if (choices == choices_) {
     return;
   }
-  const Choices before = std::exchange(choices_, choices);
-  if (choices_.volume != before.volume && sound_ != nullptr) {
-    sound_->SetVolume(static_cast<float>(choices_.volume) * loudness_);
-  }
+  choices_ = choices;
+  SetVolume();
   renderer_->SetCaptionStyle(choices_.caption_style);
   TellShow();
   menu_.SetItems(ItemsOf(show_->content(), choices_));
   if (kiosk_) {
     kiosk_->Keep(choices_, house_, Seconds(SteadyClock::now()));
+  }
+}
+
+void Performance::SetVolume() {
+  if (sound_ != nullptr) {
+    sound_->SetVolume(static_cast<float>(choices_.volume) * Shown());
   }
 }
 
@@ -339,29 +346,17 @@ void Performance::ObeyStaff() {
   }
 }
 
-// What the show does not have is not chosen.
+// For whoever watches, and for those who come after.
 void Performance::Obey(const StaffCommand& command) {
-  const auto has = [](const std::vector<std::string>& languages, const std::string& language) {
-    return std::find(languages.begin(), languages.end(), language) != languages.end();
-  };
-  const show::ShowContent& content = show_->content();
+  Choose(command, offer(), house_);
+  if (command.action) {
+    Choose(*command.action, offer(), house_);
+  }
+  if (kiosk_) {
+    kiosk_->Keep(choices_, house_, Seconds(SteadyClock::now()));
+  }
   Choices choices = choices_;
-  choices.volume = command.volume.value_or(choices.volume);
-  if (command.language && has(content.spoken_languages, *command.language)) {
-    choices.language = *command.language;
-  }
-  if (command.captions && (has(content.caption_languages, *command.captions) ||
-                           *command.captions == show::kNoCaptions)) {
-    choices.captions = *command.captions;
-  }
-  render::CaptionStyle& style = choices.caption_style;
-  style.size = command.caption_size.value_or(style.size);
-  style.contrast = command.caption_contrast.value_or(style.contrast);
-  choices.descriptions = command.descriptions.value_or(choices.descriptions);
-  choices.reduced_motion = command.reduced_motion.value_or(choices.reduced_motion);
-  if (choices != choices_) {
-    house_ = choices;
-  }
+  Choose(command, offer(), choices);
   Change(choices);
   if (command.action) {
     Do(*command.action);
@@ -711,8 +706,10 @@ Status Performance::ChangeLanguages() {
   Result<std::unique_ptr<show::Show>> next = next_show_.get();
   if (!next.ok()) {
     log_.warn("{}; the languages stay", next.message());
-    choices_.language = shown_languages_.spoken;
-    choices_.captions = shown_languages_.captions;
+    Choices choices = choices_;
+    choices.language = shown_languages_.spoken;
+    choices.captions = shown_languages_.captions;
+    Change(choices);
     return Status();
   }
   LARARIUM_RETURN_IF_ERROR((*next)->GoOnFrom(*show_));
@@ -746,7 +743,7 @@ void Performance::OpenSound() {
   }
   sound_ = std::make_unique<audio::SoundPlayer>(
       std::move(*mixer), [] { return audio::CreateAudioOut(audio::AudioOutKind::kDevice); }, log_);
-  sound_->SetVolume(static_cast<float>(choices_.volume) * loudness_);
+  SetVolume();
 }
 
 void Performance::ShowToStaff() {
@@ -792,7 +789,7 @@ Status Performance::DrawSeeThrough(const show::StagedFrame& staged, SteadyClock:
     LARARIUM_RETURN_IF_ERROR(renderer_->DrawSeeThrough(
         staged,
         {view->camera, view->room_from_eye.Inverse() * *anchor_.room_from_stage(),
-         anchor_.Opacity(now) * (kiosk_ ? kiosk_->loudness() : 1.0f)},
+         anchor_.Opacity(now) * Shown()},
         *target_));
     LARARIUM_RETURN_IF_ERROR(openxr_->SetPicture(eye, *target_));
   }
@@ -850,10 +847,7 @@ void Performance::AfterFrame(const show::StagedFrame& staged) {
     menu_.Close();
     Change(house_);
   }
-  if (sound_ != nullptr && kiosk_->loudness() != loudness_) {
-    loudness_ = kiosk_->loudness();
-    sound_->SetVolume(static_cast<float>(choices_.volume) * loudness_);
-  }
+  SetVolume();
 }
 
 Status Performance::DrawFrame(show::StagedFrame& staged) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "shared/core/json.h"
+#include "shared/show/show_content.h"
 
 namespace lararium::player {
 namespace {
@@ -93,6 +94,25 @@ Result<StaffCommand> ParseStaffCommand(std::string_view text) {
     return view.Problem("there is no such thing to do");
   }
   return command;
+}
+
+void Choose(const StaffCommand& command, const Offer& offer, Choices& choices) {
+  const auto has = [](const std::vector<std::string>& languages, const std::string& language) {
+    return std::find(languages.begin(), languages.end(), language) != languages.end();
+  };
+  choices.volume = command.volume.value_or(choices.volume);
+  if (command.language && has(offer.spoken, *command.language)) {
+    choices.language = *command.language;
+  }
+  if (command.captions &&
+      (has(offer.captions, *command.captions) || *command.captions == show::kNoCaptions)) {
+    choices.captions = *command.captions;
+  }
+  render::CaptionStyle& style = choices.caption_style;
+  style.size = command.caption_size.value_or(style.size);
+  style.contrast = command.caption_contrast.value_or(style.contrast);
+  choices.descriptions = command.descriptions.value_or(choices.descriptions);
+  choices.reduced_motion = command.reduced_motion.value_or(choices.reduced_motion);
 }
 
 }  // namespace lararium::player

@@ -53,6 +53,9 @@ struct StaffCommand {
   friend bool operator==(const StaffCommand&, const StaffCommand&) = default;
 };
 
+// Changes what a command is about, as far as the show offers it. Its action is another matter.
+void Choose(const StaffCommand& command, const Offer& offer, Choices& choices);
+
 // {"do": "restart" | "find_anew" | "louder" | "quieter" | "end" | "begin_again"}, or
 // {"do": "volume" | "language" | "captions" | "caption_size" | "caption_contrast" |
 // "descriptions" | "reduced_motion", "value": ...}. It was written by anybody.

@@ -70,11 +70,11 @@ TEST_F(KioskTest, AtTheEndOfAVisitNobodyIsLeftAndItIsSaid) {
   EXPECT_EQ(staged_.opacity, 0.0f);
   EXPECT_EQ(staged_.guide.opacity, 1.0f);
   EXPECT_EQ(staged_.guide.says, show::StagedGuide::Says::kFarewell);
-  EXPECT_EQ(kiosk.loudness(), 0.0f);
+  EXPECT_EQ(kiosk.shown(), 0.0f);
   Play(kiosk, 20.0, true);
   EXPECT_TRUE(kiosk.TakeNewVisitor()) << "it was handed on";
   EXPECT_EQ(staged_.opacity, 1.0f);
-  EXPECT_EQ(kiosk.loudness(), 1.0f);
+  EXPECT_EQ(kiosk.shown(), 1.0f);
 }
 
 TEST_F(KioskTest, AfterTheEndOfAVisitTheButtonBeginsTheNext) {

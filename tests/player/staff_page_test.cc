@@ -232,6 +232,29 @@ TEST(StaffCommand, TakesWhatMakesAShowEasierToFollow) {
   }
 }
 
+TEST(StaffCommand, ChangesWhatItIsAboutAndNothingThatAVisitorChose) {
+  const std::vector<std::string> spoken = {"la"};
+  const std::vector<std::string> captions = {"en", "it"};
+  const Offer offer = {spoken, captions, true};
+  const auto choose = [&offer](const char* command, Choices& choices) {
+    Choose(*ParseStaffCommand(command), offer, choices);
+  };
+  const Choices before = {
+      "la", "en", 0.5, {render::CaptionSize::kLarge, render::CaptionContrast::kHigh}, true, true};
+  Choices choices = before;
+  choose(R"({"do": "volume", "value": 0.8})", choices);
+  EXPECT_EQ(choices.volume, 0.8);
+  choices.volume = before.volume;
+  EXPECT_EQ(choices, before);
+  choose(R"({"do": "language", "value": "de"})", choices);
+  choose(R"({"do": "captions", "value": "la"})", choices);
+  EXPECT_EQ(choices, before) << "the show has neither";
+  choose(R"({"do": "captions", "value": "off"})", choices);
+  EXPECT_EQ(choices.captions, "off");
+  choose(R"({"do": "captions", "value": "it"})", choices);
+  EXPECT_EQ(choices.captions, "it");
+}
+
 TEST_F(StaffPageTest, WhatIsNoCommandIsRefusedAndSaysWhy) {
   Open(true);
   Player();
