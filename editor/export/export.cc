@@ -114,22 +114,25 @@ Status PackSpoken(const SpokenContent& content, size_t /*index*/, Packing& packi
   return Status();
 }
 
-Status PackCaptions(const CaptionContent& content, size_t /*index*/, Packing& packing) {
+// kind: "captions" or "descriptions". list: of the manifest.
+Status PackTexts(const CaptionContent& content,
+                 const std::string& kind,
+                 std::vector<bundle::SpokenLanguage>& list,
+                 Packing& packing) {
   LARARIUM_RETURN_IF_ERROR(
-      stage::ParseCaptions(content.captions, "captions of " + content.language).status());
-  const std::string member = "speech/" + content.language + "/captions.json";
+      stage::ParseCaptions(content.captions, kind + " of " + content.language).status());
+  const std::string member = "speech/" + content.language + "/" + kind + ".json";
   packing.members.push_back({member, std::as_bytes(std::span(content.captions))});
-  packing.manifest.spoken.push_back({content.language, member});
+  list.push_back({content.language, member});
   return Status();
 }
 
+Status PackCaptions(const CaptionContent& content, size_t /*index*/, Packing& packing) {
+  return PackTexts(content, "captions", packing.manifest.spoken, packing);
+}
+
 Status PackDescriptions(const CaptionContent& content, size_t /*index*/, Packing& packing) {
-  LARARIUM_RETURN_IF_ERROR(
-      stage::ParseCaptions(content.captions, "descriptions in " + content.language).status());
-  const std::string member = "speech/" + content.language + "/descriptions.json";
-  packing.members.push_back({member, std::as_bytes(std::span(content.captions))});
-  packing.manifest.descriptions.push_back({content.language, member});
-  return Status();
+  return PackTexts(content, "descriptions", packing.manifest.descriptions, packing);
 }
 
 Status PackCaptionFont(const ExportContent& content, Packing& packing) {
