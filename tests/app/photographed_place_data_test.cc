@@ -8,8 +8,8 @@
 
 #include "editor/app/check_points.h"
 #include "editor/train/trainer.h"
-#include "shared/core/json.h"
 #include "shared/core/random.h"
+#include "shared/vision/poses_file.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::app {
@@ -25,24 +25,13 @@ struct Surveyed {
 };
 
 Surveyed LoadSurveyed(const std::filesystem::path& file) {
-  const Result<Json> json = LoadJson(file);
-  EXPECT_TRUE(json.ok());
+  const auto poses = vision::LoadPoses(file);
+  EXPECT_TRUE(poses.ok()) << poses.message();
   Surveyed surveyed;
-  for (const Json& image : (*json)["images"]) {
-    geometry::CameraModel& camera = surveyed.camera;
-    camera.width = image["width"];
-    camera.height = image["height"];
-    camera.fx = image["K"][0];
-    camera.fy = image["K"][1];
-    camera.cx = image["K"][2];
-    camera.cy = image["K"][3];
-    const std::vector<double> r = image["world_to_camera"]["R"];
-    const std::vector<double> t = image["world_to_camera"]["t"];
-    const Eigen::Matrix3d rotation =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
-    const std::filesystem::path name = image["file"].get<std::string>();
-    surveyed.camera_from_world[name.filename()] =
-        Rigid3::FromMatrix(rotation, Vector3d(t[0], t[1], t[2]));
+  for (const vision::PoseRecord& pose : *poses) {
+    surveyed.camera = pose.camera;
+    surveyed.camera_from_world[std::filesystem::path(pose.file).filename()] =
+        *pose.camera_from_world;
   }
   return surveyed;
 }

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/bake/test_surfaces.h"
+#include "tests/support/png.h"
 
 namespace lararium::bake {
 namespace {
@@ -23,13 +24,9 @@ std::vector<SurfaceMesh> BindPose(const human::Human& human) {
 }
 
 human::Texture Encode(const cv::Mat& bgra) {
-  std::vector<uint8_t> png;
-  CHECK(cv::imencode(".png", bgra, png));
   human::Texture texture;
   texture.name = "texture";
-  for (const uint8_t byte : png) {
-    texture.encoded.push_back(static_cast<std::byte>(byte));
-  }
+  texture.encoded = test::Png(bgra);
   return texture;
 }
 

@@ -20,6 +20,7 @@
 #include "shared/core/file.h"
 #include "shared/core/random.h"
 #include "tests/import/glb_figure.h"
+#include "tests/support/png.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::import {
@@ -36,11 +37,7 @@ f 1 2 3 4
 )";
 
 std::vector<std::byte> Png(int width, int height, int channels, int alpha = 255) {
-  cv::Mat image(height, width, CV_8UC(channels), cv::Scalar(40, 90, 200, alpha));
-  std::vector<uchar> encoded;
-  cv::imencode(".png", image, encoded);
-  const auto* begin = reinterpret_cast<const std::byte*>(encoded.data());
-  return {begin, begin + encoded.size()};
+  return test::Png(cv::Mat(height, width, CV_8UC(channels), cv::Scalar(40, 90, 200, alpha)));
 }
 
 class ModelImport : public ::testing::Test {

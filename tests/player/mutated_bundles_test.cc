@@ -14,7 +14,6 @@
 #include <limits>
 #include <map>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "shared/audio/mixer.h"
@@ -32,7 +31,9 @@
 #include "tests/bundle/zip_archive.h"
 #include "tests/human/full_body.h"
 #include "tests/human/rich_human.h"
+#include "tests/render/box_font.h"
 #include "tests/stage/test_props.h"
+#include "tests/support/png.h"
 #include "tests/support/synthetic_world.h"
 #include "tests/support/test_files.h"
 
@@ -52,13 +53,6 @@ std::string TextOf(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::vector<std::byte> Png(const cv::Mat& image) {
-  std::vector<uchar> png;
-  cv::imencode(".png", image, png);
-  const auto bytes = std::as_bytes(std::span(png));
-  return {bytes.begin(), bytes.end()};
-}
-
 cv::Mat Speckled(int width, int height, int type) {
   cv::Mat image(height, width, type);
   cv::RNG random(7);
@@ -68,23 +62,12 @@ cv::Mat Speckled(int width, int height, int type) {
   return image;
 }
 
-// Every letter is a box.
-render::CaptionFont BoxFont() {
-  render::CaptionFont font;
-  font.em_px = 32.0f;
-  font.rim_px = 4.0f;
-  font.ascent = 0.8f;
-  font.descent = 0.2f;
-  font.atlas = cv::Mat(32, 16, CV_8UC1, cv::Scalar(255));
+render::CaptionFont AlphabetOfBoxes() {
+  std::string letters;
   for (char letter = 'A'; letter <= 'z'; ++letter) {
-    font.glyphs.push_back({static_cast<uint32_t>(letter),
-                           0.5f,
-                           {0.0f, -0.5f},
-                           {0.5f, 0.0f},
-                           {0.0f, 0.0f},
-                           {16.0f, 32.0f}});
+    letters += letter;
   }
-  return font;
+  return test::BoxFont(letters);
 }
 
 // A place that a tracker looks for, with keyframes and their images.
@@ -101,7 +84,7 @@ vision::SceneDatabase Map() {
 
 human::Human Person() {
   human::Human human = human::RichHuman();
-  human.textures[0].encoded = Png(Speckled(16, 16, CV_8UC3));
+  human.textures[0].encoded = test::Png(Speckled(16, 16, CV_8UC3));
   return human;
 }
 
@@ -156,7 +139,7 @@ std::vector<NamedBytes> Members() {
   wall.indices = {0, 1, 2};
   light::GlossyMap glossy;
   glossy.texels.assign(light::GlossyMap::kTexels, light::PackRadiance({0.5f, 0.4f, 0.3f}));
-  const render::CaptionFont font = BoxFont();
+  const render::CaptionFont font = AlphabetOfBoxes();
   return {
       {"drama.lua", R"(
 function main()
@@ -182,7 +165,7 @@ end
        R"({"schema": 1, "lines": {"hello": {"en": [{"begin": 0, "end": 1, "text": "Hello"}]}},)"
        R"( "names": {"one": {"en": "One"}}})"},
       {"font.json", render::FormatCaptionMetrics(font)},
-      {"font.png", TextOf(Png(font.atlas))},
+      {"font.png", TextOf(test::Png(font.atlas))},
       {"paradata.json",
        R"({"schema": 1, "author": "A", "licence": "CC0-1.0", "sources": {"cil": "CIL IV"},)"
        R"( "claims": {"objects": {"cup": {"certainty": "inferred", "source": ["cil"],)"

@@ -3,40 +3,19 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 
 #include "shared/core/json.h"
+#include "tests/render/box_font.h"
+#include "tests/support/png.h"
 
 namespace lararium::render {
 namespace {
 
 using ::testing::HasSubstr;
 
-// Every letter of "abc" is a box of half an em, every other character nothing.
-CaptionFont BoxFont() {
-  CaptionFont font;
-  font.em_px = 32.0f;
-  font.rim_px = 4.0f;
-  font.ascent = 0.8f;
-  font.descent = 0.2f;
-  font.atlas = cv::Mat(32, 16, CV_8UC1, cv::Scalar(255));
-  for (const char letter : {'a', 'b', 'c'}) {
-    font.glyphs.push_back({static_cast<uint32_t>(letter),
-                           0.5f,
-                           {0.0f, -0.5f},
-                           {0.5f, 0.0f},
-                           {0.0f, 0.0f},
-                           {16.0f, 32.0f}});
-  }
-  return font;
-}
+using test::Png;
 
-std::vector<std::byte> Png(const cv::Mat& image) {
-  std::vector<uchar> png;
-  cv::imencode(".png", image, png);
-  const auto bytes = std::as_bytes(std::span(png));
-  return {bytes.begin(), bytes.end()};
-}
+CaptionFont BoxFont() { return test::BoxFont("abc"); }
 
 TEST(CaptionFont, IsReadAsItWasWritten) {
   const CaptionFont font = BoxFont();

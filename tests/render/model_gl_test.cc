@@ -20,6 +20,7 @@
 #include "tests/golden/compare_images.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/render/test_people.h"
+#include "tests/support/png.h"
 
 namespace lararium::render {
 namespace {
@@ -29,12 +30,7 @@ using ::testing::HasSubstr;
 constexpr float kPi = std::numbers::pi_v<float>;
 const glm::mat4 kNoMotion(1.0f);
 
-human::Texture Encode(const cv::Mat& image) {
-  std::vector<uint8_t> bytes;
-  EXPECT_TRUE(cv::imencode(".png", image, bytes));
-  const auto encoded = std::as_bytes(std::span(bytes));
-  return {"texture", {encoded.begin(), encoded.end()}};
-}
+human::Texture Encode(const cv::Mat& image) { return {"texture", test::Png(image)}; }
 
 // A square of two metres that faces +Z, u to the right and v downward.
 human::SkinnedMesh Square() {

@@ -90,19 +90,32 @@ TEST(Stage, AQuarterTurnFacesMinusX) {
   EXPECT_NEAR(ahead.z, 3.0f, 1e-6);
 }
 
-TEST(Stage, AnUtteranceIsSpokenThenReadOnThenGone) {
-  Stage stage;
-  const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
-  human::VisemeTrack track;
-  track.duration = 1.0f;
-  ASSERT_TRUE(stage.AddSpeech("salvete", track).ok());
-  const auto utterance = [&]() -> const Utterance& { return stage.Find(id)->state.utterance; };
-  const auto advance = [&stage](double seconds) {
+// A keeper, and lines of this length.
+struct SpeakingStage {
+  explicit SpeakingStage(float seconds, std::initializer_list<const char*> lines) {
+    human::VisemeTrack track;
+    track.duration = seconds;
+    for (const char* line : lines) {
+      EXPECT_TRUE(stage.AddSpeech(line, track).ok());
+    }
+  }
+  void Advance(double seconds) {
     for (double t = 0.0; t < seconds - 1e-9; t += Stage::kTickSeconds) {
       stage.Advance();
       stage.Perform();
     }
-  };
+  }
+
+  Stage stage;
+  ActorId keeper = *stage.Add("keeper", test::MakeTestHuman());
+};
+
+TEST(Stage, AnUtteranceIsSpokenThenReadOnThenGone) {
+  SpeakingStage speaking(1.0f, {"salvete"});
+  Stage& stage = speaking.stage;
+  const ActorId id = speaking.keeper;
+  const auto utterance = [&]() -> const Utterance& { return stage.Find(id)->state.utterance; };
+  const auto advance = [&speaking](double seconds) { speaking.Advance(seconds); };
   EXPECT_EQ(utterance(), Utterance());
   stage.Say(id, *stage.FindSpeech("salvete"));
   advance(0.5);
@@ -123,17 +136,10 @@ TEST(Stage, AnUtteranceIsSpokenThenReadOnThenGone) {
 }
 
 TEST(Stage, WhatIsDescribedWaitsForAPauseOfSpeech) {
-  Stage stage;
-  const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
-  human::VisemeTrack track;
-  track.duration = 1.0f;
-  ASSERT_TRUE(stage.AddSpeech("salvete", track).ok());
-  ASSERT_TRUE(stage.AddSpeech("d_bar", track).ok());
-  const auto advance = [&stage](double seconds) {
-    for (double t = 0.0; t < seconds - 1e-9; t += Stage::kTickSeconds) {
-      stage.Advance();
-    }
-  };
+  SpeakingStage speaking(1.0f, {"salvete", "d_bar"});
+  Stage& stage = speaking.stage;
+  const ActorId id = speaking.keeper;
+  const auto advance = [&speaking](double seconds) { speaking.Advance(seconds); };
   const auto heard = [&]() -> const Utterance& { return stage.description().heard; };
   stage.Describe(1, 5.0);
   EXPECT_EQ(heard(), Utterance()) << "somebody may begin in the same tick";
@@ -167,12 +173,9 @@ TEST(Stage, WhatIsDescribedWaitsForAPauseOfSpeech) {
 }
 
 TEST(Stage, WhatFindsNoPauseIsNotDescribed) {
-  Stage stage;
-  const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
-  human::VisemeTrack track;
-  track.duration = 3.0f;
-  ASSERT_TRUE(stage.AddSpeech("salvete", track).ok());
-  stage.Say(id, 0);
+  SpeakingStage speaking(3.0f, {"salvete"});
+  Stage& stage = speaking.stage;
+  stage.Say(speaking.keeper, 0);
   stage.Describe(0, 2.0);
   for (int tick = 0; tick < 600; ++tick) {
     stage.Advance();

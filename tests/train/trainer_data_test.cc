@@ -9,7 +9,7 @@
 
 #include "editor/train/matching.h"
 #include "editor/train/trainer.h"
-#include "shared/core/json.h"
+#include "shared/vision/poses_file.h"
 #include "tests/support/test_files.h"
 #include "tests/train/part_of_video.h"
 
@@ -23,23 +23,12 @@ struct GroundTruth {
 };
 
 GroundTruth LoadGroundTruth(const std::filesystem::path& file) {
-  const Result<Json> json = LoadJson(file);
-  EXPECT_TRUE(json.ok());
+  const auto poses = vision::LoadPoses(file);
+  EXPECT_TRUE(poses.ok()) << poses.message();
   GroundTruth truth;
-  for (const Json& image : (*json)["images"]) {
-    truth.camera.width = image["width"];
-    truth.camera.height = image["height"];
-    truth.camera.fx = image["K"][0];
-    truth.camera.fy = image["K"][1];
-    truth.camera.cx = image["K"][2];
-    truth.camera.cy = image["K"][3];
-    const std::vector<double> r = image["world_to_camera"]["R"];
-    const std::vector<double> t = image["world_to_camera"]["t"];
-    const Eigen::Matrix3d rotation =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
-    const std::filesystem::path name = image["file"].get<std::string>();
-    truth.camera_from_world[name.filename()] =
-        geometry::Rigid3::FromMatrix(rotation, Eigen::Vector3d(t[0], t[1], t[2]));
+  for (const vision::PoseRecord& pose : *poses) {
+    truth.camera = pose.camera;
+    truth.camera_from_world[std::filesystem::path(pose.file).filename()] = *pose.camera_from_world;
   }
   return truth;
 }
