@@ -72,6 +72,14 @@ Result<std::unique_ptr<capture::FrameSource>> Recording(const CameraOptions& opt
   return OpenSource(paths, place.training);
 }
 
+void KeepWhatNoRecordingShows(const PlaceDocument& place, light::CameraTraits& traits) {
+  if (place.camera) {
+    traits.knee = place.camera->knee;
+    traits.response = place.camera->response;
+    traits.shutter = place.camera->shutter;
+  }
+}
+
 }  // namespace
 
 Result<light::CameraTraits> MeasureCamera(capture::FrameSource& source, Progress& progress) {
@@ -95,10 +103,7 @@ Result<light::CameraTraits> MeasureCamera(const ProjectPaths& paths,
                                           Progress& progress) {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, place.training));
   LARARIUM_ASSIGN_OR_RETURN(light::CameraTraits traits, MeasureCamera(*source, progress));
-  if (place.camera) {
-    traits.knee = place.camera->knee;
-    traits.shutter = place.camera->shutter;
-  }
+  KeepWhatNoRecordingShows(place, traits);
   return traits;
 }
 
@@ -111,8 +116,9 @@ std::string CameraText(const light::CameraTraits& traits) {
   std::array<char, 256> text;
   std::snprintf(text.data(), text.size(),
                 "noise %.4f, %.6f of the value; edges %.2f px soft at %d px width; highlights from "
-                "%.2f on; shutter %s\n",
+                "%.2f on%s; shutter %s\n",
                 traits.noise_floor, traits.noise_slope, traits.blur_px, traits.width, traits.knee,
+                traits.response ? " (the response is measured)" : "",
                 traits.shutter ? std::to_string(*traits.shutter).substr(0, 4).c_str()
                                : "learnt while tracking");
   return text.data();
@@ -130,19 +136,20 @@ Result<CommandResult> RunCamera(const CameraOptions& options, Progress& progress
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto source, Recording(options, paths, place));
   LARARIUM_ASSIGN_OR_RETURN(light::CameraTraits traits, MeasureCamera(*source, progress));
-  if (place.camera) {
-    traits.knee = place.camera->knee;
-    traits.shutter = place.camera->shutter;
-  }
+  KeepWhatNoRecordingShows(place, traits);
   CommandResult result;
   if (!options.response.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(const light::CameraResponse response,
                               LoadCameraResponse(options.response));
     const light::FittedKnee fitted = light::FitKnee(response);
     traits.knee = fitted.knee;
+    traits.response = response;
     result.json["knee_residual"] = fitted.residual;
   }
-  traits.knee = static_cast<float>(options.knee.value_or(traits.knee));
+  if (options.knee) {
+    traits.knee = static_cast<float>(*options.knee);
+    traits.response.reset();
+  }
   if (options.shutter) {
     traits.shutter = static_cast<float>(*options.shutter);
   }

@@ -17,12 +17,12 @@ namespace lararium::app {
 
 // Noise and sharpness from frames all over the recording: the sharpest quarter of them says
 // how sharp it is, since others are smeared by motion. Noise that cannot be told from the
-// image is none. Knee and shutter cannot be seen in a recording and are left as they are.
+// image is none. Response and shutter cannot be seen in a recording and are left as they are.
 // Fails where a frame cannot be read or no frame has edges.
 Result<light::CameraTraits> MeasureCamera(capture::FrameSource& source, Progress& progress);
 
-// The same from the recording that a place was trained from; what is known of knee and
-// shutter is kept.
+// The same from the recording that a place was trained from; what is known of response
+// and shutter is kept.
 Result<light::CameraTraits> MeasureCamera(const ProjectPaths& paths,
                                           const PlaceDocument& place,
                                           Progress& progress);

@@ -519,7 +519,7 @@ void AddCamera(CLI::App& app, CameraOptions& options) {
       ->check(CLI::ExistingDirectory)
       ->excludes(video);
   CLI::Option* response = camera->add_option("--response", options.response,
-                                             "The camera's response (.json): where highlights end");
+                                             "The camera's response (.json), of 'probe merge'");
   response->check(CLI::ExistingFile);
   camera->add_option("--knee", options.knee, "Where highlights are compressed from; 1: nowhere")
       ->check(CLI::Range(0.05, 1.0))

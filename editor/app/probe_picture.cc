@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -41,20 +42,25 @@ glm::vec3 RadianceAt(const ProbePicture& picture, const glm::vec3& in_probe) {
                 std::clamp(column, 0, picture.width - 1)];
 }
 
-// As the renderer shows people: a shoulder from the knee on, then sRGB.
-uchar Encoded(float linear, float knee) {
-  const float range = std::max(1.0f - knee, 1e-4f);
-  const float x = std::max(linear, 0.0f);
-  const float shown =
-      std::min(x, knee) + range * (1.0f - std::exp(-std::max(x - knee, 0.0f) / range));
+// As the renderer shows people: by the camera's response, else a shoulder from the knee on.
+glm::vec3 Seen(const glm::vec3& linear, const ProbeLook& look) {
+  const glm::vec3 x = glm::max(linear, 0.0f);
+  if (look.response) {
+    return look.response->Seen(x);
+  }
+  const float range = std::max(1.0f - look.knee, 1e-4f);
+  return glm::min(x, look.knee) + range * (1.0f - glm::exp(-glm::max(x - look.knee, 0.0f) / range));
+}
+
+uchar Encoded(float seen) {
   const float v =
-      shown <= 0.0031308f ? 12.92f * shown : 1.055f * std::pow(shown, 1.0f / 2.4f) - 0.055f;
+      seen <= 0.0031308f ? 12.92f * seen : 1.055f * std::pow(seen, 1.0f / 2.4f) - 0.055f;
   return static_cast<uchar>(std::lround(255.0f * std::clamp(v, 0.0f, 1.0f)));
 }
 
 cv::Vec3b Shown(const glm::vec3& radiance, const ProbeLook& look) {
-  const glm::vec3 linear = radiance * look.exposure;
-  return {Encoded(linear.b, look.knee), Encoded(linear.g, look.knee), Encoded(linear.r, look.knee)};
+  const glm::vec3 seen = Seen(radiance * look.exposure, look);
+  return {Encoded(seen.b), Encoded(seen.g), Encoded(seen.r)};
 }
 
 glm::vec3 NormalAt(float x, float y) {

@@ -6,10 +6,12 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/light/camera_response.h"
 #include "shared/light/probe_light.h"
 
 namespace lararium::app {
@@ -34,6 +36,7 @@ struct ProbeLook {
   glm::quat stage_from_probe = glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
   glm::vec3 exposure = glm::vec3(1.0f);  // display linear for each unit of the file
   float knee = 0.6f;                     // where highlights are compressed from
+  std::optional<light::CameraResponse> response = std::nullopt;  // in place of the knee
 };
 
 // All directions of the stage, as a probe's image has them (bake/probe.h): bgr, twice as wide

@@ -394,6 +394,7 @@ app::ProbeLook LookAtProbe(const app::Workspace& workspace, const ProbeDocument&
   }
   if (workspace.place() != nullptr && workspace.place()->camera) {
     look.knee = workspace.place()->camera->knee;
+    look.response = workspace.place()->camera->response;
   }
   return look;
 }

@@ -4,7 +4,9 @@
 #include "stripes.glsl"
 
 uniform vec3 gain;   // exposure and the camera's gain
-uniform float knee;  // of the camera's response
+uniform float knee;  // of the camera's response, unless that is measured
+uniform int response_is_measured;
+uniform sampler2D response;  // light::SeenTable
 uniform sampler2D sun_seen;  // shaders/pass/sun_seen.frag
 
 uniform sampler2D colour_texture;  // times coverage, coverage
@@ -21,9 +23,18 @@ layout(location = 0) out vec4 colour;
 
 uniform float core_coverage;  // what is covered at least so much hides what is behind it
 
-// Linear up to the knee, then an exponential shoulder of equal slope that reaches
-// 1 at infinity.
+float Measured(float x, int channel) {
+  float steps = float(textureSize(response, 0).x);
+  float u = (x / (1.0 + x) * (steps - 1.0) + 0.5) / steps;
+  return texture(response, vec2(u, 0.5))[channel];
+}
+
+// As it is measured; or linear up to the knee, then an exponential shoulder of equal slope that
+// reaches 1 at infinity.
 vec3 CameraResponse(vec3 x) {
+  if (response_is_measured == 1) {
+    return vec3(Measured(x.r, 0), Measured(x.g, 1), Measured(x.b, 2));
+  }
   float range = max(1.0 - knee, 1e-4);
   return min(x, knee) + range * (1.0 - exp(-max(x - knee, 0.0) / range));
 }

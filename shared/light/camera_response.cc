@@ -17,6 +17,21 @@ double LinearFromSrgb(double v) {
 
 CameraResponse Uniform(const CameraResponse::Curve& curve) { return {{curve, curve, curve}}; }
 
+float Seen(const CameraResponse::Curve& curve, float exposure) {
+  if (exposure >= curve.back()) {
+    return 1.0f;
+  }
+  // Of bytes that are given by one exposure, the last.
+  const auto above = std::upper_bound(curve.begin(), curve.end(), exposure);
+  if (above == curve.begin()) {
+    return 0.0f;
+  }
+  const float before = *(above - 1);
+  const auto byte = static_cast<double>(above - curve.begin() - 1);
+  return static_cast<float>(
+      LinearFromSrgb((byte + (exposure - before) / (*above - before)) / 255.0));
+}
+
 }  // namespace
 
 Status CameraResponse::Validate(std::string_view place) const {
@@ -37,6 +52,21 @@ Status CameraResponse::Validate(std::string_view place) const {
     }
   }
   return Status();
+}
+
+glm::vec3 CameraResponse::Seen(const glm::vec3& exposure) const {
+  return {light::Seen(linear[0], exposure.r), light::Seen(linear[1], exposure.g),
+          light::Seen(linear[2], exposure.b)};
+}
+
+std::array<glm::vec3, kSeenSteps> SeenTable(const CameraResponse& response) {
+  std::array<glm::vec3, kSeenSteps> table;
+  for (size_t i = 0; i + 1 < kSeenSteps; ++i) {
+    const float u = static_cast<float>(i) / static_cast<float>(kSeenSteps - 1);
+    table[i] = response.Seen(glm::vec3(u / (1.0f - u)));
+  }
+  table.back() = glm::vec3(1.0f);
+  return table;
 }
 
 CameraResponse SrgbResponse() { return ShoulderResponse(1.0f); }

@@ -25,8 +25,18 @@ struct CameraResponse {
   glm::vec3 Linear(uint8_t r, uint8_t g, uint8_t b) const {
     return {linear[0][r], linear[1][g], linear[2][b]};
   }
+  // What a picture shows of an exposure: the linear value of sRGB of the byte that the camera
+  // gives it, between bytes in between; 1 from where it gives white on.
+  glm::vec3 Seen(const glm::vec3& exposure) const;
   Status Validate(std::string_view place) const;
+
+  friend bool operator==(const CameraResponse&, const CameraResponse&) = default;
 };
+
+// Seen() for graphics cards: at exposures x = u / (1 - u), u from 0 to 1 in even steps; the last
+// is infinitely bright.
+inline constexpr size_t kSeenSteps = 256;
+std::array<glm::vec3, kSeenSteps> SeenTable(const CameraResponse& response);
 
 // What cameras that follow the standard do (IEC 61966-2-1).
 CameraResponse SrgbResponse();

@@ -12,6 +12,9 @@ Json FormatCameraTraits(const CameraTraits& traits) {
   if (traits.shutter) {
     json["shutter"] = *traits.shutter;
   }
+  if (traits.response) {
+    json["response"] = FormatCameraResponse(*traits.response);
+  }
   return json;
 }
 
@@ -35,6 +38,10 @@ Result<CameraTraits> ParseCameraTraits(const JsonView& view) {
   if (view.Has("shutter")) {
     LARARIUM_ASSIGN_OR_RETURN(const double shutter, view.Number("shutter", 0.0, 1.0));
     traits.shutter = static_cast<float>(shutter);
+  }
+  if (view.Has("response")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView response, view.Field("response"));
+    LARARIUM_ASSIGN_OR_RETURN(traits.response, ParseCameraResponse(response));
   }
   return traits;
 }

@@ -8,6 +8,7 @@
 
 #include "shared/core/json.h"
 #include "shared/core/status.h"
+#include "shared/light/camera_response.h"
 
 namespace lararium::light {
 
@@ -23,6 +24,8 @@ struct CameraTraits {
   // Share of the time between frames for which the shutter is open. None: as it is learnt
   // while tracking (vision::TrackedFrame::shutter).
   std::optional<float> shutter = std::nullopt;
+  // As it was measured; goes before the knee.
+  std::optional<CameraResponse> response = std::nullopt;
 
   friend bool operator==(const CameraTraits&, const CameraTraits&) = default;
 };
@@ -31,7 +34,7 @@ inline constexpr float kMaxNoise = 0.25f;   // floor and slope
 inline constexpr float kMaxBlurPx = 16.0f;  // more is a wrong focus, not a lens
 
 // A field of project.json, of a bundle's manifest or of a device file: {"width", "noise":
-// [floor, slope], "blur_px", "knee", "shutter"}; the last may be missing.
+// [floor, slope], "blur_px", "knee", "shutter", "response"}; the last two may be missing.
 Json FormatCameraTraits(const CameraTraits& traits);
 Result<CameraTraits> ParseCameraTraits(const JsonView& view);
 

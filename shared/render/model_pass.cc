@@ -40,6 +40,7 @@ constexpr float kModelReach = 1.5f;
 
 // The composite has another kind of texture there.
 constexpr uint32_t kGlossyUnit = SunMask::kUnit + 1;
+constexpr uint32_t kResponseUnit = kGlossyUnit + 1;
 
 constexpr std::array<const char*, human::kSurfaceCount> kSurfaceNames = {"PLAIN", "SKIN", "HAIR",
                                                                          "CLOTH", "EYE",  "METAL"};
@@ -115,6 +116,19 @@ GlTexture CreateGlossyTexture() {
   return texture;
 }
 
+GlTexture CreateResponseTexture() {
+  GlTexture texture = GlTexture::Generate();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB16F, light::kSeenSteps, 1, 0, GL_RGB, GL_FLOAT, nullptr);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+    glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+  }
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  }
+  return texture;
+}
+
 }  // namespace
 
 Result<ModelPass> ModelPass::Create() {
@@ -122,6 +136,7 @@ Result<ModelPass> ModelPass::Create() {
   pass.skin_ = GlBuffer::Generate();
   pass.white_ = CreateWhiteTexture();
   pass.glossy_ = CreateGlossyTexture();
+  pass.response_texture_ = CreateResponseTexture();
   return pass;
 }
 
@@ -200,6 +215,9 @@ void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const S
   scene_light_ = {scene.light, scene.sun};
   scene_lamps_ = scene.lamps;
   UploadGlossy(scene);
+  if (scene.response != nullptr) {
+    UploadResponse(*scene.response);
+  }
   for (size_t i = 0; i < programs_.size(); ++i) {
     Program& program = programs_[i];
     if (!program.ready || i % kShadings != static_cast<size_t>(shading_)) {
@@ -212,6 +230,8 @@ void ModelPass::BeginFrame(const RenderScene& scene, const SunPass& sun, const S
     shaders.Set("eye_in_stage", glm::vec3(eye.x(), eye.y(), eye.z()));
     shaders.Set("gain", scene.exposure * scene.gain);
     shaders.Set("knee", std::max(scene.knee, 0.0f));
+    shaders.Set("response_is_measured", scene.response != nullptr ? 1 : 0);
+    shaders.Set("response", static_cast<int>(kResponseUnit));
     shaders.Set("core_coverage", shading_ == Shading::kVertices ? kCoreAlone : kCore);
     shaders.Set("colour_texture", 0);
     shaders.Set("normal_texture", 1);
@@ -236,6 +256,17 @@ void ModelPass::UploadGlossy(const RenderScene& scene) {
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, kSize, kSize, light::GlossyMap::kLayers, GL_RGB,
                     GL_UNSIGNED_INT_10F_11F_11F_REV, scene.glossy.data());
     glossy_number_ = scene.glossy_number;
+  }
+  glActiveTexture(GL_TEXTURE0);
+}
+
+void ModelPass::UploadResponse(const light::CameraResponse& response) {
+  glActiveTexture(GL_TEXTURE0 + kResponseUnit);
+  glBindTexture(GL_TEXTURE_2D, response_texture_.id());
+  if (response_ != response) {
+    const std::array table = light::SeenTable(response);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, light::kSeenSteps, 1, GL_RGB, GL_FLOAT, table.data());
+    response_ = response;
   }
   glActiveTexture(GL_TEXTURE0);
 }

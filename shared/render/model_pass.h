@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/light/camera_response.h"
 #include "shared/render/gl_object.h"
 #include "shared/render/gpu_model.h"
 #include "shared/render/key_light.h"
@@ -101,6 +102,7 @@ class ModelPass {
   KeyLight KeyLightOf(const light::ProbeLight& light) const;
   void SetLight(const ModelDraw& draw, Program& program, bool skin);
   void UploadGlossy(const RenderScene& scene);
+  void UploadResponse(const light::CameraResponse& response);
   static bool IsOf(Phase phase, const GpuModel& model, const GpuModel::Part& part);
   void DrawPhase(Phase phase, const glm::mat4& clip_from_stage, std::span<const ModelDraw> draws);
   static float DetailOf(const ModelDraw& draw, const GpuModel::Part& part, Phase phase);
@@ -118,6 +120,8 @@ class ModelPass {
   std::span<const light::Lamp> scene_lamps_;
   GlTexture glossy_;
   uint64_t glossy_number_ = 0;  // of what glossy_ holds; 0: of nothing
+  GlTexture response_texture_;
+  std::optional<light::CameraResponse> response_;  // that it holds
   // What skin_ holds: kMaxJoints for each model; of as many as were ever drawn at once.
   std::vector<glm::mat4> packed_;
 };

@@ -13,6 +13,7 @@
 #include "shared/core/id.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
+#include "shared/light/camera_response.h"
 #include "shared/light/lamp.h"
 #include "shared/light/probe_light.h"
 
@@ -140,6 +141,8 @@ struct RenderScene {
   // to here, above in an exponential shoulder towards white; 1 clips. Far above
   // 1, what is drawn stays linear.
   float knee = 0.6f;
+  // As it was measured, in place of the knee; nullptr: it was not.
+  const light::CameraResponse* response = nullptr;
   CameraLook look = {};
   // Of people and props, and of what they do to the light on real surfaces: 0, nobody is there.
   float people_opacity = 1.0f;

@@ -636,6 +636,7 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   linear.exposure = 1.0f;
   linear.gain = glm::vec3(1.0f);
   linear.knee = 65504.0f;  // the largest that the target holds
+  linear.response = nullptr;
   linear.blockers = {};
   const ImageSize size = {scene.display.width, scene.display.height};
   state.picture_size = size;

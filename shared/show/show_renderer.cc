@@ -190,6 +190,7 @@ Result<render::RenderScene> ShowRenderer::SceneOf(const StagedFrame& staged, int
   scene.matte = matte_;
   if (place.camera && !matte_) {
     scene.knee = place.camera->knee;
+    scene.response = place.camera->response ? &*place.camera->response : nullptr;
   }
   return scene;
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lararium::light {
@@ -42,6 +44,52 @@ TEST(CameraResponse, RefusesCurvesThatFallAndWrongSizes) {
   json["g"].erase(0);
   EXPECT_FALSE(ParseCameraResponse(JsonView(json, "camera")).ok());
   EXPECT_FALSE(CameraResponse().Validate("camera").ok());
+}
+
+TEST(CameraResponse, WhatFollowsTheStandardIsSeenAsItIs) {
+  const CameraResponse srgb = SrgbResponse();
+  for (const float x : {0.0f, 0.001f, 0.02f, 0.18f, 0.5f, 0.97f, 1.0f, 7.0f}) {
+    // Between two bytes the curve is taken for a straight line.
+    EXPECT_NEAR(srgb.Seen(glm::vec3(x)).g, std::min(x, 1.0f), 2e-5f) << x;
+  }
+}
+
+TEST(CameraResponse, EachChannelIsSeenByItsOwnCurve) {
+  CameraResponse response = SrgbResponse();
+  for (float& value : response.linear[2]) {
+    value *= 2.0f;  // half as sensitive
+  }
+  const glm::vec3 seen = response.Seen(glm::vec3(0.3f));
+  EXPECT_NEAR(seen.r, 0.3f, 2e-5f);
+  EXPECT_NEAR(seen.b, 0.15f, 2e-5f);
+}
+
+TEST(CameraResponse, ShouldersAreSeenAsTheirFormula) {
+  const CameraResponse response = ShoulderResponse(0.5f);
+  for (const float x : {0.1f, 0.5f, 0.8f, 1.5f, 2.2f}) {
+    const float formula = x <= 0.5f ? x : 1.0f - 0.5f * std::exp(-(x - 0.5f) / 0.5f);
+    EXPECT_NEAR(response.Seen(glm::vec3(x)).r, formula, 1e-3f) << x;
+  }
+}
+
+TEST(CameraResponse, ExposuresThatGiveOneByteAreSeenAlike) {
+  CameraResponse response = SrgbResponse();
+  // A black level: the first thirty bytes are no light.
+  std::fill_n(response.linear[0].begin(), 30, 0.0f);
+  EXPECT_TRUE(response.Validate("camera").ok());
+  EXPECT_NEAR(response.Seen(glm::vec3(0.0f)).r, SrgbResponse().linear[0][29], 1e-6f);
+}
+
+TEST(SeenTable, HasTheCurveAtItsStepsAndNeverFalls) {
+  const CameraResponse response = ShoulderResponse(0.6f);
+  const std::array table = SeenTable(response);
+  EXPECT_EQ(table.front(), glm::vec3(0.0f));
+  EXPECT_EQ(table.back(), glm::vec3(1.0f));
+  const float u = 100.0f / static_cast<float>(kSeenSteps - 1);
+  EXPECT_EQ(table[100], response.Seen(glm::vec3(u / (1.0f - u))));
+  for (size_t i = 1; i < kSeenSteps; ++i) {
+    EXPECT_GE(table[i].r, table[i - 1].r) << i;
+  }
 }
 
 TEST(Monotone, PoolsWhatFallsAndKeepsTheRest) {

@@ -20,6 +20,10 @@ TEST(CameraTraits, SurviveWritingAndReading) {
   learns.shutter.reset();
   const Json shorter = FormatCameraTraits(learns);
   EXPECT_EQ(ParseCameraTraits(JsonView(shorter, "test")).value(), learns);
+  CameraTraits measured = kTraits;
+  measured.response = ShoulderResponse(0.7f);
+  const Json longer = Json::parse(FormatCameraTraits(measured).dump());
+  EXPECT_EQ(ParseCameraTraits(JsonView(longer, "test")).value(), measured);
 }
 
 TEST(CameraTraits, WhatIsImpossibleIsNamed) {
@@ -34,6 +38,10 @@ TEST(CameraTraits, WhatIsImpossibleIsNamed) {
   EXPECT_NE(Error(with("blur_px", 1e9)).find("blur_px"), std::string::npos);
   EXPECT_NE(Error(with("knee", 0.0)).find("knee"), std::string::npos);
   EXPECT_NE(Error(with("shutter", 2.0)).find("shutter"), std::string::npos);
+  Json falls = FormatCameraResponse(SrgbResponse());
+  falls["g"][100] = 2.0;
+  EXPECT_NE(Error(with("response", falls)).find("falls"), std::string::npos);
+  EXPECT_NE(Error(with("response", falls)).find("device.json: look.response"), std::string::npos);
   EXPECT_NE(Error(with("width", 0)).find("width"), std::string::npos);
   EXPECT_NE(Error(with("width", "wide")).find("device.json: look"), std::string::npos);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
@@ -74,6 +75,7 @@ class CameraLookTest : public GlTest {
   const glm::mat4 skin_ = glm::mat4(1.0f);
   std::unique_ptr<Renderer> renderer_;
   SceneHuman human_;
+  light::CameraResponse response_;
   RenderScene scene_;
 };
 
@@ -141,6 +143,47 @@ TEST_F(CameraLookTest, NoiseHasTheGivenVarianceAndIsRepeatable) {
   EXPECT_EQ(cv::norm(noisy, Draw(), cv::NORM_INF), 0.0);
   scene_.look.frame = 8;
   EXPECT_GT(cv::norm(noisy, Draw(), cv::NORM_INF), 5.0);
+}
+
+TEST_F(CameraLookTest, PeopleAreSeenThroughTheMeasuredResponse) {
+  response_ = light::SrgbResponse();
+  for (size_t byte = 0; byte < 256; ++byte) {
+    // Red as the standard has it, green with the contrast of a film, blue with a black level.
+    const double x = static_cast<double>(byte) / 255.0;
+    response_.linear[1][byte] = static_cast<float>(1.5 * std::pow(x, 3.0));
+    response_.linear[2][byte] = static_cast<float>(std::max(0.0, Linear(uchar(byte)) - 0.05));
+  }
+  scene_.response = &response_;
+  for (const float exposure : {0.02f, 0.2f, 0.7f, 1.3f, 3.0f}) {
+    scene_.exposure = exposure;
+    scene_.response = nullptr;
+    scene_.knee = 65504.0f;
+    cv::Mat linear;
+    ASSERT_TRUE(renderer_->DrawLinear(scene_, linear).ok());
+    const auto middle = linear.at<cv::Vec4f>(linear.rows / 2, linear.cols / 2);
+    scene_.response = &response_;
+    const cv::Vec3b seen = Draw().at<cv::Vec3b>(kSize / 2, kSize / 2);
+    for (int channel = 0; channel < 3; ++channel) {
+      const float light = exposure * middle[channel];
+      const light::CameraResponse::Curve& curve = response_.linear[static_cast<size_t>(channel)];
+      const auto above = std::upper_bound(curve.begin(), curve.end(), light);
+      const double expected =
+          std::min<double>(255.0, static_cast<double>(above - curve.begin()) - 0.5);
+      EXPECT_NEAR(seen[2 - channel], expected, 1.6) << exposure << ", channel " << channel;
+    }
+  }
+}
+
+TEST_F(CameraLookTest, AShoulderThatWasMeasuredIsDrawnAsTheKneeIs) {
+  response_ = light::ShoulderResponse(0.5f);
+  scene_.knee = 0.5f;
+  for (const float exposure : {0.1f, 0.9f, 2.0f}) {
+    scene_.exposure = exposure;
+    scene_.response = nullptr;
+    const cv::Mat by_knee = Draw();
+    scene_.response = &response_;
+    EXPECT_LE(cv::norm(by_knee, Draw(), cv::NORM_INF), 1.0) << exposure;
+  }
 }
 
 }  // namespace
