@@ -249,6 +249,7 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   if (!tracked_) {
     return std::shared_ptr<const PreviewPicture>();
   }
+  show_->SetDescriptions(request.descriptions);
   show_->StageFrame(*tracked_, request.time, staged_);
   PlaySound(request.sound);
   renderer_->SetEvidence(request.evidence);

@@ -39,8 +39,9 @@ struct PreviewRequest {
   bool settled = false;  // nobody is moving what is in people's way: they go round it
   bool compare = false;  // the picture without people, and where they are, besides
   std::optional<OnionSkin> onion;
-  bool evidence = false;  // people and things in the colours of how certain they are
-  bool sound = false;     // the recording plays, and is to be heard
+  bool evidence = false;      // people and things in the colours of how certain they are
+  bool descriptions = false;  // of what is to be seen are read and heard
+  bool sound = false;         // the recording plays, and is to be heard
 };
 
 struct PreviewActor {

@@ -834,6 +834,7 @@ void Workspace::RequestPicture() {
   request.place = loaded_.staged;
   request.compare = compare_;
   request.evidence = evidence_;
+  request.descriptions = descriptions_;
   place_changed_ = false;
   requested_frame_ = request.frame;
   requested_sound_ = request.sound;
@@ -1178,6 +1179,11 @@ void Workspace::SetOnionSkin(const std::optional<OnionSkin>& onion) {
 void Workspace::SetEvidence(bool on) {
   place_changed_ |= on != evidence_;
   evidence_ = on;
+}
+
+void Workspace::SetDescriptions(bool on) {
+  place_changed_ |= on != descriptions_;
+  descriptions_ = on;
 }
 
 void Workspace::SetCompare(bool compare) {

@@ -219,6 +219,9 @@ class Workspace {
   // The camera view in the colours of how certain people and things are.
   bool shows_evidence() const { return evidence_; }
   void SetEvidence(bool on);
+  // What visitors who do not see well are told is read and heard too.
+  bool descriptions() const { return descriptions_; }
+  void SetDescriptions(bool on);
   // Whether the recording is heard while it plays.
   bool sound() const { return sound_; }
   void SetSound(bool on) { sound_ = on; }
@@ -357,6 +360,7 @@ class Workspace {
   bool requested_onion_ = false;
   bool requested_settled_ = false;
   bool evidence_ = false;
+  bool descriptions_ = false;
   bool sound_ = true;
   bool awaiting_picture_ = false;
   bool playing_ = false;

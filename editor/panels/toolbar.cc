@@ -181,6 +181,9 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.shows_evidence())) {
     workspace.SetEvidence(!workspace.shows_evidence());
   }
+  if (ImGui::MenuItem(Tr("Descriptions"), nullptr, workspace.descriptions())) {
+    workspace.SetDescriptions(!workspace.descriptions());
+  }
   if (MenuItem(Tr("Sound"), KeyAction::kSound, workspace.sound())) {
     workspace.SetSound(!workspace.sound());
   }
