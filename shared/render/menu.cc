@@ -20,8 +20,9 @@ struct Colours {
   glm::vec4 selected;
   glm::vec4 progress;
 };
+// So dense that captions behind them do not disturb.
 const Colours kNormal = {
-    {0.05f, 0.05f, 0.06f, 0.72f}, {0.22f, 0.22f, 0.25f, 0.85f}, {0.86f, 0.62f, 0.24f, 0.85f}};
+    {0.05f, 0.05f, 0.06f, 0.9f}, {0.22f, 0.22f, 0.25f, 0.93f}, {0.72f, 0.48f, 0.12f, 0.93f}};
 // White is read on all of them at 7 to 1 and more (WCAG 2.1, 1.4.6).
 const Colours kHigh = {
     {0.0f, 0.0f, 0.0f, 1.0f}, {0.0f, 0.1f, 0.45f, 1.0f}, {0.0f, 0.3f, 0.6f, 1.0f}};
