@@ -16,19 +16,17 @@
 #include "player/fault_log.h"
 #include "player/heap.h"
 #include "player/kiosk.h"
-#include "player/openxr_headset.h"
+#include "player/openxr_display.h"
 #include "player/osc.h"
 #include "player/power_sensors.h"
 #include "player/recorder.h"
 #include "player/sandbox.h"
 #include "player/screen.h"
+#include "player/show_maker.h"
 #include "player/staff_reporter.h"
-#include "player/stage_anchor.h"
 #include "player/stereo_display.h"
 #include "player/visitor_menu.h"
 #include "shared/audio/sound_player.h"
-#include "shared/bundle/bundle.h"
-#include "shared/bundle/signature.h"
 #include "shared/capture/looped_source.h"
 #include "shared/capture/steady_camera.h"
 #include "shared/core/file.h"
@@ -51,7 +49,10 @@ constexpr double kPowerSeconds = 5.0;
 // Without pictures it is still alive: the camera may take its time. Not while one image is
 // tracked, or staged, for longer than this: then a thread hangs.
 constexpr std::chrono::seconds kLongestSilence(8);
-constexpr double kLongestWork = 0.4;  // seconds
+constexpr double kLongestWork = 0.2;  // seconds
+// Pictures that take longer are those of a machine so slow, or so busy, that a long one is no
+// sign of a hang.
+constexpr double kSlowPicture = 250.0;  // milliseconds
 // After these all that a show needs has been compiled.
 constexpr int64_t kFirstFrames = 90;
 
@@ -78,29 +79,6 @@ const render::Quality& QualityOf(size_t level) {
   return ladder[std::min(level, ladder.size() - 1)];
 }
 
-Result<show::ShowContent> LoadContent(const PlayOptions& options,
-                                      const show::LanguageChoice& languages,
-                                      float finest) {
-  bundle::OpenOptions opening;
-  if (!options.trust.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(opening.trusted, bundle::LoadPublicKey(options.trust));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle,
-                            bundle::Bundle::Open(options.show, opening));
-  return show::LoadShowContent(bundle, options.place, languages, finest);
-}
-
-// Where the device says nothing of its camera, each place keeps what the bundle says.
-void SetLook(const PlayOptions& options, const Device& device, show::ShowContent& content) {
-  for (show::ShowPlace& place : content.places) {
-    if (!options.camera_look) {
-      place.stage.camera.reset();
-    } else if (device.look) {
-      place.stage.camera = device.look;
-    }
-  }
-}
-
 std::vector<TrainedCamera> TrainedCameras(const show::ShowContent& content) {
   std::vector<TrainedCamera> cameras;
   for (const show::ShowPlace& place : content.places) {
@@ -123,7 +101,8 @@ class Performance {
         log_(log),
         faults_(log),
         heartbeat_(heartbeat),
-        restarts_(start.number) {
+        restarts_(start.number),
+        maker_(options, log) {
     // First: it hears of all that the log is told.
     if (staff_link >= 0) {
       staff_.emplace(staff_link, log);
@@ -172,7 +151,6 @@ class Performance {
   float FinestDetail() const;
   Status ChooseView(const show::ShowContent& content);
   Status CreateTracker(const show::ShowContent& content);
-  Result<std::unique_ptr<show::Show>> MakeShow(show::ShowContent content) const;
   void TellKiosk();
   void TellShow();
   // How much is heard and seen of a visit that may be over.
@@ -187,8 +165,6 @@ class Performance {
   Status RunLockStep();
   Status RunRealtime();
   Status DrawPicture(const show::StagedFrame& staged);
-  Status DrawForOpenXr(const show::StagedFrame& staged);
-  Status DrawSeeThrough(const show::StagedFrame& staged, SteadyClock::time_point taken);
   void ShowMenuTo(const geometry::CameraModel& picture);
   Status ServeOpenXr();
   const render::RenderTarget& shown() const { return stereo_ ? stereo_->panel() : *target_; }
@@ -221,14 +197,13 @@ class Performance {
   PictureSize size_;
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
+  ShowMaker maker_;
   std::unique_ptr<show::Show> show_;
-  std::optional<drama::VisitorLog> visitor_;  // that is played again
-  std::optional<Screen> screen_;              // before all that draws: destroyed after it
+  std::optional<Screen> screen_;  // before all that draws: destroyed after it
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
   std::optional<StereoDisplay> stereo_;
-  std::unique_ptr<OpenXrHeadset> openxr_;  // nullptr: there is no such headset
-  StageAnchor anchor_;                     // where it shows what is real by itself
+  std::unique_ptr<OpenXrDisplay> openxr_;  // nullptr: there is no such headset
   std::optional<StaffReporter> staff_;     // none: there is no page for staff
   std::optional<Recorder> recorder_;
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
@@ -237,6 +212,7 @@ class Performance {
   std::optional<PowerWatch> power_;  // where the quality is not fixed
   show::ShowStatistics statistics_;
   SteadyClock::time_point last_shown_;
+  double draw_ms_ = 0.0;  // of the last picture
   int64_t drawn_frames_ = 0;
   // A show in other languages, and which, while it is made. Last: it makes use of what is above.
   show::LanguageChoice next_languages_;
@@ -452,26 +428,6 @@ Status Performance::OpenSource() {
   return Status();
 }
 
-// On any thread.
-Result<std::unique_ptr<show::Show>> Performance::MakeShow(show::ShowContent content) const {
-  drama::DramaOptions drama;
-  drama.seed = options_.seed;
-  // A player goes back to the beginning alone, and plays for days.
-  drama.past = options_.visitor_log.empty() ? drama::Past::kForgotten : drama::Past::kKept;
-  Result<std::unique_ptr<show::Show>> made = show::Show::Create(std::move(content), drama, log_);
-  if (!made.ok()) {
-    return made.status().At(options_.show.string());
-  }
-  show::Show& show = **made;
-  show.SetLostLadder(device_.lost);
-  show.SetPictureSize(size_.width, size_.height, part_);
-  show.SetSeenAround(headset_ && headset_->runtime_shows_room);
-  if (visitor_) {
-    show.drama().SetVisitorLog(*visitor_);
-  }
-  return made;
-}
-
 void Performance::TellKiosk() {
   story_length_ = show_->drama().settings().length;
   if (kiosk_) {
@@ -518,6 +474,7 @@ Status Performance::ChooseView(const show::ShowContent& content) {
   // Videos have even sides.
   size_ = options_.size.value_or(
       PictureSize{std::max(seen.width & ~1, 16), std::max(seen.height & ~1, 16)});
+  maker_.SetPicture(size_, part_, headset_ && headset_->runtime_shows_room);
   return Status();
 }
 
@@ -560,15 +517,14 @@ float Performance::FinestDetail() const {
 
 // What the last visitor chose may be of another show.
 Result<show::ShowContent> Performance::LoadInChosenLanguages() {
-  Result<show::ShowContent> loaded = LoadContent(options_, languages(), FinestDetail());
+  Result<show::ShowContent> loaded = maker_.Load(languages(), FinestDetail());
   if (!loaded.ok() && kiosk_) {
     choices_.language.clear();
     choices_.captions.clear();
     ApplyOptions(choices_);
-    loaded = LoadContent(options_, languages(), FinestDetail());
+    loaded = maker_.Load(languages(), FinestDetail());
   }
   if (loaded.ok()) {
-    SetLook(options_, device_, *loaded);
     shown_languages_ = languages();
   }
   return loaded;
@@ -577,6 +533,7 @@ Result<show::ShowContent> Performance::LoadInChosenLanguages() {
 Status Performance::Prepare() {
   if (!options_.device.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(device_, LoadDevice(options_.device));
+    maker_.SetDevice(device_);
   }
   LARARIUM_RETURN_IF_ERROR(OpenSource());
   ChooseFirstLevel();
@@ -586,12 +543,13 @@ Status Performance::Prepare() {
     statistics_.places.push_back(place.stage.name);
   }
   if (!options_.visitor.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(visitor_, drama::VisitorLog::Load(options_.visitor));
+    LARARIUM_ASSIGN_OR_RETURN(drama::VisitorLog visitor, drama::VisitorLog::Load(options_.visitor));
+    maker_.SetVisitor(std::move(visitor));
   }
   // Drivers take their time, and so does the drama: beside each other.
   std::future<Status> prepared = std::async(std::launch::async, [&]() -> Status {
     LARARIUM_RETURN_IF_ERROR(CreateTracker(content));
-    LARARIUM_ASSIGN_OR_RETURN(show_, MakeShow(content));
+    LARARIUM_ASSIGN_OR_RETURN(show_, maker_.Make(content));
     return Status();
   });
   const Status drawing = PrepareDrawing(content);
@@ -633,7 +591,7 @@ Status Performance::PrepareDrawing(const show::ShowContent& content) {
     LARARIUM_ASSIGN_OR_RETURN(stereo_, StereoDisplay::Create(*headset_));
     screen_->CheckSize(stereo_->panel(), log_);
   } else if (headset_) {
-    LARARIUM_ASSIGN_OR_RETURN(openxr_, OpenXrHeadset::Open(*headset_, content.title, log_));
+    LARARIUM_ASSIGN_OR_RETURN(openxr_, OpenXrDisplay::Open(*headset_, content.title, log_));
   }
   statistics_.gpu = render::GraphicsDeviceName();
   statistics_.graphics = render::Name(render::CurrentGraphicsApi());
@@ -653,6 +611,7 @@ void Performance::ChooseFirstLevel() {
 }
 
 void Performance::SetLevel(size_t level) {
+  heartbeat_.BeatBeforeLongWork();  // drivers may have to compile for it
   const render::Quality& quality = QualityOf(level);
   renderer_->SetQuality(quality);
   show_->SetQuality(quality);
@@ -678,17 +637,9 @@ void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
 // Another language needs other texts and voices. The show goes on while they are read.
 void Performance::BeginChangingLanguages() {
   next_languages_ = languages();
-  const auto make = [this, languages = next_languages_, finest = FinestDetail(),
-                     time = drama_time_]() -> Result<std::unique_ptr<show::Show>> {
-    LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, LoadContent(options_, languages, finest));
-    SetLook(options_, device_, content);
-    LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, MakeShow(std::move(content)));
-    if (options_.visitor_log.empty()) {  // otherwise it has to be told first what they did
-      LARARIUM_RETURN_IF_ERROR(show->PrepareAt(time));
-    }
-    return show;
-  };
-  next_show_ = std::async(std::launch::async, make);
+  next_show_ = std::async(std::launch::async,
+                          [this, languages = next_languages_, finest = FinestDetail(),
+                           time = drama_time_] { return maker_.MakeAt(time, languages, finest); });
 }
 
 // In lock-step a frame does not depend on how long anything takes.
@@ -703,6 +654,7 @@ bool Performance::OtherLanguagesAreReady() {
 
 // The drama goes on where it is. While no frame is under way.
 Status Performance::ChangeLanguages() {
+  heartbeat_.BeatBeforeLongWork();
   Result<std::unique_ptr<show::Show>> next = next_show_.get();
   if (!next.ok()) {
     log_.warn("{}; the languages stay", next.message());
@@ -773,57 +725,15 @@ void Performance::AddTimes(const show::StagedFrame& staged, SteadyClock::time_po
   ++drawn_frames_;
 }
 
-// As the eyes will see them: what is real is not in the picture.
-Status Performance::DrawSeeThrough(const show::StagedFrame& staged, SteadyClock::time_point taken) {
-  const double now = Seconds(SteadyClock::now());
-  const std::optional<geometry::Rigid3> room_from_camera = openxr_->RoomFromCamera(taken);
-  if (staged.camera_from_stage && room_from_camera) {
-    anchor_.Observe(*room_from_camera * *staged.camera_from_stage, now);
-  }
-  for (const Eye eye : {kLeft, kRight}) {
-    const std::optional<EyeView> view = openxr_->ViewOf(eye, size_.width, size_.height);
-    if (!view || !anchor_.room_from_stage()) {
-      return Status();
-    }
-    ShowMenuTo(view->camera);
-    LARARIUM_RETURN_IF_ERROR(renderer_->DrawSeeThrough(
-        staged,
-        {view->camera, view->room_from_eye.Inverse() * *anchor_.room_from_stage(),
-         anchor_.Opacity(now) * Shown()},
-        *target_));
-    LARARIUM_RETURN_IF_ERROR(openxr_->SetPicture(eye, *target_));
-  }
-  return Status();
-}
-
-Status Performance::DrawForOpenXr(const show::StagedFrame& staged) {
-  const auto delay = std::chrono::duration<double>(headset_->camera_delay);
-  const SteadyClock::time_point taken =
-      staged.arrival - std::chrono::duration_cast<SteadyClock::duration>(delay);
-  if (headset_->runtime_shows_room) {
-    return DrawSeeThrough(staged, taken);
-  }
-  for (const Eye eye : {kLeft, kRight}) {
-    if (eye == kLeft || headset_->stereo) {
-      LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged, *target_, openxr_->PictureEyeOf(eye)));
-      LARARIUM_RETURN_IF_ERROR(openxr_->SetPicture(eye, *target_));
-    }
-  }
-  openxr_->Place(renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
-                     .Resized(size_.width, size_.height),
-                 taken);
-  return Status();
-}
-
 // Also between two images of the camera.
 Status Performance::ServeOpenXr() {
   if (openxr_ != nullptr) {
-    LARARIUM_ASSIGN_OR_RETURN(const bool more, openxr_->Frame());
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, openxr_->headset().Frame());
     if (!more) {
       log_.info("the headset's runtime ended the session");
       g_end_requested = 1;
     }
-    for (const std::string& button : openxr_->TakeButtons()) {
+    for (const std::string& button : openxr_->headset().TakeButtons()) {
       PressKey(button);
     }
   }
@@ -832,7 +742,8 @@ Status Performance::ServeOpenXr() {
 
 Status Performance::DrawPicture(const show::StagedFrame& staged) {
   if (openxr_ != nullptr) {
-    return DrawForOpenXr(staged);
+    return openxr_->Draw(staged, *renderer_, *target_, Seconds(SteadyClock::now()), Shown(),
+                         [this](const geometry::CameraModel& eye) { ShowMenuTo(eye); });
   }
   return stereo_ ? stereo_->Draw(staged, *renderer_, *target_) : renderer_->Draw(staged, *target_);
 }
@@ -859,6 +770,9 @@ Status Performance::DrawFrame(show::StagedFrame& staged) {
     ShowToStaff();
   }
   ShowMenu(staged);
+  if (draw_ms_ > kSlowPicture) {
+    heartbeat_.BeatBeforeLongWork();
+  }
   const SteadyClock::time_point begin = SteadyClock::now();
   SteadyClock::time_point drawn;
   {
@@ -873,8 +787,8 @@ Status Performance::DrawFrame(show::StagedFrame& staged) {
   }
   AddTimes(staged, drawn);
   faults_.AfterFrame(staged.tracked);
-  const double draw_ms = std::chrono::duration<double, std::milli>(drawn - begin).count();
-  ChooseQuality(last_shown_, std::max(draw_ms, staged.stage_ms));
+  draw_ms_ = std::chrono::duration<double, std::milli>(drawn - begin).count();
+  ChooseQuality(last_shown_, std::max(draw_ms_, staged.stage_ms));
   heartbeat_.Beat();
   AfterFrame(staged);
   TellStaff(staged);
@@ -927,7 +841,7 @@ Status Performance::RunRealtime() {
 Status Performance::Run() {
   LARARIUM_RETURN_IF_ERROR(options_.pace == Pace::kFast ? RunLockStep() : RunRealtime());
   if (openxr_ != nullptr) {
-    LARARIUM_RETURN_IF_ERROR(openxr_->End());
+    LARARIUM_RETURN_IF_ERROR(openxr_->headset().End());
   }
   LARARIUM_RETURN_IF_ERROR(recorder_->Finish());
   if (quality_) {
@@ -945,6 +859,12 @@ Status Performance::Run() {
   return begin_again_ ? Status::Error("staff page", "the player is to begin again") : Status();
 }
 
+void WarnOf(const Status& status, Log& log) {
+  if (!status.ok()) {
+    log.warn("{}", status.message());
+  }
+}
+
 }  // namespace
 
 Status Play(const PlayOptions& options,
@@ -959,16 +879,19 @@ Status Play(const PlayOptions& options,
   if (options.threads > 0) {
     limit.emplace(options.threads);
   }
+  const bool sandbox = options.sandbox && options.display != Display::kOpenXr;
+  if (options.sandbox && !sandbox) {
+    log.info("no sandbox: the headset's runtime needs the system");
+  }
   Performance performance(options, started, log, start, heartbeat, staff_link);
+  if (sandbox) {
+    WarnOf(EnterOpeningSandbox(), log);
+  }
   BeginLoading();
   LARARIUM_RETURN_IF_ERROR(performance.Prepare());
   BeginPlaying();
-  if (options.sandbox && options.display == Display::kOpenXr) {
-    log.info("no sandbox: the headset's runtime needs the system");
-  } else if (options.sandbox) {
-    if (const Status status = EnterSandbox(); !status.ok()) {
-      log.warn("{}", status.message());
-    }
+  if (sandbox) {
+    WarnOf(EnterSandbox(), log);
   }
   return performance.Run();
 }

@@ -9,24 +9,19 @@
 #include <cstring>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace lararium::player {
 namespace {
 
-// Of Linux' calls: other programs, other processes, the kernel and its modules, mounts, users and
-// rights, the clock, and files' owners and rights. Drivers of graphics and sound use none of them
-// once they are open.
-constexpr const char* kForbidden[] = {
-    "execve",
-    "execveat",
-    "fork",
-    "vfork",
+// Of Linux' calls, what neither readers nor drivers ever do: look into other processes, change the
+// kernel, its modules, mounts, users and rights, or the clock.
+constexpr const char* kNeverNeeded[] = {
     "ptrace",
     "process_vm_readv",
     "process_vm_writev",
-    "kcmp",
     "pidfd_open",
     "pidfd_getfd",
     "pidfd_send_signal",
@@ -67,14 +62,6 @@ constexpr const char* kForbidden[] = {
     "adjtimex",
     "sethostname",
     "setdomainname",
-    "chown",
-    "lchown",
-    "fchown",
-    "fchownat",
-    "chmod",
-    "fchmodat",
-    "mknod",
-    "mknodat",
     "acct",
     "quotactl",
     "syslog",
@@ -83,9 +70,13 @@ constexpr const char* kForbidden[] = {
     "open_by_handle_at",
     "name_to_handle_at",
     "io_uring_setup",
-    "listen",
-    "accept",
-    "accept4",
+};
+
+// What drivers of graphics and sound do while they are opened, and not after that: start programs
+// that serve them, make devices, own files.
+constexpr const char* kNeededToOpen[] = {
+    "execve",   "execveat", "fork",     "vfork", "kcmp",    "chown",  "lchown", "fchown",
+    "fchownat", "chmod",    "fchmodat", "mknod", "mknodat", "listen", "accept", "accept4",
 };
 
 // What a web server does whose sockets are open. Whatever is not here fails.
@@ -140,6 +131,7 @@ constexpr const char* kOfPage[] = {
 struct Release {
   void operator()(void* filter) const { seccomp_release(filter); }
 };
+using Filter = std::unique_ptr<void, Release>;
 
 // A condition on a call's first argument.
 scmp_arg_cmp First(scmp_compare op, scmp_datum_t a) {
@@ -156,20 +148,11 @@ Status Problem(const char* what, int code) {
                        "run with --sandbox off if the system has no seccomp");
 }
 
-Status Load(scmp_filter_ctx filter) {
-  seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
-  const int loaded = seccomp_load(filter);
-  return loaded == 0 ? Status() : Problem("the system does not take it", loaded);
-}
-
-}  // namespace
-
-Status EnterSandbox() {
-  const std::unique_ptr<void, Release> filter(seccomp_init(SCMP_ACT_ALLOW));
+Status Forbid(const Filter& filter, std::span<const char* const> calls) {
   if (filter == nullptr) {
     return Problem("cannot be made", -ENOMEM);
   }
-  for (const char* name : kForbidden) {
+  for (const char* name : calls) {
     const int call = seccomp_syscall_resolve_name(name);
     if (call == __NR_SCMP_ERROR) {
       continue;  // not of this kernel or machine
@@ -179,6 +162,27 @@ Status EnterSandbox() {
       return Problem(name, added);
     }
   }
+  return Status();
+}
+
+Status Load(scmp_filter_ctx filter) {
+  seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
+  const int loaded = seccomp_load(filter);
+  return loaded == 0 ? Status() : Problem("the system does not take it", loaded);
+}
+
+}  // namespace
+
+Status EnterOpeningSandbox() {
+  const Filter filter(seccomp_init(SCMP_ACT_ALLOW));
+  LARARIUM_RETURN_IF_ERROR(Forbid(filter, kNeverNeeded));
+  return Load(filter.get());
+}
+
+Status EnterSandbox() {
+  const Filter filter(seccomp_init(SCMP_ACT_ALLOW));
+  LARARIUM_RETURN_IF_ERROR(Forbid(filter, kNeverNeeded));
+  LARARIUM_RETURN_IF_ERROR(Forbid(filter, kNeededToOpen));
   // Sockets between programs of this machine are what displays and sound need: no others.
   const int sockets = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(socket), 1,
                                        First(SCMP_CMP_NE, AF_UNIX));
@@ -196,7 +200,7 @@ Status EnterSandbox() {
 }
 
 Status EnterPageSandbox(int listening) {
-  const std::unique_ptr<void, Release> filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)));
+  const Filter filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)));
   if (filter == nullptr) {
     return Problem("cannot be made", -ENOMEM);
   }

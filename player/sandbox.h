@@ -8,9 +8,14 @@
 
 namespace lararium::player {
 
-// For this process, all its threads, and for good (seccomp, Linux). What is forbidden fails as if
-// the user lacked the right. Call it when devices and drivers are open. An error where the system
-// has no seccomp: the show can go on without.
+// Both are for this process, all its threads, and for good (seccomp, Linux). What is forbidden
+// fails as if the user lacked the right. An error where the system has no seccomp: the show can go
+// on without.
+
+// Before the show is read: what opening devices and drivers needs is left, other programs and
+// sockets among it.
+Status EnterOpeningSandbox();
+// When devices and drivers are open.
 Status EnterSandbox();
 
 // For the process of the staff page (staff_page.h), which is all that strangers reach: it may take

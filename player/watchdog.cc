@@ -22,6 +22,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int64_t kBeatMilliseconds = 200;
+constexpr char kBeat = 'b';
+constexpr char kBeatBeforeLongWork = 'w';
 constexpr int kPollMilliseconds = 50;
 constexpr int kUsageError = 2;
 
@@ -93,14 +95,13 @@ class Child {
       }
       return false;
     }
-    char bytes[64];
+    char beats[64];
     bool any = false;
-    while (::read(beats_, bytes, sizeof(bytes)) > 0) {
-      any = true;
+    for (ssize_t count = 0; (count = ::read(beats_, beats, sizeof(beats))) > 0; any = true) {
+      works_long_ = beats[count - 1] == kBeatBeforeLongWork;
     }
     if (any) {
       last_beat_ = Clock::now();
-      has_beaten_ = true;
     }
     return any;
   }
@@ -136,14 +137,14 @@ class Child {
 
   bool Hangs(const WatchdogOptions& options) const {
     return SecondsSince(last_beat_) >
-           (has_beaten_ ? options.silent_seconds : options.start_seconds);
+           (works_long_ ? options.start_seconds : options.silent_seconds);
   }
   double age() const { return SecondsSince(started_); }
 
  private:
   pid_t process_ = kNone;
   int beats_ = kNone;
-  bool has_beaten_ = false;
+  bool works_long_ = true;  // as it said, or it has only begun
   Clock::time_point started_;
   Clock::time_point last_beat_;
 };
@@ -191,8 +192,19 @@ void Heartbeat::Beat() {
           .count();
   if (now - last_ms_ >= kBeatMilliseconds) {
     last_ms_ = now;
-    (void)!::write(descriptor_, "b", 1);  // a full pipe says it as well
+    Say(kBeat);
   }
+}
+
+void Heartbeat::BeatBeforeLongWork() {
+  if (descriptor_ >= 0) {
+    last_ms_ = 0;  // the next beat says that it is done
+    Say(kBeatBeforeLongWork);
+  }
+}
+
+void Heartbeat::Say(char beat) {
+  (void)!::write(descriptor_, &beat, 1);  // a full pipe says it as well
 }
 
 int Supervise(const std::function<int(const ChildStart&, Heartbeat&)>& child,

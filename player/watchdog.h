@@ -16,15 +16,19 @@ class Heartbeat {
   explicit Heartbeat(int descriptor = -1) : descriptor_(descriptor) {}
   // Cheap: may be called for every frame. Does nothing where nobody listens.
   void Beat();
+  // What comes before the next beat may take as long as a start: shaders are compiled, say.
+  void BeatBeforeLongWork();
 
  private:
+  void Say(char beat);
+
   int descriptor_;  // -1: nobody listens
   int64_t last_ms_ = 0;
 };
 
 struct WatchdogOptions {
-  double start_seconds = 20.0;  // until the first beat of a child
-  double silent_seconds = 2.0;  // between beats, before a child counts as hanging
+  double start_seconds = 20.0;  // until the first beat of a child, and after one before long work
+  double silent_seconds = 1.0;  // between beats, before a child counts as hanging
   double grace_seconds = 1.0;   // between asking a child to end and ending it
   // A child that ran for less than this failed at its start: the next one waits, longer each time.
   double stable_seconds = 10.0;

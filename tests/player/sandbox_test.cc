@@ -76,6 +76,34 @@ TEST(Sandbox, ThreadsThatThereWereAreInItToo) {
             EPERM);
 }
 
+TEST(OpeningSandbox, DriversMayStartProgramsAndHaveSockets) {
+  EXPECT_EQ(InsideOf(EnterOpeningSandbox,
+                     [] {
+                       const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+                       return socket >= 0 ? ErrorOf(::execl("/bin/true", "true", nullptr)) : 1;
+                     }),
+            0);
+}
+
+TEST(OpeningSandbox, WhatNobodyNeedsIsGoneBeforeTheShowIsRead) {
+  const auto inside = [](const std::function<int()>& function) {
+    return InsideOf(EnterOpeningSandbox, function);
+  };
+  EXPECT_EQ(inside([] { return ErrorOf(::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr)); }), EPERM);
+  EXPECT_EQ(inside([] { return ErrorOf(::setuid(0)); }), EPERM);
+  EXPECT_EQ(inside([] { return ErrorOf(::unshare(0)); }), EPERM);
+}
+
+TEST(OpeningSandbox, TheOneForPlayingIsEnteredAfterIt) {
+  EXPECT_EQ(InsideOf(
+                [] {
+                  const Status opening = EnterOpeningSandbox();
+                  return opening.ok() ? EnterSandbox() : opening;
+                },
+                [] { return ErrorOf(::socket(AF_INET, SOCK_STREAM, 0)); }),
+            EPERM);
+}
+
 TEST(Sandbox, NobodyIsLetInWhereNoPageIsAskedFor) {
   const int listening = ::socket(AF_INET, SOCK_STREAM, 0);
   ASSERT_EQ(::listen(listening, 1), 0);

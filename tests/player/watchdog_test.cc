@@ -104,6 +104,36 @@ TEST_F(WatchdogTest, AShowThatHangsIsReplacedWithinItsTime) {
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(6));
 }
 
+TEST_F(WatchdogTest, WhoSaysThatWorkIsLongHasTheTimeOfAStart) {
+  const int code = Run([this](const ChildStart& start, Heartbeat& heartbeat) {
+    Say("child");
+    BeatFor(heartbeat, 0.1);
+    heartbeat.BeatBeforeLongWork();
+    // Longer than silent_seconds, and the first time than start_seconds too.
+    std::this_thread::sleep_for(std::chrono::milliseconds(start.number == 0 ? 2000 : 800));
+    BeatFor(heartbeat, 0.1);
+    return 0;
+  });
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(said(), "child\nchild\n");
+}
+
+TEST_F(WatchdogTest, TheBeatAfterLongWorkEndsItsPatience) {
+  const auto begin = Clock::now();
+  const int code = Run([this](const ChildStart& start, Heartbeat& heartbeat) {
+    Say("child");
+    heartbeat.BeatBeforeLongWork();
+    heartbeat.Beat();
+    if (start.number == 0) {
+      std::this_thread::sleep_for(std::chrono::seconds(30));
+    }
+    return 0;
+  });
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(said(), "child\nchild\n");
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(10));
+}
+
 TEST_F(WatchdogTest, TheEndIsPassedOnToTheShow) {
   const int code = Run(
       [this](const ChildStart&, Heartbeat& heartbeat) {

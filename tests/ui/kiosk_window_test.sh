@@ -65,6 +65,15 @@ echo 'function main() while true do wait(1) end end' > "$project/drama.lua"
 "$editor" export "$project" --out "$show" > "$out/export.log" 2>&1 ||
   { cat "$out/export.log"; fail "nothing was exported"; }
 
+# Of this machine the doctor knows: it has no camera, and draws in software.
+"$player" doctor "$show" --state "$out/kiosk" > "$out/doctor.log" 2>> "$out/editor.log" &&
+  fail "without a camera the doctor finds nothing bad"
+for finding in "good +processor" "warning +bundle +\"Test\"" "good +map .*500 points" "BAD +camera" \
+  "(good|warning) +graphics" "(good|warning) +drawing .*pictures a second" "good +display" \
+  "good +disk +.*kiosk" "do: plug it in"; do
+  grep -qE "$finding" "$out/doctor.log" || { cat "$out/doctor.log"; fail "no line of '$finding'"; }
+done
+
 display -window root xc:red  # the desktop
 begin_kiosk
 wait_for 60 test -s "$state" || fail "it keeps no state"
