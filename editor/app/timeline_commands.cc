@@ -42,22 +42,6 @@ std::string NameOfItem(LaneKind kind, const Json& fields) {
   }
 }
 
-// What somebody did by the script belongs to the lane that could have told it.
-LaneKind LaneOfTask(const std::string& action) {
-  constexpr std::pair<std::string_view, LaneKind> kLanes[] = {
-      {"say", LaneKind::kSpeech},          {"gesture", LaneKind::kGestures},
-      {"play", LaneKind::kClips},          {"look_at", LaneKind::kGaze},
-      {"express", LaneKind::kExpressions}, {"walk_to", LaneKind::kWalks},
-      {"turn_to", LaneKind::kWalks}};
-  const std::string_view word = std::string_view(action).substr(0, action.find(' '));
-  for (const auto& [name, lane] : kLanes) {
-    if (name == word) {
-      return lane;
-    }
-  }
-  return LaneKind::kUses;
-}
-
 class TimelineMaker {
  public:
   TimelineMaker(const ProjectPaths& paths,
