@@ -12,6 +12,7 @@
 #include "editor/app/project.h"
 #include "editor/app/sounds.h"
 #include "editor/app/timeline_fields.h"
+#include "editor/app/timeline_item_commands.h"
 #include "editor/export/otio.h"
 #include "editor/import/bml.h"
 #include "shared/core/file.h"
@@ -254,6 +255,9 @@ Status InsertItem(const import::BmlItem& item, drama::TimelineText& text) {
 }  // namespace
 
 Result<CommandResult> RunTimeline(const TimelineOptions& options, Progress& progress) {
+  if (options.out.empty()) {
+    return EditTimeline(options, progress);
+  }
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
   LARARIUM_ASSIGN_OR_RETURN(const ProjectLines lines, LoadProjectLines(paths, document));
