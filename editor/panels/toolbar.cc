@@ -181,9 +181,6 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.shows_evidence())) {
     workspace.SetEvidence(!workspace.shows_evidence());
   }
-  if (ImGui::MenuItem(Tr("Descriptions"), nullptr, workspace.descriptions())) {
-    workspace.SetDescriptions(!workspace.descriptions());
-  }
   if (MenuItem(Tr("Sound"), KeyAction::kSound, workspace.sound())) {
     workspace.SetSound(!workspace.sound());
   }
@@ -214,6 +211,10 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
     state.show_onion = !state.show_onion;
   }
   ViewSourceMenu(workspace, state);
+  ImGui::Separator();
+  if (ImGui::MenuItem(Tr("Descriptions"), nullptr, workspace.descriptions())) {
+    workspace.SetDescriptions(!workspace.descriptions());
+  }
 }
 
 void SetGizmo(EditorState& state, GizmoMode mode) {
