@@ -12,6 +12,7 @@
 #include "editor/app/text.h"
 #include "editor/app/white_balance.h"
 #include "editor/bake/probe.h"
+#include "editor/bake/sun_split.h"
 #include "shared/geometry/glm_convert.h"
 
 namespace lararium::app {
