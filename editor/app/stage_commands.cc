@@ -90,7 +90,8 @@ class StageWorker {
       TagsDocument tags = place_->tags.value_or(TagsDocument());
       tags.size_m = options_.tag_size.value_or(tags.size_m);
       tags.family = options_.tag_family.empty() ? tags.family : options_.tag_family;
-      LARARIUM_RETURN_IF_ERROR(train::TagOptions{tags.family, tags.size_m}.Validate());
+      const train::TagOptions options = {tags.family, tags.size_m};
+      LARARIUM_RETURN_IF_ERROR(options.Validate());
       place_->tags = tags;
     } else {
       return Status();
