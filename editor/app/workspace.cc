@@ -11,6 +11,7 @@
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
 #include "editor/app/filming.h"
+#include "editor/app/object_pose.h"
 #include "editor/app/occluder_alignment.h"
 #include "editor/app/player_trial.h"
 #include "editor/app/sounds.h"
@@ -24,6 +25,7 @@ namespace lararium::app {
 namespace {
 
 constexpr size_t kMaxMessages = 200;
+constexpr double kSameFrame = 1e-6;  // frames: what rounding leaves of a frame's own moment
 
 // Changes when the file does: its time alone stands still for a few milliseconds at a time, but
 // whoever writes a file anew gives it another number.
@@ -66,7 +68,7 @@ Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log)
   if (!workspace->document().places.empty()) {
     workspace->ShowPlace(workspace->document().places.front().name);
   }
-  workspace->cast_pictures_.SetCast(workspace->document().cast);
+  workspace->AskForPictures();
   return workspace;
 }
 
@@ -273,6 +275,17 @@ void Workspace::ApplyToScript(const drama::TextEdit& edit) {
   OnScriptChanged();
 }
 
+void Workspace::CancelGesture() {
+  if (!commands_.in_gesture()) {
+    return;
+  }
+  const std::vector<drama::TextEdit> patches = commands_.CancelGesture();
+  for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch) {
+    ApplyToScript(patch->Reverse());
+  }
+  OnDocumentChanged();
+}
+
 void Workspace::Undo() {
   if (commands_.CanUndo()) {
     const std::span<const drama::TextEdit> patches = commands_.Undo();
@@ -343,7 +356,7 @@ void Workspace::OnDocumentChanged() {
   if (!commands_.dirty()) {
     journal_.Discard(document(), script_.snapshot());
   }
-  cast_pictures_.SetCast(document().cast);
+  AskForPictures();
   stage_changed_ = true;
   if (place() == nullptr && (!place_name_.empty() || !document().places.empty())) {
     // It was taken away, or is the first.
@@ -588,8 +601,9 @@ std::string Workspace::PreviewKey() const {
     key["cast"].push_back(FormatCastMember(member));
   }
   for (const ObjectDocument& object : document().objects) {
-    key["objects"].push_back(
-        {FormatObject(object), object.file.empty() ? "" : FileStamp(paths_.Resolve(object.file))});
+    // Where it is changes without opening anew.
+    key["objects"].push_back({object.name, object.model, object.file,
+                              object.file.empty() ? "" : FileStamp(paths_.Resolve(object.file))});
   }
   return key.dump();
 }
@@ -751,13 +765,22 @@ int64_t Workspace::frame() const {
     return 0;
   }
   const double frames = time_ * source->frames_per_second;
-  return static_cast<int64_t>(frames + 1e-6) % source->frames;
+  return static_cast<int64_t>(frames + kSameFrame) % source->frames;
 }
 
 void Workspace::SetFrame(int64_t frame) {
   if (const std::optional<PreviewSource> source = recording()) {
     const int64_t last = std::max<int64_t>(source->frames - 1, 0);
     SetTime(static_cast<double>(std::clamp<int64_t>(frame, 0, last)) / source->frames_per_second);
+  }
+}
+
+void Workspace::StepFrames(int64_t frames) {
+  const std::optional<PreviewSource> source = recording();
+  if (source && !source->live) {
+    const double rate = source->frames_per_second;
+    const double frame = std::floor(time_ * rate + kSameFrame) + static_cast<double>(frames);
+    SetTime(std::min(frame / rate, std::max(duration() - 1.0 / rate, time_)));
   }
 }
 
@@ -832,6 +855,9 @@ void Workspace::RequestPicture() {
     return;
   }
   request.place = loaded_.staged;
+  for (const ObjectDocument& object : document().objects) {
+    request.objects.push_back({object.name, InitialPose(object)});
+  }
   request.compare = compare_;
   request.evidence = evidence_;
   request.descriptions = descriptions_;
@@ -861,7 +887,7 @@ void Workspace::Update(double seconds) {
   if (since_files_checked_ > kFilesInterval) {
     since_files_checked_ = 0.0;
     preview_stale_ = true;
-    cast_pictures_.SetCast(document().cast);
+    AskForPictures();
     LookOutside();
     // Trained by somebody else.
     map_stale_ |= loaded_.database != nullptr && !tasks_.Running(kTraining) &&
@@ -946,7 +972,8 @@ void Workspace::RunDramaAgain() {
     *run = std::move(played);
     return Status();
   };
-  const auto done = [this, run](const Status& status, bool cancelled) {
+  const auto done = [this, run, revision = script_.revision()](const Status& status,
+                                                               bool cancelled) {
     if (cancelled) {
       return;
     }
@@ -956,7 +983,11 @@ void Workspace::RunDramaAgain() {
         run->tasks = drama_run_->tasks;
         run->words = drama_run_->words;
         run->last = drama_run_->last;
+        run->trails = drama_run_->trails;
+        run->floor = drama_run_->floor;
       }
+    } else {
+      played_script_ = revision;
     }
     drama_run_ = run;
     ++drama_run_number_;
@@ -1005,6 +1036,11 @@ bool Workspace::BringInSound(const std::string& name, const std::filesystem::pat
   stage_changed_ = true;
   preview_stale_ = true;
   return true;
+}
+
+void Workspace::AskForPictures() {
+  cast_pictures_.SetCast(document().cast);
+  cast_pictures_.SetObjects(document().objects);
 }
 
 void Workspace::TellOfPictures() {

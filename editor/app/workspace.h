@@ -124,6 +124,8 @@ class Workspace {
   // moment after the last edit, whether or not the project is saved: voices are made from it.
   void EditLines(const std::string& name, bake::LineTable table, std::string_view gesture = {});
   void EndGesture() { commands_.EndGesture(); }
+  // As if the gesture at work had not been begun; nothing between gestures.
+  void CancelGesture();
   void Undo();
   void Redo();
   void Save();
@@ -179,7 +181,7 @@ class Workspace {
   TaskList& tasks() { return tasks_; }
   bool tasks_empty() const { return tasks_.entries().empty(); }
 
-  // The people of the project in pictures.
+  // The people and objects of the project in pictures.
   CastPictures& cast_pictures() { return cast_pictures_; }
   // How many people of the cast are still to be built or pictured.
   size_t PeopleLeft() const;
@@ -238,10 +240,14 @@ class Workspace {
   const DramaRun* drama_run() const { return drama_run_.get(); }
   // Another number for each run.
   int64_t drama_run_number() const { return drama_run_number_; }
+  // It played the script as it is written now.
+  bool drama_run_is_current() const { return played_script_ == script_.revision(); }
 
   // The recording in the camera view, which begins anew where it ends before the drama.
   int64_t frame() const;
   void SetFrame(int64_t frame);
+  // So many frames of the recording on, or back: to the very moment of one.
+  void StepFrames(int64_t frames);
   std::optional<PreviewSource> recording() const {
     return preview_ ? preview_->source() : std::nullopt;
   }
@@ -286,6 +292,8 @@ class Workspace {
   std::string LinesStamp() const;
   void RunDramaAgain();
 
+  // Of whom there are to be pictures, and what was wrong with them.
+  void AskForPictures();
   void TellOfPictures();
   void OnDocumentChanged();
   void ResolvePicksAgain();
@@ -370,9 +378,10 @@ class Workspace {
   std::shared_ptr<std::mutex> baking_ = std::make_shared<std::mutex>();  // one at a time
   std::shared_ptr<const DramaRun> drama_run_;
   int64_t drama_run_number_ = 0;
-  int64_t run_script_ = -1;    // revision that was run last
-  double since_script_ = 0.0;  // seconds since it changed
-  bool stage_changed_ = true;  // since the last run
+  int64_t run_script_ = -1;     // revision that was run last
+  int64_t played_script_ = -1;  // and that drama_run_ played
+  double since_script_ = 0.0;   // seconds since it changed
+  bool stage_changed_ = true;   // since the last run
   bool checked_ = false;
   std::optional<Refinement> refinement_;
   std::shared_ptr<const ExportedShow> exported_;

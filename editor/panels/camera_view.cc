@@ -438,7 +438,8 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
       DrawStage(workspace, view, draw);
       DrawCheckPoints(workspace, state, view, draw);
       const bool picking = ShowModelPoints(workspace, state, view, hovered, draw);
-      ShowGizmo(workspace, state, view, hovered && !picking, draw);
+      const bool walking = walks_.Show(workspace, state, view, hovered && !picking, draw);
+      ShowGizmo(workspace, state, view, hovered && !picking && !walking, draw);
     }
     if (state.show_matches) {
       DrawTrails(*picture, rect, draw);

@@ -21,6 +21,7 @@
 #include "editor/panels/picture_textures.h"
 #include "editor/panels/point_colours.h"
 #include "editor/panels/view_camera.h"
+#include "shared/drama/timeline_text.h"
 #include "shared/stage/place.h"
 #include "shared/vision/occluders.h"
 
@@ -143,6 +144,32 @@ struct PlaceView {
   double metres = 0.0;           // typed, of the distance of the two; 0: nothing yet
 };
 
+// Which walks the views show, and what of them the hand moves.
+struct WalkHandles {
+  // What is chosen in the timeline where it is one thing alone: an item, or what was done in the
+  // dry run.
+  std::optional<drama::TimelineItem> item;
+  std::optional<uint32_t> task;
+  std::optional<drama::TimelineItem> choose;  // that the timeline is to choose next
+
+  struct Handle {
+    drama::TimelineItem item;
+    bool begins = false;  // where somebody is placed first; otherwise where they go
+
+    friend bool operator==(const Handle&, const Handle&) = default;
+  };
+  std::optional<Handle> chosen;  // that keys move
+  struct Drag {
+    Handle handle;
+    Eigen::Vector2d pressed = Eigen::Vector2d::Zero();  // window pixel
+    glm::vec2 grip = glm::vec2(0.0f);   // from there on the floor to the handle; stage, metres
+    glm::vec2 place = glm::vec2(0.0f);  // of the handle, as it is dragged
+    bool moved = false;                 // further than a click
+    bool given_up = false;              // nothing comes of it
+  };
+  std::optional<Drag> drag;
+};
+
 // What lies below the views.
 enum class BottomTab { kTimeline, kScript, kChecks, kMessages };
 
@@ -158,6 +185,7 @@ struct EditorState {
   ViewKind view = ViewKind::kCamera;
   GizmoMode gizmo = GizmoMode::kMove;
   std::optional<GizmoDrag> drag;
+  bool drag_given_up = false;  // nothing comes of drag
   OrbitCamera orbit;
   bool show_stage = true;       // axes, grid and handles over the camera's picture
   bool show_points = true;      // around the place
@@ -173,6 +201,7 @@ struct EditorState {
   int keyframe = 0;
 
   PlaceView place;
+  WalkHandles walk;
   CheckView check;
   AlignView align;
   LightView light;

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "editor/app/object_pose.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 
@@ -65,6 +66,13 @@ void DrawHandle(GizmoHandle handle,
   }
 }
 
+const app::ObjectDocument* FindObject(const app::ProjectDocument& document,
+                                      const std::string& name) {
+  const auto found = std::find_if(document.objects.begin(), document.objects.end(),
+                                  [&](const auto& object) { return object.name == name; });
+  return found == document.objects.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::optional<Similarity3> SelectedTransform(const app::Workspace& workspace,
@@ -80,6 +88,12 @@ std::optional<Similarity3> SelectedTransform(const app::Workspace& workspace,
     const app::OccluderDocument* occluder = place->FindOccluder(selection.name);
     if (occluder != nullptr && !occluder->drawn()) {
       return place->picked_from_stage * occluder->stage_from_mesh;
+    }
+  }
+  if (selection.kind == Selection::Kind::kObject) {
+    if (const app::ObjectDocument* object = FindObject(workspace.document(), selection.name)) {
+      const geometry::Rigid3 pose = app::StageFromObject(*object);
+      return place->picked_from_stage * Similarity3{1.0, pose.rotation, pose.translation};
     }
   }
   return std::nullopt;
@@ -107,10 +121,33 @@ void MoveSelected(app::Workspace& workspace,
           }
         },
         gesture);
+  } else if (selection.kind == Selection::Kind::kObject) {
+    const Similarity3 stage_from_thing =
+        workspace.place()->picked_from_stage.Inverse() * world_from_thing;
+    workspace.Edit(
+        Text(Tr("move %s"), selection.name.c_str()),
+        [&](app::ProjectDocument& document) {
+          for (app::ObjectDocument& object : document.objects) {
+            if (object.name == selection.name) {
+              app::PlaceObject(stage_from_thing.rotation, stage_from_thing.translation, object);
+            }
+          }
+        },
+        gesture);
   }
 }
 
 namespace {
+
+GizmoFreedom FreedomOf(const Selection& selection) {
+  return selection.kind == Selection::Kind::kObject ? GizmoFreedom::kUpright : GizmoFreedom::kFree;
+}
+
+bool GivesUp(const EditorState& state) {
+  return std::any_of(state.keys.begin(), state.keys.end(), [](const KeyPress& press) {
+    return ActionOf(KeyScope::kViews, press) == KeyAction::kUnselect;
+  });
+}
 
 // Ctrl while dragging, or the switch in the view around the place.
 GizmoSnap SnapOf(const app::Workspace& workspace,
@@ -152,17 +189,26 @@ bool ShowGizmo(app::Workspace& workspace,
   }
   const Vector2d pointer = ToEigen(ImGui::GetMousePos());
   const GizmoLayout layout(*transform, view);
+  const GizmoFreedom freedom = FreedomOf(state.selection);
   std::optional<GizmoHandle> hot;
   if (state.drag) {
     hot = state.drag->handle();
   } else if (hovered) {
-    hot = PickHandle(layout, state.gizmo, view, pointer);
+    hot = PickHandle(layout, state.gizmo, view, pointer, freedom);
   }
   if (hot && !state.drag && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    workspace.EndGesture();
     state.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
+    state.drag_given_up = false;
+  }
+  if (state.drag && !state.drag_given_up && GivesUp(state)) {
+    state.drag_given_up = true;
+    workspace.CancelGesture();
   }
   if (state.drag && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    if (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f) {
+    if (state.drag_given_up) {
+      hot.reset();
+    } else if (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f) {
       const GizmoSnap snap = SnapOf(workspace, state, view, transform->translation);
       MoveSelected(workspace, state.selection, state.drag->Update(view, pointer, snap), "gizmo");
     }
@@ -170,11 +216,11 @@ bool ShowGizmo(app::Workspace& workspace,
     state.drag.reset();
     workspace.EndGesture();
   }
-  for (const GizmoHandle handle : HandlesOf(state.gizmo)) {
+  for (const GizmoHandle handle : HandlesOf(state.gizmo, freedom)) {
     DrawHandle(handle, layout.Outline(handle, view), hot == handle, draw);
   }
   draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(OverPicture().text));
-  return hot.has_value();
+  return hot.has_value() || state.drag.has_value();
 }
 
 void DrawWorldLine(const ViewCamera& view,

@@ -63,7 +63,7 @@ void ShowColumns() {
     ShowScope(scope);
   }
   ImGui::TableNextColumn();
-  for (const KeyScope scope : {KeyScope::kTimeline, KeyScope::kLight}) {
+  for (const KeyScope scope : {KeyScope::kTimeline, KeyScope::kWalk, KeyScope::kLight}) {
     ShowScope(scope);
   }
   ImGui::EndTable();

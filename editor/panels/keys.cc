@@ -62,8 +62,12 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
      TrLater("Measures the distance of two points")},
     {Scope::kViews, Action::kSnapHandles, GLFW_KEY_N, 0, 0,
      TrLater("Handles move in steps; or hold Ctrl while dragging")},
+    {Scope::kViews, Action::kFrameBack, 0, 0, U',', TrLater("One frame of the recording back")},
+    {Scope::kViews, Action::kFrameOn, 0, 0, U'.', TrLater("One frame of the recording on")},
     {Scope::kViews, Action::kUnselect, GLFW_KEY_ESCAPE, 0, 0,
-     TrLater("Adds no more points of a model; unselects the points around the place")},
+     TrLater(
+         "Adds no more points of a model; unselects the points around the place; puts back what "
+         "is being dragged")},
 
     {Scope::kCamera, Action::kNudgeLeft, GLFW_KEY_LEFT, 0, 0,
      TrLater("Moves the camera to the left by 5 mm"), TrLater("by 5 cm")},
@@ -75,6 +79,16 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
      TrLater("by 5 cm")},
     {Scope::kCamera, Action::kNudgeBack, GLFW_KEY_PAGE_DOWN, 0, 0, TrLater("Back"),
      TrLater("by 5 cm")},
+
+    {Scope::kWalk, Action::kWalkLeft, GLFW_KEY_LEFT, 0, 0,
+     TrLater("Moves it to the left over the floor by 1 cm"), TrLater("by 10 cm")},
+    {Scope::kWalk, Action::kWalkRight, GLFW_KEY_RIGHT, 0, 0, TrLater("To the right"),
+     TrLater("by 10 cm")},
+    {Scope::kWalk, Action::kWalkAway, GLFW_KEY_UP, 0, 0, TrLater("Away"), TrLater("by 10 cm")},
+    {Scope::kWalk, Action::kWalkNearer, GLFW_KEY_DOWN, 0, 0, TrLater("Towards you"),
+     TrLater("by 10 cm")},
+    {Scope::kWalk, Action::kLeaveWalk, GLFW_KEY_ESCAPE, 0, 0,
+     TrLater("Lets go of it; a drag is not done")},
 
     {Scope::kLight, Action::kLightLeft, 0, 0, U'[',
      TrLater("Turns the light to the left by 1\xc2\xb0")},
@@ -227,6 +241,8 @@ const char* ScopeTitle(KeyScope scope) {
       return Tr("In the views");
     case Scope::kCamera:
       return Tr("Through the camera");
+    case Scope::kWalk:
+      return Tr("While the end of a walk is chosen");
     case Scope::kLight:
       return Tr("While a light probe is selected");
     case Scope::kTimeline:

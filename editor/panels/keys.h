@@ -19,9 +19,10 @@ struct KeyPress {
 };
 
 // Where a key means something. A press is offered to the timeline while that was clicked last,
-// then to the light while a probe is selected, then to the camera view and to the rest.
-enum class KeyScope { kStart, kAlways, kViews, kCamera, kLight, kTimeline };
-inline constexpr int kKeyScopes = 6;
+// then to the light while a probe is selected, then to the end of a walk while one is chosen, then
+// to the camera view and to the rest.
+enum class KeyScope { kStart, kAlways, kViews, kCamera, kWalk, kLight, kTimeline };
+inline constexpr int kKeyScopes = 7;
 
 enum class KeyAction {
   kNone,
@@ -58,6 +59,8 @@ enum class KeyAction {
   kPointColours,
   kMeasure,
   kSnapHandles,
+  kFrameBack,
+  kFrameOn,
   kUnselect,
   // the camera view
   kNudgeLeft,
@@ -66,6 +69,12 @@ enum class KeyAction {
   kNudgeDown,
   kNudgeForward,
   kNudgeBack,
+  // the end of a walk
+  kWalkLeft,
+  kWalkRight,
+  kWalkAway,
+  kWalkNearer,
+  kLeaveWalk,
   // a light probe
   kLightLeft,
   kLightRight,

@@ -33,26 +33,30 @@ void CheckPointRow(EditorState& state, const app::CheckPointReport& point) {
       Packed(VerdictColour(point.verdict)));
 }
 
-// A person with their thumbnail before the name.
-void PersonRow(app::Workspace& workspace, EditorState& state, const app::CastDocument& member) {
-  const Selection selection{Selection::Kind::kActor, member.name};
+// A person or an object with a thumbnail before the name.
+void PicturedRow(EditorState& state,
+                 const Selection& selection,
+                 const app::CastPictures::Picture& picture) {
+  const bool person = selection.kind == Selection::Kind::kActor;
   const float side = Px(34);
-  ImGui::PushID(member.name.c_str());
+  ImGui::PushID(static_cast<int>(selection.kind));
+  ImGui::PushID(selection.name.c_str());
   ImGui::Indent(Px(6));
   const ImVec2 from = ImGui::GetCursorPos();
-  if (ImGui::Selectable("##person", state.selection == selection, ImGuiSelectableFlags_None,
+  if (ImGui::Selectable("##pictured", state.selection == selection, ImGuiSelectableFlags_None,
                         ImVec2(0, side))) {
     state.selection = selection;
   }
   const ImVec2 after = ImGui::GetCursorPos();
   ImGui::SetCursorPos(from);
-  ShowThumbnail(state.pictures, "person " + member.name,
-                workspace.cast_pictures().Thumbnail(member.name), side);
+  ShowThumbnail(state.pictures, (person ? "person " : "object ") + selection.name, picture, side,
+                person ? ThumbnailOf::kPerson : ThumbnailOf::kThing);
   ImGui::SetCursorPos(
       ImVec2(from.x + side + Px(8), from.y + 0.5f * (side - ImGui::GetTextLineHeight())));
-  ImGui::TextUnformatted(member.name.c_str());
+  ImGui::TextUnformatted(selection.name.c_str());
   ImGui::SetCursorPos(after);
   ImGui::Unindent(Px(6));
+  ImGui::PopID();
   ImGui::PopID();
 }
 
@@ -104,11 +108,13 @@ void ShowOutliner(app::Workspace& workspace, EditorState& state) {
   }
   Section(Tr("Cast"), &state, Dialog::kCast);
   for (const app::CastDocument& member : workspace.document().cast) {
-    PersonRow(workspace, state, member);
+    PicturedRow(state, {Kind::kActor, member.name},
+                workspace.cast_pictures().Thumbnail(member.name));
   }
   Section(Tr("Objects"), &state, Dialog::kObject);
   for (const app::ObjectDocument& object : workspace.document().objects) {
-    Row(state, object.name.c_str(), {Kind::kObject, object.name});
+    PicturedRow(state, {Kind::kObject, object.name},
+                workspace.cast_pictures().ObjectThumbnail(object.name));
   }
   if (workspace.place() != nullptr) {
     Section(Tr("Check points"), &state, Dialog::kCheckPoint);

@@ -48,6 +48,8 @@ inline const ImVec4 kAxisColours[3] = {
 // eighth.
 ImVec4 SessionColour(uint32_t session);
 inline constexpr uint32_t kSessionColours = 8;
+// Of a person of the cast, where something of theirs is drawn over a picture; the same set.
+inline ImVec4 PersonColour(uint32_t cast) { return SessionColour(cast); }
 // Of what several sessions saw.
 inline const ImVec4 kSeveralColour = {0.86f, 0.87f, 0.89f, 1.0f};
 

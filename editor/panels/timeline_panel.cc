@@ -594,6 +594,12 @@ void TimelinePanel::ShowSwitchMenu(const app::Workspace& workspace) {
 
 void TimelinePanel::Show(app::Workspace& workspace, EditorState& state) {
   Refresh(workspace);
+  const auto chosen = std::exchange(state.walk.choose, std::nullopt);
+  if (chosen && workspace.script().timeline() != nullptr) {
+    selection_ = {*chosen};
+    block_.reset();
+    KeepValid(*workspace.script().timeline(), selection_);
+  }
   const ImVec2 available = ImGui::GetContentRegionAvail();
   const float inspector = std::min(Px(kInspector), 0.4f * available.x);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
@@ -614,6 +620,8 @@ void TimelinePanel::Show(app::Workspace& workspace, EditorState& state) {
   ImGui::BeginChild("item", ImVec2(0, available.y));
   ShowTimelineInspector(workspace, state, selection_, block_);
   ImGui::EndChild();
+  state.walk.item = selection_.size() == 1 ? std::optional(selection_.front()) : std::nullopt;
+  state.walk.task = selection_.empty() ? block_ : std::nullopt;
 }
 
 }  // namespace lararium::panels

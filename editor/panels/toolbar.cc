@@ -324,6 +324,11 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
     case KeyAction::kSnapHandles:
       state.place.snap = !state.place.snap;
       break;
+    case KeyAction::kFrameBack:
+    case KeyAction::kFrameOn:
+      workspace.SetPlaying(false);
+      workspace.StepFrames(action == KeyAction::kFrameOn ? 1 : -1);
+      break;
     case KeyAction::kUnselect:
       if (state.align.picking) {
         state.align.picking = false;

@@ -39,7 +39,8 @@ TEST(Keys, NoKeyMeansTwoThingsInOneScope) {
 }
 
 TEST(Keys, NoKeyThatWorksEverywhereIsHiddenByTheViews) {
-  for (const KeyScope scope : {KeyScope::kViews, KeyScope::kCamera, KeyScope::kLight}) {
+  for (const KeyScope scope :
+       {KeyScope::kViews, KeyScope::kCamera, KeyScope::kWalk, KeyScope::kLight}) {
     for (const KeyBinding& binding : KeyBindings()) {
       if (binding.scope == scope) {
         EXPECT_EQ(ActionOf(KeyScope::kAlways, PressOf(binding)), KeyAction::kNone)
