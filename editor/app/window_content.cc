@@ -15,6 +15,7 @@ using panels::StartChoice;
 namespace {
 
 std::filesystem::path SettingsFile() { return ConfigFolder() / "editor.json"; }
+std::filesystem::path SizesFile() { return StateFolder() / "window.json"; }
 
 }  // namespace
 
@@ -28,11 +29,28 @@ Settings RestoreSettings(Log& log) {
   return *settings;
 }
 
+WindowSizes RestoreWindowSizes(Log& log) {
+  const Result<WindowSizes> sizes = LoadWindowSizes(SizesFile());
+  if (!sizes.ok()) {
+    log.warn("{}", sizes.message());
+    return WindowSizes();
+  }
+  return *sizes;
+}
+
+void KeepWindowSizes(const WindowSizes& sizes, Log& log) {
+  if (const Status status = SaveWindowSizes(SizesFile(), sizes); !status.ok()) {
+    log.warn("{}", status.message());
+  }
+}
+
 WindowContent::WindowContent(std::unique_ptr<Workspace> workspace,
                              const Settings& settings,
+                             const PanelSizes& panels,
                              Log& log)
     : log_(log),
       settings_(settings),
+      panels_(panels),
       recent_(StateFolder() / "recent.json"),
       sample_(ShippedSample()) {
   if (const Status status = recent_.Reload(); !status.ok()) {
@@ -180,7 +198,7 @@ Status WindowContent::ShowProject() {
   for (const panels::KeyPress& press : std::exchange(keys_, {})) {
     layout_->AddKey(press);
   }
-  layout_->Show(*workspace_, settings_);
+  layout_->Show(*workspace_, settings_, panels_);
   quit_ |= layout_->quit_requested();
   if (layout_->leave_requested()) {
     Leave();

@@ -1014,15 +1014,18 @@ void Workspace::Check() {
         }
         checked_ = true;
         problems_.clear();
+        warnings_.clear();
         if (!status.ok()) {
           problems_.push_back(status.message());
           return;
         }
-        for (const char* kind : {"problems", "warnings"}) {
-          for (const Json& problem : result->json.value(kind, Json::array())) {
-            problems_.push_back(problem.get<std::string>());
+        const auto take = [&](const char* kind, std::vector<std::string>& texts) {
+          for (const Json& text : result->json.value(kind, Json::array())) {
+            texts.push_back(text.get<std::string>());
           }
-        }
+        };
+        take("problems", problems_);
+        take("warnings", warnings_);
       });
 }
 

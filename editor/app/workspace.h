@@ -166,6 +166,8 @@ class Workspace {
   void Check();
   bool checked() const { return checked_; }
   const std::vector<std::string>& problems() const { return problems_; }
+  // What it found that is right, but perhaps not meant.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   // Saves first.
   void Export(const ExportRequest& request);
   // What was exported last in this window; nullptr before that. And why the last export failed;
@@ -387,6 +389,7 @@ class Workspace {
   std::shared_ptr<const ExportedShow> exported_;
   std::string export_problem_;
   std::vector<std::string> problems_;
+  std::vector<std::string> warnings_;
   CastPictures cast_pictures_;
   std::shared_ptr<const CastCatalogue> catalogue_;
   std::string catalogue_problem_;

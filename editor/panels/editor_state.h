@@ -3,6 +3,7 @@
 // What the interface remembers beside the project: what is selected, how the
 // views look, what is being dragged. Nothing of it is saved or undone.
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "editor/app/show_contents.h"
 #include "editor/bake/probe_match.h"
 #include "editor/panels/gizmo.h"
+#include "editor/panels/keyboard_focus.h"
 #include "editor/panels/keys.h"
 #include "editor/panels/picture_textures.h"
 #include "editor/panels/point_colours.h"
@@ -150,7 +152,6 @@ struct WalkHandles {
   // dry run.
   std::optional<drama::TimelineItem> item;
   std::optional<uint32_t> task;
-  std::optional<drama::TimelineItem> choose;  // that the timeline is to choose next
 
   struct Handle {
     drama::TimelineItem item;
@@ -180,7 +181,9 @@ struct EditorState {
   std::vector<KeyPress> keys;  // since the last frame
   BottomTab bottom = BottomTab::kTimeline;
   Focus focus = Focus::kViews;
+  KeyboardFocus keyboard;
   int script_line = 0;  // that the script is to show next, from 1; 0: none
+  std::optional<drama::TimelineItem> timeline_item;  // that the timeline is to choose next
   Selection selection;
   ViewKind view = ViewKind::kCamera;
   GizmoMode gizmo = GizmoMode::kMove;
@@ -211,11 +214,15 @@ struct EditorState {
 
   Dialog dialog = Dialog::kNone;
   DialogFields fields;
-  app::Settings settings;    // of the window, which follows and keeps them
-  std::string new_language;  // of the lines, as far as it was typed
-  bool begin_tour = false;   // asked for
-  bool quit = false;         // asked for; the window decides
-  bool leave = false;        // the project, for the start page; likewise
+  std::map<Dialog, DialogFields> left;  // what was typed into those that Escape closed
+  app::Settings settings;               // of the window, which follows and keeps them
+  std::string new_language;             // of the lines, as far as it was typed
+  bool begin_tour = false;              // asked for
+  bool quit = false;                    // asked for; the window decides
+  bool leave = false;                   // the project, for the start page; likewise
 };
+
+// With empty fields, or as it was when Escape closed it; true then.
+bool OpenDialog(EditorState& state, Dialog dialog);
 
 }  // namespace lararium::panels

@@ -24,7 +24,18 @@ ImU32 HandleColour(GizmoHandle handle, bool hot) {
                                        : Packed(kAxisColours[AxisOf(handle)]);
 }
 
-void DrawArrow(const std::vector<Vector2d>& outline, ImU32 packed, bool hot, ImDrawList& draw) {
+// X, Y or Z in its colour, with its middle there.
+void DrawAxisLetter(const ImVec2& at, int axis, ImU32 packed, ImDrawList& draw) {
+  static constexpr const char* kLetters[] = {"X", "Y", "Z"};
+  const ImVec2 size = ImGui::CalcTextSize(kLetters[axis]);
+  const ImVec2 corner(at.x - 0.5f * size.x, at.y - 0.5f * size.y);
+  draw.AddText(ImVec2(corner.x + Px(1), corner.y + Px(1)), Packed(OverPicture().window),
+               kLetters[axis]);
+  draw.AddText(corner, packed, kLetters[axis]);
+}
+
+void DrawArrow(
+    const std::vector<Vector2d>& outline, int axis, ImU32 packed, bool hot, ImDrawList& draw) {
   const Vector2d along = outline[1] - outline[0];
   const double length = along.norm();
   const ImVec2 tip = ToImGui(outline[1]);
@@ -36,6 +47,7 @@ void DrawArrow(const std::vector<Vector2d>& outline, ImU32 packed, bool hot, ImD
     draw.AddTriangleFilled(ToImGui(outline[1] + 2.0 * size * unit),
                            ToImGui(outline[1] + size * side), ToImGui(outline[1] - size * side),
                            packed);
+    DrawAxisLetter(ToImGui(outline[1] + (2.0 * size + Px(10)) * unit), axis, packed, draw);
   } else {
     draw.AddCircleFilled(tip, Px(5), packed);  // seen end on
   }
@@ -53,7 +65,7 @@ void DrawHandle(GizmoHandle handle,
   std::transform(outline.begin(), outline.end(), std::back_inserter(points), ToImGui);
   const int count = static_cast<int>(points.size());
   if (count == 2) {
-    DrawArrow(outline, packed, hot, draw);
+    DrawArrow(outline, AxisOf(handle), packed, hot, draw);
   } else if (handle == GizmoHandle::kScale) {
     draw.AddRectFilled(points[0], points[2], Packed(OverPicture().panel), Px(3));
     draw.AddRect(points[0], points[2], packed, Px(3), 0, Px(2));
@@ -63,6 +75,7 @@ void DrawHandle(GizmoHandle handle,
     draw.AddPolyline(points.data(), count, packed, ImDrawFlags_Closed, Px(1));
   } else {
     draw.AddPolyline(points.data(), count, packed, 0, Px(hot ? 3.5f : 2.2f));
+    DrawAxisLetter(points[points.size() / 8], AxisOf(handle), packed, draw);
   }
 }
 
@@ -260,6 +273,9 @@ void DrawStage(const app::Workspace& workspace, const ViewCamera& view, ImDrawLi
   for (int axis = 0; axis < 3; ++axis) {
     DrawWorldLine(view, world_from_stage.translation, world_from_stage * Vector3d::Unit(axis),
                   Packed(kAxisColours[axis]), Px(2), draw);
+    if (const auto end = view.Project(world_from_stage * (1.1 * Vector3d::Unit(axis)))) {
+      DrawAxisLetter(ToImGui(*end), axis, Packed(kAxisColours[axis]), draw);
+    }
   }
 }
 

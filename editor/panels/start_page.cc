@@ -392,11 +392,11 @@ StartChoice StartPage::Show(app::RecentProjects& recent,
                    ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
-  ImGui::BeginChild("actions", ImVec2(Px(kActions), 0));
+  ImGui::BeginChild("actions", ImVec2(Px(kActions), 0), false, ImGuiWindowFlags_NavFlattened);
   ShowActions(recent, has_sample, settings, choice);
   ImGui::EndChild();
   ImGui::SameLine(0.0f, Px(48));
-  ImGui::BeginChild("recent");
+  ImGui::BeginChild("recent", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
   if (!problem_.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
     ImGui::TextWrapped("%s", problem_.c_str());

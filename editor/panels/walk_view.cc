@@ -337,7 +337,7 @@ void WalkView::Press(const ViewCamera& view, const Handle& handle, EditorState& 
   const std::optional<glm::vec2> floor = FloorBelow(world_from_stage_, view, pointer);
   if (place && floor) {
     state.walk.chosen = handle;
-    state.walk.choose = handle.item;
+    state.timeline_item = handle.item;
     state.walk.drag = WalkHandles::Drag{handle, pointer, *place - *floor, *place, false};
   }
 }
