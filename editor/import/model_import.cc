@@ -84,7 +84,7 @@ Result<ImportedHuman> Import(const std::filesystem::path& file,
 
 Result<geometry::TriangleMesh> MergeMeshes(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<ModelScene> model, ReadModelScene(file));
-  LARARIUM_ASSIGN_OR_RETURN(const SceneNodes nodes, ListNodes(*model));
+  const SceneNodes& nodes = model->nodes;
   std::vector<glm::mat4> scene_from_node(nodes.size());
   nodes.Globals(nodes.local, scene_from_node);
   geometry::TriangleMesh result;

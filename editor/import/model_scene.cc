@@ -126,6 +126,28 @@ void Extend(const Key* keys, unsigned count, double& first, double& last) {
   }
 }
 
+Result<SceneNodes> ListNodes(const ModelScene& model) {
+  SceneNodes list;
+  list.nodes = {model.scene->mRootNode};
+  list.parents = {SceneNodes::kNoParent};
+  for (size_t i = 0; i < list.nodes.size(); ++i) {
+    const aiNode& node = *list.nodes[i];
+    if (list.nodes.size() + node.mNumChildren > kMaxNodes) {
+      return Status::Error(model.place(),
+                           "there are more than " + std::to_string(kMaxNodes) + " nodes");
+    }
+    list.nodes.insert(list.nodes.end(), node.mChildren, node.mChildren + node.mNumChildren);
+    list.parents.insert(list.parents.end(), node.mNumChildren, static_cast<int>(i));
+    list.local.push_back(ToGlm(node.mTransformation));
+    std::string name = node.mName.C_Str();
+    const bool indexed = model.gltf.has_value() && name.size() > 1 && name.size() < 8 &&
+                         name[0] == 'n' &&
+                         name.find_first_not_of("0123456789", 1) == std::string::npos;
+    list.names.push_back(indexed ? model.gltf->NodeName(std::stoul(name.substr(1))) : name);
+  }
+  return list;
+}
+
 }  // namespace
 
 glm::mat4 ToGlm(const aiMatrix4x4& m) {
@@ -174,6 +196,10 @@ Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& 
   if (model->scene->mRootNode == nullptr) {
     return CannotBeImported(file, "there is nothing in it");
   }
+  if (model->gltf) {
+    model->vrm = ReadVrm(*model->gltf);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(model->nodes, ListNodes(*model));
   return model;
 }
 
@@ -200,28 +226,6 @@ void SceneNodes::Globals(std::span<const glm::mat4> from_local,
   }
 }
 
-Result<SceneNodes> ListNodes(const ModelScene& model) {
-  SceneNodes list;
-  list.nodes = {model.scene->mRootNode};
-  list.parents = {SceneNodes::kNoParent};
-  for (size_t i = 0; i < list.nodes.size(); ++i) {
-    const aiNode& node = *list.nodes[i];
-    if (list.nodes.size() + node.mNumChildren > kMaxNodes) {
-      return Status::Error(model.file.string(),
-                           "there are more than " + std::to_string(kMaxNodes) + " nodes");
-    }
-    list.nodes.insert(list.nodes.end(), node.mChildren, node.mChildren + node.mNumChildren);
-    list.parents.insert(list.parents.end(), node.mNumChildren, static_cast<int>(i));
-    list.local.push_back(ToGlm(node.mTransformation));
-    std::string name = node.mName.C_Str();
-    const bool indexed = model.gltf.has_value() && name.size() > 1 && name.size() < 8 &&
-                         name[0] == 'n' &&
-                         name.find_first_not_of("0123456789", 1) == std::string::npos;
-    list.names.push_back(indexed ? model.gltf->NodeName(std::stoul(name.substr(1))) : name);
-  }
-  return list;
-}
-
 AnimationSampler::AnimationSampler(const aiAnimation& animation, const SceneNodes& nodes) {
   ticks_per_second_ = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : 25.0;
   double first = std::numeric_limits<double>::max(), last = 0.0;
@@ -239,11 +243,6 @@ AnimationSampler::AnimationSampler(const aiAnimation& animation, const SceneNode
     first_tick_ = first;
     duration_ = (last - first) / ticks_per_second_;
   }
-}
-
-bool AnimationSampler::Moves(int node) const {
-  return std::any_of(channels_.begin(), channels_.end(),
-                     [&](const Channel& channel) { return channel.node == node; });
 }
 
 void AnimationSampler::Sample(double seconds, std::span<glm::mat4> local) const {

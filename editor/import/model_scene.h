@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "editor/import/model_gltf.h"
+#include "editor/import/vrm.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {
@@ -24,21 +25,6 @@ namespace lararium::import {
 inline glm::vec3 ToGlm(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 inline glm::quat ToGlm(const aiQuaternion& q) { return {q.w, q.x, q.y, q.z}; }
 glm::mat4 ToGlm(const aiMatrix4x4& m);
-
-struct ModelScene {
-  Assimp::Importer importer;  // owns the scene
-  const aiScene* scene = nullptr;
-  std::optional<GltfDocument> gltf;
-  std::filesystem::path file;
-  std::string extension;  // small letters, with its dot
-
-  bool HasUnits() const { return gltf.has_value() || extension == ".fbx"; }
-  // Metres per unit as the format or the file says it; 1 where they say nothing.
-  float StatedMetresPerUnit() const;
-};
-
-// Opens nothing outside the folder of the file. Errors name the file.
-Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& file);
 
 // The nodes of a scene, parents before children; parallel arrays.
 struct SceneNodes {
@@ -57,7 +43,25 @@ struct SceneNodes {
   bool IsPivot(size_t node) const;
   void Globals(std::span<const glm::mat4> local, std::span<glm::mat4> scene_from_node) const;
 };
-Result<SceneNodes> ListNodes(const ModelScene& model);
+
+struct ModelScene {
+  Assimp::Importer importer;  // owns the scene
+  const aiScene* scene = nullptr;
+  SceneNodes nodes;
+  std::optional<GltfDocument> gltf;
+  std::optional<Vrm> vrm;  // only where it is a glTF
+  std::filesystem::path file;
+  std::string extension;  // small letters, with its dot
+
+  // What errors name.
+  std::string place() const { return file.string(); }
+  bool HasUnits() const { return gltf.has_value() || extension == ".fbx"; }
+  // Metres per unit as the format or the file says it; 1 where they say nothing.
+  float StatedMetresPerUnit() const;
+};
+
+// Opens nothing outside the folder of the file. Errors name the file.
+Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& file);
 
 // One animation, sampled at any time.
 class AnimationSampler {
@@ -65,7 +69,6 @@ class AnimationSampler {
   AnimationSampler(const aiAnimation& animation, const SceneNodes& nodes);
 
   double duration() const { return duration_; }  // seconds
-  bool Moves(int node) const;
   // local as at a time in seconds from the beginning; nodes that it does not move keep theirs.
   void Sample(double seconds, std::span<glm::mat4> local) const;
 

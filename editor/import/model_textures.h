@@ -15,6 +15,17 @@ namespace lararium::import {
 
 inline constexpr int kMaxTextureSide = 2048;  // pixels
 
+struct ModelImage {
+  std::string name;
+  std::vector<std::byte> encoded;  // as the file has it; unchecked
+};
+
+// The images of a material, as indices; -1: none.
+struct TextureUse {
+  int colour = -1;
+  int normal = -1;
+};
+
 // Where a model's image lies: as the file says, else by its bare name beside the model,
 // in textures/ or in MODEL.fbm/ (paths of the author's computer are common). Never
 // outside the model's folder. Empty: not found.

@@ -1,7 +1,7 @@
 #pragma once
 
-// The shape of the plain figure: implicit surfaces around its skeleton, with
-// albedo and skin weights for every vertex.
+// The meshes of the plain figure: its solids (plain_shapes.h) triangulated, with albedo and
+// skin weights (plain_skin.h) for every vertex.
 
 #include <vector>
 

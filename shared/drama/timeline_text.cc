@@ -4,14 +4,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "shared/drama/lua_literals.h"
 #include "shared/drama/lua_tokens.h"
 
 namespace lararium::drama {
 namespace {
-
-constexpr int kMaxDepth = 16;  // of tables in tables
-constexpr size_t kMaxProblems = 100;
-constexpr std::string_view kRemedy = "write it out, or leave it to the script";
 
 using Kind = LuaToken::Kind;
 
@@ -26,178 +23,9 @@ bool IsName(std::string_view text) {
          std::find(std::begin(kKeywords), std::end(kKeywords), text) == std::end(kKeywords);
 }
 
-struct Problem {
-  size_t offset = 0;
-  std::string text;
-};
-
-// One entry of a table.
-struct Entry {
-  std::string key;   // empty: counted
-  size_t begin = 0;  // of the whole entry
-  size_t value_begin = 0;
-  size_t value_end = 0;
-  size_t separator = 0;  // where its comma is; 0: none
-  Json value;            // null: not kept, or a table where they are not wanted
-};
-
-// Reads values that are written out.
-class Literals {
- public:
-  explicit Literals(std::string_view text, size_t offset) : tokens_(text, offset), text_(text) {
-    Step();
-  }
-
-  const LuaToken& token() const { return token_; }
-  void Step() { token_ = tokens_.Next(); }
-  const Problem& problem() const { return problem_; }
-  std::string_view Text(const LuaToken& token) const {
-    return text_.substr(token.begin, token.end - token.begin);
-  }
-
-  bool Fail(const LuaToken& token, std::string problem) {
-    problem_ = {token.begin, token.kind == Kind::kBad ? token.problem : std::move(problem)};
-    return false;
-  }
-
-  // A value; Step()s behind it. `end`: behind its last byte.
-  bool Value(int depth, Json& value, size_t& end) {
-    const LuaToken first = token_;
-    end = first.end;
-    if (first.Is('{')) {
-      return Table(depth, value, end);
-    }
-    if (first.Is('-')) {
-      Step();
-      if (token_.kind != Kind::kNumber) {
-        return Fail(first, "only numbers, texts, true, false and tables can stand here");
-      }
-      value = -*NumberOf(Text(token_));
-      end = token_.end;
-    } else if (first.kind == Kind::kNumber) {
-      value = *NumberOf(Text(first));
-    } else if (first.kind == Kind::kText) {
-      const auto text = TextOf(Text(first));
-      if (!text) {
-        return Fail(first, "this text has an escape that Lua does not know");
-      }
-      value = *text;
-    } else if (first.kind == Kind::kName && (Text(first) == "true" || Text(first) == "false")) {
-      value = Text(first) == "true";
-    } else {
-      return Fail(first, "only numbers, texts, true, false and tables can stand here");
-    }
-    Step();
-    return true;
-  }
-
-  // Calls visit(entry) for each entry of the table that begins here, after its key was
-  // read and before its value: visit reads that, by Value() or itself, and says whether
-  // all was well.
-  template <typename Visit>
-  bool Entries(size_t& end, Visit visit) {
-    const LuaToken open = token_;
-    Step();
-    while (!token_.Is('}')) {
-      Entry entry;
-      entry.begin = token_.begin;
-      if (token_.Is('[')) {
-        Step();
-        if (token_.kind != Kind::kText) {
-          return Fail(token_, "only texts can be keys");
-        }
-        entry.key = TextOf(Text(token_)).value_or("");
-        Step();
-        if (!token_.Is(']')) {
-          return Fail(token_, "a ']' is missing");
-        }
-        Step();
-        if (!token_.Is('=')) {
-          return Fail(token_, "a '=' is missing");
-        }
-        Step();
-      } else if (token_.kind == Kind::kName) {
-        const LuaToken name = token_;
-        const LuaTokens before = tokens_;
-        Step();
-        if (token_.Is('=')) {
-          entry.key = std::string(Text(name));
-          Step();
-        } else {
-          tokens_ = before;
-          token_ = name;
-        }
-      }
-      entry.value_begin = token_.begin;
-      if (!visit(entry)) {
-        return false;
-      }
-      if (token_.Is(',') || token_.Is(';')) {
-        Step();
-      } else if (!token_.Is('}')) {
-        return Fail(token_.kind == Kind::kEnd ? open : token_,
-                    token_.kind == Kind::kEnd ? "this brace never closes"
-                                              : "only numbers, texts, true, false and tables "
-                                                "can stand here");
-      }
-    }
-    end = token_.end;
-    Step();
-    return true;
-  }
-
- private:
-  bool Table(int depth, Json& value, size_t& end) {
-    if (depth >= kMaxDepth) {
-      return Fail(token_, "tables lie too deep in one another");
-    }
-    const LuaToken open = token_;
-    Json list = Json::array();
-    Json fields = Json::object();
-    const bool read = Entries(end, [&](Entry& entry) {
-      Json inner;
-      if (!Value(depth + 1, inner, entry.value_end)) {
-        return false;
-      }
-      if (entry.key.empty()) {
-        list.push_back(std::move(inner));
-      } else {
-        fields[entry.key] = std::move(inner);
-      }
-      return true;
-    });
-    if (read && !list.empty() && !fields.empty()) {
-      return Fail(open, "a table has either names or not");
-    }
-    value = list.empty() ? std::move(fields) : std::move(list);
-    return read;
-  }
-
-  LuaTokens tokens_;
-  std::string_view text_;
-  LuaToken token_;
-  Problem problem_;
-};
-
-// The entries of the table at an offset, with their separators.
-std::vector<Entry> EntriesOf(std::string_view text, size_t offset, bool with_values) {
-  std::vector<Entry> entries;
-  Literals literals(text, offset);
-  size_t end = 0;
-  literals.Entries(end, [&](Entry& entry) {
-    Json value;
-    if (!literals.Value(0, value, entry.value_end)) {
-      return false;
-    }
-    if (with_values) {
-      entry.value = std::move(value);
-    }
-    const LuaToken& next = literals.token();
-    entry.separator = next.Is(',') || next.Is(';') ? next.begin : 0;
-    entries.push_back(std::move(entry));
-    return true;
-  });
-  return entries;
+// A key as it stands before '=': bare where Lua lets it.
+std::string LuaKey(const std::string& key) {
+  return IsName(key) ? key : "[" + LuaLiteral(key) + "]";
 }
 
 // Behind blanks, but not line ends.
@@ -232,8 +60,7 @@ std::string ItemLiteral(const Json& fields) {
   // What says when and what comes first, as one would write it.
   std::string out = "{";
   const auto add = [&](const std::string& key, const Json& value) {
-    out += (out.size() > 1 ? ", " : "") + (IsName(key) ? key : "[" + LuaLiteral(key) + "]") +
-           " = " + LuaLiteral(value);
+    out += (out.size() > 1 ? ", " : "") + LuaKey(key) + " = " + LuaLiteral(value);
   };
   constexpr const char* kFirst[] = {"id", "at", "length"};
   for (const char* key : kFirst) {
@@ -255,187 +82,21 @@ bool IsWritable(const Json& value, int depth = 1) {
     return std::isfinite(value.get<double>());
   }
   if (value.is_structured()) {
-    return depth < kMaxDepth && std::all_of(value.begin(), value.end(), [depth](const Json& inner) {
-             return IsWritable(inner, depth + 1);
-           });
+    return depth < LuaLiterals::kMaxDepth &&
+           std::all_of(value.begin(), value.end(),
+                       [depth](const Json& inner) { return IsWritable(inner, depth + 1); });
   }
   return value.is_string() || value.is_boolean();
 }
 
 }  // namespace
 
-// Finds the calls of track in a text.
-class TimelineReader {
- public:
-  explicit TimelineReader(TimelineText& out) : out_(out) {}
-
-  Status Read() {
-    LuaTokens tokens(out_.text_);
-    LuaToken before;
-    LuaToken last;
-    for (LuaToken token = tokens.Next(); token.kind != Kind::kEnd; token = tokens.Next()) {
-      if (token.kind == Kind::kBad) {
-        return Status::Error(At(token.begin), token.problem);
-      }
-      const bool is_behind =
-          last.kind == Kind::kName && Text(last) == "track" && !before.Is('.') && !before.Is(':');
-      if (is_behind && token.Is('(')) {
-        continue;  // track({...}) is the same call
-      }
-      if (is_behind && token.Is('{')) {
-        LARARIUM_ASSIGN_OR_RETURN(const size_t end, ReadCall(token.begin));
-        tokens = LuaTokens(out_.text_, end);
-      }
-      before = last;
-      last = token;
-    }
-    return Status();
-  }
-
- private:
-  std::string_view Text(const LuaToken& token) const {
-    return std::string_view(out_.text_).substr(token.begin, token.end - token.begin);
-  }
-  std::string At(size_t offset) const {
-    const LuaPosition position = PositionOf(out_.text_, offset);
-    return out_.place_ + ":" + std::to_string(position.line) + ":" +
-           std::to_string(position.column);
-  }
-  void Report(size_t offset, const std::string& problem, std::string_view remedy) {
-    if (out_.problems_.size() < kMaxProblems) {
-      out_.problems_.push_back(Status::Error(At(offset), problem, remedy).message());
-    }
-  }
-
-  struct Lane {
-    TimelineLane lane;
-    uint32_t open = 0;
-    uint32_t close = 0;
-  };
-
-  // The call whose table opens at an offset: where to read on.
-  Result<size_t> ReadCall(size_t open) {
-    Literals literals(out_.text_, open);
-    std::vector<Lane> lanes;
-    std::string actor;
-    size_t end = 0;
-    const bool read = literals.Entries(end, [&](Entry& entry) {
-      if (entry.key == "actor") {
-        Json name;
-        const LuaToken token = literals.token();
-        if (!literals.Value(0, name, entry.value_end)) {
-          return false;
-        }
-        actor = name.is_string() ? name.get<std::string>() : "";
-        return !actor.empty() || literals.Fail(token, "the actor's name is no text");
-      }
-      const auto kind = LaneNamed(entry.key);
-      if (!kind) {
-        return literals.Fail(literals.token(), "track knows no '" + entry.key + "'");
-      }
-      lanes.emplace_back().lane.kind = *kind;
-      return ReadLane(literals, lanes.back());
-    });
-    if (!read) {
-      if (literals.token().kind == Kind::kBad || literals.token().kind == Kind::kEnd) {
-        return Status::Error(At(literals.problem().offset), literals.problem().text);
-      }
-      Report(literals.problem().offset, literals.problem().text, kRemedy);
-      return open + 1;
-    }
-    for (Lane& lane : lanes) {
-      if (IsOfActor(lane.lane.kind)) {
-        if (actor.empty()) {
-          Report(open, "'" + std::string(NameOf(lane.lane.kind)) + "' need an actor",
-                 "add actor = \"name\"");
-          continue;
-        }
-        lane.lane.actor = actor;
-      }
-      out_.lanes_.push_back(std::move(lane.lane));
-      out_.open_.push_back(lane.open);
-      out_.close_.push_back(lane.close);
-    }
-    return end;
-  }
-
-  static bool ReadLane(Literals& literals, Lane& lane) {
-    const LuaToken open = literals.token();
-    if (!open.Is('{')) {
-      return literals.Fail(open, "a list of items {...} belongs here");
-    }
-    lane.open = static_cast<uint32_t>(open.begin);
-    size_t end = 0;
-    const bool read = literals.Entries(end, [&](Entry& entry) {
-      if (!entry.key.empty() || !literals.token().Is('{')) {
-        return literals.Fail(literals.token(), "an item {at = 0, ...} belongs here");
-      }
-      return ReadItem(literals, lane.lane);
-    });
-    lane.close = static_cast<uint32_t>(end - 1);
-    return read;
-  }
-
-  static bool ReadItem(Literals& literals, TimelineLane& lane) {
-    const LuaToken open = literals.token();
-    double at = -1.0;
-    double length = 0.0;
-    size_t end = 0;
-    const bool read = literals.Entries(end, [&](Entry& entry) {
-      const LuaToken token = literals.token();
-      if (entry.key.empty()) {
-        return literals.Fail(token, "what an item says needs a name");
-      }
-      Json value;
-      if (!literals.Value(1, value, entry.value_end)) {
-        return false;
-      }
-      if (entry.key == "at" || entry.key == "length") {
-        double& number = entry.key == "at" ? at : length;
-        number = value.is_number() ? value.get<double>() : -1.0;
-        return (number >= 0.0 && number <= 1e6) ||
-               literals.Fail(token, entry.key + " must be a number from 0 to 1000000");
-      }
-      if (entry.key == "ease" && !(value.is_string() && EaseNamed(value.get<std::string>()))) {
-        return literals.Fail(token, "ease is \"linear\", \"in\", \"out\" or \"smooth\"");
-      }
-      return true;
-    });
-    if (!read) {
-      return false;
-    }
-    if (at < 0.0) {
-      return literals.Fail(open, "this item does not say `at` what time it begins");
-    }
-    lane.at.push_back(at);
-    lane.length.push_back(length);
-    lane.begin.push_back(static_cast<uint32_t>(open.begin));
-    lane.end.push_back(static_cast<uint32_t>(end));
-    return true;
-  }
-
-  TimelineText& out_;
-};
-
-Result<TimelineText> TimelineText::Read(std::string text, std::string place) {
-  if (text.size() > kMaxBytes) {
-    return Status::Error(place, "the script is longer than 64 MiB");
-  }
-  TimelineText timeline;
-  timeline.text_ = std::move(text);
-  timeline.place_ = std::move(place);
-  LARARIUM_RETURN_IF_ERROR(TimelineReader(timeline).Read());
-  timeline.indexes_.resize(timeline.lanes_.size());
-  timeline.indexed_.assign(timeline.lanes_.size(), 0);
-  return timeline;
-}
-
 std::vector<TimelineField> TimelineText::Fields(TimelineItem item) const {
   std::vector<TimelineField> fields;
   if (!Check(item).ok()) {
     return fields;
   }
-  for (Entry& entry : EntriesOf(text_, lanes_[item.lane].begin[item.item], true)) {
+  for (LuaEntry& entry : EntriesOf(text_, lanes_[item.lane].begin[item.item], true)) {
     fields.push_back({std::move(entry.key), std::move(entry.value),
                       static_cast<uint32_t>(entry.value_begin),
                       static_cast<uint32_t>(entry.value_end)});
@@ -603,17 +264,15 @@ Replacement SetField(std::string_view text,
                      size_t offset,
                      std::string_view key,
                      const Json& value) {
-  const std::vector<Entry> entries = EntriesOf(text, offset, false);
+  const std::vector<LuaEntry> entries = EntriesOf(text, offset, false);
   // The last of several of one name is the one that counts.
   const auto known = std::find_if(entries.rbegin(), entries.rend(),
-                                  [key](const Entry& entry) { return entry.key == key; });
+                                  [key](const LuaEntry& entry) { return entry.key == key; });
   if (known != entries.rend()) {
     return {known->value_begin, known->value_end, LuaLiteral(value)};
   }
-  const std::string name(key);
   const size_t last = entries.back().value_end;
-  return {last, last,
-          ", " + (IsName(name) ? name : "[" + LuaLiteral(name) + "]") + " = " + LuaLiteral(value)};
+  return {last, last, ", " + LuaKey(std::string(key)) + " = " + LuaLiteral(value)};
 }
 
 }  // namespace
@@ -659,9 +318,9 @@ Result<TextEdit> TimelineText::SetAll(std::span<const TimelineChange> changes) {
 
 Result<TextEdit> TimelineText::Unset(TimelineItem item, std::string_view key) {
   LARARIUM_RETURN_IF_ERROR(Check(item));
-  const std::vector<Entry> entries = EntriesOf(text_, lanes_[item.lane].begin[item.item], false);
+  const std::vector<LuaEntry> entries = EntriesOf(text_, lanes_[item.lane].begin[item.item], false);
   const auto known = std::find_if(entries.begin(), entries.end(),
-                                  [key](const Entry& entry) { return entry.key == key; });
+                                  [key](const LuaEntry& entry) { return entry.key == key; });
   if (known == entries.end()) {
     return Status::Error(place_, "the item has no '" + std::string(key) + "'");
   }
@@ -848,8 +507,7 @@ std::string LuaLiteral(const Json& value) {
     }
   } else if (value.is_object()) {
     for (const auto& [key, inner] : value.items()) {
-      out += (out.empty() ? "" : ", ") + (IsName(key) ? key : "[" + LuaLiteral(key) + "]") + " = " +
-             LuaLiteral(inner);
+      out += (out.empty() ? "" : ", ") + LuaKey(key) + " = " + LuaLiteral(inner);
     }
   }
   return "{" + out + "}";

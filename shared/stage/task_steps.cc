@@ -1,4 +1,4 @@
-// What tasks do, phase by phase; tasks.cc has tickets and turns.
+// What tasks do, phase by phase.
 
 #include <algorithm>
 #include <cmath>

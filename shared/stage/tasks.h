@@ -163,7 +163,7 @@ class Tasks {
   // Who sits gets up for what is not done sitting: whether somebody has to wait for that.
   bool GetsUpFor(const Task& task);
 
-  // ---- whose turn it is (tasks.cc) ----
+  // ---- whose turn it is, what it needs (task_turns.cc, task_grants.cc) ----
   void GrantTurns();
   bool SharesWith(const Task& a, const Task& b) const;
   bool MustWaitFor(const Task& task, const Task& other) const;

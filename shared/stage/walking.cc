@@ -149,6 +149,18 @@ ActorId IdOf(const World& world, const Actor& actor) {
 
 }  // namespace
 
+glm::vec2 InStage(const Object& object, glm::vec2 point) {
+  const glm::vec3 in_stage = object.state.stage_from_object * glm::vec3(point.x, 0.0f, point.y);
+  return {in_stage.x, in_stage.z};
+}
+
+float HeadingInStage(const Object& object, float heading) {
+  const glm::vec2 direction = Direction(heading);
+  const glm::vec3 in_stage =
+      object.state.stage_from_object.rotation * glm::vec3(direction.x, 0.0f, direction.y);
+  return HeadingOf({in_stage.x, in_stage.z});
+}
+
 bool TurnTowards(Actor& actor, float heading, float seconds, float speed) {
   const float turn = TurnBetween(actor.state.heading, heading);
   const float pace =

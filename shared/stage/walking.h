@@ -7,6 +7,10 @@
 
 namespace lararium::stage {
 
+// A point and a heading of an object's frame as they are on the stage's floor now.
+glm::vec2 InStage(const Object& object, glm::vec2 point);
+float HeadingInStage(const Object& object, float heading);
+
 enum class WalkResult : uint8_t { kGoing, kArrived, kBlocked };
 
 inline constexpr float kWalkSpeed = 1.2f;  // m/s, of somebody 1.7 m tall

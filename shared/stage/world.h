@@ -34,6 +34,9 @@ struct World {
   Object& object(ObjectId id) { return *objects.Find(id); }
 };
 
+// A name in what the drama's author is told.
+inline std::string Quoted(const std::string& name) { return "'" + name + "'"; }
+
 // Frame of a grip as it is now, in somebody's frame.
 human::GripFrame ActorFromGrip(const Actor& actor, const Object& object, int grip);
 // What somebody's hand holds; zero: nothing.
