@@ -95,9 +95,9 @@ Workspace::~Workspace() {
   }
 }
 
-// Takes over what a crash left, as one edit of what is saved.
 void Workspace::Recover() {
-  Result<std::optional<JournalContent>> left = LoadJournal(paths_.Journal());
+  Result<std::optional<JournalContent>> left =
+      LoadJournal(paths_.Journal(), document().lines.get());
   if (!left.ok()) {
     const std::filesystem::path aside = paths_.folder / "journal.damaged";
     std::error_code error;
@@ -111,17 +111,27 @@ void Workspace::Recover() {
     journal_.Discard(document(), script_.snapshot());
     return;
   }
-  JournalContent& content = **left;
+  TakeOver(std::move(**left));
+}
+
+void Workspace::TakeOver(JournalContent content) {
+  const std::shared_ptr<const bake::LineTable> in_file = document().lines;
+  std::shared_ptr<const bake::LineTable>& lines = content.project.lines;
+  const bool lines_are_theirs = lines != nullptr && !content.lines_are_ours;
+  if (lines == nullptr || (in_file != nullptr && *lines == *in_file)) {
+    lines = in_file;
+  }
+  if (lines == in_file && content.script == script_.text() &&
+      FormatProject(content.project) == FormatProject(document())) {
+    journal_.Discard(document(), script_.snapshot());  // all of it reached its files
+    return;
+  }
   // In the journal first: it is never without what it held.
   Note(journal_.Restart(content.project, std::make_shared<const std::string>(content.script)));
   drama::TextEdit edit = script_.Replace(std::move(content.script));
   const size_t bytes = edit.removed.size() + edit.inserted.size();
   commands_.Edit(
-      Tr("recover"),
-      [&](ProjectDocument& current) {
-        content.project.lines = current.lines;
-        current = std::move(content.project);
-      },
+      Tr("recover"), [&](ProjectDocument& current) { current = std::move(content.project); },
       "recover");
   commands_.EditPatched(Tr("recover"), std::move(edit), bytes, "recover");
   commands_.EndGesture();
@@ -132,6 +142,13 @@ void Workspace::Recover() {
                          "last one. Undo takes them back.")
                     : Tr("Edits that were not saved have been recovered. Undo "
                          "takes them back."));
+  if (lines_are_theirs) {  // as if it had happened just now
+    Edit(Tr("take over the lines"), [&](ProjectDocument& current) { current.lines = in_file; });
+    if (in_file != nullptr) {
+      Tell(Message::Level::kInfo,
+           Tr("The lines were changed outside of this window and are read again."));
+    }
+  }
 }
 
 void Workspace::Tell(Message::Level level, std::string text) {
@@ -218,6 +235,12 @@ void Workspace::EditScript(const std::string& name, std::string text, std::strin
 void Workspace::EditLines(const std::string& name,
                           bake::LineTable table,
                           std::string_view gesture) {
+  // As journal and file have it: what could not be read back is no edit.
+  const auto read_back = bake::ParseLinesCsv(bake::FormatLinesCsv(table), "the lines");
+  if (!read_back.ok()) {
+    Tell(Message::Level::kError, read_back.message());
+    return;
+  }
   auto next = std::make_shared<const bake::LineTable>(std::move(table));
   Edit(
       name, [&](ProjectDocument& document) { document.lines = next; }, gesture);
@@ -241,6 +264,9 @@ void Workspace::WriteLines() {
   if (document().lines == written_lines_ || document().lines == nullptr) {
     return;
   }
+  if (LinesStamp() != lines_stamp_) {
+    return;  // others have written it meanwhile: LookOutside() takes that over first
+  }
   if (const Status status = bake::SaveLines(paths_.folder, *document().lines); !status.ok()) {
     Tell(Message::Level::kError, status.message());
     since_lines_ = 0.0;  // not with every frame
@@ -250,6 +276,7 @@ void Workspace::WriteLines() {
   lines_stamp_ = LinesStamp();
   preview_stale_ = true;
   stage_changed_ = true;
+  DiscardIfSaved();
 }
 
 void Workspace::NoteScriptEdit(const std::string& name,
@@ -317,7 +344,7 @@ void Workspace::Save() {
   saved_project_ = commands_.snapshot();
   project_stamp_ = FileStamp(paths_.Project());
   commands_.MarkSaved();
-  journal_.Discard(document(), script_.snapshot());
+  DiscardIfSaved();
   Tell(Message::Level::kInfo, Text(Tr("Saved %s"), paths_.folder.c_str()));
   preview_stale_ = true;
 }
@@ -334,15 +361,20 @@ void Workspace::Note(const Status& journal) {
   }
 }
 
+void Workspace::DiscardIfSaved() {
+  const bool lines_are_written = document().lines == nullptr || document().lines == written_lines_;
+  if (!commands_.dirty() && lines_are_written) {
+    journal_.Discard(document(), script_.snapshot());
+  }
+}
+
 void Workspace::OnScriptChanged() { since_script_ = 0.0; }
 
 void Workspace::OnDocumentChanged() {
   since_lines_ = 0.0;
   since_edit_ = 0.0;
   Note(journal_.NoteProject(document()));
-  if (!commands_.dirty()) {
-    journal_.Discard(document(), script_.snapshot());
-  }
+  DiscardIfSaved();
   cast_pictures_.SetCast(document().cast);
   stage_changed_ = true;
   if (place() == nullptr && (!place_name_.empty() || !document().places.empty())) {
@@ -388,7 +420,7 @@ void Workspace::LookOutside() {
          [&](ProjectDocument& current) { current.lines = written_lines_; });
     if (clean) {
       commands_.MarkSaved();
-      journal_.Discard(document(), script_.snapshot());
+      DiscardIfSaved();
     }
     preview_stale_ = true;
   }
@@ -416,7 +448,7 @@ void Workspace::TakeOutside() {
                          FormatProject(document()) == FormatProject(*saved_project_);
   if (all_saved) {
     commands_.MarkSaved();
-    journal_.Discard(document(), script_.snapshot());
+    DiscardIfSaved();
   }
 }
 

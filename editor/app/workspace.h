@@ -121,7 +121,8 @@ class Workspace {
                     std::string_view gesture = {});
   void EditScript(const std::string& name, std::string text, std::string_view gesture = {});
   // Edits of the table of lines, document().lines, which has to be there. Its file follows a
-  // moment after the last edit, whether or not the project is saved: voices are made from it.
+  // moment after the last edit, whether or not the project is saved: voices are made from it. A
+  // message instead, where the table could not be read back.
   void EditLines(const std::string& name, bake::LineTable table, std::string_view gesture = {});
   void EndGesture() { commands_.EndGesture(); }
   void Undo();
@@ -270,10 +271,14 @@ class Workspace {
   Workspace(ProjectPaths paths, ProjectDocument document, std::string script, Log& log);
 
   void Recover();
+  // What a journal comes to, as an edit of what is saved.
+  void TakeOver(JournalContent content);
   // Undo and redo of the drama's part of a command.
   void ApplyToScript(const drama::TextEdit& edit);
   void NoteScriptEdit(const std::string& name, drama::TextEdit edit, std::string_view gesture);
   void Note(const Status& journal);
+  // Ends the journal where everything is in its file.
+  void DiscardIfSaved();
   void OnScriptChanged();
   // Looks whether others changed project.json or drama.lua.
   void LookOutside();

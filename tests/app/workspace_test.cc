@@ -311,6 +311,85 @@ TEST_F(WorkspaceTest, LinesThatOthersLeftDamagedAreNotWrittenOver) {
   EXPECT_THAT(workspace->messages().back().text, testing::Not(testing::IsEmpty()));
 }
 
+TEST_F(WorkspaceTest, LinesThatATranslatorSavedJustNowAreNotWrittenOver) {
+  const auto workspace = Open();
+  workspace->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+  ASSERT_TRUE(bake::SaveLines(paths_.folder, WithText({}, "part", "keeper", "la", "Vale")).ok());
+  workspace->Update(0.9);
+  workspace->Update(0.9);
+  EXPECT_NE(bake::LoadLines(paths_.folder)->Find("part"), nullptr);
+  EXPECT_NE(workspace->document().lines->Find("part"), nullptr);
+  workspace->Undo();
+  EXPECT_NE(workspace->document().lines->Find("hail"), nullptr) << "what was typed is not lost";
+}
+
+TEST_F(WorkspaceTest, LinesThatCouldNotBeReadBackAreAMessageAndNoEdit) {
+  const auto workspace = Open();
+  const auto before = workspace->document().lines;
+  workspace->EditLines("write", WithText({}, "no id", "keeper", "la", "Salve"));
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("'no id' cannot be a line's id"));
+  workspace->EditLines("write", WithText({}, "hail", "keeper", "la", std::string(5000, 'a')));
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("longer than 4000 bytes"));
+  EXPECT_EQ(workspace->document().lines, before);
+  EXPECT_FALSE(workspace->commands().CanUndo());
+}
+
+// The project as a killed editor leaves it: lines were typed, and their file does not have them.
+class KilledWhileLinesWereTyped : public WorkspaceTest {
+ protected:
+  KilledWhileLinesWereTyped() {
+    const std::filesystem::path aside = folder_ / "journal";
+    {
+      const auto workspace = Open();
+      workspace->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+      std::filesystem::copy_file(paths_.Journal(), aside);
+    }
+    std::filesystem::remove(paths_.folder / "lines.csv");
+    std::filesystem::copy_file(aside, paths_.Journal(),
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+};
+
+TEST_F(KilledWhileLinesWereTyped, RecoversThemAndUndoTakesThemBack) {
+  const auto workspace = Open();
+  EXPECT_THAT(workspace->messages().front().text, HasSubstr("recovered"));
+  EXPECT_NE(workspace->document().lines->Find("hail"), nullptr);
+  workspace->Update(2.0);
+  workspace->Update(0.0);
+  EXPECT_NE(bake::LoadLines(paths_.folder)->Find("hail"), nullptr) << "their file follows";
+  workspace->Undo();
+  EXPECT_TRUE(workspace->document().lines->lines.empty());
+}
+
+TEST_F(KilledWhileLinesWereTyped, WhatATranslatorWroteSinceStaysAndUndoBringsBackWhatWasTyped) {
+  ASSERT_TRUE(bake::SaveLines(paths_.folder, WithText({}, "part", "keeper", "la", "Vale")).ok());
+  const auto workspace = Open();
+  EXPECT_NE(workspace->document().lines->Find("part"), nullptr);
+  workspace->Update(2.0);
+  EXPECT_NE(bake::LoadLines(paths_.folder)->Find("part"), nullptr);
+  workspace->Undo();
+  EXPECT_NE(workspace->document().lines->Find("hail"), nullptr);
+}
+
+TEST_F(KilledWhileLinesWereTyped, ADamagedFileOfLinesIsLeftAsItIs) {
+  const std::string damaged = "id,speaker,notes,la\nhail,keeper,,\"half a";
+  ASSERT_TRUE(WriteFileAtomically(paths_.folder / "lines.csv", damaged).ok());
+  const auto workspace = Open();
+  EXPECT_EQ(workspace->document().lines, nullptr);
+  workspace->Update(2.0);
+  EXPECT_EQ(*ReadText(paths_.folder / "lines.csv"), damaged);
+  workspace->Undo();
+  EXPECT_NE(workspace->document().lines->Find("hail"), nullptr);
+}
+
+TEST_F(WorkspaceTest, LinesThatReachedTheirFileAreNotRecoveredAgain) {
+  Open()->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+  const auto workspace = Open();
+  EXPECT_TRUE(workspace->messages().empty()) << workspace->messages().front().text;
+  EXPECT_FALSE(workspace->commands().CanUndo());
+  EXPECT_FALSE(std::filesystem::exists(paths_.Journal()));
+}
+
 TEST_F(WorkspaceTest, EditedLinesOutliveTheWindow) {
   Open()->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
   EXPECT_NE(Open()->document().lines->Find("hail"), nullptr);
