@@ -11,6 +11,7 @@
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
 #include "editor/app/filming.h"
+#include "editor/app/former_map.h"
 #include "editor/app/occluder_alignment.h"
 #include "editor/app/player_trial.h"
 #include "editor/app/sounds.h"
@@ -34,6 +35,14 @@ std::string FileStamp(const std::filesystem::path& file) {
   }
   return std::to_string(found.st_mtim.tv_sec) + '.' + std::to_string(found.st_mtim.tv_nsec) + ' ' +
          std::to_string(found.st_size) + ' ' + std::to_string(found.st_ino);
+}
+
+// What is known of a training; nullptr where that is nothing, or the file is damaged: it is of no
+// use to the map.
+std::shared_ptr<const TrainingReport> ReadReport(const std::filesystem::path& file) {
+  Result<TrainingReport> report = LoadTrainingReport(file);
+  const bool known = report.ok() && !report->recording.empty();
+  return known ? std::make_shared<const TrainingReport>(*std::move(report)) : nullptr;
 }
 
 std::string TagsKey(const PlaceDocument& place) {
@@ -556,8 +565,10 @@ void Workspace::ReloadMap() {
   const auto loaded = std::make_shared<Database>();
   const auto measures = std::make_shared<MapMeasures>();
   const auto statistics = std::make_shared<train::MapStatistics>();
-  const auto work = [=, place = *place()](Progress& progress) {
+  const auto report = std::make_shared<std::shared_ptr<const TrainingReport>>();
+  const auto work = [=, place = *place(), paths = paths_](Progress& progress) {
     progress.Report("reading the map", 0.0);
+    *report = ReadReport(MapAtHand(paths, place.name).report);
     LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
     progress.Report("looking for the floor and for tags", 0.5);
     *measures = MeasureMap(place, database);
@@ -565,7 +576,7 @@ void Workspace::ReloadMap() {
     *loaded = std::make_shared<const vision::SceneDatabase>(std::move(database));
     return Status();
   };
-  const auto done = [this, loaded, measures, statistics, name = place_name_,
+  const auto done = [this, loaded, measures, statistics, report, name = place_name_,
                      key = TagsKey(*place()),
                      stamp = FileStamp(file)](const Status& status, bool cancelled) {
     if (!status.ok()) {
@@ -575,6 +586,12 @@ void Workspace::ReloadMap() {
       scene_stamp_ = stamp;
       ++map_loads_;
       loaded_.statistics = statistics;
+      loaded_.report = *report;
+      loaded_.has_former = HasFormerMap(paths_, name);
+      if (*report != nullptr && trained_place_ == name) {
+        trained_place_.clear();
+        report_is_new_ = true;
+      }
       loaded_.measures = std::move(*measures);
       loaded_.measured = true;
       tags_key_ = key;
@@ -1237,10 +1254,6 @@ void Workspace::SaveBones(const CastDocument& member) {
   Tell(Message::Level::kInfo, Text(Tr("Wrote %s"), file.c_str()));
 }
 
-const train::TrainReport* Workspace::last_training() const {
-  return trained_place_ == place_name_ ? training_.get() : nullptr;
-}
-
 void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
                               std::function<void()> done) {
   const auto report = std::make_shared<train::TrainReport>();
@@ -1257,7 +1270,6 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
                     static_cast<int>(report->located.size()), report->frames,
                     static_cast<int>(report->points)));
         if (status.ok() && !cancelled) {
-          training_ = report;
           trained_place_ = name;
           done();
         }
@@ -1298,8 +1310,7 @@ void Workspace::RemoveSession(uint32_t session) {
   if (place() == nullptr || session == 0 || session > place()->added.size()) {
     return;
   }
-  if (unsaved_map_ || tasks_.Running(kKeeping)) {  // would bring the session back
-    Tell(Message::Level::kWarning, Tr("The map is being written. Try again in a moment."));
+  if (!MapIsFree()) {
     return;
   }
   const auto removed = std::make_shared<train::RemovedSession>();
@@ -1320,13 +1331,42 @@ void Workspace::RemoveSession(uint32_t session) {
         ForgetSession(*place, session);
       }
     });
-    training_.reset();
     map_stale_ |= name == place_name_;
     OnDocumentChanged();
   };
-  if (!tasks_.Start(kTraining, work, done)) {  // which would write the same map
+  tasks_.Start(kTraining, work, done);
+}
+
+bool Workspace::MapIsFree() {
+  if (tasks_.Running(kTraining)) {
     Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
+    return false;
   }
+  if (unsaved_map_ || tasks_.Running(kKeeping)) {  // would bring back what goes
+    Tell(Message::Level::kWarning, Tr("The map is being written. Try again in a moment."));
+    return false;
+  }
+  return true;
+}
+
+void Workspace::PutFormerMapBack() {
+  if (place() == nullptr || !MapIsFree()) {
+    return;
+  }
+  const Result<PlaceRecordings> recordings = app::PutFormerMapBack(paths_, *place());
+  if (!recordings.ok()) {
+    Tell(Message::Level::kError, recordings.message());
+    return;
+  }
+  commands_.Rewrite([&](ProjectDocument& document) {
+    if (PlaceDocument* place = document.FindPlace(place_name_)) {
+      SetRecordings(*recordings, *place);
+    }
+  });
+  map_stale_ = true;
+  OnDocumentChanged();
+  Tell(Message::Level::kInfo,
+       Text(Tr("%s: the other map is in use. Doing so again changes back."), place_name_.c_str()));
 }
 
 void Workspace::Bake() {

@@ -50,6 +50,7 @@ struct Selection {
 enum class Dialog {
   kNone,
   kTrain,
+  kTrainingReport,
   kAddSession,
   kExport,
   kOccluder,

@@ -4,7 +4,6 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "editor/app/project.h"
@@ -29,21 +28,6 @@ constexpr float kCard = 264.0f;
 constexpr float kPad = 10.0f;  // within a card
 constexpr float kGap = 18.0f;  // between cards
 constexpr const char* kSuffix = ".lararium";
-
-// "22 Nov 2026, 14:05", local.
-std::string DateText(int64_t seconds) {
-  const std::time_t time = static_cast<std::time_t>(seconds);
-  std::tm parts = {};
-  if (localtime_r(&time, &parts) == nullptr) {
-    return "";
-  }
-  static constexpr const char* kMonths[] = {TrLater("Jan"), TrLater("Feb"), TrLater("Mar"),
-                                            TrLater("Apr"), TrLater("May"), TrLater("Jun"),
-                                            TrLater("Jul"), TrLater("Aug"), TrLater("Sep"),
-                                            TrLater("Oct"), TrLater("Nov"), TrLater("Dec")};
-  return Text("%d %s %d, %02d:%02d", parts.tm_mday, Tr(kMonths[parts.tm_mon]), parts.tm_year + 1900,
-              parts.tm_hour, parts.tm_min);
-}
 
 // As people write it: "~" for their own folder.
 std::string FolderText(const fs::path& folder) {
