@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 
 #include "editor/app/workspace.h"
 #include "editor/panels/around_view.h"
@@ -28,6 +29,8 @@ class Layout {
   void Show(Workspace& workspace, Settings& settings);
 
   void BeginTour() { state_.begin_tour = true; }
+  // Opens the dialog that films a place.
+  void BeginFilming(const std::string& place);
   void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
   bool quit_requested() const { return state_.quit; }
   bool leave_requested() const { return state_.leave; }
