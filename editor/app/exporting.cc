@@ -26,10 +26,12 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
   exporter::PlaceContent content;
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
   LARARIUM_RETURN_IF_ERROR(map.picks.problem);
-  content.scene = vision::SerializeSceneDatabase(
+  vision::SceneDatabase packed =
       train::Prune(*map.database, {.max_points = budget.max_points,
                                    .max_descriptors_per_point = budget.max_descriptors_per_point,
-                                   .image_coverage = budget.image_coverage}));
+                                   .image_coverage = budget.image_coverage});
+  packed.descriptor_sessions.clear();  // players remove no sessions
+  content.scene = vision::SerializeSceneDatabase(packed);
   LARARIUM_ASSIGN_OR_RETURN(content.place,
                             StagePlace(paths, place, *map.database, map.picks.map_from_picked));
   LARARIUM_ASSIGN_OR_RETURN(content.glossy, LoadBakedReflections(paths, place));

@@ -14,7 +14,8 @@
 namespace lararium::app {
 namespace {
 
-constexpr std::string_view kMagic = "lararium journal 1\n";
+constexpr std::string_view kMagic = "lararium journal 2\n";
+constexpr std::string_view kFirstMagic = "lararium journal 1\n";  // knew no lines
 constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
 
 // FNV-1a, 64 bits (Fowler, Noll, Vo): enough to know a record that was cut off.
@@ -39,8 +40,9 @@ std::string Dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string Beginning(const Json& project, const std::string& script) {
-  return std::string(kMagic) + Record("project", Dump(project)) + Record("script", script);
+std::string EditHeader(std::string_view kind, const drama::TextEdit& edit) {
+  return std::string(kind) + ' ' + std::to_string(edit.offset) + ' ' +
+         std::to_string(edit.removed.size());
 }
 
 // Goes through the records of a journal.
@@ -115,33 +117,53 @@ bool Patch(Json& json, std::string_view text) {
   }
 }
 
-bool Patch(std::string& script, const Records::Entry& entry) {
+bool Patch(std::string& text, const Records::Entry& entry) {
   if (entry.numbers.size() != 2) {
     return false;
   }
   const uint64_t offset = entry.numbers[0];
   const uint64_t removed = entry.numbers[1];
-  if (removed > entry.payload.size() || offset > script.size() ||
-      script.compare(offset, removed, entry.payload.substr(0, removed)) != 0) {
+  if (removed > entry.payload.size() || offset > text.size() ||
+      text.compare(offset, removed, entry.payload.substr(0, removed)) != 0) {
     return false;
   }
-  script.replace(offset, removed, entry.payload.substr(removed));
+  text.replace(offset, removed, entry.payload.substr(removed));
   return true;
 }
+
+// What the records of a journal come to.
+struct Replay {
+  Json project;
+  std::string script;
+  std::optional<std::string> lines;
+  int edits = 0;
+
+  // False where the record does not fit those before it.
+  bool Take(const Records::Entry& entry) {
+    if (entry.kind == "lines") {  // from then on they are edited: no edit itself
+      lines = entry.payload;
+      return true;
+    }
+    ++edits;
+    return entry.kind == "project-patch" ? Patch(project, entry.payload)
+           : entry.kind == "script-edit" ? Patch(script, entry)
+           : entry.kind == "lines-edit"  ? lines && Patch(*lines, entry)
+                                         : false;
+  }
+};
 
 }  // namespace
 
 Journal::Journal(std::filesystem::path file,
                  const ProjectDocument& project,
                  std::shared_ptr<const std::string> script)
-    : file_(std::move(file)),
-      project_(FormatProject(project)),
-      script_(std::move(script)),
-      syncer_([this](std::stop_token stop) {
+    : file_(std::move(file)), syncer_([this](std::stop_token stop) {
         while (const std::optional<int> descriptor = written_.Take(stop)) {
           ::fdatasync(*descriptor);  // one that was closed since is no harm
         }
-      }) {}
+      }) {
+  Begin(project, std::move(script));
+}
 
 Journal::~Journal() { Close(); }
 
@@ -153,15 +175,25 @@ void Journal::Close() {
   }
 }
 
-Status Journal::Restart(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
-  Close();
-  failed_ = true;
+void Journal::Begin(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
   grown_ = 0;
   project_ = FormatProject(project);
   script_ = std::move(script);
+  lines_ = project.lines;
+  lines_text_ = lines_ == nullptr ? "" : bake::FormatLinesCsv(*lines_);
+}
+
+std::string Journal::Beginning() const {
+  return std::string(kMagic) + Record("project", Dump(project_)) + Record("script", *script_) +
+         (lines_ == nullptr ? "" : Record("lines", lines_text_));
+}
+
+Status Journal::Restart(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
+  Close();
+  failed_ = true;
+  Begin(project, std::move(script));
   // An edit that changes nothing says that what the file begins with was never saved.
-  LARARIUM_RETURN_IF_ERROR(
-      WriteFileAtomically(file_, Beginning(project_, *script_) + Record("project-patch", "[]")));
+  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file_, Beginning() + Record("project-patch", "[]")));
   descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (descriptor_ < 0) {
     return Status::Error(file_.string(), std::string("cannot be written: ") + std::strerror(errno));
@@ -173,9 +205,7 @@ Status Journal::Restart(const ProjectDocument& project, std::shared_ptr<const st
 void Journal::Discard(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
   Close();
   failed_ = false;
-  grown_ = 0;
-  project_ = FormatProject(project);
-  script_ = std::move(script);
+  Begin(project, std::move(script));
   std::error_code ignored;
   std::filesystem::remove(file_, ignored);
 }
@@ -185,7 +215,7 @@ Status Journal::Append(std::string_view header, std::string_view payload) {
     return Status();  // said already
   }
   if (descriptor_ < 0) {
-    LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file_, Beginning(project_, *script_)));
+    LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file_, Beginning()));
     descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   }
   const std::string record = Record(header, payload);
@@ -211,21 +241,36 @@ Status Journal::Append(std::string_view header, std::string_view payload) {
 Status Journal::NoteProject(const ProjectDocument& now) {
   Json next = FormatProject(now);
   const Json patch = Json::diff(project_, next);
-  if (patch.empty()) {
+  if (!patch.empty()) {
+    LARARIUM_RETURN_IF_ERROR(Append("project-patch", Dump(patch)));
+    project_ = std::move(next);
+  }
+  return NoteLines(now);
+}
+
+// A table that cannot be read at the moment is no edit: what the lines were stays.
+Status Journal::NoteLines(const ProjectDocument& now) {
+  if (now.lines == lines_ || now.lines == nullptr) {
     return Status();
   }
-  LARARIUM_RETURN_IF_ERROR(Append("project-patch", Dump(patch)));
-  project_ = std::move(next);
+  std::string text = bake::FormatLinesCsv(*now.lines);
+  if (lines_ == nullptr) {
+    LARARIUM_RETURN_IF_ERROR(Append("lines", text));
+  } else if (const drama::TextEdit edit = drama::Difference(lines_text_, text);
+             !edit.removed.empty() || !edit.inserted.empty()) {
+    LARARIUM_RETURN_IF_ERROR(Append(EditHeader("lines-edit", edit), edit.removed + edit.inserted));
+  }
+  lines_ = now.lines;
+  lines_text_ = std::move(text);
   return Status();
 }
 
 Status Journal::NoteScript(const drama::TextEdit& edit) {
-  return Append(
-      "script-edit " + std::to_string(edit.offset) + ' ' + std::to_string(edit.removed.size()),
-      edit.removed + edit.inserted);
+  return Append(EditHeader("script-edit", edit), edit.removed + edit.inserted);
 }
 
-Result<std::optional<JournalContent>> LoadJournal(const std::filesystem::path& file) {
+Result<std::optional<JournalContent>> LoadJournal(const std::filesystem::path& file,
+                                                  const bake::LineTable* lines) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
     return std::optional<JournalContent>();
@@ -234,7 +279,7 @@ Result<std::optional<JournalContent>> LoadJournal(const std::filesystem::path& f
   const auto damaged = [&](std::string_view problem) {
     return Status::Error(file.string(), problem);
   };
-  if (!text.starts_with(kMagic)) {
+  if (!text.starts_with(kMagic) && !text.starts_with(kFirstMagic)) {
     return damaged("is no journal of this version");
   }
   Records records(std::string_view(text).substr(kMagic.size()));
@@ -243,20 +288,26 @@ Result<std::optional<JournalContent>> LoadJournal(const std::filesystem::path& f
   if (!project || project->kind != "project" || !script || script->kind != "script") {
     return damaged("is damaged at its beginning");
   }
-  LARARIUM_ASSIGN_OR_RETURN(Json json, ParseJson(project->payload, file.string()));
+  Replay replay;
+  LARARIUM_ASSIGN_OR_RETURN(replay.project, ParseJson(project->payload, file.string()));
+  replay.script = script->payload;
   JournalContent content;
-  content.script = script->payload;
+  const std::string lines_in_file = lines == nullptr ? "" : bake::FormatLinesCsv(*lines);
   while (const auto entry = records.Next()) {
-    const bool fits = entry->kind == "project-patch" ? Patch(json, entry->payload)
-                      : entry->kind == "script-edit" ? Patch(content.script, *entry)
-                                                     : false;
-    if (!fits) {
+    if (!replay.Take(*entry)) {
       return damaged("holds an edit that does not fit those before it");
     }
-    ++content.edits;
+    content.lines_are_ours |= replay.lines == lines_in_file;
   }
+  content.edits = replay.edits;
   content.torn = records.torn();
-  LARARIUM_ASSIGN_OR_RETURN(content.project, ParseProject(json, file.string()));
+  content.script = std::move(replay.script);
+  LARARIUM_ASSIGN_OR_RETURN(content.project, ParseProject(replay.project, file.string()));
+  if (replay.lines) {
+    LARARIUM_ASSIGN_OR_RETURN(bake::LineTable table,
+                              bake::ParseLinesCsv(*replay.lines, file.string()));
+    content.project.lines = std::make_shared<const bake::LineTable>(std::move(table));
+  }
   return std::optional<JournalContent>(std::move(content));
 }
 

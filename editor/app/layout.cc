@@ -111,6 +111,12 @@ Result<std::unique_ptr<Layout>> Layout::Create() {
   return std::unique_ptr<Layout>(new Layout(std::move(around)));
 }
 
+void Layout::BeginFilming(const std::string& place) {
+  state_.dialog = panels::Dialog::kFilm;
+  state_.fields = {};
+  state_.fields.place = place;
+}
+
 void Layout::ShowViewport(Workspace& workspace) {
   switch (state_.view) {
     case panels::ViewKind::kCamera:

@@ -3,6 +3,7 @@
 // Where the panels are: a fixed arrangement with splitters between them.
 
 #include <memory>
+#include <string>
 
 #include "editor/app/window_sizes.h"
 #include "editor/app/workspace.h"
@@ -28,6 +29,8 @@ class Layout {
   void Show(Workspace& workspace, Settings& settings, PanelSizes& sizes);
 
   void BeginTour() { state_.begin_tour = true; }
+  // Opens the dialog that films a place.
+  void BeginFilming(const std::string& place);
   void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
   // Whether arrows, Enter and Space walk through the panel that has the keyboard.
   bool keys_walk() const { return state_.keyboard.walks(); }

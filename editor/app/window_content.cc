@@ -124,7 +124,16 @@ Status WindowContent::MakeNew(const StartChoice& choice) {
   LARARIUM_RETURN_IF_ERROR(CreateProject(paths, choice.fields.name));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Workspace> workspace, Workspace::Open(paths, log_));
   Enter(std::move(workspace));
-  panels::TrainRecording(*workspace_, choice.fields);
+  switch (choice.begin) {
+    case StartChoice::Begin::kRecording:
+      panels::TrainRecording(*workspace_, choice.fields);
+      break;
+    case StartChoice::Begin::kFilming:
+      film_ = choice.fields.place;
+      break;
+    case StartChoice::Begin::kEmpty:
+      break;
+  }
   workspace_->Save();
   return Status();
 }
@@ -194,6 +203,9 @@ Status WindowContent::ShowProject() {
   }
   if (std::exchange(tour_, false)) {
     layout_->BeginTour();
+  }
+  if (!film_.empty()) {
+    layout_->BeginFilming(std::exchange(film_, ""));
   }
   for (const panels::KeyPress& press : std::exchange(keys_, {})) {
     layout_->AddKey(press);

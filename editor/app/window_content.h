@@ -74,6 +74,7 @@ class WindowContent {
   std::unique_ptr<Workspace> workspace_;  // nullptr: the start page is shown
   std::unique_ptr<Layout> layout_;        // of workspace_
   bool pictured_ = false;                 // its picture was kept once
+  std::string film_;                      // a place to film, likewise
   bool tour_ = false;                     // begins with the project's first frame
   bool quit_ = false;
 };

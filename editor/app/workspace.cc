@@ -11,6 +11,7 @@
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
 #include "editor/app/filming.h"
+#include "editor/app/former_map.h"
 #include "editor/app/object_pose.h"
 #include "editor/app/occluder_alignment.h"
 #include "editor/app/player_trial.h"
@@ -36,6 +37,14 @@ std::string FileStamp(const std::filesystem::path& file) {
   }
   return std::to_string(found.st_mtim.tv_sec) + '.' + std::to_string(found.st_mtim.tv_nsec) + ' ' +
          std::to_string(found.st_size) + ' ' + std::to_string(found.st_ino);
+}
+
+// What is known of a training; nullptr where that is nothing, or the file is damaged: it is of no
+// use to the map.
+std::shared_ptr<const TrainingReport> ReadReport(const std::filesystem::path& file) {
+  Result<TrainingReport> report = LoadTrainingReport(file);
+  const bool known = report.ok() && !report->recording.empty();
+  return known ? std::make_shared<const TrainingReport>(*std::move(report)) : nullptr;
 }
 
 std::string TagsKey(const PlaceDocument& place) {
@@ -97,9 +106,9 @@ Workspace::~Workspace() {
   }
 }
 
-// Takes over what a crash left, as one edit of what is saved.
 void Workspace::Recover() {
-  Result<std::optional<JournalContent>> left = LoadJournal(paths_.Journal());
+  Result<std::optional<JournalContent>> left =
+      LoadJournal(paths_.Journal(), document().lines.get());
   if (!left.ok()) {
     const std::filesystem::path aside = paths_.folder / "journal.damaged";
     std::error_code error;
@@ -113,17 +122,27 @@ void Workspace::Recover() {
     journal_.Discard(document(), script_.snapshot());
     return;
   }
-  JournalContent& content = **left;
+  TakeOver(std::move(**left));
+}
+
+void Workspace::TakeOver(JournalContent content) {
+  const std::shared_ptr<const bake::LineTable> in_file = document().lines;
+  std::shared_ptr<const bake::LineTable>& lines = content.project.lines;
+  const bool lines_are_theirs = lines != nullptr && !content.lines_are_ours;
+  if (lines == nullptr || (in_file != nullptr && *lines == *in_file)) {
+    lines = in_file;
+  }
+  if (lines == in_file && content.script == script_.text() &&
+      FormatProject(content.project) == FormatProject(document())) {
+    journal_.Discard(document(), script_.snapshot());  // all of it reached its files
+    return;
+  }
   // In the journal first: it is never without what it held.
   Note(journal_.Restart(content.project, std::make_shared<const std::string>(content.script)));
   drama::TextEdit edit = script_.Replace(std::move(content.script));
   const size_t bytes = edit.removed.size() + edit.inserted.size();
   commands_.Edit(
-      Tr("recover"),
-      [&](ProjectDocument& current) {
-        content.project.lines = current.lines;
-        current = std::move(content.project);
-      },
+      Tr("recover"), [&](ProjectDocument& current) { current = std::move(content.project); },
       "recover");
   commands_.EditPatched(Tr("recover"), std::move(edit), bytes, "recover");
   commands_.EndGesture();
@@ -134,6 +153,13 @@ void Workspace::Recover() {
                          "last one. Undo takes them back.")
                     : Tr("Edits that were not saved have been recovered. Undo "
                          "takes them back."));
+  if (lines_are_theirs) {  // as if it had happened just now
+    Edit(Tr("take over the lines"), [&](ProjectDocument& current) { current.lines = in_file; });
+    if (in_file != nullptr) {
+      Tell(Message::Level::kInfo,
+           Tr("The lines were changed outside of this window and are read again."));
+    }
+  }
 }
 
 void Workspace::Tell(Message::Level level, std::string text) {
@@ -220,6 +246,12 @@ void Workspace::EditScript(const std::string& name, std::string text, std::strin
 void Workspace::EditLines(const std::string& name,
                           bake::LineTable table,
                           std::string_view gesture) {
+  // As journal and file have it: what could not be read back is no edit.
+  const auto read_back = bake::ParseLinesCsv(bake::FormatLinesCsv(table), "the lines");
+  if (!read_back.ok()) {
+    Tell(Message::Level::kError, read_back.message());
+    return;
+  }
   auto next = std::make_shared<const bake::LineTable>(std::move(table));
   Edit(
       name, [&](ProjectDocument& document) { document.lines = next; }, gesture);
@@ -243,6 +275,9 @@ void Workspace::WriteLines() {
   if (document().lines == written_lines_ || document().lines == nullptr) {
     return;
   }
+  if (LinesStamp() != lines_stamp_) {
+    return;  // others have written it meanwhile: LookOutside() takes that over first
+  }
   if (const Status status = bake::SaveLines(paths_.folder, *document().lines); !status.ok()) {
     Tell(Message::Level::kError, status.message());
     since_lines_ = 0.0;  // not with every frame
@@ -252,6 +287,7 @@ void Workspace::WriteLines() {
   lines_stamp_ = LinesStamp();
   preview_stale_ = true;
   stage_changed_ = true;
+  DiscardIfSaved();
 }
 
 void Workspace::NoteScriptEdit(const std::string& name,
@@ -330,7 +366,7 @@ void Workspace::Save() {
   saved_project_ = commands_.snapshot();
   project_stamp_ = FileStamp(paths_.Project());
   commands_.MarkSaved();
-  journal_.Discard(document(), script_.snapshot());
+  DiscardIfSaved();
   Tell(Message::Level::kInfo, Text(Tr("Saved %s"), paths_.folder.c_str()));
   preview_stale_ = true;
 }
@@ -347,15 +383,20 @@ void Workspace::Note(const Status& journal) {
   }
 }
 
+void Workspace::DiscardIfSaved() {
+  const bool lines_are_written = document().lines == nullptr || document().lines == written_lines_;
+  if (!commands_.dirty() && lines_are_written) {
+    journal_.Discard(document(), script_.snapshot());
+  }
+}
+
 void Workspace::OnScriptChanged() { since_script_ = 0.0; }
 
 void Workspace::OnDocumentChanged() {
   since_lines_ = 0.0;
   since_edit_ = 0.0;
   Note(journal_.NoteProject(document()));
-  if (!commands_.dirty()) {
-    journal_.Discard(document(), script_.snapshot());
-  }
+  DiscardIfSaved();
   AskForPictures();
   stage_changed_ = true;
   if (place() == nullptr && (!place_name_.empty() || !document().places.empty())) {
@@ -401,7 +442,7 @@ void Workspace::LookOutside() {
          [&](ProjectDocument& current) { current.lines = written_lines_; });
     if (clean) {
       commands_.MarkSaved();
-      journal_.Discard(document(), script_.snapshot());
+      DiscardIfSaved();
     }
     preview_stale_ = true;
   }
@@ -429,7 +470,7 @@ void Workspace::TakeOutside() {
                          FormatProject(document()) == FormatProject(*saved_project_);
   if (all_saved) {
     commands_.MarkSaved();
-    journal_.Discard(document(), script_.snapshot());
+    DiscardIfSaved();
   }
 }
 
@@ -537,8 +578,10 @@ void Workspace::ReloadMap() {
   const auto loaded = std::make_shared<Database>();
   const auto measures = std::make_shared<MapMeasures>();
   const auto statistics = std::make_shared<train::MapStatistics>();
-  const auto work = [=, place = *place()](Progress& progress) {
+  const auto report = std::make_shared<std::shared_ptr<const TrainingReport>>();
+  const auto work = [=, place = *place(), paths = paths_](Progress& progress) {
     progress.Report("reading the map", 0.0);
+    *report = ReadReport(MapAtHand(paths, place.name).report);
     LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
     progress.Report("looking for the floor and for tags", 0.5);
     *measures = MeasureMap(place, database);
@@ -546,7 +589,7 @@ void Workspace::ReloadMap() {
     *loaded = std::make_shared<const vision::SceneDatabase>(std::move(database));
     return Status();
   };
-  const auto done = [this, loaded, measures, statistics, name = place_name_,
+  const auto done = [this, loaded, measures, statistics, report, name = place_name_,
                      key = TagsKey(*place()),
                      stamp = FileStamp(file)](const Status& status, bool cancelled) {
     if (!status.ok()) {
@@ -556,6 +599,12 @@ void Workspace::ReloadMap() {
       scene_stamp_ = stamp;
       ++map_loads_;
       loaded_.statistics = statistics;
+      loaded_.report = *report;
+      loaded_.has_former = HasFormerMap(paths_, name);
+      if (*report != nullptr && trained_place_ == name) {
+        trained_place_.clear();
+        report_is_new_ = true;
+      }
       loaded_.measures = std::move(*measures);
       loaded_.measured = true;
       tags_key_ = key;
@@ -1250,10 +1299,6 @@ void Workspace::SaveBones(const CastDocument& member) {
   Tell(Message::Level::kInfo, Text(Tr("Wrote %s"), file.c_str()));
 }
 
-const train::TrainReport* Workspace::last_training() const {
-  return trained_place_ == place_name_ ? training_.get() : nullptr;
-}
-
 void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
                               std::function<void()> done) {
   const auto report = std::make_shared<train::TrainReport>();
@@ -1270,7 +1315,6 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
                     static_cast<int>(report->located.size()), report->frames,
                     static_cast<int>(report->points)));
         if (status.ok() && !cancelled) {
-          training_ = report;
           trained_place_ = name;
           done();
         }
@@ -1311,8 +1355,7 @@ void Workspace::RemoveSession(uint32_t session) {
   if (place() == nullptr || session == 0 || session > place()->added.size()) {
     return;
   }
-  if (unsaved_map_ || tasks_.Running(kKeeping)) {  // would bring the session back
-    Tell(Message::Level::kWarning, Tr("The map is being written. Try again in a moment."));
+  if (!MapIsFree()) {
     return;
   }
   const auto removed = std::make_shared<train::RemovedSession>();
@@ -1333,13 +1376,42 @@ void Workspace::RemoveSession(uint32_t session) {
         ForgetSession(*place, session);
       }
     });
-    training_.reset();
     map_stale_ |= name == place_name_;
     OnDocumentChanged();
   };
-  if (!tasks_.Start(kTraining, work, done)) {  // which would write the same map
+  tasks_.Start(kTraining, work, done);
+}
+
+bool Workspace::MapIsFree() {
+  if (tasks_.Running(kTraining)) {
     Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
+    return false;
   }
+  if (unsaved_map_ || tasks_.Running(kKeeping)) {  // would bring back what goes
+    Tell(Message::Level::kWarning, Tr("The map is being written. Try again in a moment."));
+    return false;
+  }
+  return true;
+}
+
+void Workspace::PutFormerMapBack() {
+  if (place() == nullptr || !MapIsFree()) {
+    return;
+  }
+  const Result<PlaceRecordings> recordings = app::PutFormerMapBack(paths_, *place());
+  if (!recordings.ok()) {
+    Tell(Message::Level::kError, recordings.message());
+    return;
+  }
+  commands_.Rewrite([&](ProjectDocument& document) {
+    if (PlaceDocument* place = document.FindPlace(place_name_)) {
+      SetRecordings(*recordings, *place);
+    }
+  });
+  map_stale_ = true;
+  OnDocumentChanged();
+  Tell(Message::Level::kInfo,
+       Text(Tr("%s: the other map is in use. Doing so again changes back."), place_name_.c_str()));
 }
 
 void Workspace::Bake() {

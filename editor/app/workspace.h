@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "editor/app/background_task.h"
@@ -29,6 +30,7 @@
 #include "editor/app/show_contents.h"
 #include "editor/app/staging.h"
 #include "editor/app/text.h"
+#include "editor/app/training_report.h"
 #include "editor/train/map_statistics.h"
 #include "editor/train/mesh_alignment.h"
 #include "editor/train/trainer.h"
@@ -52,6 +54,8 @@ struct LoadedPlace {
   MapMeasures measures;
   bool measured = false;  // measures are of this map and of the tags that the place names
   ResolvedPicks picks;
+  std::shared_ptr<const TrainingReport> report;  // of the training; nullptr: nothing is known of it
+  bool has_former = false;                       // PutFormerMapBack() can be done
   // As staged for the preview; occluder meshes for drawing. nullptr before that.
   std::shared_ptr<const stage::Place> staged;
   // The probes as they were then, and their light: edits turn and brighten that at once.
@@ -121,7 +125,8 @@ class Workspace {
                     std::string_view gesture = {});
   void EditScript(const std::string& name, std::string text, std::string_view gesture = {});
   // Edits of the table of lines, document().lines, which has to be there. Its file follows a
-  // moment after the last edit, whether or not the project is saved: voices are made from it.
+  // moment after the last edit, whether or not the project is saved: voices are made from it. A
+  // message instead, where the table could not be read back.
   void EditLines(const std::string& name, bake::LineTable table, std::string_view gesture = {});
   void EndGesture() { commands_.EndGesture(); }
   // As if the gesture at work had not been begun; nothing between gestures.
@@ -147,8 +152,12 @@ class Workspace {
   // worked the document forgets it too, in all that undo and redo could bring back, for the map
   // will not have it again: to be done only by whoever was asked.
   void RemoveSession(uint32_t session);
-  // Of the last training in this window; nullptr before one, or of another place.
-  const train::TrainReport* last_training() const;
+  // Exchanges the map of the place at hand with the one from before its last training, and what
+  // the document says of its recordings, in all that undo and redo could bring back. Doing it
+  // again undoes it.
+  void PutFormerMapBack();
+  // Once after each training that was done in this window, when its map and report are loaded.
+  bool TakeNewReport() { return std::exchange(report_is_new_, false); }
   void Bake();
   // Lays the model of an occluder by the map's points within so many metres of it: an edit, once
   // that is known, unless it was moved meanwhile. The occluder has to be staged.
@@ -281,10 +290,14 @@ class Workspace {
   Workspace(ProjectPaths paths, ProjectDocument document, std::string script, Log& log);
 
   void Recover();
+  // What a journal comes to, as an edit of what is saved.
+  void TakeOver(JournalContent content);
   // Undo and redo of the drama's part of a command.
   void ApplyToScript(const drama::TextEdit& edit);
   void NoteScriptEdit(const std::string& name, drama::TextEdit edit, std::string_view gesture);
   void Note(const Status& journal);
+  // Ends the journal where everything is in its file.
+  void DiscardIfSaved();
   void OnScriptChanged();
   // Looks whether others changed project.json or drama.lua.
   void LookOutside();
@@ -318,6 +331,8 @@ class Workspace {
   // drama names already.
   bool StageIsOutdated() const;
   void AdvancePlayback(double seconds);
+  // False, and a message, while the map is at work otherwise.
+  bool MapIsFree();
   // The work of Train and AddSession. done: edits the document after success.
   void StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
                      std::function<void()> done);
@@ -343,8 +358,8 @@ class Workspace {
   std::string picks_key_;
   std::string tags_key_;  // what was measured last
   bool measures_stale_ = false;
-  std::string trained_place_;
-  std::shared_ptr<const train::TrainReport> training_;
+  std::string trained_place_;   // whose report is to be shown
+  bool report_is_new_ = false;  // and is loaded
   std::string preview_key_;
   bool map_stale_ = false;
   std::optional<UnsavedMap> unsaved_map_;

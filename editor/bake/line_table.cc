@@ -577,6 +577,7 @@ Result<LineTable> LoadLines(const std::filesystem::path& folder) {
 }
 
 Status SaveLines(const std::filesystem::path& folder, const LineTable& table) {
+  LARARIUM_RETURN_IF_ERROR(ParseLinesCsv(FormatLinesCsv(table), folder.string()).status());
   std::error_code ignored;
   const std::filesystem::path json = folder / "lines.json";
   if (std::filesystem::exists(json, ignored)) {

@@ -72,7 +72,7 @@ PoImport ImportPo(const PoFile& po, const std::string& language, LineTable& tabl
 // lines.csv or lines.json of a project's folder; empty where there is neither. Both are an
 // error: nobody could say which is meant.
 Result<LineTable> LoadLines(const std::filesystem::path& folder);
-// Into the file that is there; else lines.csv.
+// Into the file that is there; else lines.csv. A table that could not be read back is refused.
 Status SaveLines(const std::filesystem::path& folder, const LineTable& table);
 
 }  // namespace lararium::bake

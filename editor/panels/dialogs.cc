@@ -21,6 +21,7 @@
 #include "editor/panels/pick_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
+#include "editor/panels/training_report_panel.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::panels {
@@ -431,6 +432,7 @@ struct DialogEntry {
 
 constexpr DialogEntry kDialogs[] = {
     {Dialog::kTrain, TrLater("Train a place"), TrainDialog},
+    {Dialog::kTrainingReport, TrLater("The training's report"), Plain<TrainingReportDialog>},
     {Dialog::kAddSession, TrLater("Add a session"), AddSessionDialog},
     {Dialog::kExport, TrLater("Export the show"), Plain<ExportDialog>},
     {Dialog::kOccluder, TrLater("Add an occluder"), Plain<OccluderDialog>},
@@ -540,6 +542,9 @@ bool OpenDialog(EditorState& state, Dialog dialog) {
 }
 
 bool ShowDialogs(app::Workspace& workspace, EditorState& state) {
+  if (state.dialog == Dialog::kNone && workspace.TakeNewReport()) {
+    state.dialog = Dialog::kTrainingReport;
+  }
   if (state.dialog == Dialog::kKeys && !ShowKeyList(state.keys)) {
     state.dialog = Dialog::kNone;
   }

@@ -53,6 +53,7 @@ struct Selection {
 enum class Dialog {
   kNone,
   kTrain,
+  kTrainingReport,
   kAddSession,
   kExport,
   kOccluder,

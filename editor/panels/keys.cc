@@ -21,7 +21,14 @@ constexpr int kAlt = GLFW_MOD_ALT;
 constexpr int kKnownModifiers = kCtrl | kShift | kAlt;  // not Caps Lock and the like
 
 constexpr auto kBindings = std::to_array<KeyBinding>({
-    {Scope::kStart, Action::kNewProject, GLFW_KEY_N, kCtrl, 0, TrLater("Begins a new project")},
+    {Scope::kStart, Action::kNewProject, GLFW_KEY_N, kCtrl, 0,
+     TrLater("Begins a new project from a video")},
+    {Scope::kStart, Action::kNewFromImages, GLFW_KEY_I, kCtrl, 0,
+     TrLater("Begins one from a folder of images")},
+    {Scope::kStart, Action::kNewFromCamera, GLFW_KEY_K, kCtrl, 0,
+     TrLater("Begins one by filming with a camera")},
+    {Scope::kStart, Action::kNewEmpty, GLFW_KEY_N, kCtrl | kShift, 0,
+     TrLater("Begins one without a place")},
     {Scope::kStart, Action::kOpenProject, GLFW_KEY_O, kCtrl, 0, TrLater("Opens a project")},
 
     {Scope::kAlways, Action::kKeyList, GLFW_KEY_F1, 0, 0, TrLater("Shows this list")},

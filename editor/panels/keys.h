@@ -27,6 +27,9 @@ enum class KeyAction {
   kNone,
   // the start page
   kNewProject,
+  kNewFromImages,
+  kNewFromCamera,
+  kNewEmpty,
   kOpenProject,
   // always
   kSave,

@@ -94,6 +94,14 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   if (ImGui::MenuItem(Tr("Add a session\xe2\x80\xa6"), nullptr, false, CanAddSession(workspace))) {
     OpenDialog(state, Dialog::kAddSession);
   }
+  if (ImGui::MenuItem(Tr("The training's report\xe2\x80\xa6"), nullptr, false,
+                      workspace.loaded().report != nullptr)) {
+    OpenDialog(state, Dialog::kTrainingReport);
+  }
+  if (ImGui::MenuItem(Tr("Put the former map back"), nullptr, false,
+                      workspace.loaded().has_former && !training)) {
+    workspace.PutFormerMapBack();
+  }
   if (ImGui::MenuItem(Tr("Bake"))) {
     workspace.Bake();
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <vector>
 
@@ -154,11 +155,12 @@ DialogAnswer DialogButtons(const char* action, const std::string& problem, const
   ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
   ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
   ImGui::PopStyleColor();
-  const float width = WidestButton(std::array{Tr("Cancel"), action}, 110.0f);
+  const char* const other = cancel != nullptr ? cancel : Tr("Cancel");
+  const float width = WidestButton(std::array{other, action}, 110.0f);
   const float spacing = ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
   DialogAnswer answer = DialogAnswer::kNone;
-  if (ImGui::Button(cancel != nullptr ? cancel : Tr("Cancel"), ImVec2(width, 0))) {
+  if (ImGui::Button(other, ImVec2(width, 0))) {
     answer = DialogAnswer::kCancel;
   }
   ImGui::SameLine();
@@ -170,6 +172,20 @@ DialogAnswer DialogButtons(const char* action, const std::string& problem, const
   ImGui::PopStyleColor();
   ImGui::EndDisabled();
   return answer;
+}
+
+std::string DateText(int64_t seconds) {
+  const std::time_t time = static_cast<std::time_t>(seconds);
+  std::tm parts = {};
+  if (localtime_r(&time, &parts) == nullptr) {
+    return "";
+  }
+  static constexpr const char* kMonths[] = {TrLater("Jan"), TrLater("Feb"), TrLater("Mar"),
+                                            TrLater("Apr"), TrLater("May"), TrLater("Jun"),
+                                            TrLater("Jul"), TrLater("Aug"), TrLater("Sep"),
+                                            TrLater("Oct"), TrLater("Nov"), TrLater("Dec")};
+  return Text("%d %s %d, %02d:%02d", parts.tm_mday, Tr(kMonths[parts.tm_mon]), parts.tm_year + 1900,
+              parts.tm_hour, parts.tm_min);
 }
 
 std::string Elided(const std::string& text, float width) {

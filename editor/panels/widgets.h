@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
@@ -32,6 +33,9 @@ enum class DialogAnswer { kNone, kCancel, kAct };
 DialogAnswer DialogButtons(const char* action,
                            const std::string& problem,
                            const char* cancel = nullptr);
+
+// "22 Nov 2026, 14:05", local. seconds: since 1970.
+std::string DateText(int64_t seconds);
 
 // As much of a text as fits in pixels, with an ellipsis for the rest: its end, or its front.
 std::string Elided(const std::string& text, float width);

@@ -183,16 +183,37 @@ std::vector<std::vector<View>> ViewsOfPoints(const SceneDatabase& db) {
 
 // ------------------------------------------------------------ pruning
 
-std::vector<Descriptor> DescriptorsWithin(const SceneDatabase& db, uint32_t point, int most) {
-  const auto first = db.descriptors.begin() + db.descriptor_begin[point];
-  const auto last = db.descriptors.begin() + db.descriptor_begin[point + 1];
-  std::vector<Descriptor> all(first, last);
+// Indices of the descriptors of a point that stay.
+std::vector<uint32_t> DescriptorsWithin(const SceneDatabase& db, uint32_t point, int most) {
+  const uint32_t first = db.descriptor_begin[point];
+  const std::span<const Descriptor> all =
+      std::span(db.descriptors).subspan(first, db.descriptor_begin[point + 1] - first);
+  std::vector<uint32_t> indices;
   if (most == 0 || all.size() <= static_cast<size_t>(most)) {
-    return all;
+    for (uint32_t d = 0; d < all.size(); ++d) {
+      indices.push_back(first + d);
+    }
+    return indices;
   }
   std::vector<Descriptor> kept;
   AddDistinctDescriptors(all, static_cast<size_t>(most), kept);
-  return kept;
+  for (const Descriptor& descriptor : kept) {
+    const auto found = std::find(all.begin(), all.end(), descriptor);
+    indices.push_back(first + static_cast<uint32_t>(found - all.begin()));
+  }
+  return indices;
+}
+
+// Appends a descriptor of from to those of a point of to, with its sessions where from has them.
+void AddDescriptor(const SceneDatabase& from,
+                   uint32_t descriptor,
+                   uint32_t point,
+                   SceneDatabase& to) {
+  to.descriptors.push_back(from.descriptors[descriptor]);
+  to.descriptor_point.push_back(point);
+  if (!from.descriptor_sessions.empty()) {
+    to.descriptor_sessions.push_back(from.descriptor_sessions[descriptor]);
+  }
 }
 
 // points: ascending.
@@ -215,9 +236,8 @@ SceneDatabase WithPoints(const SceneDatabase& db,
     if (!db.colours.empty()) {
       kept.colours.push_back(db.colours[point]);
     }
-    for (const Descriptor& descriptor : DescriptorsWithin(db, point, max_descriptors)) {
-      kept.descriptors.push_back(descriptor);
-      kept.descriptor_point.push_back(index);
+    for (const uint32_t descriptor : DescriptorsWithin(db, point, max_descriptors)) {
+      AddDescriptor(db, descriptor, index, kept);
     }
     kept.descriptor_begin.push_back(static_cast<uint32_t>(kept.descriptors.size()));
   }
@@ -324,14 +344,14 @@ SceneDatabase WithoutViews(const SceneDatabase& db, std::span<const HeldOutView>
   }
   rest.descriptors.clear();
   rest.descriptor_point.clear();
+  rest.descriptor_sessions.clear();
   rest.descriptor_begin = {0};
   std::vector<uint32_t> points;
   for (uint32_t point = 0; point < db.points.size(); ++point) {
     const size_t before = rest.descriptors.size();
     for (uint32_t d = db.descriptor_begin[point]; d < db.descriptor_begin[point + 1]; ++d) {
       if (!of_views[d]) {
-        rest.descriptors.push_back(db.descriptors[d]);
-        rest.descriptor_point.push_back(point);
+        AddDescriptor(db, d, point, rest);
       }
     }
     rest.descriptor_begin.push_back(static_cast<uint32_t>(rest.descriptors.size()));

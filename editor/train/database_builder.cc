@@ -138,10 +138,19 @@ class Builder {
 
 }  // namespace
 
+namespace {
+
+constexpr uint32_t kNear = 110 * 110;  // squared; descriptors have length 512
+
+}  // namespace
+
+bool LookAlike(const Descriptor& a, const Descriptor& b) {
+  return vision::SquaredDistance(a, b) < kNear;
+}
+
 void AddDistinctDescriptors(std::span<const Descriptor> candidates,
                             size_t max_count,
                             std::vector<Descriptor>& chosen) {
-  constexpr uint32_t kNear = 110 * 110;  // squared; descriptors have length 512
   if (candidates.empty()) {
     return;
   }

@@ -29,6 +29,9 @@ struct DatabaseOptions {
   uint64_t seed = 1;
 };
 
+// So near to one another that a map needs but one of them.
+bool LookAlike(const vision::Descriptor& a, const vision::Descriptor& b);
+
 // Adds candidates to chosen until it has max_count: the most central one where it
 // was empty, then always the one farthest from those chosen, until the rest is
 // near to one of them. max_count > 0.

@@ -62,18 +62,19 @@ ceres::Solver::Options SolverOptions(size_t free_poses) {
   options.num_threads = 1;  // several do not give the same bits twice
   options.logging_type = ceres::SILENT;
   constexpr size_t kMaxDensePoses = 250;
-  options.linear_solver_type =
-      free_poses <= kMaxDensePoses ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+  options.linear_solver_type = free_poses == 0                ? ceres::SPARSE_NORMAL_CHOLESKY
+                               : free_poses <= kMaxDensePoses ? ceres::DENSE_SCHUR
+                                                              : ceres::SPARSE_SCHUR;
   return options;
 }
 
-}  // namespace
-
-bool AdjustSession(const CameraModel& camera,
-                   std::span<const vision::Observation> observations,
-                   size_t first_free,
-                   std::span<Rigid3> camera_from_map,
-                   std::span<Eigen::Vector3d> points) {
+// Moves what is free: poses from first_free on, and points.
+bool Solve(const CameraModel& camera,
+           std::span<const vision::Observation> observations,
+           const std::vector<bool>& free_points,
+           size_t first_free,
+           std::span<Rigid3> camera_from_map,
+           std::span<Eigen::Vector3d> points) {
   constexpr double kLossScalePx = 1.5;
   ceres::CauchyLoss loss(kLossScalePx);
   PoseManifold manifold;
@@ -82,12 +83,11 @@ bool AdjustSession(const CameraModel& camera,
     poses.push_back(ToPoseBlock(pose));
   }
   std::vector<Eigen::Vector3d> moved(points.begin(), points.end());
-  const std::vector<bool> free = FreePoints(observations, first_free, points.size());
 
   ceres::Problem problem(BorrowingOptions());
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (const vision::Observation& o : observations) {
-    if (free[o.point]) {
+    if (free_points[o.point]) {
       problem.AddResidualBlock(new SightCost(camera, o), &loss, poses[o.keyframe].data(),
                                moved[o.point].data());
     }
@@ -112,7 +112,9 @@ bool AdjustSession(const CameraModel& camera,
     }
   }
   ceres::Solver::Options options = SolverOptions(free_poses);
-  options.linear_solver_ordering = ordering;
+  if (free_poses > 0) {  // else there is nothing to eliminate the points from
+    options.linear_solver_ordering = ordering;
+  }
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) {
@@ -123,6 +125,26 @@ bool AdjustSession(const CameraModel& camera,
   }
   std::copy(moved.begin(), moved.end(), points.begin());
   return true;
+}
+
+}  // namespace
+
+bool AdjustSession(const CameraModel& camera,
+                   std::span<const vision::Observation> observations,
+                   size_t first_free,
+                   std::span<Rigid3> camera_from_map,
+                   std::span<Eigen::Vector3d> points) {
+  return Solve(camera, observations, FreePoints(observations, first_free, points.size()),
+               first_free, camera_from_map, points);
+}
+
+bool AdjustPoints(const CameraModel& camera,
+                  std::span<const vision::Observation> observations,
+                  std::span<const Rigid3> camera_from_map,
+                  const std::vector<bool>& moves,
+                  std::span<Eigen::Vector3d> points) {
+  std::vector<Rigid3> poses(camera_from_map.begin(), camera_from_map.end());
+  return Solve(camera, observations, moves, poses.size(), poses, points);
 }
 
 }  // namespace lararium::train

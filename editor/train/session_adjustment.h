@@ -24,4 +24,12 @@ bool AdjustSession(const geometry::CameraModel& camera,
                    std::span<geometry::Rigid3> camera_from_map,
                    std::span<Eigen::Vector3d> points);
 
+// Moves the points of which moves is true to where the reprojection errors of their observations
+// are least, likewise; all poses hold still.
+bool AdjustPoints(const geometry::CameraModel& camera,
+                  std::span<const vision::Observation> observations,
+                  std::span<const geometry::Rigid3> camera_from_map,
+                  const std::vector<bool>& moves,
+                  std::span<Eigen::Vector3d> points);
+
 }  // namespace lararium::train

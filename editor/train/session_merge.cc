@@ -535,7 +535,7 @@ class Merger {
       ++counts[o.point];
       towards[o.point] += (poses_[o.keyframe].Center() - points_[o.point]).stableNormalized();
     }
-    const std::vector<std::vector<vision::Descriptor>> fresh = FreshDescriptors();
+    std::vector<std::vector<vision::Descriptor>> fresh = FreshDescriptors();
     const bool coloured = !map_.colours.empty() || !session_.colours.empty();
     std::vector<uint32_t> new_index(points_.size(), kNone);
     db.descriptor_begin.push_back(0);
@@ -557,6 +557,9 @@ class Merger {
       db.observation_counts.push_back(counts[i] + (old ? map_.observation_counts[i] : 0));
       const uint32_t bit = counts[i] > 0 ? 1u << session_.keyframes.front().session : 0u;
       db.session_masks.push_back(bit | (old ? map_.session_masks[i] : 0u));
+      if (counts[i] == 0) {
+        fresh[i].clear();  // of sights that turned out to be of something else
+      }
       if (coloured) {
         db.colours.push_back(Colour(i, exposure));
       }
@@ -603,21 +606,29 @@ class Merger {
     return fresh;
   }
 
+  // Those of the map stay, and are the session's too where it saw something like them.
   void AddDescriptors(SceneDatabase& db,
                       uint32_t point,
                       const std::vector<vision::Descriptor>& fresh) const {
+    const uint32_t bit = 1u << session_.keyframes.front().session;
     std::vector<vision::Descriptor> kept;
+    std::vector<uint32_t> sessions;
     if (point < MapPoints()) {
-      kept.assign(map_.descriptors.begin() + map_.descriptor_begin[point],
-                  map_.descriptors.begin() + map_.descriptor_begin[point + 1]);
+      for (uint32_t d = map_.descriptor_begin[point]; d < map_.descriptor_begin[point + 1]; ++d) {
+        const vision::Descriptor& known = map_.descriptors[d];
+        const bool seen = std::any_of(fresh.begin(), fresh.end(),
+                                      [&](const auto& f) { return LookAlike(f, known); });
+        kept.push_back(known);
+        sessions.push_back(map_.SessionsOf(d) | (seen ? bit : 0u));
+      }
     }
     const size_t most = kept.size() + static_cast<size_t>(options_.max_descriptors_per_point);
     AddDistinctDescriptors(fresh, most, kept);
+    sessions.resize(kept.size(), bit);
     const auto index = static_cast<uint32_t>(db.points.size() - 1);
-    for (const vision::Descriptor& descriptor : kept) {
-      db.descriptors.push_back(descriptor);
-      db.descriptor_point.push_back(index);
-    }
+    db.descriptors.insert(db.descriptors.end(), kept.begin(), kept.end());
+    db.descriptor_point.resize(db.descriptors.size(), index);
+    db.descriptor_sessions.insert(db.descriptor_sessions.end(), sessions.begin(), sessions.end());
     db.descriptor_begin.push_back(static_cast<uint32_t>(db.descriptors.size()));
   }
 

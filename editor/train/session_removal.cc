@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "editor/train/session_adjustment.h"
+
 namespace lararium::train {
 namespace {
 
@@ -22,10 +24,12 @@ class Remover {
     TakeKeyframes();
     TakePoints();
     TakeObservations();
+    LocateAgain();
     Describe();
     removed_.keyframes = map_.keyframes.size() - db_.keyframes.size();
     removed_.observations = map_.observations.size() - db_.observations.size();
     removed_.points = map_.points.size() - db_.points.size();
+    ForgetTheOnlySession();
     vision::ForestOptions forest;
     forest.seed = seed;
     db_.forest = vision::BuildForest(db_.descriptors, forest);
@@ -46,6 +50,33 @@ class Remover {
     }
   }
 
+  // Without the session, those after it moved up; 0: it was the only one.
+  uint32_t WithoutSession(uint32_t sessions) const {
+    const uint32_t before = sessions & ((1u << session_) - 1u);
+    return before | (sessions >> 1 & ~((1u << session_) - 1u));
+  }
+
+  void TakeDescriptors(uint32_t point) {
+    for (uint32_t d = map_.descriptor_begin[point]; d < map_.descriptor_begin[point + 1]; ++d) {
+      if (const uint32_t sessions = WithoutSession(map_.SessionsOf(d)); sessions != 0) {
+        db_.descriptors.push_back(map_.descriptors[d]);
+        db_.descriptor_point.push_back(new_point_[point]);
+        db_.descriptor_sessions.push_back(sessions);
+      }
+    }
+    db_.descriptor_begin.push_back(static_cast<uint32_t>(db_.descriptors.size()));
+  }
+
+  // Whether anything of its looks was not of the session alone.
+  bool LooksLikeSomething(uint32_t point) const {
+    for (uint32_t d = map_.descriptor_begin[point]; d < map_.descriptor_begin[point + 1]; ++d) {
+      if (WithoutSession(map_.SessionsOf(d)) != 0) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   void TakePoints() {
     std::vector<uint32_t> views(map_.points.size(), 0);
     for (const Observation& o : map_.observations) {
@@ -54,7 +85,7 @@ class Remover {
     db_.descriptor_begin.push_back(0);
     for (uint32_t point = 0; point < map_.points.size(); ++point) {
       new_point_.push_back(kNone);
-      if (views[point] < kLeastViews) {
+      if (views[point] < kLeastViews || !LooksLikeSomething(point)) {
         continue;
       }
       new_point_.back() = static_cast<uint32_t>(db_.points.size());
@@ -63,11 +94,7 @@ class Remover {
       if (!map_.colours.empty()) {
         db_.colours.push_back(map_.colours[point]);
       }
-      for (uint32_t d = map_.descriptor_begin[point]; d < map_.descriptor_begin[point + 1]; ++d) {
-        db_.descriptors.push_back(map_.descriptors[d]);
-        db_.descriptor_point.push_back(new_point_.back());
-      }
-      db_.descriptor_begin.push_back(static_cast<uint32_t>(db_.descriptors.size()));
+      TakeDescriptors(point);
     }
   }
 
@@ -78,6 +105,33 @@ class Remover {
       o.point = new_point_[o.point];
       if (o.keyframe != kNone && o.point != kNone) {
         db_.observations.push_back(o);
+      }
+    }
+  }
+
+  // Points that the session saw lie where the sights that stay say. Where that finds nothing they
+  // stay where they were.
+  void LocateAgain() {
+    std::vector<bool> moves(db_.points.size(), false);
+    for (uint32_t point = 0; point < map_.points.size(); ++point) {
+      if (new_point_[point] != kNone) {
+        moves[new_point_[point]] = (map_.session_masks[point] >> session_ & 1u) != 0;
+      }
+    }
+    std::vector<geometry::Rigid3> poses;
+    for (const vision::Keyframe& keyframe : db_.keyframes) {
+      poses.push_back(keyframe.camera_from_map);
+    }
+    std::vector<Eigen::Vector3d> points;
+    for (const Eigen::Vector3f& point : db_.points) {
+      points.push_back(point.cast<double>());
+    }
+    if (!AdjustPoints(db_.camera, db_.observations, poses, moves, points)) {
+      return;
+    }
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (moves[i]) {
+        db_.points[i] = points[i].cast<float>();
       }
     }
   }
@@ -104,6 +158,16 @@ class Remover {
     }
     db_.mean_reprojection_error_px =
         error_sum / static_cast<double>(std::max<size_t>(1, db_.observations.size()));
+  }
+
+  // Where one session is left all descriptors are its own: nothing is to be said.
+  void ForgetTheOnlySession() {
+    const bool only = std::all_of(
+        db_.keyframes.begin(), db_.keyframes.end(),
+        [&](const vision::Keyframe& k) { return k.session == db_.keyframes.front().session; });
+    if (only) {
+      db_.descriptor_sessions.clear();
+    }
   }
 
   const SceneDatabase& map_;

@@ -86,6 +86,13 @@ Status ValidateDescriptors(const SceneDatabase& db) {
       }
     }
   }
+  if (!db.descriptor_sessions.empty() && db.descriptor_sessions.size() != db.descriptors.size()) {
+    return Broken("the descriptors' sessions are not one for each descriptor");
+  }
+  if (std::find(db.descriptor_sessions.begin(), db.descriptor_sessions.end(), 0u) !=
+      db.descriptor_sessions.end()) {
+    return Broken("a descriptor is of no session");
+  }
   return db.forest.Validate(db.descriptors.size());
 }
 
@@ -368,6 +375,9 @@ Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
   if (scene.colours() != nullptr) {
     db.colours = VectorsFrom(*scene.colours());
   }
+  if (scene.descriptor_sessions() != nullptr) {
+    db.descriptor_sessions = NumbersFrom(*scene.descriptor_sessions());
+  }
   LARARIUM_RETURN_IF_ERROR(ReadDescriptors(scene, place, db));
   ReadForest(scene, db.forest);
   db.observations.reserve(scene.observations()->size());
@@ -406,10 +416,14 @@ std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db) {
   if (!db.colours.empty()) {
     colours = builder.CreateVectorOfStructs(VectorsTo(db.colours));
   }
+  flatbuffers::Offset<flatbuffers::Vector<uint32_t>> descriptor_sessions;
+  if (!db.descriptor_sessions.empty()) {
+    descriptor_sessions = builder.CreateVector(db.descriptor_sessions);
+  }
   fb::FinishSceneBuffer(
       builder, fb::CreateScene(builder, kVersion, &camera, db.mean_reprojection_error_px, points,
                                normals, counts, sessions, descriptor_begin, descriptors, keyframes,
-                               observations, roots, nodes, order, colours));
+                               observations, roots, nodes, order, colours, descriptor_sessions));
   const auto* begin = reinterpret_cast<const std::byte*>(builder.GetBufferPointer());
   return {begin, begin + builder.GetSize()};
 }

@@ -57,11 +57,20 @@ struct SceneDatabase {
   std::vector<uint32_t> descriptor_begin;  // [points + 1]: ranges in descriptors
   std::vector<Descriptor> descriptors;     // several views of each point
   std::vector<uint32_t> descriptor_point;  // [descriptors]: its point
+  // [descriptors]: bit s: its point looks so in session s. Empty: in all sessions that saw it, as
+  // far as is known.
+  std::vector<uint32_t> descriptor_sessions;
 
   std::vector<Keyframe> keyframes;
   std::vector<Observation> observations;  // sorted by keyframe, then point
 
   DescriptorForest forest;  // over descriptors
+
+  // The sessions in which a descriptor's point looks so, as bits.
+  uint32_t SessionsOf(uint32_t descriptor) const {
+    return descriptor_sessions.empty() ? session_masks[descriptor_point[descriptor]]
+                                       : descriptor_sessions[descriptor];
+  }
 
   // The invariants above, every index and number; says what is broken.
   Status Validate() const;

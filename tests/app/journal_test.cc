@@ -9,6 +9,7 @@
 #include <chrono>
 #include <thread>
 
+#include "editor/app/line_edits.h"
 #include "editor/app/workspace.h"
 #include "shared/core/file.h"
 #include "shared/core/random.h"
@@ -29,8 +30,16 @@ class JournalTest : public testing::Test {
   static std::shared_ptr<const std::string> Script(std::string text) {
     return std::make_shared<const std::string>(std::move(text));
   }
-  JournalContent MustLoad() {
-    Result<std::optional<JournalContent>> content = LoadJournal(file_);
+  static std::shared_ptr<const bake::LineTable> Saying(const std::string& text) {
+    return std::make_shared<const bake::LineTable>(WithText({}, "hail", "keeper", "la", text));
+  }
+  static ProjectDocument TitledAndSaying(const std::string& title, const std::string& text) {
+    ProjectDocument document = Titled(title);
+    document.lines = Saying(text);
+    return document;
+  }
+  JournalContent MustLoad(const bake::LineTable* in_file = nullptr) {
+    Result<std::optional<JournalContent>> content = LoadJournal(file_, in_file);
     CHECK(content.ok());
     CHECK(content->has_value());
     return std::move(**content);
@@ -58,6 +67,72 @@ TEST_F(JournalTest, HoldsEachEditAtOnce) {
   EXPECT_EQ(MustLoad().script, "once two");
 }
 
+TEST_F(JournalTest, HoldsEachEditOfTheLinesAtOnce) {
+  Journal journal(file_, TitledAndSaying("saved", "Salve"), Script("one"));
+  ASSERT_TRUE(journal.NoteProject(TitledAndSaying("saved", "Salve, \"hospes\"\nmi")).ok());
+  EXPECT_EQ(*MustLoad().project.lines, *Saying("Salve, \"hospes\"\nmi"));
+  EXPECT_EQ(MustLoad().edits, 1);
+  ASSERT_TRUE(journal.NoteProject(TitledAndSaying("edited", "Vale")).ok());
+  EXPECT_EQ(*MustLoad().project.lines, *Saying("Vale"));
+  EXPECT_EQ(MustLoad().project.title, "edited");
+  EXPECT_EQ(MustLoad().edits, 3) << "of the project and of the lines";
+  ASSERT_TRUE(journal.NoteProject(Titled("edited")).ok());
+  EXPECT_EQ(*MustLoad().project.lines, *Saying("Vale")) << "a table that cannot be read is no edit";
+  ASSERT_TRUE(journal.Restart(TitledAndSaying("edited", "Vale"), Script("one")).ok());
+  EXPECT_EQ(*MustLoad().project.lines, *Saying("Vale"));
+  EXPECT_GT(MustLoad().edits, 0) << "what it begins with was never saved";
+}
+
+TEST_F(JournalTest, LinesThatCameLaterAreHeldWithTheirEdits) {
+  Journal journal(file_, Titled("saved"), Script("one"));
+  ASSERT_TRUE(journal.NoteProject(TitledAndSaying("saved", "Salve")).ok());
+  EXPECT_EQ(MustLoad().edits, 0) << "they are as in their file";
+  ASSERT_TRUE(journal.NoteProject(TitledAndSaying("saved", "Vale")).ok());
+  EXPECT_EQ(*MustLoad().project.lines, *Saying("Vale"));
+  EXPECT_EQ(MustLoad().edits, 1);
+}
+
+TEST_F(JournalTest, KnowsWhetherSomebodyElseWroteTheLines) {
+  Journal journal(file_, TitledAndSaying("saved", "Salve"), Script("one"));
+  ASSERT_TRUE(journal.NoteProject(TitledAndSaying("saved", "Salvete")).ok());
+  ASSERT_TRUE(journal.NoteProject(TitledAndSaying("saved", "Vale")).ok());
+  for (const char* ours : {"Salve", "Salvete", "Vale"}) {
+    EXPECT_TRUE(MustLoad(Saying(ours).get()).lines_are_ours) << ours;
+  }
+  EXPECT_FALSE(MustLoad(Saying("Ave").get()).lines_are_ours);
+  EXPECT_FALSE(MustLoad(nullptr).lines_are_ours) << "their file cannot be read";
+}
+
+TEST_F(JournalTest, ReadsVersionOneWhichKnewNoLines) {
+  {
+    Journal journal(file_, Titled("saved"), Script("abc"));
+    ASSERT_TRUE(journal.NoteScript({3, "", "d"}).ok());
+    ASSERT_TRUE(journal.NoteProject(Titled("edited")).ok());
+  }
+  std::string text = *ReadText(file_);
+  ASSERT_TRUE(text.starts_with("lararium journal 2\n"));
+  text.replace(0, 19, "lararium journal 1\n");
+  ASSERT_TRUE(WriteFileAtomically(file_, text).ok());
+  EXPECT_EQ(MustLoad().script, "abcd");
+  EXPECT_EQ(MustLoad().project.title, "edited");
+  EXPECT_EQ(MustLoad().project.lines, nullptr);
+  text.replace(0, 19, "lararium journal 3\n");
+  ASSERT_TRUE(WriteFileAtomically(file_, text).ok());
+  EXPECT_THAT(LoadJournal(file_, nullptr).message(), HasSubstr("no journal of this version"));
+}
+
+TEST_F(JournalTest, TheFuzzersSeedsAreWholeJournals) {
+  const std::filesystem::path seeds = LARARIUM_FUZZ_SEEDS;
+  const auto first = LoadJournal(seeds / "journal_1", nullptr);
+  ASSERT_TRUE(first.ok() && first->has_value()) << first.message();
+  EXPECT_EQ((*first)->edits, 2);
+  EXPECT_FALSE((*first)->torn);
+  const auto second = LoadJournal(seeds / "journal_2", nullptr);
+  ASSERT_TRUE(second.ok() && second->has_value()) << second.message();
+  EXPECT_EQ((*second)->edits, 4);
+  EXPECT_EQ(*(*second)->project.lines, *Saying("Vale, hospes"));
+}
+
 TEST_F(JournalTest, KeepsBytesThatAreNoText) {
   const std::string bytes("\xff\xfe\n\0x\n", 6);
   Journal journal(file_, Titled("saved"), Script(bytes));
@@ -67,17 +142,18 @@ TEST_F(JournalTest, KeepsBytesThatAreNoText) {
 
 TEST_F(JournalTest, WhereverItIsCutOffWhatLiesBeforeIsThere) {
   {
-    Journal journal(file_, Titled("saved"), Script("abc"));
+    Journal journal(file_, TitledAndSaying("saved", "Salve"), Script("abc"));
     ASSERT_TRUE(journal.NoteScript({3, "", "d"}).ok());
-    ASSERT_TRUE(journal.NoteProject(Titled("edited")).ok());
+    ASSERT_TRUE(journal.NoteProject(TitledAndSaying("edited", "Salve")).ok());
+    ASSERT_TRUE(journal.NoteProject(TitledAndSaying("edited", "Salvete")).ok());
     ASSERT_TRUE(journal.NoteScript({4, "", "e"}).ok());
   }
   const Result<std::string> whole = ReadText(file_);
   ASSERT_TRUE(whole.ok());
-  int least = 3;
+  int least = 4;
   for (size_t size = whole->size(); size > 0; --size) {
     ASSERT_TRUE(WriteFileAtomically(file_, std::string_view(*whole).substr(0, size)).ok());
-    const auto content = LoadJournal(file_);
+    const auto content = LoadJournal(file_, nullptr);
     if (!content.ok()) {
       EXPECT_THAT(content.message(), HasSubstr("journal"));
       continue;  // cut off within its beginning
@@ -86,8 +162,11 @@ TEST_F(JournalTest, WhereverItIsCutOffWhatLiesBeforeIsThere) {
     EXPECT_LE(left.edits, least);
     EXPECT_GE(left.edits, least - 1) << "one record at a time";
     least = left.edits;
-    EXPECT_EQ(left.script, left.edits == 3 ? "abcde" : left.edits == 0 ? "abc" : "abcd");
+    EXPECT_EQ(left.script, left.edits == 4 ? "abcde" : left.edits == 0 ? "abc" : "abcd");
     EXPECT_EQ(left.project.title, left.edits >= 2 ? "edited" : "saved");
+    if (left.edits > 0) {
+      EXPECT_EQ(*left.project.lines, *Saying(left.edits >= 3 ? "Salvete" : "Salve"));
+    }
   }
   EXPECT_EQ(least, 0);
 }
@@ -103,7 +182,7 @@ TEST_F(JournalTest, ADamagedByteIsNeverTakenForAnEdit) {
     std::string damaged = *whole;
     damaged[i] = static_cast<char>(damaged[i] ^ 0x15);
     ASSERT_TRUE(WriteFileAtomically(file_, damaged).ok());
-    const auto content = LoadJournal(file_);
+    const auto content = LoadJournal(file_, nullptr);
     if (content.ok()) {
       EXPECT_THAT((*content)->script, testing::AnyOf("abc", "abcd"));
       EXPECT_EQ((*content)->project.title, "saved");
@@ -113,8 +192,34 @@ TEST_F(JournalTest, ADamagedByteIsNeverTakenForAnEdit) {
 
 // ---- a whole editor that is killed ----
 
+// What the project holds, as far as it is edited here.
+struct Edited {
+  std::string title;
+  std::string script;
+  std::string line;
+
+  friend bool operator==(const Edited&, const Edited&) = default;
+};
+
+constexpr uint32_t kWays = 3;  // of editing
+
+// Edit n writes its number into one of them.
+std::string& Written(Edited& edited, uint32_t way) {
+  return way == 0 ? edited.title : way == 1 ? edited.script : edited.line;
+}
+std::string WhatEditWrites(int32_t n, uint32_t way) {
+  const std::string number = std::to_string(n);
+  return way == 1 ? "track{markers = {{at = " + number + ", name = 'm'}}}" : number;
+}
+
+Edited WhatIsIn(const Workspace& workspace) {
+  const bake::Line* line = workspace.document().lines->Find("hail");
+  return {workspace.document().title, workspace.script().text(),
+          line == nullptr ? "" : line->text.find("la")->second};
+}
+
 // Edits the project for ever, in an order that follows from the seed, and says on a pipe
-// which edit is done. After edit n the title is "n" and the script ends in "-- n".
+// which edit is done.
 [[noreturn]] void EditForEver(const ProjectPaths& paths, uint64_t seed, int pipe) {
   const std::shared_ptr<Log> log = MakeSilentLog();
   Result<std::unique_ptr<Workspace>> workspace = Workspace::Open(paths, *log);
@@ -123,11 +228,16 @@ TEST_F(JournalTest, ADamagedByteIsNeverTakenForAnEdit) {
   }
   Random random(seed);
   for (int32_t n = 1;; ++n) {
-    const std::string number = std::to_string(n);
-    if (random.Below(2) == 0) {
-      (*workspace)->Edit("title", [&](ProjectDocument& d) { d.title = number; });
+    const uint32_t way = random.Below(kWays);
+    const std::string text = WhatEditWrites(n, way);
+    if (way == 0) {
+      (*workspace)->Edit("title", [&](ProjectDocument& d) { d.title = text; });
+    } else if (way == 1) {
+      (*workspace)->EditScript("script", text);
     } else {
-      (*workspace)->EditScript("script", "track{markers = {{at = " + number + ", name = 'm'}}}");
+      (*workspace)
+          ->EditLines("line",
+                      WithText(*(*workspace)->document().lines, "hail", "keeper", "la", text));
     }
     const uint32_t also = random.Below(40);
     if (also == 0) {
@@ -135,6 +245,8 @@ TEST_F(JournalTest, ADamagedByteIsNeverTakenForAnEdit) {
     } else if (also < 4) {
       (*workspace)->Undo();
       (*workspace)->Redo();
+    } else if (also < 8) {
+      (*workspace)->Update(1.5);  // the file of lines follows
     }
     if (::write(pipe, &n, sizeof(n)) != sizeof(n)) {
       ::_exit(0);
@@ -142,22 +254,13 @@ TEST_F(JournalTest, ADamagedByteIsNeverTakenForAnEdit) {
   }
 }
 
-struct Edited {
-  std::string title;
-  std::string script;
-};
-
 // What is there after n edits.
 Edited After(int32_t count, uint64_t seed, const Edited& before) {
   Random random(seed);
   Edited edited = before;
   for (int32_t n = 1; n <= count; ++n) {
-    const std::string number = std::to_string(n);
-    if (random.Below(2) == 0) {
-      edited.title = number;
-    } else {
-      edited.script = "track{markers = {{at = " + number + ", name = 'm'}}}";
-    }
+    const uint32_t way = random.Below(kWays);
+    Written(edited, way) = WhatEditWrites(n, way);
     random.Below(40);
   }
   return edited;
@@ -177,7 +280,7 @@ TEST(KilledEditor, LosesAtMostTheLastEdit) {
     {
       const auto workspace = Workspace::Open(paths, *log);
       ASSERT_TRUE(workspace.ok()) << workspace.message();
-      before = {(*workspace)->document().title, (*workspace)->script().text()};
+      before = WhatIsIn(**workspace);
     }
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
@@ -200,17 +303,15 @@ TEST(KilledEditor, LosesAtMostTheLastEdit) {
 
     const auto workspace = Workspace::Open(paths, *log);
     ASSERT_TRUE(workspace.ok()) << workspace.message();
-    const Edited now = {(*workspace)->document().title, (*workspace)->script().text()};
+    const Edited now = WhatIsIn(**workspace);
     // All that was said to be done, and perhaps the one at work.
-    const Edited expected = After(done, seed, before);
-    const Edited one_more = After(done + 1, seed, before);
-    const bool as_done = now.title == expected.title && now.script == expected.script;
-    const bool as_one_more = now.title == one_more.title && now.script == one_more.script;
+    const bool as_done = now == After(done, seed, before);
+    const bool as_one_more = now == After(done + 1, seed, before);
     // An undo that was not redone yet: the edit before the one at work.
-    const Edited one_less = After(std::max(done - 1, 0), seed, before);
-    const bool undone = now.title == one_less.title && now.script == one_less.script;
+    const bool undone = now == After(std::max(done - 1, 0), seed, before);
     EXPECT_TRUE(as_done || as_one_more || undone)
-        << "kill " << kill << " after " << done << " edits: \"" << now.title << "\" " << now.script;
+        << "kill " << kill << " after " << done << " edits: \"" << now.title << "\" " << now.script
+        << " " << now.line;
     recovered += done > 0 ? 1 : 0;
     // What was recovered stays recovered: nobody has saved it.
   }

@@ -260,6 +260,43 @@ TEST_F(WorkspaceTest, ARemovedSessionIsGoneFromMapAndDocumentAndNoUndoBringsItBa
   EXPECT_TRUE(workspace->place()->added.empty());
 }
 
+TEST_F(WorkspaceTest, TheFormerMapIsPutBackWithWhatItWasMadeOfAndDoingSoAgainUndoesIt) {
+  ProjectDocument document = *LoadProject(paths_);
+  PlaceDocument& place = document.places.emplace_back();
+  place.name = "site";
+  const auto take = [&](const std::string& video, int points) {
+    PlaceRecordings recordings;
+    recordings.training = {SourceDocument::Kind::kVideo, video};
+    ASSERT_TRUE(TakeMap(paths_, place, recordings,
+                        test::MakeSceneDatabase(test::MakeSyntheticWorld({.points = points})))
+                    .ok());
+    SetRecordings(recordings, place);
+  };
+  take("first.mp4", 20);
+  take("second.mp4", 30);
+  ASSERT_TRUE(SaveProject(paths_, document).ok());
+  const auto workspace = Open();
+  workspace->EditPlace("nudge", [](PlaceDocument& p) { p.camera_nudge.x() = 0.1; });
+  workspace->PutFormerMapBack();
+  EXPECT_EQ(LoadMap(paths_, "site")->points.size(), 20u) << workspace->messages().back().text;
+  EXPECT_EQ(workspace->place()->training.path, "first.mp4");
+  workspace->Undo();
+  EXPECT_EQ(workspace->place()->camera_nudge.x(), 0.0);
+  EXPECT_EQ(workspace->place()->training.path, "first.mp4") << "as the map's file is";
+  workspace->PutFormerMapBack();
+  EXPECT_EQ(LoadMap(paths_, "site")->points.size(), 30u);
+  EXPECT_EQ(workspace->place()->training.path, "second.mp4");
+}
+
+TEST_F(WorkspaceTest, WithoutAFormerMapPuttingItBackIsAMessage) {
+  ProjectDocument document = *LoadProject(paths_);
+  document.places.emplace_back().name = "site";
+  ASSERT_TRUE(SaveProject(paths_, document).ok());
+  const auto workspace = Open();
+  workspace->PutFormerMapBack();
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("has no former map"));
+}
+
 TEST_F(WorkspaceTest, AFailedExportIsAMessageAndWritesNothing) {
   const auto workspace = Open();
   const std::filesystem::path out = folder_ / "show.larshow";
@@ -309,6 +346,85 @@ TEST_F(WorkspaceTest, LinesThatOthersLeftDamagedAreNotWrittenOver) {
   workspace->Update(2.0);
   EXPECT_EQ(*ReadText(paths_.folder / "lines.csv"), damaged);
   EXPECT_THAT(workspace->messages().back().text, testing::Not(testing::IsEmpty()));
+}
+
+TEST_F(WorkspaceTest, LinesThatATranslatorSavedJustNowAreNotWrittenOver) {
+  const auto workspace = Open();
+  workspace->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+  ASSERT_TRUE(bake::SaveLines(paths_.folder, WithText({}, "part", "keeper", "la", "Vale")).ok());
+  workspace->Update(0.9);
+  workspace->Update(0.9);
+  EXPECT_NE(bake::LoadLines(paths_.folder)->Find("part"), nullptr);
+  EXPECT_NE(workspace->document().lines->Find("part"), nullptr);
+  workspace->Undo();
+  EXPECT_NE(workspace->document().lines->Find("hail"), nullptr) << "what was typed is not lost";
+}
+
+TEST_F(WorkspaceTest, LinesThatCouldNotBeReadBackAreAMessageAndNoEdit) {
+  const auto workspace = Open();
+  const auto before = workspace->document().lines;
+  workspace->EditLines("write", WithText({}, "no id", "keeper", "la", "Salve"));
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("'no id' cannot be a line's id"));
+  workspace->EditLines("write", WithText({}, "hail", "keeper", "la", std::string(5000, 'a')));
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("longer than 4000 bytes"));
+  EXPECT_EQ(workspace->document().lines, before);
+  EXPECT_FALSE(workspace->commands().CanUndo());
+}
+
+// The project as a killed editor leaves it: lines were typed, and their file does not have them.
+class KilledWhileLinesWereTyped : public WorkspaceTest {
+ protected:
+  KilledWhileLinesWereTyped() {
+    const std::filesystem::path aside = folder_ / "journal";
+    {
+      const auto workspace = Open();
+      workspace->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+      std::filesystem::copy_file(paths_.Journal(), aside);
+    }
+    std::filesystem::remove(paths_.folder / "lines.csv");
+    std::filesystem::copy_file(aside, paths_.Journal(),
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+};
+
+TEST_F(KilledWhileLinesWereTyped, RecoversThemAndUndoTakesThemBack) {
+  const auto workspace = Open();
+  EXPECT_THAT(workspace->messages().front().text, HasSubstr("recovered"));
+  EXPECT_NE(workspace->document().lines->Find("hail"), nullptr);
+  workspace->Update(2.0);
+  workspace->Update(0.0);
+  EXPECT_NE(bake::LoadLines(paths_.folder)->Find("hail"), nullptr) << "their file follows";
+  workspace->Undo();
+  EXPECT_TRUE(workspace->document().lines->lines.empty());
+}
+
+TEST_F(KilledWhileLinesWereTyped, WhatATranslatorWroteSinceStaysAndUndoBringsBackWhatWasTyped) {
+  ASSERT_TRUE(bake::SaveLines(paths_.folder, WithText({}, "part", "keeper", "la", "Vale")).ok());
+  const auto workspace = Open();
+  EXPECT_NE(workspace->document().lines->Find("part"), nullptr);
+  workspace->Update(2.0);
+  EXPECT_NE(bake::LoadLines(paths_.folder)->Find("part"), nullptr);
+  workspace->Undo();
+  EXPECT_NE(workspace->document().lines->Find("hail"), nullptr);
+}
+
+TEST_F(KilledWhileLinesWereTyped, ADamagedFileOfLinesIsLeftAsItIs) {
+  const std::string damaged = "id,speaker,notes,la\nhail,keeper,,\"half a";
+  ASSERT_TRUE(WriteFileAtomically(paths_.folder / "lines.csv", damaged).ok());
+  const auto workspace = Open();
+  EXPECT_EQ(workspace->document().lines, nullptr);
+  workspace->Update(2.0);
+  EXPECT_EQ(*ReadText(paths_.folder / "lines.csv"), damaged);
+  workspace->Undo();
+  EXPECT_NE(workspace->document().lines->Find("hail"), nullptr);
+}
+
+TEST_F(WorkspaceTest, LinesThatReachedTheirFileAreNotRecoveredAgain) {
+  Open()->EditLines("write", WithText({}, "hail", "keeper", "la", "Salve"));
+  const auto workspace = Open();
+  EXPECT_TRUE(workspace->messages().empty()) << workspace->messages().front().text;
+  EXPECT_FALSE(workspace->commands().CanUndo());
+  EXPECT_FALSE(std::filesystem::exists(paths_.Journal()));
 }
 
 TEST_F(WorkspaceTest, EditedLinesOutliveTheWindow) {

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const int file = ::memfd_create("journal", MFD_CLOEXEC);
   CHECK(file >= 0);
   CHECK(::write(file, data, size) == static_cast<ssize_t>(size));
-  const auto content = app::LoadJournal("/proc/self/fd/" + std::to_string(file));
+  const auto content = app::LoadJournal("/proc/self/fd/" + std::to_string(file), nullptr);
   if (content.ok() && content->has_value()) {
     CHECK((*content)->edits >= 0);
     CHECK(app::FormatProject((*content)->project).is_object());

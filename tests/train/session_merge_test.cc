@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "editor/train/budget.h"
+#include "editor/train/session_adjustment.h"
+#include "editor/train/session_removal.h"
 #include "tests/support/synthetic_world.h"
 
 namespace lararium::train {
@@ -181,6 +183,73 @@ TEST(MergeSession, RefusesAnotherPlaceAndSaysWhatToFilm) {
   ASSERT_FALSE(merged.ok());
   EXPECT_THAT(merged.message(), testing::HasSubstr("0 of 6 images of the new video"));
   EXPECT_THAT(merged.message(), testing::HasSubstr("film the place from where"));
+}
+
+// As a training leaves a map: points lie where their sights say, and normals are the mean of the
+// directions that they were seen from.
+void Settle(SceneDatabase& map) {
+  std::vector<Rigid3> poses;
+  for (const vision::Keyframe& keyframe : map.keyframes) {
+    poses.push_back(keyframe.camera_from_map);
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& point : map.points) {
+    points.push_back(point.cast<double>());
+  }
+  ASSERT_TRUE(AdjustPoints(map.camera, map.observations, poses,
+                           std::vector<bool>(points.size(), true), points));
+  std::vector<Eigen::Vector3d> towards(points.size(), Eigen::Vector3d::Zero());
+  std::fill(map.observation_counts.begin(), map.observation_counts.end(), 0u);
+  for (const Observation& o : map.observations) {
+    towards[o.point] += (poses[o.keyframe].Center() - points[o.point]).normalized();
+    ++map.observation_counts[o.point];
+  }
+  for (size_t i = 0; i < points.size(); ++i) {
+    map.points[i] = points[i].cast<float>();
+    map.normals[i] = towards[i].normalized().cast<float>();
+  }
+}
+
+TEST(MergeSession, WhatItAddsIsAllThatRemovingTheSessionTakes) {
+  TwoSessions sessions = MakeTwoSessions({});
+  SceneDatabase& map = sessions.map;
+  Settle(map);
+  const Result<MergedMap> merged = Merge(sessions);
+  ASSERT_TRUE(merged.ok()) << merged.message();
+  ASSERT_GT(merged->database.descriptors.size(), map.descriptors.size());
+  const Result<RemovedSession> removed = RemoveSession(merged->database, 1);
+  ASSERT_TRUE(removed.ok()) << removed.message();
+  const SceneDatabase& left = removed->database;
+  EXPECT_EQ(left.keyframes.size(), map.keyframes.size());
+  EXPECT_EQ(left.descriptors, map.descriptors);
+  EXPECT_EQ(left.descriptor_begin, map.descriptor_begin);
+  EXPECT_TRUE(left.descriptor_sessions.empty());
+  EXPECT_EQ(left.session_masks, map.session_masks);
+  EXPECT_EQ(left.observation_counts, map.observation_counts);
+  ASSERT_EQ(left.observations.size(), map.observations.size());
+  for (size_t i = 0; i < map.observations.size(); ++i) {
+    EXPECT_EQ(left.observations[i].point, map.observations[i].point);
+    EXPECT_EQ(left.observations[i].x, map.observations[i].x);
+  }
+  ASSERT_EQ(left.points.size(), map.points.size());
+  for (size_t i = 0; i < map.points.size(); ++i) {
+    EXPECT_LT((left.points[i] - map.points[i]).norm(), 1e-3f) << i;  // cameras are 4 away
+    EXPECT_LT((left.normals[i] - map.normals[i]).norm(), 1e-3f) << i;
+  }
+}
+
+TEST(MergeSession, SaysOfDescriptorsWhichSessionsSawThem) {
+  const Result<MergedMap> merged = Merge(MakeTwoSessions({.changed_share = 0.4}));
+  ASSERT_TRUE(merged.ok()) << merged.message();
+  const SceneDatabase& db = merged->database;
+  ASSERT_EQ(db.descriptor_sessions.size(), db.descriptors.size());
+  for (uint32_t d = 0; d < db.descriptors.size(); ++d) {
+    EXPECT_EQ(db.SessionsOf(d) & ~db.session_masks[db.descriptor_point[d]], 0u);
+  }
+  const Result<vision::SceneDatabase> read =
+      vision::ParseSceneDatabase(vision::SerializeSceneDatabase(db), "merged");
+  ASSERT_TRUE(read.ok()) << read.message();
+  EXPECT_EQ(read->descriptor_sessions, db.descriptor_sessions);
 }
 
 TEST(MergeSession, GivesTheSameBytesTwice) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "shared/core/random.h"
 #include "shared/vision/localizer.h"
 #include "tests/support/synthetic_world.h"
 
@@ -63,7 +64,7 @@ TEST(RemoveSession, KeepsPointsThatTwoOthersShow) {
   EXPECT_EQ(removed->points, 40u);
   ASSERT_EQ(db.points.size(), 160u);
   for (size_t i = 0; i < db.points.size(); ++i) {
-    EXPECT_EQ(db.points[i], map.points[i + 40]);
+    EXPECT_LT((db.points[i] - map.points[i + 40]).norm(), 1e-4f);
     EXPECT_EQ(db.descriptors[i], map.descriptors[i + 40]);
   }
   EXPECT_EQ(db.session_masks[0], 2u);  // only what was session 2 saw it
@@ -85,6 +86,38 @@ TEST(RemoveSession, ObservationsArePartOfThoseThatWere) {
   }
   EXPECT_EQ(counts, db.observation_counts);
   EXPECT_NEAR(db.mean_reprojection_error_px, 0.0, 1e-3);
+}
+
+TEST(RemoveSession, TakesWhatPointsLookLikeInThatSessionAlone) {
+  SceneDatabase map = Map();
+  // Each point looks in one way in sessions 0 and 2, in another in 1, in a third in 1 and 2.
+  Random random(4);
+  map.descriptors.clear();
+  map.descriptor_point.clear();
+  map.descriptor_begin = {0};
+  for (uint32_t point = 0; point < map.points.size(); ++point) {
+    for (const uint32_t sessions : {0b101u, 0b010u, 0b110u}) {
+      map.descriptors.push_back(test::RandomDescriptor(random));
+      map.descriptor_point.push_back(point);
+      map.descriptor_sessions.push_back(sessions);
+    }
+    map.descriptor_begin.push_back(static_cast<uint32_t>(map.descriptors.size()));
+  }
+  const Result<RemovedSession> removed = RemoveSession(map, 1);
+  ASSERT_TRUE(removed.ok()) << removed.message();
+  const SceneDatabase& db = removed->database;
+  ASSERT_EQ(db.points.size(), 160u);
+  for (uint32_t point = 0; point < db.points.size(); ++point) {
+    const uint32_t first = db.descriptor_begin[point];
+    ASSERT_EQ(db.descriptor_begin[point + 1] - first, 2u);
+    EXPECT_EQ(db.descriptors[first], map.descriptors[3 * (point + 40)]);
+    EXPECT_EQ(db.descriptor_sessions[first], 0b11u) << "session 2 is session 1 now";
+    EXPECT_EQ(db.descriptors[first + 1], map.descriptors[3 * (point + 40) + 2]);
+    EXPECT_EQ(db.descriptor_sessions[first + 1], 0b10u);
+  }
+  const Result<RemovedSession> alone = RemoveSession(db, 1);
+  ASSERT_TRUE(alone.ok()) << alone.message();
+  EXPECT_TRUE(alone->database.descriptor_sessions.empty()) << "one session is left";
 }
 
 TEST(RemoveSession, TheMapStillLocates) {
