@@ -1,10 +1,10 @@
 #include "editor/app/align_commands.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "editor/app/baking.h"
+#include "editor/app/command_arguments.h"
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/occluder_alignment.h"
 #include "editor/app/staging.h"
@@ -129,29 +129,13 @@ class AlignWorker {
     }
     AddModelPair(*occluder_, {options_.pair[0], options_.pair[1], options_.pair[2]});
     for (const std::string& text : options_.picks) {
-      LARARIUM_ASSIGN_OR_RETURN(const stage::Pick pick, ReadPick(text));
+      LARARIUM_ASSIGN_OR_RETURN(const stage::Pick pick,
+                                ParsePick(*map_.database, place_->name,
+                                          static_cast<uint32_t>(options_.session), "--pick", text));
       SetModelPick(*occluder_, occluder_->model_pairs.size() - 1, pick);
     }
     changed_ = true;
     return Status();
-  }
-
-  // "FRAME,x,y", where the frame's name may hold commas.
-  Result<stage::Pick> ReadPick(const std::string& text) const {
-    const size_t y_at = text.rfind(',');
-    const size_t x_at = y_at == std::string::npos || y_at == 0 ? y_at : text.rfind(',', y_at - 1);
-    Eigen::Vector2d pixel;
-    const auto read = [](std::string_view part, double& number) {
-      const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-      return error == std::errc() && end == part.data() + part.size();
-    };
-    if (x_at == std::string::npos || x_at == y_at ||
-        !read(std::string_view(text).substr(x_at + 1, y_at - x_at - 1), pixel.x()) ||
-        !read(std::string_view(text).substr(y_at + 1), pixel.y())) {
-      return Status::Error("--pick " + text, "is no place in an image", "give FRAME,x,y");
-    }
-    return PickInImage(*map_.database, place_->name, text.substr(0, x_at),
-                       static_cast<uint32_t>(options_.session), pixel);
   }
 
   ProjectPaths paths_;

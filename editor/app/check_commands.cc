@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "editor/app/check_points.h"
-#include "editor/app/document_fields.h"
+#include "editor/app/command_arguments.h"
 #include "editor/app/staging.h"
 
 namespace lararium::app {
@@ -50,6 +50,9 @@ class CheckPointWorker {
       RemoveCheckPoint(document_, options_.remove);
       return true;
     }
+    if (!options_.rename.empty()) {
+      return Done(Rename());
+    }
     if (options_.lay) {
       return Done(Lay());
     }
@@ -62,15 +65,7 @@ class CheckPointWorker {
   }
 
   Result<CheckPointDocument*> FindPoint(const std::string& name) {
-    std::string known;
-    for (CheckPointDocument& point : document_.check_points) {
-      if (point.name == name) {
-        return &point;
-      }
-      known += (known.empty() ? "" : ", ") + point.name;
-    }
-    return Status::Error(paths_.Project().string(), "has no check point \"" + name + "\"",
-                         known.empty() ? "add it with --set" : "it has " + known);
+    return FindNamed(document_.check_points, name, paths_.Project().string(), "has no check point");
   }
 
   Result<PlaceDocument*> Place() {
@@ -87,10 +82,7 @@ class CheckPointWorker {
     if (options_.here) {
       LARARIUM_ASSIGN_OR_RETURN(point.position, FoundHere());
     } else {
-      point.position = {options_.at[0], options_.at[1], options_.at[2]};
-    }
-    if (!point.position.allFinite() || point.position.cwiseAbs().maxCoeff() > kMaxLength) {
-      return Status::Error("--at", "is no position on a stage", "give three numbers, in metres");
+      LARARIUM_ASSIGN_OR_RETURN(point.position, ParsePosition("--at", options_.at));
     }
     const auto known = std::find_if(document_.check_points.begin(), document_.check_points.end(),
                                     [&](const auto& p) { return p.name == point.name; });
@@ -101,6 +93,17 @@ class CheckPointWorker {
     } else {
       return Status::Error("--set", "there are too many check points already", "remove one");
     }
+    return Status();
+  }
+
+  Status Rename() {
+    LARARIUM_RETURN_IF_ERROR(FindPoint(options_.rename).status());
+    if (options_.to.empty() || options_.to.size() > kMaxCheckPointName ||
+        FindPoint(options_.to).ok()) {
+      return Status::Error("--to", "is empty, too long, or the name of another point",
+                           "choose another name");
+    }
+    RenameCheckPoint(document_, options_.rename, options_.to);
     return Status();
   }
 

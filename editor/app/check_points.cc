@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "editor/app/place_edits.h"
 #include "editor/app/text.h"
 
 namespace lararium::app {
@@ -371,10 +372,7 @@ void SetCheckPick(PlaceDocument& place, const std::string& point, const stage::P
     anchor = &place.check_picks.emplace_back();
     anchor->name = point;
   }
-  std::erase_if(anchor->picks, [&](const stage::Pick& known) {
-    return known.frame_index == pick.frame_index && known.session == pick.session;
-  });
-  anchor->picks.push_back(pick);
+  SetPick(*anchor, pick);
 }
 
 void ClearCheckPicks(PlaceDocument& place, std::string_view point) {

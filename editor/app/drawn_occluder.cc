@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "editor/app/place_edits.h"
 #include "shared/geometry/glm_convert.h"
 
 namespace lararium::app {
@@ -288,9 +289,7 @@ void SetCorner(OccluderDocument& occluder,
     occluder.corners.push_back({CornerName(occluder.corners.size()), {}});
     corner = occluder.corners.size() - 1;
   }
-  std::vector<stage::Pick>& picks = occluder.corners[corner].picks;
-  std::erase_if(picks, [&](const stage::Pick& pick) { return stage::LiesIn(pick, keyframe); });
-  picks.push_back({keyframe.frame_index, keyframe.name, pixel, keyframe.session});
+  SetPick(occluder.corners[corner], {keyframe.frame_index, keyframe.name, pixel, keyframe.session});
 }
 
 }  // namespace lararium::app

@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "editor/app/caption_cues.h"
+#include "editor/app/command_arguments.h"
 #include "editor/app/drama_run.h"
 #include "editor/app/line_checks.h"
+#include "editor/app/line_edits.h"
 #include "editor/app/lines.h"
 #include "editor/app/project.h"
 #include "editor/bake/caption_file.h"
@@ -38,6 +40,99 @@ Result<bake::LineTable> ReadTable(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
   return file.extension() == ".json" ? bake::ParseLinesJson(text, file.string())
                                      : bake::ParseLinesCsv(text, file.string());
+}
+
+Result<CommandResult> Import(const LinesOptions& options, bake::LineTable& table) {
+  if (options.import.extension() == ".po") {
+    return ImportCatalogue(options, table);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(table, ReadTable(options.import));
+  return CommandResult{std::to_string(table.lines.size()) + " lines\n",
+                       {{"lines", table.lines.size()}}};
+}
+
+Result<bake::Line*> FindLine(const LinesOptions& options,
+                             const std::string& id,
+                             bake::LineTable& table) {
+  std::string known;
+  for (bake::Line& line : table.lines) {
+    if (line.id == id) {
+      return &line;
+    }
+    known += (known.empty() ? "" : ", ") + line.id;
+  }
+  return Status::Error(options.project.string(), "there is no line \"" + id + "\"",
+                       known.empty() ? "add it with --add" : "there are " + known);
+}
+
+// "LANGUAGE=TEXT"
+Status SetText(const std::string& id, const std::string& text, bake::LineTable& table) {
+  const size_t equals = text.find('=');
+  const std::string language = text.substr(0, equals);
+  if (equals == std::string::npos || !stage::IsLanguageTag(language)) {
+    return Status::Error("--text " + text, "does not begin with a language",
+                         "write it as la=Salvete!");
+  }
+  table = WithText(std::move(table), id, "", language, text.substr(equals + 1));
+  return Status();
+}
+
+Status ChangeLine(const LinesOptions& options, const std::string& id, bake::LineTable& table) {
+  LARARIUM_ASSIGN_OR_RETURN(bake::Line * line, FindLine(options, id, table));
+  line->speaker = options.speaker.value_or(line->speaker);
+  line->notes = options.notes.value_or(line->notes);
+  for (const std::string& text : options.texts) {
+    LARARIUM_RETURN_IF_ERROR(SetText(id, text, table));
+  }
+  return Status();
+}
+
+Status AddLine(const LinesOptions& options, bake::LineTable& table) {
+  LARARIUM_RETURN_IF_ERROR(CheckPlainName("--add", options.add));
+  if (table.Find(options.add) != nullptr) {
+    return Status::Error("--add", "there is a line \"" + options.add + "\" already",
+                         "change it with --set");
+  }
+  table = WithLine(std::move(table), options.add, options.speaker.value_or(""));
+  return ChangeLine(options, options.add, table);
+}
+
+CommandResult ListLines(const bake::LineTable& table) {
+  CommandResult result;
+  result.json = {{"languages", table.languages}, {"lines", Json::array()}};
+  for (const bake::Line& line : table.lines) {
+    result.text += line.id + (line.speaker.empty() ? "" : ", " + line.speaker) + ":\n";
+    for (const std::string& language : table.languages) {
+      if (const auto text = line.text.find(language); text != line.text.end()) {
+        result.text += "  " + language + ": " + text->second + "\n";
+      }
+    }
+    result.json["lines"].push_back(
+        {{"id", line.id}, {"speaker", line.speaker}, {"notes", line.notes}, {"text", line.text}});
+  }
+  if (table.lines.empty()) {
+    result.text = "no lines; add one with --add ID --speaker NAME --text la=TEXT\n";
+  }
+  return result;
+}
+
+// The work, if there is one, and the list.
+Result<CommandResult> EditLines(const LinesOptions& options, bake::LineTable& table) {
+  if (!options.add.empty()) {
+    LARARIUM_RETURN_IF_ERROR(AddLine(options, table));
+  } else if (!options.set.empty()) {
+    LARARIUM_RETURN_IF_ERROR(ChangeLine(options, options.set, table));
+  } else if (!options.remove.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const bake::Line* line, FindLine(options, options.remove, table));
+    table.lines.erase(table.lines.begin() + (line - table.lines.data()));
+  } else if (!options.add_language.empty()) {
+    if (!stage::IsLanguageTag(options.add_language)) {
+      return Status::Error("--add-language", "'" + options.add_language + "' is no language tag",
+                           "use one like la, it or en");
+    }
+    table = WithLanguage(std::move(table), options.add_language);
+  }
+  return ListLines(table);
 }
 
 Result<std::vector<SaidLine>> RunForLines(const ProjectPaths& paths,
@@ -93,15 +188,12 @@ Result<CommandResult> RunLines(const LinesOptions& options) {
   const ProjectPaths paths{options.project};
   LARARIUM_RETURN_IF_ERROR(LoadProject(paths).status());
   LARARIUM_ASSIGN_OR_RETURN(bake::LineTable table, bake::LoadLines(paths.folder));
-  CommandResult result;
-  if (options.import.extension() == ".po") {
-    LARARIUM_ASSIGN_OR_RETURN(result, ImportCatalogue(options, table));
-  } else {
-    LARARIUM_ASSIGN_OR_RETURN(table, ReadTable(options.import));
-    result.text = std::to_string(table.lines.size()) + " lines\n";
-    result.json = {{"lines", table.lines.size()}};
+  const bake::LineTable before = table;
+  LARARIUM_ASSIGN_OR_RETURN(CommandResult result, options.import.empty() ? EditLines(options, table)
+                                                                         : Import(options, table));
+  if (table != before) {
+    LARARIUM_RETURN_IF_ERROR(bake::SaveLines(paths.folder, table));
   }
-  LARARIUM_RETURN_IF_ERROR(bake::SaveLines(paths.folder, table));
   return result;
 }
 

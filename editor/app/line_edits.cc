@@ -24,10 +24,7 @@ bake::LineTable WithText(bake::LineTable table,
                          const std::string& speaker,
                          const std::string& language,
                          const std::string& text) {
-  if (std::find(table.languages.begin(), table.languages.end(), language) ==
-      table.languages.end()) {
-    table.languages.push_back(language);
-  }
+  table = WithLanguage(std::move(table), language);
   bake::Line& line = LineOf(table, id, speaker);
   if (text.empty()) {
     line.text.erase(language);
@@ -39,6 +36,14 @@ bake::LineTable WithText(bake::LineTable table,
 
 bake::LineTable WithLine(bake::LineTable table, const std::string& id, const std::string& speaker) {
   LineOf(table, id, speaker);
+  return table;
+}
+
+bake::LineTable WithLanguage(bake::LineTable table, const std::string& language) {
+  if (std::find(table.languages.begin(), table.languages.end(), language) ==
+      table.languages.end()) {
+    table.languages.push_back(language);
+  }
   return table;
 }
 

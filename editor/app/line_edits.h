@@ -19,6 +19,9 @@ bake::LineTable WithText(bake::LineTable table,
 // The table with a line that has no text yet. Nothing changes where the id is taken.
 bake::LineTable WithLine(bake::LineTable table, const std::string& id, const std::string& speaker);
 
+// The table with a further language, which no line has a text in yet.
+bake::LineTable WithLanguage(bake::LineTable table, const std::string& language);
+
 // "keeper1", "keeper2" and so on: the first that is no line yet. stem: a plain name.
 std::string FreeLineId(const bake::LineTable& table, const std::string& stem);
 

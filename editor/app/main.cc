@@ -6,13 +6,17 @@
 #include "editor/app/align_commands.h"
 #include "editor/app/calibrating.h"
 #include "editor/app/camera_measure.h"
+#include "editor/app/cast_commands.h"
 #include "editor/app/check_commands.h"
 #include "editor/app/line_commands.h"
+#include "editor/app/object_commands.h"
 #include "editor/app/occluder_commands.h"
 #include "editor/app/options.h"
 #include "editor/app/portrait.h"
 #include "editor/app/probe_commands.h"
+#include "editor/app/project_commands.h"
 #include "editor/app/reference.h"
+#include "editor/app/stage_commands.h"
 #include "editor/app/subcommands.h"
 #include "editor/app/terminal.h"
 #include "editor/app/timeline_commands.h"
@@ -42,6 +46,10 @@ struct Runner {
   Log& log;
 
   Result<CommandResult> operator()(const NewOptions& options) { return RunNew(options); }
+  Result<CommandResult> operator()(const ProjectOptions& options) { return RunProject(options); }
+  Result<CommandResult> operator()(const PlaceOptions& options) { return RunPlace(options); }
+  Result<CommandResult> operator()(const LocateOptions& options) { return RunLocate(options); }
+  Result<CommandResult> operator()(const StageOptions& options) { return RunStage(options); }
   Result<CommandResult> operator()(const TrainOptions& options) {
     return RunTrain(options, progress, log);
   }
@@ -66,6 +74,8 @@ struct Runner {
     return RunCheckPoints(options);
   }
   Result<CommandResult> operator()(const OccluderOptions& options) { return RunOccluder(options); }
+  Result<CommandResult> operator()(const ObjectOptions& options) { return RunObject(options); }
+  Result<CommandResult> operator()(const SoundOptions& options) { return RunSound(options); }
   Result<CommandResult> operator()(const AlignOptions& options) {
     return RunAlign(options, progress);
   }

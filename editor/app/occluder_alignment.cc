@@ -6,6 +6,7 @@
 
 #include "editor/app/check_points.h"
 #include "editor/app/document_fields.h"
+#include "editor/app/place_edits.h"
 #include "editor/app/text.h"
 #include "shared/core/check.h"
 
@@ -180,11 +181,7 @@ void AddModelPair(OccluderDocument& occluder, const Vector3d& on_mesh) {
 
 void SetModelPick(OccluderDocument& occluder, size_t pair, const stage::Pick& pick) {
   CHECK(pair < occluder.model_pairs.size());
-  std::vector<stage::Pick>& picks = occluder.model_pairs[pair].anchor.picks;
-  std::erase_if(picks, [&](const stage::Pick& known) {
-    return known.frame_index == pick.frame_index && known.session == pick.session;
-  });
-  picks.push_back(pick);
+  SetPick(occluder.model_pairs[pair].anchor, pick);
 }
 
 void RemoveModelPair(OccluderDocument& occluder, size_t pair) {

@@ -1,13 +1,13 @@
 #include "editor/app/occluder_commands.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <numbers>
+#include <optional>
 #include <utility>
+#include <vector>
 
-#include "editor/app/angles.h"
-#include "editor/app/document_fields.h"
+#include "editor/app/command_arguments.h"
+#include "editor/app/drawn_occluder.h"
+#include "editor/app/staging.h"
 #include "editor/app/text.h"
 
 namespace lararium::app {
@@ -17,26 +17,12 @@ namespace {
 using Eigen::Vector3d;
 using Kind = OccluderDocument::Kind;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-// Heading, then tilt and roll where they are given.
-Eigen::Quaterniond FromDegrees(const std::vector<double>& turn) {
-  Vector3d angles = Vector3d::Zero();
-  for (size_t i = 0; i < turn.size(); ++i) {
-    angles[static_cast<Eigen::Index>(i)] = turn[i] * kDegree;
-  }
-  return FromHeadingTiltRoll(angles);
-}
-
 // Of "NAME=METRES".
 Result<std::pair<std::string, double>> ParseSize(const std::string& text) {
   const size_t equals = text.find('=');
-  double value = 0.0;
-  const char* end = text.data() + text.size();
   if (equals != std::string::npos) {
-    const auto [rest, error] = std::from_chars(text.data() + equals + 1, end, value);
-    if (error == std::errc() && rest == end) {
-      return std::pair(text.substr(0, equals), value);
+    if (const auto value = ParseNumber(std::string_view(text).substr(equals + 1))) {
+      return std::pair(text.substr(0, equals), *value);
     }
   }
   return Status::Error("--size", "\"" + text + "\" is no size", "write it as width=1.5, in metres");
@@ -79,17 +65,14 @@ Status SetPose(const OccluderOptions& options, OccluderDocument& occluder) {
   const bool posed = !options.at.empty() || !options.turn.empty() || options.scale.has_value();
   if (posed && occluder.drawn()) {
     return Status::Error(occluder.name, "was drawn on training images, and lies where they show it",
-                         "draw its corners elsewhere in the window");
+                         "draw its corners elsewhere with --draw");
   }
   geometry::Similarity3& pose = occluder.stage_from_mesh;
   if (!options.at.empty()) {
-    pose.translation = {options.at[0], options.at[1], options.at[2]};
-    if (!pose.translation.allFinite() || pose.translation.cwiseAbs().maxCoeff() > kMaxLength) {
-      return Status::Error("--at", "is no position on a stage", "give three numbers, in metres");
-    }
+    LARARIUM_ASSIGN_OR_RETURN(pose.translation, ParsePosition("--at", options.at));
   }
   if (!options.turn.empty()) {
-    pose.rotation = FromDegrees(options.turn);
+    pose.rotation = RotationOf(options.turn);
   }
   pose.scale = options.scale.value_or(pose.scale);
   return Status();
@@ -107,20 +90,6 @@ Status Change(const OccluderOptions& options, OccluderDocument& occluder) {
   return Status();
 }
 
-// As --at, --turn and --scale take it, to the millimetre and tenth of a degree.
-std::string DescribePose(const geometry::Similarity3& stage_from_mesh) {
-  const Vector3d& at = stage_from_mesh.translation;
-  std::string text = Text("; at %.3f,%.3f,%.3f", at.x(), at.y(), at.z());
-  const Vector3d turn = HeadingTiltRoll(stage_from_mesh.rotation) / kDegree;
-  if (turn.cwiseAbs().maxCoeff() >= 0.05) {
-    text += Text(", turned %.1f,%.1f,%.1f degrees", turn.x(), turn.y(), turn.z());
-  }
-  if (std::abs(stage_from_mesh.scale - 1.0) >= 5e-5) {
-    text += Text(", scaled by %.4f", stage_from_mesh.scale);
-  }
-  return text;
-}
-
 std::string Described(const OccluderDocument& occluder) {
   std::string text;
   switch (occluder.kind()) {
@@ -135,7 +104,7 @@ std::string Described(const OccluderDocument& occluder) {
       break;
   }
   if (!occluder.drawn()) {
-    text += DescribePose(occluder.stage_from_mesh);
+    text += "; " + DescribePose(occluder.stage_from_mesh);
   }
   text += occluder.receives_shadow ? "" : "; receives no shadow";
   text += occluder.blocks_sound ? "" : "; does not block sound";
@@ -151,19 +120,55 @@ Json ListedJson(const OccluderDocument& occluder) {
   return json;
 }
 
+// Where corners are seen in an image; nothing: they are not.
+struct SeenCorners {
+  std::string frame;
+  std::vector<std::optional<Eigen::Vector2d>> pixels;
+};
+
+// "FRAME,x,y,x,y,..." with "-,-" for a corner that is not seen. From its end, because the frame's
+// name may hold commas.
+Result<SeenCorners> ParseSeen(const std::string& text) {
+  std::vector<std::optional<double>> numbers;
+  size_t end = text.size();
+  for (size_t comma = text.rfind(','); comma != std::string::npos && comma > 0;
+       comma = text.rfind(',', comma - 1)) {
+    const std::string_view part = std::string_view(text).substr(comma + 1, end - comma - 1);
+    const std::optional<double> number = ParseNumber(part);
+    if (!number && part != "-") {
+      break;
+    }
+    numbers.insert(numbers.begin(), number);
+    end = comma;
+  }
+  SeenCorners seen{text.substr(0, end), {}};
+  bool pairs = !numbers.empty() && numbers.size() % 2 == 0 && numbers.size() <= 2 * kMaxCorners;
+  for (size_t i = 0; pairs && i < numbers.size(); i += 2) {
+    pairs = numbers[i].has_value() == numbers[i + 1].has_value();
+    seen.pixels.push_back(numbers[i] && numbers[i + 1]
+                              ? std::optional(Eigen::Vector2d(*numbers[i], *numbers[i + 1]))
+                              : std::nullopt);
+  }
+  return pairs ? Result<SeenCorners>(std::move(seen))
+               : Status::Error("--seen " + text, "does not say where corners are",
+                               "write it as FRAME,x,y,x,y,..., with -,- for one that is not seen");
+}
+
 class OccluderWorker {
  public:
   OccluderWorker(ProjectPaths paths, ProjectDocument document, OccluderOptions options)
       : paths_(std::move(paths)), document_(std::move(document)), options_(std::move(options)) {}
 
   Result<CommandResult> Run() {
-    if (!options_.add.empty() || !options_.set.empty() || !options_.remove.empty()) {
+    CommandResult result;
+    if (!options_.add.empty() || !options_.draw.empty() || !options_.set.empty() ||
+        !options_.remove.empty()) {
       LARARIUM_ASSIGN_OR_RETURN(const std::string name,
                                 ChoosePlace(paths_, document_, options_.place));
-      LARARIUM_RETURN_IF_ERROR(Work(*document_.FindPlace(name)));
+      PlaceDocument& place = *document_.FindPlace(name);
+      LARARIUM_RETURN_IF_ERROR(options_.draw.empty() ? Work(place) : Draw(place, result.text));
       LARARIUM_RETURN_IF_ERROR(SaveProject(paths_, document_));
     }
-    CommandResult result;
     for (const PlaceDocument& place : document_.places) {
       if (options_.place.empty() || place.name == options_.place) {
         List(place, result);
@@ -186,16 +191,60 @@ class OccluderWorker {
     return Status();
   }
 
+  // As it is drawn in the window, but that what cannot be located yet is refused.
+  Status Draw(PlaceDocument& place, std::string& text) {
+    OccluderDocument* occluder = place.FindOccluder(options_.draw);
+    if (occluder == nullptr) {
+      LARARIUM_RETURN_IF_ERROR(CheckPlainName("--draw", options_.draw));
+      occluder = &place.occluders.emplace_back();
+      occluder->name = options_.draw;
+    } else if (!occluder->drawn()) {
+      return Status::Error(
+          "--draw",
+          occluder->name + " is a " + (occluder->shape ? "shape" : "model") + ", and not drawn",
+          "choose another name");
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths_, place));
+    for (const std::string& seen : options_.seen) {
+      LARARIUM_RETURN_IF_ERROR(DrawIn(*map.database, place.name, seen, *occluder));
+    }
+    LARARIUM_RETURN_IF_ERROR(Change(options_, *occluder));
+    const double units_per_metre = map.picks.map_from_picked.scale * place.picked_from_stage.scale;
+    LARARIUM_ASSIGN_OR_RETURN(const DrawnOccluder drawn,
+                              DrawOccluder(*occluder, *map.database, units_per_metre));
+    text += Text("%s: %zu corners, %.2f px off; %.1f cm off their plane\n", occluder->name.c_str(),
+                 drawn.corners.size(), drawn.error_px, 100.0 * drawn.unevenness / units_per_metre);
+    return Status();
+  }
+
+  // Its corners in one image.
+  Status DrawIn(const vision::SceneDatabase& map,
+                const std::string& place,
+                const std::string& seen,
+                OccluderDocument& occluder) const {
+    LARARIUM_ASSIGN_OR_RETURN(const SeenCorners corners, ParseSeen(seen));
+    LARARIUM_ASSIGN_OR_RETURN(
+        const vision::Keyframe* keyframe,
+        FindKeyframe(map, place, corners.frame, static_cast<uint32_t>(options_.session)));
+    for (size_t i = 0; i < corners.pixels.size(); ++i) {
+      const auto& pixel = corners.pixels[i];
+      if (pixel && !map.camera.Contains(*pixel)) {
+        return Status::Error("--seen " + corners.frame,
+                             CornerName(i) + " lies outside of the image",
+                             "it has " + std::to_string(map.camera.width) + " x " +
+                                 std::to_string(map.camera.height) + " pixels");
+      }
+      if (pixel) {
+        SetCorner(occluder, i, *keyframe, *pixel);
+      } else if (i == occluder.corners.size()) {
+        occluder.corners.push_back({CornerName(i), {}});  // others may show it
+      }
+    }
+    return Status();
+  }
+
   Status Add(PlaceDocument& place) {
-    if (!IsPlainName(options_.add)) {
-      return Status::Error("--add", "\"" + options_.add + "\" is no name",
-                           "use letters, digits, '_' and '-'");
-    }
-    if (Find(place, options_.add).ok()) {
-      return Status::Error("--add",
-                           place.name + " has an occluder \"" + options_.add + "\" already",
-                           "change it with --set");
-    }
+    LARARIUM_RETURN_IF_ERROR(CheckNewName(place.occluders, "--add", options_.add));
     OccluderDocument occluder;
     if (const ShapeEntry* entry = FindShapeEntry(options_.shape)) {
       occluder = NewOccluder(options_.add, entry->usual);
@@ -209,13 +258,8 @@ class OccluderWorker {
   }
 
   Result<OccluderDocument*> Find(PlaceDocument& place, const std::string& name) {
-    if (OccluderDocument* occluder = place.FindOccluder(name)) {
-      return occluder;
-    }
-    const std::string known = OccluderNames(place);
-    return Status::Error(paths_.Project().string(),
-                         place.name + " has no occluder \"" + name + "\"",
-                         known.empty() ? "add it with --add" : "it has " + known);
+    return FindNamed(place.occluders, name, paths_.Project().string(),
+                     place.name + " has no occluder");
   }
 
   static void List(const PlaceDocument& place, CommandResult& result) {

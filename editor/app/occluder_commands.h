@@ -1,6 +1,6 @@
 #pragma once
 
-// The subcommand occluder: what the window does with occluders that are not drawn on images.
+// The subcommand occluder: what the window does with occluders.
 
 #include "editor/app/options.h"
 #include "editor/app/subcommands.h"

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "editor/app/camera_measure.h"
+#include "editor/app/place_probe_commands.h"
 #include "editor/bake/exr_image.h"
 #include "editor/bake/hdr_merge.h"
 #include "editor/bake/mirror_ball.h"
@@ -239,31 +240,9 @@ Result<CommandResult> Ball(const ProbeOptions& options) {
 }
 
 Result<CommandResult> Match(const ProbeOptions& options) {
-  const std::vector<double>& n = options.pairs;
-  const glm::quat identity(1.0f, 0.0f, 0.0f, 0.0f);
-  bake::DirectionMatch match;
-  if (n.size() == 2) {
-    LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage image, bake::ReadProbeImage(options.files[0]));
-    const glm::vec3 sun = bake::SplitSun(image).brightest.direction;
-    const glm::vec3 goal = Direction(n[0], n[1]);
-    match.stage_from_probe =
-        options.level ? bake::TurnedTo(identity, sun, goal) : bake::DraggedTo(identity, sun, goal);
-    match.residual =
-        std::acos(std::clamp(glm::dot(match.stage_from_probe * sun, goal), -1.0f, 1.0f));
-  } else if (n.size() == 4) {
-    const glm::vec3 from = Direction(n[0], n[1]);
-    const glm::vec3 goal = Direction(n[2], n[3]);
-    match.stage_from_probe = options.level ? bake::TurnedTo(identity, from, goal)
-                                           : bake::DraggedTo(identity, from, goal);
-    match.residual =
-        std::acos(std::clamp(glm::dot(match.stage_from_probe * from, goal), -1.0f, 1.0f));
-  } else if (n.size() == 8) {
-    LARARIUM_ASSIGN_OR_RETURN(
-        match, bake::MatchDirections({Direction(n[0], n[1]), Direction(n[2], n[3])},
-                                     {Direction(n[4], n[5]), Direction(n[6], n[7])}));
-  } else {
-    return Status::Error("--to", "takes 2, 4 or 8 numbers");
-  }
+  LARARIUM_ASSIGN_OR_RETURN(
+      const bake::DirectionMatch match,
+      MatchProbe(options, options.files[0], glm::quat(1.0f, 0.0f, 0.0f, 0.0f)));
   const glm::quat& q = match.stage_from_probe;
   CommandResult result;
   result.text = Text("rotation (w, x, y, z) %.5f, %.5f, %.5f, %.5f; %.2f degrees off\n", q.w, q.x,
@@ -278,23 +257,7 @@ glm::vec3 Vector(const std::vector<double>& v) {
 
 Result<CommandResult> Scale(const ProbeOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage image, bake::ReadProbeImage(options.files[0]));
-  light::CameraResponse response = light::SrgbResponse();
-  if (!options.response.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(response, LoadCameraResponse(options.response));
-  }
-  bake::GreyPatch patch;
-  for (int c = 0; c < 3; ++c) {
-    patch.linear[c] =
-        response
-            .linear[c][static_cast<size_t>(std::clamp(std::lround(options.pixel[c]), 0L, 255L))];
-  }
-  patch.gain = Vector(options.gain);
-  patch.albedo = Vector(options.albedo);
-  const glm::vec3 normal = Vector(options.normal);
-  if (!(glm::length(normal) > 1e-3f)) {
-    return Status::Error("--normal", "is no direction");
-  }
-  patch.normal = glm::normalize(normal);
+  LARARIUM_ASSIGN_OR_RETURN(const bake::GreyPatch patch, GreyPatchOf(options));
   const bake::ProbePlacement placement = {
       glm::angleAxis(glm::radians(static_cast<float>(options.turn)), glm::vec3(0.0f, 1.0f, 0.0f)),
       1.0f};
@@ -313,6 +276,53 @@ Result<CommandResult> Scale(const ProbeOptions& options) {
 
 }  // namespace
 
+Result<bake::DirectionMatch> MatchProbe(const ProbeOptions& options,
+                                        const std::filesystem::path& file,
+                                        const glm::quat& stage_from_probe) {
+  const std::vector<double>& n = options.pairs;
+  if (n.size() == 8) {
+    return bake::MatchDirections({Direction(n[0], n[1]), Direction(n[2], n[3])},
+                                 {Direction(n[4], n[5]), Direction(n[6], n[7])});
+  }
+  bake::DirectionPair pair;
+  if (n.size() == 2) {
+    LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage image, bake::ReadProbeImage(file));
+    pair = {bake::SplitSun(image).brightest.direction, Direction(n[0], n[1])};
+  } else if (n.size() == 4) {
+    pair = {Direction(n[0], n[1]), Direction(n[2], n[3])};
+  } else {
+    return Status::Error("the directions", "take 2, 4 or 8 numbers");
+  }
+  bake::DirectionMatch match;
+  match.stage_from_probe = options.level
+                               ? bake::TurnedTo(stage_from_probe, pair.in_probe, pair.in_stage)
+                               : bake::DraggedTo(stage_from_probe, pair.in_probe, pair.in_stage);
+  const float cosine = glm::dot(match.stage_from_probe * pair.in_probe, pair.in_stage);
+  match.residual = std::acos(std::clamp(cosine, -1.0f, 1.0f));
+  return match;
+}
+
+Result<bake::GreyPatch> GreyPatchOf(const ProbeOptions& options) {
+  light::CameraResponse response = light::SrgbResponse();
+  if (!options.response.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(response, LoadCameraResponse(options.response));
+  }
+  bake::GreyPatch patch;
+  for (int c = 0; c < 3; ++c) {
+    patch.linear[c] =
+        response
+            .linear[c][static_cast<size_t>(std::clamp(std::lround(options.pixel[c]), 0L, 255L))];
+  }
+  patch.gain = Vector(options.gain);
+  patch.albedo = Vector(options.albedo);
+  const glm::vec3 normal = Vector(options.normal);
+  if (!(glm::length(normal) > 1e-3f)) {
+    return Status::Error("--normal", "is no direction");
+  }
+  patch.normal = glm::normalize(normal);
+  return patch;
+}
+
 Result<CommandResult> RunProbe(const ProbeOptions& options) {
   switch (options.work) {
     case ProbeOptions::Work::kMerge:
@@ -323,6 +333,11 @@ Result<CommandResult> RunProbe(const ProbeOptions& options) {
       return Match(options);
     case ProbeOptions::Work::kScale:
       return Scale(options);
+    case ProbeOptions::Work::kList:
+    case ProbeOptions::Work::kAdd:
+    case ProbeOptions::Work::kSet:
+    case ProbeOptions::Work::kRemove:
+      return RunPlaceProbe(options);
     case ProbeOptions::Work::kInfo:
       break;
   }

@@ -9,7 +9,6 @@
 
 #include "editor/app/baking.h"
 #include "editor/app/credits.h"
-#include "editor/app/document_fields.h"
 #include "editor/app/dry_run.h"
 #include "editor/app/exporting.h"
 #include "editor/app/line_checks.h"
@@ -20,7 +19,6 @@
 #include "editor/app/sounds.h"
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
-#include "editor/app/thumbnail.h"
 #include "editor/bake/probe.h"
 #include "shared/bundle/bundle_writer.h"
 #include "shared/core/file.h"
@@ -153,28 +151,6 @@ Result<std::string> ChoosePlace(const ProjectPaths& paths,
   return document.places.front().name;
 }
 
-Result<stage::Pick> PickInImage(const vision::SceneDatabase& map,
-                                const std::string& place,
-                                const std::string& frame,
-                                uint32_t session,
-                                const Eigen::Vector2d& pixel) {
-  const auto image = std::find_if(map.keyframes.begin(), map.keyframes.end(),
-                                  [&](const vision::Keyframe& keyframe) {
-                                    return keyframe.name == frame && keyframe.session == session;
-                                  });
-  if (image == map.keyframes.end()) {
-    return Status::Error(
-        frame, "is no training image of the map of " + place,
-        map.keyframes.empty() ? "train the place" : "they begin with " + map.keyframes[0].name);
-  }
-  if (!map.camera.Contains(pixel)) {
-    return Status::Error(frame, "the pixel lies outside of the image",
-                         "it has " + std::to_string(map.camera.width) + " x " +
-                             std::to_string(map.camera.height) + " pixels");
-  }
-  return stage::Pick{image->frame_index, image->name, pixel, session};
-}
-
 Result<CommandResult> RunNew(const NewOptions& options) {
   const ProjectPaths paths{options.project};
   const std::filesystem::path folder = options.project.lexically_normal();
@@ -182,78 +158,6 @@ Result<CommandResult> RunNew(const NewOptions& options) {
   LARARIUM_RETURN_IF_ERROR(CreateProject(paths, options.title.empty() ? stem : options.title));
   return CommandResult{"made " + options.project.string() + "\n",
                        {{"project", options.project.string()}}};
-}
-
-namespace {
-
-Result<CastDocument> ChosenFigure(const CastOptions& options, const ProjectPaths& paths) {
-  CastDocument member;
-  member.name = options.name;
-  member.preset = options.preset;
-  if (!options.recipe.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(member.recipe, import::LoadCastRecipe(options.recipe));
-  }
-  member.model = options.model.empty() ? "" : paths.Shorten(options.model);
-  member.bone_map = options.bone_map.empty() ? "" : paths.Shorten(options.bone_map);
-  member.height = options.height.value_or(member.height);
-  if (!options.tunic.empty()) {
-    member.tunic = {options.tunic[0], options.tunic[1], options.tunic[2]};
-  }
-  return member;
-}
-
-Result<CastDocument> WithClip(CastDocument member,
-                              const CastOptions& options,
-                              const ProjectPaths& paths) {
-  ClipDocument clip;
-  clip.name = options.clip_name.empty() ? options.add_clip.stem().string() : options.clip_name;
-  clip.file = paths.Shorten(options.add_clip);
-  clip.loops = options.loops;
-  if (!IsPlainName(clip.name)) {
-    return Status::Error("clip " + clip.name, "cannot be called so",
-                         "name it with --clip-name: letters, digits, '_' and '-'");
-  }
-  std::erase_if(member.clips, [&](const ClipDocument& other) { return other.name == clip.name; });
-  member.clips.push_back(clip);
-  return member;
-}
-
-}  // namespace
-
-Result<CommandResult> RunCast(const CastOptions& options) {
-  const ProjectPaths paths{options.project};
-  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  if (!IsPlainName(options.name)) {
-    return Status::Error("--name " + options.name, "cannot name a person",
-                         "use 1 to 64 letters, digits, '_' and '-'");
-  }
-  const auto known = std::find_if(document.cast.begin(), document.cast.end(),
-                                  [&](const auto& m) { return m.name == options.name; });
-  if (!options.add_clip.empty() && known == document.cast.end()) {
-    return Status::Error(paths.Project().string(), "has nobody called \"" + options.name + "\"",
-                         "add the person first");
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const CastDocument member, options.add_clip.empty()
-                                                           ? ChosenFigure(options, paths)
-                                                           : WithClip(*known, options, paths));
-  if (known == document.cast.end()) {
-    document.cast.push_back(member);
-  } else {
-    *known = member;
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const human::Human human, BakeHuman(paths, member));
-  LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
-  Json clips = Json::array();
-  std::string text;
-  if (const Status drawn = LeaveThumbnail(paths.Human(member.name), human); !drawn.ok()) {
-    text += "no thumbnail: " + drawn.message() + "\n";  // machines without OpenGL
-  }
-  text += member.name + ": clips";
-  for (const human::Clip& clip : human.clips) {
-    clips.push_back(clip.name);
-    text += " " + clip.name;
-  }
-  return CommandResult{text + "\n", {{"name", member.name}, {"clips", clips}}};
 }
 
 Result<CommandResult> RunBake(const BakeOptions& options, Progress& progress) {

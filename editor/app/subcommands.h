@@ -3,8 +3,6 @@
 // The steps of authoring without the window. Each returns what it did, as text
 // and as JSON.
 
-#include <Eigen/Core>
-#include <cstdint>
 #include <string>
 
 #include "editor/app/options.h"
@@ -14,9 +12,7 @@
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/show/show_content.h"
-#include "shared/stage/picks.h"
 #include "shared/stage/stage.h"
-#include "shared/vision/scene_database.h"
 
 namespace lararium::app {
 
@@ -39,13 +35,6 @@ Result<std::string> ChoosePlace(const ProjectPaths& paths,
                                 const ProjectDocument& document,
                                 const std::string& name);
 
-// A pixel of a training image that options name. place: the name of the map's.
-Result<stage::Pick> PickInImage(const vision::SceneDatabase& map,
-                                const std::string& place,
-                                const std::string& frame,
-                                uint32_t session,
-                                const Eigen::Vector2d& pixel);
-
 Result<CommandResult> RunNew(const NewOptions& options);
 Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, Log& log);
 Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
@@ -54,7 +43,6 @@ Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
 Result<CommandResult> RunExportColmap(const ExportColmapOptions& options);
 Result<CommandResult> RunMeasure(const MeasureOptions& options);
 Result<CommandResult> RunPrune(const PruneOptions& options, Progress& progress);
-Result<CommandResult> RunCast(const CastOptions& options);
 Result<CommandResult> RunBake(const BakeOptions& options, Progress& progress);
 Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress);
 Result<CommandResult> RunCredits(const CreditsOptions& options);

@@ -12,6 +12,7 @@
 #include "editor/app/project.h"
 #include "editor/app/sounds.h"
 #include "editor/app/timeline_fields.h"
+#include "editor/app/timeline_item_commands.h"
 #include "editor/export/otio.h"
 #include "editor/import/bml.h"
 #include "shared/core/file.h"
@@ -40,22 +41,6 @@ std::string NameOfItem(LaneKind kind, const Json& fields) {
     default:
       return TextOf(fields, NamingField(kind));
   }
-}
-
-// What somebody did by the script belongs to the lane that could have told it.
-LaneKind LaneOfTask(const std::string& action) {
-  constexpr std::pair<std::string_view, LaneKind> kLanes[] = {
-      {"say", LaneKind::kSpeech},          {"gesture", LaneKind::kGestures},
-      {"play", LaneKind::kClips},          {"look_at", LaneKind::kGaze},
-      {"express", LaneKind::kExpressions}, {"walk_to", LaneKind::kWalks},
-      {"turn_to", LaneKind::kWalks}};
-  const std::string_view word = std::string_view(action).substr(0, action.find(' '));
-  for (const auto& [name, lane] : kLanes) {
-    if (name == word) {
-      return lane;
-    }
-  }
-  return LaneKind::kUses;
 }
 
 class TimelineMaker {
@@ -270,6 +255,9 @@ Status InsertItem(const import::BmlItem& item, drama::TimelineText& text) {
 }  // namespace
 
 Result<CommandResult> RunTimeline(const TimelineOptions& options, Progress& progress) {
+  if (options.out.empty()) {
+    return EditTimeline(options, progress);
+  }
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
   LARARIUM_ASSIGN_OR_RETURN(const ProjectLines lines, LoadProjectLines(paths, document));

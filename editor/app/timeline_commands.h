@@ -9,7 +9,8 @@
 
 namespace lararium::app {
 
-// Runs the drama dry and writes what its tracks say and what its script did.
+// Edits the timeline (timeline_item_commands.h); with a file to write, runs the drama dry and
+// writes what its tracks say and what its script did.
 Result<CommandResult> RunTimeline(const TimelineOptions& options, Progress& progress);
 
 // Adds a BML block's behaviours to the tracks of drama.lua, in place.

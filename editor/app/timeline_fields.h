@@ -1,8 +1,10 @@
 #pragma once
 
-// What an item of a timeline says in its fields.
+// What an item of a timeline says in its fields, and in which lane things are told.
 
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "shared/core/json.h"
 #include "shared/drama/timeline_lanes.h"
@@ -40,6 +42,24 @@ inline const char* NamingField(drama::LaneKind kind) {
       return "name";
   }
   return "";
+}
+
+// The kind of lane that would hold what a task of that action did ("walk_to", "say salvete").
+inline drama::LaneKind LaneOfTask(std::string_view action) {
+  using drama::LaneKind;
+  constexpr std::pair<std::string_view, LaneKind> kKnown[] = {
+      {"say", LaneKind::kSpeech},          {"walk_to", LaneKind::kWalks},
+      {"turn_to", LaneKind::kWalks},       {"walk", LaneKind::kWalks},
+      {"hide", LaneKind::kWalks},          {"play", LaneKind::kGestures},
+      {"gesture", LaneKind::kGestures},    {"look_at", LaneKind::kGaze},
+      {"express", LaneKind::kExpressions}, {"marker", LaneKind::kMarkers}};
+  const std::string_view word = action.substr(0, action.find(' '));
+  for (const auto& [name, lane] : kKnown) {
+    if (word == name) {
+      return lane;
+    }
+  }
+  return LaneKind::kUses;
 }
 
 }  // namespace lararium::app

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/app/occluder_alignment.h"
+#include "editor/app/place_edits.h"
 #include "editor/panels/cast_inspector.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
@@ -195,16 +195,9 @@ void ShowFloor(app::Workspace& workspace, const app::PlaceDocument& place) {
   LayOnFloorButton(workspace);
 }
 
-// Models lie in stage metres: what is built at one place is often there at the other too.
 void TakeOverOccluders(app::Workspace& workspace, const app::PlaceDocument& from) {
   workspace.EditPlace(Text(Tr("take over the occluders of %s"), from.name.c_str()),
-                      [&](app::PlaceDocument& place) {
-                        for (const app::OccluderDocument& occluder : from.occluders) {
-                          if (!occluder.drawn() && place.FindOccluder(occluder.name) == nullptr) {
-                            place.occluders.push_back(app::WithoutPicks(occluder));
-                          }
-                        }
-                      });
+                      [&](app::PlaceDocument& place) { app::TakeOverOccluders(from, place); });
 }
 
 // Among several places.

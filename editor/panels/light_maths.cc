@@ -81,18 +81,6 @@ Eigen::Vector2d PanoramaPoint(const glm::vec3& direction) {
   return {azimuth / (2.0 * kPi) + 0.5, 0.5 - elevation / kPi};
 }
 
-glm::vec3 BalanceOf(const WhiteBalance& white) {
-  return {std::exp2(0.5 * white.warmth - white.tint / 3.0), std::exp2(2.0 * white.tint / 3.0),
-          std::exp2(-0.5 * white.warmth - white.tint / 3.0)};
-}
-
-WhiteBalance WhiteBalanceOf(const glm::vec3& balance) {
-  const double red = std::log2(static_cast<double>(balance.r));
-  const double green = std::log2(static_cast<double>(balance.g));
-  const double blue = std::log2(static_cast<double>(balance.b));
-  return {red - blue, green - 0.5 * (red + blue)};
-}
-
 std::optional<SurfacePoint> FindSurface(const Ray& ray_in_stage,
                                         std::span<const stage::Occluder> occluders) {
   Hit hit;

@@ -18,16 +18,6 @@ namespace lararium::panels {
 glm::vec3 PanoramaDirection(double x, double y);
 Eigen::Vector2d PanoramaPoint(const glm::vec3& direction);
 
-// A balance of channels as people think of it. Both in stops: warmth is red over blue, tint
-// green over the two.
-struct WhiteBalance {
-  double warmth = 0.0;
-  double tint = 0.0;
-};
-// The product of the channels is 1.
-glm::vec3 BalanceOf(const WhiteBalance& white);
-WhiteBalance WhiteBalanceOf(const glm::vec3& balance);
-
 // What a ray meets first of a place's occluders, and its floor (y = 0) where it meets none.
 struct SurfacePoint {
   glm::vec3 point = glm::vec3(0.0f);               // metres, stage axes

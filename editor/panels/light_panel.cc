@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "editor/app/white_balance.h"
 #include "editor/panels/light_maths.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -223,12 +224,12 @@ void ShowBrightness(app::Workspace& workspace, EditorState& state, const ProbeDo
       changed.scale = std::exp2(stops);
       EditProbe(workspace, changed, Tr("the light's exposure"), "probe exposure");
     }
-    WhiteBalance white = WhiteBalanceOf(geometry::ToGlm(probe.balance));
+    app::WhiteBalance white = app::WhiteBalanceOf(geometry::ToGlm(probe.balance));
     bool balanced =
         SliderProperty(workspace, Tr("Warmth"), white.warmth, -2.0, 2.0, Tr("%+.2f stops"));
     balanced |= SliderProperty(workspace, Tr("Tint"), white.tint, -1.0, 1.0, Tr("%+.2f stops"));
     if (balanced) {
-      const glm::vec3 balance = BalanceOf(white);
+      const glm::vec3 balance = app::BalanceOf(white);
       changed.balance = {balance.r, balance.g, balance.b};
       EditProbe(workspace, changed, Tr("the light's white balance"), "probe balance");
     }

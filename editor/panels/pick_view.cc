@@ -12,6 +12,7 @@
 #include "editor/app/check_points.h"
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/occluder_alignment.h"
+#include "editor/app/place_edits.h"
 #include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
@@ -42,9 +43,8 @@ void SetPick(app::Workspace& workspace,
              const Vector2d& pixel) {
   const AnchorEntry& entry = kAnchors[static_cast<size_t>(anchor_index)];
   workspace.EditPlace(Text(Tr("pick %s"), Tr(entry.label)), [&](app::PlaceDocument& place) {
-    std::vector<stage::Pick>& picks = (place.picks.*entry.anchor).picks;
-    std::erase_if(picks, [&](const stage::Pick& pick) { return stage::LiesIn(pick, keyframe); });
-    picks.push_back({keyframe.frame_index, keyframe.name, pixel, keyframe.session});
+    app::SetPick(place.picks.*entry.anchor,
+                 {keyframe.frame_index, keyframe.name, pixel, keyframe.session});
   });
 }
 

@@ -282,9 +282,8 @@ void NewLanguage(Item& item, const bake::LineTable& table) {
   PropertyLabel(Tr("Language"));
   ImGui::InputTextWithHint("##language", Tr("la, it, en: then Enter"), &tag);
   if (ImGui::IsItemDeactivatedAfterEdit() && stage::IsLanguageTag(tag)) {
-    bake::LineTable next = table;
-    if (std::find(next.languages.begin(), next.languages.end(), tag) == next.languages.end()) {
-      next.languages.push_back(tag);
+    bake::LineTable next = app::WithLanguage(table, tag);
+    if (next != table) {
       item.workspace.EditLines(Text(Tr("add the language %s"), tag.c_str()), std::move(next));
     }
     tag.clear();
@@ -436,7 +435,7 @@ void ShowBlock(app::Workspace& workspace, EditorState& state, const drama::TaskR
 
 void ShowTimelineInspector(app::Workspace& workspace,
                            EditorState& state,
-                           const ItemSet& selection,
+                           const app::ItemSet& selection,
                            std::optional<uint32_t> block) {
   const drama::TimelineText* text = workspace.script().timeline();
   const app::DramaRun* run = workspace.drama_run();
@@ -448,7 +447,7 @@ void ShowTimelineInspector(app::Workspace& workspace,
   if (selection.size() == 1) {
     ShowItem(workspace, state, selection.front());
   } else if (selection.size() > 1) {
-    const TimeSpan span = SpanOf(*text, selection);
+    const app::TimeSpan span = app::SpanOf(*text, selection);
     Heading(TrCount("%d item", "%d items", static_cast<int>(selection.size())).c_str());
     DimText(FormatTime(span.begin, 0.01) + " \xe2\x80\x93 " + FormatTime(span.end, 0.01));
     Hint(

@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <optional>
 
+#include "editor/app/timeline_edits.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
-#include "editor/panels/timeline_edits.h"
 
 namespace lararium::panels {
 
 // block: a task of the dry run, where no item is chosen.
 void ShowTimelineInspector(app::Workspace& workspace,
                            EditorState& state,
-                           const ItemSet& selection,
+                           const app::ItemSet& selection,
                            std::optional<uint32_t> block);
 
 }  // namespace lararium::panels

@@ -36,19 +36,6 @@ constexpr float kInspector = 300.0f;
 
 uint64_t KeyOf(const TimelineItem& item) { return uint64_t{item.lane} << 40 | item.item; }
 
-// How long something that an item told took when it was played; 0: it is not known.
-double PlayedSeconds(std::span<const TaskRecord> tasks, const TimelineLane& lane, double at) {
-  constexpr double kLate = 0.05;  // seconds: it begins with a tick
-  auto task = std::lower_bound(tasks.begin(), tasks.end(), at - 1e-6,
-                               [](const TaskRecord& t, double time) { return t.began < time; });
-  for (; task != tasks.end() && task->began <= at + kLate; ++task) {
-    if (task->from_timeline && task->actor == lane.actor && LaneOfTask(*task) == lane.kind) {
-      return task->ended - task->began;
-    }
-  }
-  return 0.0;
-}
-
 bool ToggleButton(const std::string& label, bool& on, const std::string& tip) {
   ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
   const bool pressed = ImGui::Button(label.c_str());
@@ -97,7 +84,7 @@ void TimelinePanel::Refresh(const app::Workspace& workspace) {
     }
   }
   if (script.timeline() != nullptr) {
-    KeepValid(*script.timeline(), selection_);
+    app::KeepValid(*script.timeline(), selection_);
   } else {
     selection_.clear();
   }
@@ -123,38 +110,31 @@ const TimelinePanel::Face& TimelinePanel::FaceOf(const app::Workspace& workspace
   if (run == nullptr || lane.length[item.item] > 0.0) {
     return face;
   }
-  if (!face.line.empty()) {
-    const app::StageWords::Line* line = run->words.FindLine(face.line);
-    face.natural = line != nullptr ? line->seconds : 0.0;
-  } else if (lane.kind == LaneKind::kGestures) {
-    face.natural = run->words.ClipSeconds(lane.actor, TextOf(fields, "clip"));
-  } else if (lane.kind == LaneKind::kWalks || lane.kind == LaneKind::kUses) {
-    face.natural = PlayedSeconds(run->tasks, lane, lane.at[item.item]);
-  }
+  face.natural = app::NaturalSeconds(text, item, *run);
   face.natural = std::min(face.natural, kLongNatural);
   return face;
 }
 
-TimeSpan TimelinePanel::Shown(const app::Workspace& workspace, const TimelineItem& item) {
+app::TimeSpan TimelinePanel::Shown(const app::Workspace& workspace, const TimelineItem& item) {
   const TimelineLane& lane = workspace.script().timeline()->lanes()[item.lane];
-  TimeSpan span{lane.at[item.item], lane.at[item.item] + lane.length[item.item]};
+  app::TimeSpan span{lane.at[item.item], lane.at[item.item] + lane.length[item.item]};
   if (lane.length[item.item] <= 0.0 && lane.kind != LaneKind::kMarkers) {
     span.end = span.begin + FaceOf(workspace, item).natural;
   }
-  if (drag_.by != 0.0 && Contains(selection_, item)) {
+  if (drag_.by != 0.0 && app::Contains(selection_, item)) {
     if (drag_.kind == Drag::Kind::kMove) {
       span.begin += drag_.by;
       span.end += drag_.by;
     } else if (drag_.kind == Drag::Kind::kTrimBegin) {
-      span.begin = std::clamp(span.begin + drag_.by, 0.0, std::max(span.end - kShortest, 0.0));
+      span.begin = std::clamp(span.begin + drag_.by, 0.0, std::max(span.end - app::kShortest, 0.0));
     } else if (drag_.kind == Drag::Kind::kTrimEnd) {
-      span.end = std::max(span.end + drag_.by, span.begin + kShortest);
+      span.end = std::max(span.end + drag_.by, span.begin + app::kShortest);
     }
   }
   return span;
 }
 
-std::pair<float, float> TimelinePanel::Extent(const TimeSpan& span) const {
+std::pair<float, float> TimelinePanel::Extent(const app::TimeSpan& span) const {
   const float x0 = scale_.XOf(span.begin);
   return {x0, std::max(scale_.XOf(span.end), x0 + Px(kLeastItem))};
 }
@@ -217,7 +197,7 @@ void TimelinePanel::DrawItems(const app::Workspace& workspace,
     float filled_to = scale_.left - 1.0f;
     for (const uint32_t number : found_) {
       const TimelineItem item{lane, number};
-      const bool selected = Contains(selection_, item);
+      const bool selected = app::Contains(selection_, item);
       // Where many lie in one pixel, one stands for all.
       const double end = in.at[number] + std::max(in.length[number], 0.0);
       const float plain_end = std::max(scale_.XOf(end), scale_.XOf(in.at[number]) + 1.0f);
@@ -225,8 +205,8 @@ void TimelinePanel::DrawItems(const app::Workspace& workspace,
         continue;
       }
       const bool dense = scale_.seconds_per_px > 0.5 && in.size() > 5000;
-      const TimeSpan span =
-          dense && !selected ? TimeSpan{in.at[number], end} : Shown(workspace, item);
+      const app::TimeSpan span =
+          dense && !selected ? app::TimeSpan{in.at[number], end} : Shown(workspace, item);
       auto [x0, x1] = Extent(span);
       if (dense && !selected) {
         x1 = std::max(scale_.XOf(span.end), x0 + 1.0f);

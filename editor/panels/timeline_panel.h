@@ -12,9 +12,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "editor/app/timeline_edits.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
-#include "editor/panels/timeline_edits.h"
 #include "editor/panels/timeline_maths.h"
 #include "editor/panels/timeline_rows.h"
 
@@ -51,7 +51,7 @@ class TimelinePanel {
     double by = 0.0;              // seconds, as it is snapped
     double snapped_to = -1.0;     // a time that is drawn; below 0: none
     double pan_first = 0.0;       // of the scale when it began
-    ItemSet before;               // what was selected
+    app::ItemSet before;          // what was selected
     std::vector<double> marks;    // what times snap to
   };
   // What is under the mouse.
@@ -65,7 +65,7 @@ class TimelinePanel {
 
   void Refresh(const app::Workspace& workspace);
   const Face& FaceOf(const app::Workspace& workspace, const drama::TimelineItem& item);
-  TimeSpan Shown(const app::Workspace& workspace, const drama::TimelineItem& item);
+  app::TimeSpan Shown(const app::Workspace& workspace, const drama::TimelineItem& item);
 
   // Snap, ripple and fit: as buttons, or in a menu where those do not fit.
   void ShowSwitches(const app::Workspace& workspace);
@@ -102,7 +102,7 @@ class TimelinePanel {
   int RowAt(float y) const;
   void FillShown();
   // x0 and x1 of what takes a time on the screen; at least wide enough to be hit.
-  std::pair<float, float> Extent(const TimeSpan& span) const;
+  std::pair<float, float> Extent(const app::TimeSpan& span) const;
 
   Hit HitAt(const app::Workspace& workspace, const ImVec2& mouse, float rows_top);
   void HandleMouse(app::Workspace& workspace, EditorState& state, float rows_top, bool hovered);
@@ -147,7 +147,7 @@ class TimelinePanel {
   bool open_context_ = false;
   bool scroll_to_chosen_ = false;  // in the rows that are shown next
   Hit context_;
-  ItemSet selection_;
+  app::ItemSet selection_;
   std::optional<uint32_t> block_;  // a task that is selected
   Drag drag_;
   std::vector<TimelineRow> rows_;          // all

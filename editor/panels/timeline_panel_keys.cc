@@ -28,11 +28,11 @@ constexpr double kNudge = 0.1;
 }  // namespace
 
 void TimelinePanel::Add(app::Workspace& workspace, LaneKind kind, const std::string& actor) {
-  ItemSet added;
+  app::ItemSet added;
   const double at = std::round(workspace.time() * 100.0) / 100.0;
   const bool done =
       workspace.EditTimeline(Text(Tr("add %s"), ItemTitle(kind)), [&](TimelineText& text) {
-        return AddItem(text, kind, actor, NewFields(workspace, kind, actor, at), added);
+        return app::AddItem(text, kind, actor, NewFields(workspace, kind, actor, at), added);
       });
   if (done) {
     selection_ = added;
@@ -48,7 +48,7 @@ void TimelinePanel::Delete(app::Workspace& workspace) {
   const std::string name = NameOfSelection(workspace);
   const bool done = workspace.EditTimeline(
       Text(Tr("delete %s"), name.c_str()),
-      [&](TimelineText& text) { return DeleteItems(text, selection_, ripple_); });
+      [&](TimelineText& text) { return app::DeleteItems(text, selection_, ripple_); });
   if (done) {
     selection_.clear();
   }
@@ -57,19 +57,19 @@ void TimelinePanel::Delete(app::Workspace& workspace) {
 void TimelinePanel::Copy(const app::Workspace& workspace) {
   if (!selection_.empty()) {
     ImGui::SetClipboardText(
-        FormatCopied(CopyItems(*workspace.script().timeline(), selection_)).c_str());
+        app::FormatCopied(app::CopyItems(*workspace.script().timeline(), selection_)).c_str());
   }
 }
 
 void TimelinePanel::Paste(app::Workspace& workspace) {
   const char* clipboard = ImGui::GetClipboardText();
-  const auto items = clipboard != nullptr ? ParseCopied(clipboard) : std::nullopt;
+  const auto items = clipboard != nullptr ? app::ParseCopied(clipboard) : std::nullopt;
   if (!items || items->empty()) {
     return;
   }
-  ItemSet added;
+  app::ItemSet added;
   const bool done = workspace.EditTimeline(Tr("paste"), [&](TimelineText& text) {
-    return PasteItems(text, *items, workspace.time(), added);
+    return app::PasteItems(text, *items, workspace.time(), added);
   });
   if (done) {
     selection_ = added;
@@ -85,12 +85,12 @@ void TimelinePanel::Duplicate(app::Workspace& workspace) {
   for (const TimelineItem& item : selection_) {
     end = std::max(end, Shown(workspace, item).end);
   }
-  const std::vector<CopiedItem> copied = CopyItems(text, selection_);
-  const double at = std::max(end, SpanOf(text, selection_).begin + 0.5);
-  ItemSet added;
+  const std::vector<app::CopiedItem> copied = app::CopyItems(text, selection_);
+  const double at = std::max(end, app::SpanOf(text, selection_).begin + 0.5);
+  app::ItemSet added;
   const bool done = workspace.EditTimeline(
       Text(Tr("duplicate %s"), NameOfSelection(workspace).c_str()),
-      [&](TimelineText& changed) { return PasteItems(changed, copied, at, added); });
+      [&](TimelineText& changed) { return app::PasteItems(changed, copied, at, added); });
   if (done) {
     selection_ = added;
   }
@@ -100,7 +100,7 @@ void TimelinePanel::Nudge(app::Workspace& workspace, double seconds) {
   if (!selection_.empty()) {
     workspace.EditTimeline(
         Text(Tr("move %s"), NameOfSelection(workspace).c_str()),
-        [&](TimelineText& text) { return MoveItems(text, selection_, seconds, ripple_); });
+        [&](TimelineText& text) { return app::MoveItems(text, selection_, seconds, ripple_); });
   }
 }
 
@@ -109,11 +109,11 @@ void TimelinePanel::TrimToPlayhead(app::Workspace& workspace, bool begins) {
     return;
   }
   const std::vector<double> naturals = Naturals(workspace);
-  const TimeSpan span = Shown(workspace, selection_.front());
+  const app::TimeSpan span = Shown(workspace, selection_.front());
   const std::string name = Text(Tr("trim %s"), NameOfSelection(workspace).c_str());
   workspace.EditTimeline(name, [&](TimelineText& text) {
-    return begins ? TrimBegins(text, selection_, naturals, workspace.time() - span.begin)
-                  : TrimEnds(text, selection_, naturals, workspace.time() - span.end, ripple_);
+    return begins ? app::TrimBegins(text, selection_, naturals, workspace.time() - span.begin)
+                  : app::TrimEnds(text, selection_, naturals, workspace.time() - span.end, ripple_);
   });
 }
 

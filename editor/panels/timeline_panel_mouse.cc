@@ -41,7 +41,7 @@ TimelinePanel::Hit TimelinePanel::HitAt(const app::Workspace& workspace,
   const TimelineRow& row = *shown_[static_cast<size_t>(hit.row)];
   const double before = scale_.TimeAt(mouse.x - Px(kLeastItem));
   const double after = scale_.TimeAt(mouse.x + Px(1));
-  const auto covers = [&](const TimeSpan& span) {
+  const auto covers = [&](const app::TimeSpan& span) {
     const auto [x0, x1] = Extent(span);
     if (mouse.x < x0 || mouse.x > x1) {
       return false;
@@ -115,10 +115,10 @@ void TimelinePanel::BeginDrag(app::Workspace& workspace,
     return;
   }
   if (adds) {
-    Toggle(selection_, *hit.item);
+    app::Toggle(selection_, *hit.item);
     return;
   }
-  if (!Contains(selection_, *hit.item)) {
+  if (!app::Contains(selection_, *hit.item)) {
     selection_ = {*hit.item};
   }
   drag_.grabbed = *hit.item;
@@ -131,7 +131,7 @@ void TimelinePanel::BeginDrag(app::Workspace& workspace,
   for (size_t lane = 0; lane < text.lanes().size(); ++lane) {
     const TimelineLane& in = text.lanes()[lane];
     for (size_t i = 0; i < in.size(); ++i) {
-      if (!Contains(selection_, {lane, i})) {
+      if (!app::Contains(selection_, {lane, i})) {
         drag_.marks.push_back(in.at[i]);
         drag_.marks.push_back(in.at[i] + in.length[i]);
       }
@@ -151,7 +151,7 @@ void TimelinePanel::BeginDrag(app::Workspace& workspace,
 void TimelinePanel::SnapDrag(const app::Workspace& workspace, double by) {
   const TimelineText& text = *workspace.script().timeline();
   const double by_before = std::exchange(drag_.by, 0.0);
-  const TimeSpan grabbed = Shown(workspace, drag_.grabbed);
+  const app::TimeSpan grabbed = Shown(workspace, drag_.grabbed);
   drag_.by = by_before;
   drag_.snapped_to = -1.0;
   if (snap_ && !ImGui::GetIO().KeyAlt) {
@@ -176,7 +176,7 @@ void TimelinePanel::SnapDrag(const app::Workspace& workspace, double by) {
     by += end_nearer ? of_end : of_begin;
   }
   if (drag_.kind == Drag::Kind::kMove) {
-    const double allowed = ClampMove(text, selection_, by, ripple_);
+    const double allowed = app::ClampMove(text, selection_, by, ripple_);
     drag_.snapped_to = allowed == by ? drag_.snapped_to : -1.0;
     by = allowed;
   }
@@ -236,7 +236,7 @@ void TimelinePanel::UpdateDrag(app::Workspace& workspace, float rows_top) {
 std::vector<double> TimelinePanel::Naturals(const app::Workspace& workspace) {
   std::vector<double> naturals;
   for (const TimelineItem& item : selection_) {
-    naturals.push_back(std::max(FaceOf(workspace, item).natural, kShortest));
+    naturals.push_back(std::max(FaceOf(workspace, item).natural, app::kShortest));
   }
   return naturals;
 }
@@ -261,15 +261,15 @@ void TimelinePanel::EndDrag(app::Workspace& workspace) {
   const std::vector<double> naturals = Naturals(workspace);
   if (drag.kind == Drag::Kind::kMove) {
     workspace.EditTimeline(Text(Tr("move %s"), name.c_str()), [&](TimelineText& text) {
-      return MoveItems(text, selection_, drag.by, ripple_);
+      return app::MoveItems(text, selection_, drag.by, ripple_);
     });
   } else if (drag.kind == Drag::Kind::kTrimBegin) {
     workspace.EditTimeline(Text(Tr("trim %s"), name.c_str()), [&](TimelineText& text) {
-      return TrimBegins(text, selection_, naturals, drag.by);
+      return app::TrimBegins(text, selection_, naturals, drag.by);
     });
   } else if (drag.kind == Drag::Kind::kTrimEnd) {
     workspace.EditTimeline(Text(Tr("trim %s"), name.c_str()), [&](TimelineText& text) {
-      return TrimEnds(text, selection_, naturals, drag.by, ripple_);
+      return app::TrimEnds(text, selection_, naturals, drag.by, ripple_);
     });
   }
 }
@@ -307,7 +307,7 @@ void TimelinePanel::HandleMouse(app::Workspace& workspace,
       drag_.from_y = io.MousePos.x;
     } else if (io.MouseClicked[ImGuiMouseButton_Right] && !in_gutter) {
       state.focus = Focus::kTimeline;
-      if (hit.item && !Contains(selection_, *hit.item)) {
+      if (hit.item && !app::Contains(selection_, *hit.item)) {
         selection_ = {*hit.item};
         block_.reset();
       }
@@ -349,7 +349,7 @@ void TimelinePanel::ShowTooltip(app::Workspace& workspace, const Hit& hit) {
   std::string times;
   std::string hint;
   if (hit.item) {
-    const TimeSpan span = Shown(workspace, *hit.item);
+    const app::TimeSpan span = Shown(workspace, *hit.item);
     const TimelineLane& lane = workspace.script().timeline()->lanes()[hit.item->lane];
     title = std::string(ItemTitle(lane.kind)) + ": " + FaceOf(workspace, *hit.item).label;
     times = FormatTime(span.begin, 0.01) + " \xe2\x80\x93 " + FormatTime(span.end, 0.01);

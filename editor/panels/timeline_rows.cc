@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "editor/app/timeline_fields.h"
+
 namespace lararium::panels {
 
 using drama::LaneKind;
@@ -38,22 +40,6 @@ TimelineRow BlocksRow(const std::string& group,
 
 }  // namespace
 
-LaneKind LaneOfTask(const TaskRecord& task) {
-  const std::string_view action = std::string_view(task.action).substr(0, task.action.find(' '));
-  constexpr std::pair<std::string_view, LaneKind> kKnown[] = {
-      {"say", LaneKind::kSpeech},          {"walk_to", LaneKind::kWalks},
-      {"turn_to", LaneKind::kWalks},       {"walk", LaneKind::kWalks},
-      {"hide", LaneKind::kWalks},          {"play", LaneKind::kGestures},
-      {"gesture", LaneKind::kGestures},    {"look_at", LaneKind::kGaze},
-      {"express", LaneKind::kExpressions}, {"marker", LaneKind::kMarkers}};
-  for (const auto& [name, lane] : kKnown) {
-    if (action == name) {
-      return lane;
-    }
-  }
-  return LaneKind::kUses;
-}
-
 std::vector<TimelineRow> MakeRows(const drama::TimelineText* text,
                                   std::span<const std::string> people,
                                   std::span<const TaskRecord> tasks) {
@@ -75,7 +61,7 @@ std::vector<TimelineRow> MakeRows(const drama::TimelineText* text,
     const TaskRecord& task = tasks[i];
     if (!task.from_timeline) {
       add_group(task.actor);
-      blocks[{task.actor, LaneOfTask(task)}].push_back(i);
+      blocks[{task.actor, app::LaneOfTask(task.action)}].push_back(i);
     }
     if (!task.object.empty()) {
       of_objects[task.object].push_back(i);

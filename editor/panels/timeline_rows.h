@@ -35,9 +35,6 @@ std::vector<TimelineRow> MakeRows(const drama::TimelineText* text,
                                   std::span<const std::string> people,
                                   std::span<const drama::TaskRecord> tasks);
 
-// The kind of lane that would hold what a task did.
-drama::LaneKind LaneOfTask(const drama::TaskRecord& task);
-
 // The line of "drama.lua:12"; 0: there is none. Also of messages that begin with such a place
 // and go on with ": " or a column.
 int LineOfPlace(std::string_view place, std::string_view file);

@@ -16,15 +16,6 @@ TEST(PanoramaDirection, IsThatOfProbesAndTurnsBack) {
   }
 }
 
-TEST(WhiteBalance, KeepsTheProductAndTurnsBack) {
-  const glm::vec3 balance = BalanceOf({0.6, -0.25});
-  EXPECT_NEAR(balance.r * balance.g * balance.b, 1.0f, 1e-6f);
-  EXPECT_NEAR(std::log2(balance.r / balance.b), 0.6f, 1e-6f);
-  const WhiteBalance back = WhiteBalanceOf(balance);
-  EXPECT_NEAR(back.warmth, 0.6, 1e-6);
-  EXPECT_NEAR(back.tint, -0.25, 1e-6);
-}
-
 stage::Occluder Wall() {
   stage::Occluder wall;
   wall.mesh.positions = {{-1, 0, 0}, {1, 0, 0}, {1, 2, 0}, {-1, 2, 0}};

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
-#include "tests/support/test_files.h"
+#include "editor/app/text.h"
+#include "tests/app/two_places.h"
 
 namespace lararium::app {
 namespace {
@@ -101,6 +103,78 @@ TEST_F(Occluders, WhatWasDrawnHasADepthAndFlagsButNoPlace) {
   EXPECT_THAT(Problem({.set = "face1", .at = {0, 0, 0}}), HasSubstr("drawn on training images"));
   EXPECT_THAT(Problem({.set = "face1", .sizes = {"width=1"}}), HasSubstr("it has depth"));
   EXPECT_THAT(Problem({.set = "face1", .sizes = {"depth=-1"}}), HasSubstr("between 0 and 1000"));
+}
+
+class DrawnByPicks : public testing::Test, protected test::TwoPlacesProject {
+ protected:
+  Result<CommandResult> Run(OccluderOptions options) {
+    options.project = paths_.folder;
+    options.place = "site";
+    return RunOccluder(options);
+  }
+  // As --seen takes it: a counter's front, half a metre high.
+  std::string Seen(size_t keyframe) {
+    const vision::SceneDatabase map = MapOf(world_, test::kSiteFromStage);
+    std::string text = map.keyframes[keyframe].name;
+    for (const Vector3d& corner : kCorners) {
+      const Eigen::Vector2d pixel = See(world_, map, corner, keyframe).pixel;
+      text += Text(",%.6f,%.6f", pixel.x(), pixel.y());
+    }
+    return text;
+  }
+  OccluderDocument Saved(size_t index) {
+    return LoadProject(paths_)->places[1].occluders.at(index);
+  }
+
+  const std::array<Vector3d, 4> kCorners = {
+      Vector3d(-0.6, 0.0, 0.4), {0.6, 0.0, 0.4}, {0.6, 0.5, 0.4}, {-0.6, 0.5, 0.4}};
+};
+
+TEST_F(DrawnByPicks, CornersInTwoImagesMakeAFaceWhereTheyAre) {
+  const auto drawn = Run({.draw = "counter",
+                          .seen = {Seen(2), Seen(9)},
+                          .sizes = {"depth=0.3"},
+                          .blocks_sound = "no"});
+  ASSERT_TRUE(drawn.ok()) << drawn.message();
+  EXPECT_THAT(drawn->text, HasSubstr("counter: 4 corners, 0.00 px off; 0.0 cm off their plane"));
+  const OccluderDocument counter = Saved(1);
+  EXPECT_EQ(counter.depth, 0.3);
+  EXPECT_FALSE(counter.blocks_sound);
+  ASSERT_EQ(counter.corners.size(), 4u);
+  const vision::SceneDatabase map = MapOf(world_, test::kSiteFromStage);
+  for (size_t i = 0; i < 4; ++i) {
+    const auto found = stage::SolveAnchor(counter.corners[i], map);
+    ASSERT_TRUE(found.ok()) << found.message();
+    EXPECT_LT((test::kSiteFromStage.Inverse() * found->point_in_map - kCorners[i]).norm(), 1e-4);
+  }
+}
+
+TEST_F(DrawnByPicks, DrawingGoesOnInAnotherImageAndASecondPickMovesACorner) {
+  ASSERT_TRUE(Run({.draw = "counter", .seen = {Seen(2), Seen(9)}}).ok());
+  const vision::SceneDatabase map = MapOf(world_, test::kSiteFromStage);
+  const Eigen::Vector2d third = See(world_, map, kCorners[2], 5).pixel;
+  ASSERT_TRUE(
+      Run({.draw = "counter", .seen = {Text("5.png,-,-,-,-,%.6f,%.6f,-,-", third.x(), third.y())}})
+          .ok());
+  EXPECT_EQ(Saved(1).corners[0].picks.size(), 2u) << "not seen there";
+  EXPECT_EQ(Saved(1).corners[2].picks.size(), 3u);
+  ASSERT_TRUE(Run({.draw = "counter", .seen = {Seen(9)}}).ok());
+  EXPECT_EQ(Saved(1).corners[0].picks.size(), 2u);
+}
+
+TEST_F(DrawnByPicks, WhatCannotBeLocatedIsRefusedAndNothingIsSaved) {
+  const Json before = FormatProject(*LoadProject(paths_));
+  const auto problem = [&](OccluderOptions options) {
+    return Run(std::move(options)).status().message();
+  };
+  EXPECT_THAT(problem({.draw = "counter", .seen = {Seen(2)}}), HasSubstr("corner 1"));
+  EXPECT_THAT(problem({.draw = "counter", .seen = {"2.png,3,4,5"}}), HasSubstr("FRAME,x,y"));
+  EXPECT_THAT(problem({.draw = "counter", .seen = {"2.png,3,-"}}), HasSubstr("FRAME,x,y"));
+  EXPECT_THAT(problem({.draw = "counter", .seen = {"2.png"}}), HasSubstr("FRAME,x,y"));
+  EXPECT_THAT(problem({.draw = "counter", .seen = {"99.png,3,4"}}), HasSubstr("no training image"));
+  EXPECT_THAT(problem({.draw = "counter", .seen = {"2.png,3,99999"}}), HasSubstr("outside"));
+  EXPECT_THAT(problem({.draw = "a counter", .seen = {Seen(2), Seen(9)}}), HasSubstr("no name"));
+  EXPECT_EQ(FormatProject(*LoadProject(paths_)), before);
 }
 
 TEST_F(Occluders, WhatCannotBeIsRefusedAndNothingIsSaved) {

@@ -265,6 +265,98 @@ TEST(EditorOptions, PortraitsShowPeopleStandingWalkingOrInAClip) {
   EXPECT_THAT(Refusal({"portrait", file, "--out", "p.png", "--view", "top"}), HasSubstr("--view"));
 }
 
+TEST(EditorOptions, CastChangesWhatIsGivenOfSomebodyNamed) {
+  const auto cast = Parsed<CastOptions>({"cast", "p", "--name", "ada", "--voice-rate", "120",
+                                         "--bone", "l_hip=LeftUpLeg", "--bone", "r_hip="});
+  EXPECT_EQ(cast.voice_rate, 120);
+  EXPECT_FALSE(cast.voice_pitch || cast.voice_variant || cast.height);
+  EXPECT_THAT(cast.bones, ElementsAre("l_hip=LeftUpLeg", "r_hip="));
+  EXPECT_EQ(Parsed<CastOptions>({"cast", "p"}).name, "");
+  EXPECT_EQ(
+      Parsed<CastOptions>({"cast", "p", "--name", "ada", "--voice-variant", ""}).voice_variant, "");
+  EXPECT_THAT(Refusal({"cast", "p", "--height", "1.6"}), HasSubstr("--name"));
+  EXPECT_THAT(Refusal({"cast", "p", "--name", "ada", "--remove", "ada"}), HasSubstr("excludes"));
+  EXPECT_THAT(Refusal({"cast", "p", "--name", "ada", "--plain", "--preset", "keeper"}),
+              HasSubstr("excludes"));
+}
+
+TEST(EditorOptions, TextsMayBeEmpty) {
+  const auto project = Parsed<ProjectOptions>({"project", "p", "--captions", ""});
+  EXPECT_EQ(project.captions, "");
+  EXPECT_FALSE(project.spoken || project.title || project.credits);
+  EXPECT_EQ(Parsed<LinesOptions>({"lines", "p", "--set", "hail", "--speaker", ""}).speaker, "");
+}
+
+TEST(EditorOptions, PlaceDoesOneWorkWithAllThatItNeeds) {
+  EXPECT_EQ(Parsed<PlaceOptions>({"place", "p", "--rename", "site", "--to", "bar"}).to, "bar");
+  EXPECT_THAT(Refusal({"place", "p", "--rename", "site"}), HasSubstr("--to"));
+  EXPECT_THAT(Refusal({"place", "p", "--add", "bar", "--remove", "bar"}), HasSubstr("--"));
+  EXPECT_THAT(Refusal({"place", "p", "--set", "bar"}), HasSubstr("needs what changes"));
+  EXPECT_THAT(Refusal({"place", "p", "--occluders-of", "bar"}), HasSubstr("which one"));
+}
+
+TEST(EditorOptions, StageTakesPicksTagsAndNumbers) {
+  const auto stage =
+      Parsed<StageOptions>({"stage", "p", "--pick", "origin=000010.png,3.5,4", "--pick",
+                            "floor=a,b.png,1,2", "--length", "1.2", "--at", "-1,0,2", "--turn",
+                            "-90", "--scale", "0.5", "--floor", "--nudge", "-0.01,0,0"});
+  EXPECT_THAT(stage.picks, ElementsAre("origin=000010.png,3.5,4", "floor=a,b.png,1,2"));
+  EXPECT_THAT(stage.at, ElementsAre(-1, 0, 2));
+  EXPECT_THAT(stage.turn, ElementsAre(-90));
+  EXPECT_THAT(stage.nudge, ElementsAre(-0.01, 0, 0));
+  EXPECT_TRUE(stage.on_floor);
+  EXPECT_THAT(Refusal({"stage", "p", "--clear", "middle"}), HasSubstr("middle"));
+  EXPECT_THAT(Refusal({"stage", "p", "--without-tags", "--tag-size", "0.1"}),
+              HasSubstr("excludes"));
+  EXPECT_THAT(Refusal({"stage", "p", "--session", "1"}), HasSubstr("--pick"));
+}
+
+TEST(EditorOptions, TimelineWritesAddsOrChanges) {
+  EXPECT_EQ(Parsed<TimelineOptions>({"timeline", "p", "--out", "a.otio"}).out, "a.otio");
+  const auto moved = Parsed<TimelineOptions>(
+      {"timeline", "p", "--item", "hail", "--item", "markers/1", "--move", "-0.5", "--ripple"});
+  EXPECT_THAT(moved.items, ElementsAre("hail", "markers/1"));
+  EXPECT_EQ(moved.move, -0.5);
+  const auto added =
+      Parsed<TimelineOptions>({"timeline", "p", "--add", "walks", "--actor", "ada", "--at", "2",
+                               "--field", "to=1,-2", "--field", "speed=1"});
+  EXPECT_THAT(added.fields, ElementsAre("to=1,-2", "speed=1"));
+  EXPECT_THAT(Refusal({"timeline", "p", "--add", "markers"}), HasSubstr("--at"));
+  EXPECT_THAT(Refusal({"timeline", "p", "--item", "hail"}), HasSubstr("needs what changes"));
+  EXPECT_THAT(Refusal({"timeline", "p", "--field", "name=a"}), HasSubstr("--add or --item"));
+  EXPECT_THAT(Refusal({"timeline", "p", "--move", "1"}), HasSubstr("--item"));
+}
+
+TEST(EditorOptions, ProbesAreOfPhotographsOrOfPlaces) {
+  const test::TemporaryFolder folder;
+  const std::string sky = (folder / "sky.exr").string();
+  std::ofstream(sky) << "sky";
+  const auto added = Parsed<ProbeOptions>(
+      {"probe", "add", "p", "noon", sky, "--place", "bar", "--hour", "12.5", "--match", "90,30"});
+  EXPECT_EQ(added.work, ProbeOptions::Work::kAdd);
+  EXPECT_EQ(added.project, "p");
+  EXPECT_EQ(added.name, "noon");
+  EXPECT_THAT(added.files, ElementsAre(sky));
+  EXPECT_THAT(added.pairs, ElementsAre(90, 30));
+  EXPECT_EQ(Parsed<ProbeOptions>({"probe", "list", "p"}).work, ProbeOptions::Work::kList);
+  EXPECT_EQ(Parsed<ProbeOptions>({"probe", "info", sky}).work, ProbeOptions::Work::kInfo);
+  EXPECT_EQ(Parsed<ProbeOptions>({"probe", "set", "p", "noon", "--exposure", "-1.5"}).exposure,
+            -1.5);
+  EXPECT_THAT(Refusal({"probe", "add", "p", "noon"}), HasSubstr("FILE"));
+  EXPECT_THAT(Refusal({"probe", "remove", "p"}), HasSubstr("NAME"));
+}
+
+TEST(EditorOptions, ThingsAreBuiltInOrModels) {
+  EXPECT_EQ(Parsed<ObjectOptions>({"object", "p", "--set", "jug", "--heading", "-45"}).heading,
+            -45);
+  EXPECT_THAT(Refusal({"object", "p", "--add", "jug"}), HasSubstr("--model, or --file"));
+  EXPECT_THAT(Refusal({"object", "p", "--add", "jug", "--model", "spaceship"}),
+              HasSubstr("spaceship"));
+  EXPECT_THAT(Refusal({"object", "p", "--at", "0,0,0"}), HasSubstr("which one"));
+  EXPECT_THAT(Refusal({"sound", "p", "--bring", "sea"}), HasSubstr("--file"));
+  EXPECT_THAT(Refusal({"sound", "p", "--gain", "1"}), HasSubstr("--ambience"));
+}
+
 TEST(EditorOptions, JsonIsAskedForBeforeOrAfterTheSubcommand) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--json", "prune", "p"}, {"prune", "p", "--json"}}) {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "editor/app/timeline_edits.h"
 #include "editor/panels/lua_colours.h"
-#include "editor/panels/timeline_edits.h"
 #include "editor/panels/timeline_maths.h"
 #include "editor/panels/timeline_rows.h"
 
@@ -85,17 +85,17 @@ TEST(Snap, TakesTheNearestWithinReach) {
 
 TEST(MoveItems, MovesThemAndLeavesTheRestOfTheTextAlone) {
   TimelineText text = MustRead(kScript);
-  ASSERT_TRUE(MoveItems(text, {{0, 0}}, 0.25, false).ok());
+  ASSERT_TRUE(app::MoveItems(text, {{0, 0}}, 0.25, false).ok());
   EXPECT_THAT(text.text(), HasSubstr("{id = \"hail\", at = 1.25, length = 2, line = \"salvete\"},  "
                                      "-- to all"));
   EXPECT_THAT(Times(text, 0), ElementsAre(1.25, 5));
-  ASSERT_TRUE(MoveItems(text, {{0, 0}}, -10.0, false).ok());
+  ASSERT_TRUE(app::MoveItems(text, {{0, 0}}, -10.0, false).ok());
   EXPECT_THAT(Times(text, 0), ElementsAre(0, 5)) << "not before the beginning";
 }
 
 TEST(MoveItems, RipplesAllThatComesLater) {
   TimelineText text = MustRead(kScript);
-  ASSERT_TRUE(MoveItems(text, {{0, 1}}, 2.0, true).ok());
+  ASSERT_TRUE(app::MoveItems(text, {{0, 1}}, 2.0, true).ok());
   EXPECT_THAT(Times(text, 0), ElementsAre(1, 7));
   EXPECT_THAT(Times(text, 1), ElementsAre(0, 3, 10));
   EXPECT_THAT(Times(text, 2), ElementsAre(8));
@@ -103,34 +103,34 @@ TEST(MoveItems, RipplesAllThatComesLater) {
 
 TEST(MoveItems, ClipsDoNotRunIntoTheirNeighbours) {
   const TimelineText text = MustRead(kScript);
-  EXPECT_EQ(ClampMove(text, {{1, 1}}, 10.0, false), 3.0);
-  EXPECT_EQ(ClampMove(text, {{1, 1}}, -10.0, false), -1.0);
-  EXPECT_EQ(ClampMove(text, {{1, 1}, {1, 2}}, 10.0, false), 10.0);
-  EXPECT_EQ(ClampMove(text, {{0, 0}}, 10.0, false), 10.0) << "speech may lie over speech";
+  EXPECT_EQ(app::ClampMove(text, {{1, 1}}, 10.0, false), 3.0);
+  EXPECT_EQ(app::ClampMove(text, {{1, 1}}, -10.0, false), -1.0);
+  EXPECT_EQ(app::ClampMove(text, {{1, 1}, {1, 2}}, 10.0, false), 10.0);
+  EXPECT_EQ(app::ClampMove(text, {{0, 0}}, 10.0, false), 10.0) << "speech may lie over speech";
 }
 
 TEST(TrimItems, MoveOneEndAndHoldTheOther) {
   TimelineText text = MustRead(kScript);
   const std::vector<double> natural = {1.0};
-  ASSERT_TRUE(TrimBegins(text, {{0, 0}}, natural, 0.5).ok());
+  ASSERT_TRUE(app::TrimBegins(text, {{0, 0}}, natural, 0.5).ok());
   EXPECT_EQ(text.lanes()[0].at[0], 1.5);
   EXPECT_EQ(text.lanes()[0].length[0], 1.5);
-  ASSERT_TRUE(TrimBegins(text, {{0, 0}}, natural, 9.0).ok());
-  EXPECT_EQ(text.lanes()[0].length[0], kShortest);
-  ASSERT_TRUE(TrimEnds(text, {{0, 0}}, natural, 1.0, false).ok());
-  EXPECT_EQ(text.lanes()[0].length[0], 1.0 + kShortest);
+  ASSERT_TRUE(app::TrimBegins(text, {{0, 0}}, natural, 9.0).ok());
+  EXPECT_EQ(text.lanes()[0].length[0], app::kShortest);
+  ASSERT_TRUE(app::TrimEnds(text, {{0, 0}}, natural, 1.0, false).ok());
+  EXPECT_EQ(text.lanes()[0].length[0], 1.0 + app::kShortest);
 }
 
 TEST(TrimItems, AnItemWithoutALengthGetsTheOneThatIsSeen) {
   TimelineText text = MustRead("track{actor = 'a', walks = {{at = 2, to = {x = 0, z = 0}}}}");
   const std::vector<double> natural = {4.0};
-  ASSERT_TRUE(TrimEnds(text, {{0, 0}}, natural, -1.0, false).ok());
+  ASSERT_TRUE(app::TrimEnds(text, {{0, 0}}, natural, -1.0, false).ok());
   EXPECT_EQ(text.lanes()[0].length[0], 3.0);
 }
 
 TEST(DeleteItems, ClosesTheGapWhereItRipples) {
   TimelineText text = MustRead(kScript);
-  ASSERT_TRUE(DeleteItems(text, {{0, 0}}, true).ok());
+  ASSERT_TRUE(app::DeleteItems(text, {{0, 0}}, true).ok());
   EXPECT_THAT(Times(text, 0), ElementsAre(3));
   EXPECT_THAT(Times(text, 1), ElementsAre(0, 1, 6));
   EXPECT_THAT(Times(text, 2), ElementsAre(4));
@@ -138,28 +138,28 @@ TEST(DeleteItems, ClosesTheGapWhereItRipples) {
 
 TEST(CopyItems, ComeBackThroughTheClipboardWithOtherIds) {
   TimelineText text = MustRead(kScript);
-  const std::string clipboard = FormatCopied(CopyItems(text, {{0, 0}, {0, 1}, {2, 0}}));
-  const auto items = ParseCopied(clipboard);
+  const std::string clipboard = app::FormatCopied(app::CopyItems(text, {{0, 0}, {0, 1}, {2, 0}}));
+  const auto items = app::ParseCopied(clipboard);
   ASSERT_TRUE(items);
-  ItemSet inserted;
-  ASSERT_TRUE(PasteItems(text, *items, 10.0, inserted).ok());
+  app::ItemSet inserted;
+  ASSERT_TRUE(app::PasteItems(text, *items, 10.0, inserted).ok());
   EXPECT_THAT(Times(text, 0), ElementsAre(1, 5, 10, 14));
   EXPECT_THAT(Times(text, 2), ElementsAre(6, 15));
   ASSERT_EQ(inserted.size(), 3u);
   EXPECT_EQ(*text.Field(inserted[0], "id"), "hail 2");
   EXPECT_EQ(*text.Field(inserted[1], "line"), "quid");
   EXPECT_EQ(*text.Field(inserted[2], "name"), "noon");
-  ASSERT_TRUE(PasteItems(text, *items, 20.0, inserted).ok());
+  ASSERT_TRUE(app::PasteItems(text, *items, 20.0, inserted).ok());
   EXPECT_EQ(*text.Field(inserted[0], "id"), "hail 3");
 }
 
 TEST(CopyItems, PasteBetweenOthersKeepsTrackOfWhatIsNew) {
   TimelineText text = MustRead("track{markers = {{at = 1, name = 'a'}, {at = 9, name = 'z'}}}");
-  const std::vector<CopiedItem> items = {
+  const std::vector<app::CopiedItem> items = {
       {LaneKind::kMarkers, "", {{"at", 4.0}, {"name", "late"}}},
       {LaneKind::kMarkers, "", {{"at", 0.0}, {"name", "early"}}}};
-  ItemSet inserted;
-  ASSERT_TRUE(PasteItems(text, items, 2.0, inserted).ok());
+  app::ItemSet inserted;
+  ASSERT_TRUE(app::PasteItems(text, items, 2.0, inserted).ok());
   EXPECT_THAT(Times(text, 0), ElementsAre(1, 2, 6, 9));
   ASSERT_EQ(inserted.size(), 2u);
   EXPECT_EQ(*text.Field(inserted[0], "name"), "early");
@@ -167,19 +167,19 @@ TEST(CopyItems, PasteBetweenOthersKeepsTrackOfWhatIsNew) {
 }
 
 TEST(CopyItems, OtherTextsOfTheClipboardAreNothing) {
-  EXPECT_FALSE(ParseCopied(""));
-  EXPECT_FALSE(ParseCopied("hello"));
-  EXPECT_FALSE(ParseCopied("{\"lararium_timeline\": 3}"));
-  EXPECT_FALSE(ParseCopied("{\"lararium_timeline\": [{\"lane\": \"speech\"}]}"));
-  EXPECT_FALSE(ParseCopied(
+  EXPECT_FALSE(app::ParseCopied(""));
+  EXPECT_FALSE(app::ParseCopied("hello"));
+  EXPECT_FALSE(app::ParseCopied("{\"lararium_timeline\": 3}"));
+  EXPECT_FALSE(app::ParseCopied("{\"lararium_timeline\": [{\"lane\": \"speech\"}]}"));
+  EXPECT_FALSE(app::ParseCopied(
       R"({"lararium_timeline": [{"lane": "speech", "actor": "a", "item": {"at": -1}}]})"));
 }
 
 TEST(AddItem, MakesTheLaneThatIsMissing) {
   TimelineText text = MustRead("function main()\nend\n");
-  ItemSet inserted;
+  app::ItemSet inserted;
   ASSERT_TRUE(
-      AddItem(text, LaneKind::kSpeech, "keeper", {{"at", 2.0}, {"line", "salvete"}}, inserted)
+      app::AddItem(text, LaneKind::kSpeech, "keeper", {{"at", 2.0}, {"line", "salvete"}}, inserted)
           .ok());
   ASSERT_EQ(text.lanes().size(), 1u);
   EXPECT_EQ(text.lanes()[0].actor, "keeper");

@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "editor/app/drama_run.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
 #include "shared/drama/timeline_text.h"
 
-namespace lararium::panels {
+namespace lararium::app {
 
 // Items that are chosen: sorted, each once.
 using ItemSet = std::vector<drama::TimelineItem>;
@@ -50,6 +51,12 @@ Status TrimEnds(drama::TimelineText& text,
                 double seconds,
                 bool with_later);
 
+// How long an item that says no length lasts, by a run of the drama: its line, its gesture, or what
+// it came to when it was played; 0: that is not known.
+double NaturalSeconds(const drama::TimelineText& text,
+                      const drama::TimelineItem& item,
+                      const DramaRun& run);
+
 // with_later: the gap closes.
 Status DeleteItems(drama::TimelineText& text, const ItemSet& items, bool with_later);
 
@@ -76,4 +83,4 @@ Status AddItem(drama::TimelineText& text,
                Json fields,
                ItemSet& inserted);
 
-}  // namespace lararium::panels
+}  // namespace lararium::app

@@ -1,4 +1,4 @@
-#include "editor/panels/timeline_edits.h"
+#include "editor/app/timeline_edits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,9 @@
 #include <set>
 #include <utility>
 
-namespace lararium::panels {
+#include "editor/app/timeline_fields.h"
+
+namespace lararium::app {
 
 using drama::LaneKind;
 using drama::TimelineChange;
@@ -76,6 +78,27 @@ Status Shift(TimelineText& text, const ItemSet& items, double seconds) {
 double LengthOr(const TimelineText& text, const TimelineItem& item, double natural) {
   const double length = LengthOf(text, item);
   return length > 0.0 ? length : natural;
+}
+
+std::string TextField(const TimelineText& text, const TimelineItem& item, std::string_view key) {
+  const std::optional<Json> value = text.Field(item, key);
+  return value && value->is_string() ? value->get<std::string>() : "";
+}
+
+// How long something that an item told took when it was played; 0: it is not known.
+double PlayedSeconds(std::span<const drama::TaskRecord> tasks,
+                     const TimelineLane& lane,
+                     double at) {
+  constexpr double kLate = 0.05;  // seconds: it begins with a tick
+  auto task =
+      std::lower_bound(tasks.begin(), tasks.end(), at - 1e-6,
+                       [](const drama::TaskRecord& t, double time) { return t.began < time; });
+  for (; task != tasks.end() && task->began <= at + kLate; ++task) {
+    if (task->from_timeline && task->actor == lane.actor && LaneOfTask(task->action) == lane.kind) {
+      return task->ended - task->began;
+    }
+  }
+  return 0.0;
 }
 
 // A lane of a kind; added where there is none.
@@ -238,6 +261,24 @@ Status TrimEnds(TimelineText& text,
   return text.SetAll(changes).status();
 }
 
+double NaturalSeconds(const TimelineText& text, const TimelineItem& item, const DramaRun& run) {
+  const TimelineLane& lane = text.lanes()[item.lane];
+  const std::string line = TextField(text, item, "line");
+  if (!line.empty()) {
+    const StageWords::Line* known = run.words.FindLine(line);
+    return known != nullptr ? known->seconds : 0.0;
+  }
+  switch (lane.kind) {
+    case LaneKind::kGestures:
+      return run.words.ClipSeconds(lane.actor, TextField(text, item, "clip"));
+    case LaneKind::kWalks:
+    case LaneKind::kUses:
+      return PlayedSeconds(run.tasks, lane, lane.at[item.item]);
+    default:
+      return 0.0;
+  }
+}
+
 Status DeleteItems(TimelineText& text, const ItemSet& items, bool with_later) {
   const TimeSpan span = SpanOf(text, items);
   for (auto item = items.rbegin(); item != items.rend(); ++item) {
@@ -321,4 +362,4 @@ Status AddItem(
   return PasteItems(text, {&item, 1}, 0.0, inserted);
 }
 
-}  // namespace lararium::panels
+}  // namespace lararium::app

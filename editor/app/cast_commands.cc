@@ -1,0 +1,182 @@
+#include "editor/app/cast_commands.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "editor/app/baking.h"
+#include "editor/app/bone_review.h"
+#include "editor/app/command_arguments.h"
+#include "editor/app/thumbnail.h"
+
+namespace lararium::app {
+
+namespace {
+
+// One figure takes the place of another: what belongs to a model alone stays with it.
+Status ChangeFigure(const CastOptions& options, const ProjectPaths& paths, CastDocument& member) {
+  const bool other =
+      options.plain || !options.preset.empty() || !options.recipe.empty() || !options.model.empty();
+  if (other) {
+    member.preset = options.preset;
+    member.recipe.reset();
+    member.model = options.model.empty() ? "" : paths.Shorten(options.model);
+  }
+  if (!options.recipe.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(member.recipe, import::LoadCastRecipe(options.recipe));
+  }
+  if (!options.bone_map.empty()) {
+    member.bone_map = paths.Shorten(options.bone_map);
+  }
+  member.height = options.height.value_or(member.height);
+  if (!options.tunic.empty()) {
+    member.tunic = {options.tunic[0], options.tunic[1], options.tunic[2]};
+  }
+  return Status();
+}
+
+// "JOINT=BONE"; "JOINT=": it has none; "JOINT": as the editor finds it.
+void ChangeBones(const std::vector<std::string>& bones, CastDocument& member) {
+  for (const std::string& text : bones) {
+    const size_t equals = text.find('=');
+    ChooseBone(text.substr(0, equals),
+               equals == std::string::npos ? std::nullopt : std::optional(text.substr(equals + 1)),
+               member);
+  }
+}
+
+Status ChangeVoice(const CastOptions& options, CastDocument& member) {
+  bake::VoiceSettings& voice = member.voice;
+  voice.variant = options.voice_variant.value_or(voice.variant);
+  voice.pitch = options.voice_pitch.value_or(voice.pitch);
+  voice.range = options.voice_range.value_or(voice.range);
+  voice.rate = options.voice_rate.value_or(voice.rate);
+  return voice.Validate("voice of " + member.name);
+}
+
+Status AddClip(const CastOptions& options, const ProjectPaths& paths, CastDocument& member) {
+  ClipDocument clip;
+  clip.name = options.clip_name.empty() ? options.add_clip.stem().string() : options.clip_name;
+  clip.file = paths.Shorten(options.add_clip);
+  clip.loops = options.loops;
+  LARARIUM_RETURN_IF_ERROR(CheckPlainName("--clip-name", clip.name));
+  std::erase_if(member.clips, [&](const ClipDocument& other) { return other.name == clip.name; });
+  member.clips.push_back(std::move(clip));
+  return Status();
+}
+
+Status RemoveClip(const std::string& name, CastDocument& member) {
+  LARARIUM_ASSIGN_OR_RETURN(
+      const ClipDocument* clip,
+      FindNamed(member.clips, name, "--remove-clip", member.name + " has no recorded motion"));
+  member.clips.erase(member.clips.begin() + (clip - member.clips.data()));
+  return Status();
+}
+
+Status Change(const CastOptions& options, const ProjectPaths& paths, CastDocument& member) {
+  LARARIUM_RETURN_IF_ERROR(ChangeFigure(options, paths, member));
+  ChangeBones(options.bones, member);
+  LARARIUM_RETURN_IF_ERROR(ChangeVoice(options, member));
+  if (!options.remove_clip.empty()) {
+    LARARIUM_RETURN_IF_ERROR(RemoveClip(options.remove_clip, member));
+  }
+  return options.add_clip.empty() ? Status() : AddClip(options, paths, member);
+}
+
+std::string FigureText(const CastDocument& member) {
+  if (!member.preset.empty()) {
+    return "preset " + member.preset;
+  }
+  if (member.recipe) {
+    return "recipe of this project";
+  }
+  return member.model.empty() ? "plain figure" : "model " + member.model;
+}
+
+CommandResult List(const ProjectDocument& document) {
+  CommandResult result;
+  result.json = Json::array();
+  for (const CastDocument& member : document.cast) {
+    result.text += member.name + ": " + FigureText(member);
+    for (const ClipDocument& clip : member.clips) {
+      result.text += "; " + clip.name + " from " + clip.file;
+    }
+    result.text += "\n";
+    result.json.push_back(FormatCastMember(member));
+  }
+  if (document.cast.empty()) {
+    result.text = "nobody; add somebody with --name NAME\n";
+  }
+  return result;
+}
+
+// Builds them, so that a figure or clip that cannot be read is told of now, and tells their clips.
+Result<CommandResult> Build(const ProjectPaths& paths, const CastDocument& member) {
+  LARARIUM_ASSIGN_OR_RETURN(const human::Human human, BakeHuman(paths, member));
+  CommandResult result;
+  if (const Status drawn = LeaveThumbnail(paths.Human(member.name), human); !drawn.ok()) {
+    result.text += "no thumbnail: " + drawn.message() + "\n";  // machines without OpenGL
+  }
+  Json clips = Json::array();
+  result.text += member.name + ": clips";
+  for (const human::Clip& clip : human.clips) {
+    clips.push_back(clip.name);
+    result.text += " " + clip.name;
+  }
+  result.text += "\n";
+  result.json = {{"name", member.name}, {"clips", clips}};
+  return result;
+}
+
+class CastWorker {
+ public:
+  CastWorker(ProjectPaths paths, ProjectDocument document, const CastOptions& options)
+      : paths_(std::move(paths)), document_(std::move(document)), options_(options) {}
+
+  Result<CommandResult> Run() {
+    if (!options_.remove.empty()) {
+      LARARIUM_ASSIGN_OR_RETURN(const CastDocument* member, Known(options_.remove));
+      document_.cast.erase(document_.cast.begin() + (member - document_.cast.data()));
+      LARARIUM_RETURN_IF_ERROR(SaveProject(paths_, document_));
+    }
+    return options_.name.empty() ? List(document_) : AddOrChange();
+  }
+
+ private:
+  Result<CommandResult> AddOrChange() {
+    LARARIUM_ASSIGN_OR_RETURN(CastDocument * member, Wanted());
+    LARARIUM_RETURN_IF_ERROR(Change(options_, paths_, *member));
+    LARARIUM_ASSIGN_OR_RETURN(CommandResult result, Build(paths_, *member));
+    LARARIUM_RETURN_IF_ERROR(SaveProject(paths_, document_));
+    return result;
+  }
+
+  Result<CastDocument*> Known(const std::string& name) {
+    return FindNamed(document_.cast, name, paths_.Project().string(), "has nobody called");
+  }
+
+  // Whoever is called so; somebody new, unless what is asked is of somebody who is there.
+  Result<CastDocument*> Wanted() {
+    const Result<CastDocument*> known = Known(options_.name);
+    if (known.ok() || !options_.add_clip.empty() || !options_.remove_clip.empty()) {
+      return known;
+    }
+    LARARIUM_RETURN_IF_ERROR(CheckPlainName("--name", options_.name));
+    document_.cast.emplace_back().name = options_.name;
+    return &document_.cast.back();
+  }
+
+  ProjectPaths paths_;
+  ProjectDocument document_;
+  const CastOptions& options_;
+};
+
+}  // namespace
+
+Result<CommandResult> RunCast(const CastOptions& options) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  return CastWorker(paths, std::move(document), options).Run();
+}
+
+}  // namespace lararium::app

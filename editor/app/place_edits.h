@@ -1,0 +1,35 @@
+#pragma once
+
+// Edits of a place that the window and the subcommands make alike.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "editor/app/project.h"
+#include "shared/core/status.h"
+#include "shared/stage/picks.h"
+
+namespace lararium::app {
+
+// In an image an anchor has one pick: a new one takes the place of the one before.
+void SetPick(stage::Anchor& anchor, const stage::Pick& pick);
+
+// The anchors of a place's stage: origin, forward, floor, length_from, length_to.
+std::vector<std::string> AnchorNames();
+// nullptr: none is called so.
+stage::Anchor* FindAnchor(stage::StagePicks& picks, std::string_view name);
+
+// Shapes and models of another place whose names are not taken here: they lie in stage metres, so
+// what is built at one place is often there at the other too. Without what they were aligned by.
+// How many that were.
+size_t TakeOverOccluders(const PlaceDocument& from, PlaceDocument& place);
+
+// Gives a place another name, and its folder too, with all that the document names in there.
+// Fails, and nothing has changed, where the folder cannot be renamed.
+Status RenamePlace(const ProjectPaths& paths,
+                   const std::string& from,
+                   const std::string& to,
+                   ProjectDocument& document);
+
+}  // namespace lararium::app
