@@ -587,8 +587,8 @@ void TimelinePanel::Show(app::Workspace& workspace, EditorState& state) {
   Refresh(workspace);
   const auto asked = std::exchange(state.timeline_item, std::nullopt);
   if (const TimelineText* text = workspace.script().timeline(); asked && text != nullptr) {
-    ItemSet still_there = {*asked};
-    KeepValid(*text, still_there);
+    app::ItemSet still_there = {*asked};
+    app::KeepValid(*text, still_there);
     for (const TimelineItem& item : still_there) {
       Choose(*text, item);
       FillShown();
