@@ -15,7 +15,9 @@ target_compile_options(lararium_options INTERFACE
   -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $<$<BOOL:${LARARIUM_ISA}>:-march=${LARARIUM_ISA}>)
 target_compile_definitions(lararium_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
 target_include_directories(lararium_options INTERFACE ${CMAKE_SOURCE_DIR})
-# What flatc writes is not ours to mend.
+# What flatc writes is not ours to mend. There from the beginning: ccache writes paths of folders that
+# are not there in another way.
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/generated)
 target_include_directories(lararium_options SYSTEM INTERFACE ${CMAKE_BINARY_DIR}/generated)
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O2")

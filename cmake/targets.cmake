@@ -51,8 +51,6 @@ function(lararium_test name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LINK} lararium_test_support GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE
-    LARARIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" LARARIUM_DATA_DIR="${LARARIUM_DATA_DIR}")
   string(REGEX REPLACE "_(data_|gl_|ui_|slow_)?test$" "" room ${name})
   gtest_discover_tests(${name} NO_PRETTY_VALUES TEST_PREFIX "${room}/" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})

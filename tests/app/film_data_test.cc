@@ -15,8 +15,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kRecording = std::string(LARARIUM_SOURCE_DIR) +
-                               "/scenes/maquette/maquette.lararium/places/maquette/training.mp4";
+const std::string kRecording =
+    test::SourceDir() / "scenes/maquette/maquette.lararium/places/maquette/training.mp4";
 
 TEST(Film, ARecordingIsFilmedAtItsOwnPaceAndKeepsItsFrames) {
   const test::TemporaryFolder folder;

@@ -122,7 +122,7 @@ TEST_F(JournalTest, ReadsVersionOneWhichKnewNoLines) {
 }
 
 TEST_F(JournalTest, TheFuzzersSeedsAreWholeJournals) {
-  const std::filesystem::path seeds = LARARIUM_FUZZ_SEEDS;
+  const std::filesystem::path seeds = test::SourceDir() / "tests/fuzz";
   const auto first = LoadJournal(seeds / "journal_1", nullptr);
   ASSERT_TRUE(first.ok() && first->has_value()) << first.message();
   EXPECT_EQ((*first)->edits, 2);

@@ -11,6 +11,7 @@
 #include "editor/app/settings.h"
 #include "editor/bake/line_table.h"
 #include "shared/core/file.h"
+#include "tests/support/test_files.h"
 
 namespace lararium::app {
 namespace {
@@ -40,7 +41,7 @@ std::set<std::string> KeysOf(const std::map<std::string, bake::PoEntry>& entries
 
 class Catalogue : public testing::TestWithParam<std::string> {
  protected:
-  std::filesystem::path file_ = std::string(LARARIUM_SOURCE_DIR) + "/po/" + GetParam() + ".po";
+  std::filesystem::path file_ = test::SourceDir() / "po" / (GetParam() + ".po");
   std::map<std::string, bake::PoEntry> entries_ = EntriesOf(file_);
 };
 

@@ -8,6 +8,7 @@
 #include "shared/core/file.h"
 #include "shared/core/random.h"
 #include "tests/drama/drama_fixture.h"
+#include "tests/support/test_files.h"
 
 namespace lararium::drama {
 namespace {
@@ -347,7 +348,7 @@ TEST_F(DramaTest, SeekingKeepsTheErrorsUntilThen) {
 }
 
 TEST_F(DramaTest, TheTemplateIsAGoodDrama) {
-  const auto script = ReadText(LARARIUM_SOURCE_DIR "/lua/template/drama.lua");
+  const auto script = ReadText(test::SourceDir() / "lua/template/drama.lua");
   ASSERT_TRUE(script.ok()) << script.message();
   const auto drama = Make(*script);
   PlayTo(*drama, 30.0);

@@ -9,13 +9,14 @@
 #include "shared/drama/timeline_text.h"
 #include "tests/drama/drama_fixture.h"
 #include "tests/stage/test_props.h"
+#include "tests/support/test_files.h"
 
 namespace lararium::drama {
 namespace {
 
 using ::testing::IsEmpty;
 
-constexpr char kManual[] = LARARIUM_SOURCE_DIR "/docs/drama.md";
+const std::string kManual = test::SourceDir() / "docs/drama.md";
 
 std::string MustRead(const std::string& path) {
   const auto text = ReadText(path);
@@ -123,7 +124,7 @@ TEST_F(ManualTest, EveryWordHasAnExample) {
   for (const Example& example : Examples()) {
     all += example.script;
   }
-  std::istringstream library(MustRead(LARARIUM_SOURCE_DIR "/lua/library/lararium.lua"));
+  std::istringstream library(MustRead(test::SourceDir() / "lua/library/lararium.lua"));
   std::string line;
   int words = 0;
   while (std::getline(library, line)) {

@@ -13,19 +13,15 @@
 #include "editor/import/cast_shape.h"
 #include "editor/import/plain_skeleton.h"
 #include "editor/import/simplify.h"
+#include "tests/support/test_files.h"
 
 namespace lararium::import {
 namespace {
 
-std::filesystem::path LibraryFolder() {
-  const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
-  return chosen != nullptr ? chosen : LARARIUM_SOURCE_DIR "/build/cast-library";
-}
-
 // Opened once for all tests.
 const CastLibrary* Library() {
   static const auto* library = [] {
-    auto opened = CastLibrary::Open(LibraryFolder());
+    auto opened = CastLibrary::Open(test::CastLibraryDir());
     return opened.ok() ? new CastLibrary(*std::move(opened)) : nullptr;
   }();
   return library;

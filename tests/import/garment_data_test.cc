@@ -14,15 +14,14 @@
 #include "editor/import/garment/draped.h"
 #include "editor/import/garment/garment.h"
 #include "shared/human/cloth.h"
+#include "tests/support/test_files.h"
 
 namespace lararium::import {
 namespace {
 
 const CastLibrary* Library() {
   static const auto* library = [] {
-    const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
-    auto opened =
-        CastLibrary::Open(chosen != nullptr ? chosen : LARARIUM_SOURCE_DIR "/build/cast-library");
+    auto opened = CastLibrary::Open(test::CastLibraryDir());
     return opened.ok() ? new CastLibrary(*std::move(opened)) : nullptr;
   }();
   return library;

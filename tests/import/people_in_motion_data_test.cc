@@ -14,6 +14,7 @@
 #include "shared/human/performance.h"
 #include "shared/human/turns.h"
 #include "shared/stage/stage.h"
+#include "tests/support/test_files.h"
 
 namespace lararium::import {
 namespace {
@@ -21,14 +22,9 @@ namespace {
 using stage::Pose;
 using stage::TaskReport;
 
-std::filesystem::path LibraryFolder() {
-  const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
-  return chosen != nullptr ? chosen : LARARIUM_SOURCE_DIR "/build/cast-library";
-}
-
 // Undressed: clothes move no joints.
 std::shared_ptr<const human::Human> Preset(const std::string& name) {
-  static const auto library = CastLibrary::Open(LibraryFolder());
+  static const auto library = CastLibrary::Open(test::CastLibraryDir());
   if (!library.ok()) {
     return nullptr;
   }

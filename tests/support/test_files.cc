@@ -7,6 +7,15 @@
 
 namespace lararium::test {
 
+std::filesystem::path SourceDir() { return LARARIUM_SOURCE_DIR; }
+
+std::filesystem::path DataDir() { return LARARIUM_DATA_DIR; }
+
+std::filesystem::path CastLibraryDir() {
+  const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
+  return chosen != nullptr ? chosen : SourceDir() / "build/cast-library";
+}
+
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "lararium_test.XXXXXX").string();
   CHECK(mkdtemp(name.data()) != nullptr);

@@ -56,7 +56,7 @@ std::vector<double> TrueHeadings(const std::filesystem::path& ground_truth) {
 }
 
 TEST(CoverageOfRecordings, AWalkAcrossTheMaquetteIsSteppedSideways) {
-  const auto source = capture::OpenVideo(std::filesystem::path(LARARIUM_SOURCE_DIR) /
+  const auto source = capture::OpenVideo(test::SourceDir() /
                                          "scenes/maquette/maquette.lararium/places/maquette/"
                                          "training.mp4");
   ASSERT_TRUE(source.ok()) << source.message();
@@ -85,7 +85,7 @@ TEST(CoverageOfRecordings, DirectionsStayThoseOfTheBeginning) {
 }
 
 TEST(CoverageOfRecordings, OneImageAgainAndAgainCoversNothing) {
-  const auto source = capture::OpenVideo(std::filesystem::path(LARARIUM_SOURCE_DIR) /
+  const auto source = capture::OpenVideo(test::SourceDir() /
                                          "scenes/maquette/maquette.lararium/places/maquette/"
                                          "training.mp4");
   ASSERT_TRUE(source.ok()) << source.message();
