@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 
 #include "editor/import/cast_builder.h"
