@@ -203,12 +203,10 @@ bool ShowGizmo(app::Workspace& workspace,
   const Vector2d pointer = ToEigen(ImGui::GetMousePos());
   const GizmoLayout layout(*transform, view);
   const GizmoFreedom freedom = FreedomOf(state.selection);
-  std::optional<GizmoHandle> hot;
-  if (state.drag) {
-    hot = state.drag->handle();
-  } else if (hovered) {
-    hot = PickHandle(layout, state.gizmo, view, pointer, freedom);
-  }
+  const std::optional<GizmoHandle> hot =
+      state.drag ? state.drag->handle()
+      : hovered  ? PickHandle(layout, state.gizmo, view, pointer, freedom)
+                 : std::nullopt;
   if (hot && !state.drag && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     workspace.EndGesture();
     state.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
@@ -219,9 +217,8 @@ bool ShowGizmo(app::Workspace& workspace,
     workspace.CancelGesture();
   }
   if (state.drag && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    if (state.drag_given_up) {
-      hot.reset();
-    } else if (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f) {
+    const ImVec2 moved = ImGui::GetIO().MouseDelta;
+    if (!state.drag_given_up && (moved.x != 0.0f || moved.y != 0.0f)) {
       const GizmoSnap snap = SnapOf(workspace, state, view, transform->translation);
       MoveSelected(workspace, state.selection, state.drag->Update(view, pointer, snap), "gizmo");
     }
@@ -229,8 +226,9 @@ bool ShowGizmo(app::Workspace& workspace,
     state.drag.reset();
     workspace.EndGesture();
   }
+  const bool lit = hot && !(state.drag && state.drag_given_up);
   for (const GizmoHandle handle : HandlesOf(state.gizmo, freedom)) {
-    DrawHandle(handle, layout.Outline(handle, view), hot == handle, draw);
+    DrawHandle(handle, layout.Outline(handle, view), lit && *hot == handle, draw);
   }
   draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(OverPicture().text));
   return hot.has_value() || state.drag.has_value();
