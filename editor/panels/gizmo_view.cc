@@ -228,7 +228,7 @@ bool ShowGizmo(app::Workspace& workspace,
   }
   const bool lit = hot && !(state.drag && state.drag_given_up);
   for (const GizmoHandle handle : HandlesOf(state.gizmo, freedom)) {
-    DrawHandle(handle, layout.Outline(handle, view), lit && *hot == handle, draw);
+    DrawHandle(handle, layout.Outline(handle, view), lit && hot.value_or(handle) == handle, draw);
   }
   draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(OverPicture().text));
   return hot.has_value() || state.drag.has_value();
