@@ -66,7 +66,8 @@ std::vector<glm::vec2> BendsOf(const stage::Navigation& floor,
   std::vector<glm::vec2> bends = {from};
   glm::vec2 corner = reached.corner;
   while (bends.size() < kMost && glm::distance(bends.back(), reached.point) > kThere) {
-    bends.push_back(corner);
+    const bool nearer = glm::distance(bends.back(), corner) > kThere;
+    bends.push_back(nearer ? corner : reached.point);
     const auto rest = floor.FindWay(corner, reached.point);
     corner = rest ? rest->corner : reached.point;
   }

@@ -188,6 +188,26 @@ GizmoSnap SnapOf(const app::Workspace& workspace,
   return snap;
 }
 
+// To where the pointer is; given up, it stays put back until the button is let go.
+void Drag(app::Workspace& workspace,
+          EditorState& state,
+          const ViewCamera& view,
+          const Vector3d& origin) {
+  if (!state.drag_given_up && GivesUp(state)) {
+    state.drag_given_up = true;
+    workspace.CancelGesture();
+  }
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    state.drag.reset();
+    workspace.EndGesture();
+  } else if (!state.drag_given_up && (moved.x != 0.0f || moved.y != 0.0f)) {
+    const GizmoSnap snap = SnapOf(workspace, state, view, origin);
+    const Vector2d pointer = ToEigen(ImGui::GetMousePos());
+    MoveSelected(workspace, state.selection, state.drag->Update(view, pointer, snap), "gizmo");
+  }
+}
+
 }  // namespace
 
 bool ShowGizmo(app::Workspace& workspace,
@@ -203,35 +223,25 @@ bool ShowGizmo(app::Workspace& workspace,
   const Vector2d pointer = ToEigen(ImGui::GetMousePos());
   const GizmoLayout layout(*transform, view);
   const GizmoFreedom freedom = FreedomOf(state.selection);
-  const std::optional<GizmoHandle> hot =
-      state.drag ? state.drag->handle()
-      : hovered  ? PickHandle(layout, state.gizmo, view, pointer, freedom)
-                 : std::nullopt;
+  std::optional<GizmoHandle> hot;
+  if (state.drag) {
+    hot = state.drag->handle();
+  } else if (hovered) {
+    hot = PickHandle(layout, state.gizmo, view, pointer, freedom);
+  }
   if (hot && !state.drag && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     workspace.EndGesture();
     state.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
     state.drag_given_up = false;
   }
-  if (state.drag && !state.drag_given_up && GivesUp(state)) {
-    state.drag_given_up = true;
-    workspace.CancelGesture();
+  if (state.drag) {
+    Drag(workspace, state, view, transform->translation);
   }
-  if (state.drag && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    const ImVec2 moved = ImGui::GetIO().MouseDelta;
-    if (!state.drag_given_up && (moved.x != 0.0f || moved.y != 0.0f)) {
-      const GizmoSnap snap = SnapOf(workspace, state, view, transform->translation);
-      MoveSelected(workspace, state.selection, state.drag->Update(view, pointer, snap), "gizmo");
-    }
-  } else if (state.drag) {
-    state.drag.reset();
-    workspace.EndGesture();
-  }
-  const bool lit = hot && !(state.drag && state.drag_given_up);
   for (const GizmoHandle handle : HandlesOf(state.gizmo, freedom)) {
-    DrawHandle(handle, layout.Outline(handle, view), lit && hot.value_or(handle) == handle, draw);
+    DrawHandle(handle, layout.Outline(handle, view), hot == handle, draw);
   }
   draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(OverPicture().text));
-  return hot.has_value() || state.drag.has_value();
+  return hot.has_value();
 }
 
 void DrawWorldLine(const ViewCamera& view,

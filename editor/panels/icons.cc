@@ -310,10 +310,11 @@ void DrawLane(Icon icon, Pen& pen) {
       pen.Line({{1.5f, 8.0f}, {5.0f, 8.0f}});
       pen.Line({{11.0f, 8.0f}, {14.5f, 8.0f}});
       break;
-    case Icon::kLight:  // a bulb
-      pen.Arc({8.0f, 6.25f}, 4.75f, 140.0f, 400.0f);
-      pen.Line({{4.4f, 9.3f}, {6.0f, 11.5f}, {10.0f, 11.5f}, {11.6f, 9.3f}});
-      pen.Line({{6.5f, 14.25f}, {9.5f, 14.25f}});
+    case Icon::kLight:  // an oil lamp
+      pen.Line({{1.5f, 8.5f}, {14.0f, 8.5f}, {10.5f, 11.5f}});
+      pen.Arc({6.5f, 8.5f}, 5.0f, 30.0f, 180.0f);
+      pen.Line({{4.0f, 14.25f}, {9.0f, 14.25f}});
+      pen.Loop({{12.5f, 6.0f}, {11.25f, 4.5f}, {12.5f, 1.75f}, {13.75f, 4.5f}});
       break;
     case Icon::kSound:  // a note
       pen.Disc({4.75f, 12.0f}, 2.5f);

@@ -36,7 +36,7 @@ TEST(DrawIcon, EveryIconIsMoreThanADotAndLessThanABlot) {
     ASSERT_EQ(pixels.size(), static_cast<size_t>(kSide * kSide));
     EXPECT_GT(Share(pixels), 0.08) << static_cast<int>(icon);
     EXPECT_LT(Share(pixels), 0.5) << static_cast<int>(icon);
-    EXPECT_GT(*std::max_element(pixels.begin(), pixels.end()), 200) << static_cast<int>(icon);
+    EXPECT_GT(*std::max_element(pixels.begin(), pixels.end()), 180) << static_cast<int>(icon);
   }
 }
 
