@@ -42,12 +42,18 @@ Eigen::Quaterniond RotationOf(const std::vector<double>& degrees) {
   return FromHeadingTiltRoll(angles);
 }
 
+std::string DescribeTurn(const Eigen::Quaterniond& rotation) {
+  Eigen::Vector3d turn = HeadingTiltRoll(rotation) / kDegree;
+  turn = (turn * 10.0).array().round() / 10.0 + 0.0;  // no -0.0
+  return Text("turned %.1f,%.1f,%.1f degrees", turn.x(), turn.y(), turn.z());
+}
+
 std::string DescribePose(const geometry::Similarity3& stage_from_thing) {
   const Eigen::Vector3d& at = stage_from_thing.translation;
   std::string text = Text("at %.3f,%.3f,%.3f", at.x(), at.y(), at.z());
   const Eigen::Vector3d turn = HeadingTiltRoll(stage_from_thing.rotation) / kDegree;
   if (turn.cwiseAbs().maxCoeff() >= 0.05) {
-    text += Text(", turned %.1f,%.1f,%.1f degrees", turn.x(), turn.y(), turn.z());
+    text += ", " + DescribeTurn(stage_from_thing.rotation);
   }
   if (std::abs(stage_from_thing.scale - 1.0) >= 5e-5) {
     text += Text(", scaled by %.4f", stage_from_thing.scale);

@@ -70,6 +70,8 @@ Eigen::Quaterniond RotationOf(const std::vector<double>& degrees);
 // "at 1.000,0.000,-2.000, turned 90.0,0.0,0.0 degrees, scaled by 0.5000", as options take it, to
 // the millimetre and tenth of a degree; without what is nothing.
 std::string DescribePose(const geometry::Similarity3& stage_from_thing);
+// The part of it that says how something is turned.
+std::string DescribeTurn(const Eigen::Quaterniond& rotation);
 
 // All of a text as one number; nothing where it is none.
 std::optional<double> ParseNumber(std::string_view text);

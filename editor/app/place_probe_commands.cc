@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "editor/app/angles.h"
 #include "editor/app/command_arguments.h"
 #include "editor/app/document_fields.h"
 #include "editor/app/probe_commands.h"
@@ -75,13 +74,11 @@ Status Brighten(const ProbeOptions& options, const ProjectPaths& paths, ProbeDoc
 }
 
 std::string Described(const ProbeDocument& probe) {
-  const Eigen::Vector3d turn = HeadingTiltRoll(probe.stage_from_probe) / kDegree;
   const WhiteBalance white = WhiteBalanceOf(geometry::ToGlm(probe.balance));
-  return Text(
-      "%s; at %.2f,%.2f,%.2f, %.2f h, turned %.1f,%.1f,%.1f degrees, exposure %+.2f stops, "
-      "warmth %+.2f, tint %+.2f",
-      probe.file.c_str(), probe.position.x(), probe.position.y(), probe.position.z(), probe.hour,
-      turn.x(), turn.y(), turn.z(), std::log2(probe.scale), white.warmth, white.tint);
+  return Text("%s; at %.2f,%.2f,%.2f, %.2f h, %s, exposure %+.2f stops, warmth %+.2f, tint %+.2f",
+              probe.file.c_str(), probe.position.x(), probe.position.y(), probe.position.z(),
+              probe.hour, DescribeTurn(probe.stage_from_probe).c_str(), std::log2(probe.scale),
+              white.warmth, white.tint);
 }
 
 class ProbeWorker {
