@@ -172,8 +172,8 @@ void AddCamera(CLI::App* command, CameraOptions& options) {
   command->add_option("--images", options.images, "Likewise, a folder of images")
       ->check(CLI::ExistingDirectory)
       ->excludes(video);
-  CLI::Option* response = command->add_option(
-      "--response", options.response, "The camera's response (.json), of 'probe merge'");
+  CLI::Option* response = command->add_option("--response", options.response,
+                                              "The camera's response (.json), of 'probe merge'");
   response->check(CLI::ExistingFile);
   command->add_option("--knee", options.knee, "Where highlights are compressed from; 1: nowhere")
       ->check(CLI::Range(0.05, 1.0))
