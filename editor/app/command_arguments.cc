@@ -15,6 +15,14 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+// What is not finite is a number too.
+std::optional<double> ParseAnyNumber(std::string_view text) {
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end ? std::optional(number) : std::nullopt;
+}
+
 }  // namespace
 
 Status CheckPlainName(const std::string& option, const std::string& name) {
@@ -62,11 +70,8 @@ std::string DescribePose(const geometry::Similarity3& stage_from_thing) {
 }
 
 std::optional<double> ParseNumber(std::string_view text) {
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && rest == end && std::isfinite(number) ? std::optional(number)
-                                                                      : std::nullopt;
+  const std::optional<double> number = ParseAnyNumber(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 Result<const vision::Keyframe*> FindKeyframe(const vision::SceneDatabase& map,
@@ -111,8 +116,8 @@ Result<stage::Pick> ParsePick(const vision::SceneDatabase& map,
   const size_t x_at = y_at == std::string_view::npos || y_at == 0 ? std::string_view::npos
                                                                   : all.rfind(',', y_at - 1);
   if (x_at != std::string_view::npos) {
-    const std::optional<double> x = ParseNumber(all.substr(x_at + 1, y_at - x_at - 1));
-    const std::optional<double> y = ParseNumber(all.substr(y_at + 1));
+    const std::optional<double> x = ParseAnyNumber(all.substr(x_at + 1, y_at - x_at - 1));
+    const std::optional<double> y = ParseAnyNumber(all.substr(y_at + 1));
     if (x && y) {
       return PickInImage(map, place, text.substr(0, x_at), session, {*x, *y});
     }

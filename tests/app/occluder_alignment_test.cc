@@ -215,7 +215,7 @@ TEST_F(AlignSubcommand, TellsWhatItLacks) {
   EXPECT_THAT(Problem({.pair = {0, 0, 0}, .picks = {frame + ",9999,1"}}),
               HasSubstr("outside of the image"));
   EXPECT_THAT(Problem({.pair = {0, 0, 0}, .picks = {frame + ",nan,1"}}),
-              HasSubstr("is no place in an image"));
+              HasSubstr("outside of the image"));
   EXPECT_TRUE(Wall().model_pairs.empty());  // nothing of all that was saved
 }
 
