@@ -9,16 +9,19 @@
 #include "editor/app/shared_people.h"
 #include "editor/app/thumbnail.h"
 #include "editor/import/cast_presets.h"
+#include "shared/core/file.h"
 #include "shared/core/memory.h"
 #include "shared/human/human.h"
 
 namespace lararium::app {
 namespace {
 
+constexpr std::string_view kNoFile = " none";
+
 std::string StampOf(const std::filesystem::path& file) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(file, error);
-  return error ? " none" : " " + std::to_string(time.time_since_epoch().count());
+  return error ? std::string(kNoFile) : " " + std::to_string(time.time_since_epoch().count());
 }
 
 // The studio is kept so long without anybody to be drawn: what it draws with takes tens of
@@ -53,6 +56,9 @@ class CastPictures::Painter {
   lararium::Result<Result> Paint(const ProjectPaths& paths,
                                  const Order& order,
                                  std::vector<std::string>& warnings) {
+    if (!order.object.empty()) {
+      return PaintObject(paths.Prop(order.object));
+    }
     const std::filesystem::path file = paths.Human(order.member.name);
     if (seated_ != order.key) {
       LARARIUM_RETURN_IF_ERROR(BakeAlone(paths, order.member, warnings));
@@ -94,13 +100,29 @@ class CastPictures::Painter {
     return Status();
   }
 
+  Status OpenStudio() {
+    if (studio_ == nullptr) {
+      LARARIUM_ASSIGN_OR_RETURN(studio_, Studio::Create());
+    }
+    return Status();
+  }
+
+  lararium::Result<Result> PaintObject(const std::filesystem::path& file) {
+    LARARIUM_RETURN_IF_ERROR(OpenStudio());
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+    LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(bytes, file.string()));
+    LARARIUM_ASSIGN_OR_RETURN(const std::shared_ptr<const stage::ObjectModel> model,
+                              stage::ObjectModel::Create(std::move(prop), file.string()));
+    LARARIUM_ASSIGN_OR_RETURN(cv::Mat picture,
+                              studio_->ShootThing(model, cv::Size(kThumbnailSide, kThumbnailSide)));
+    return Result{std::make_shared<const cv::Mat>(std::move(picture)), nullptr};
+  }
+
   Status Seat(const std::filesystem::path& file, const std::string& key) {
     if (seated_ == key) {
       return Status();
     }
-    if (studio_ == nullptr) {
-      LARARIUM_ASSIGN_OR_RETURN(studio_, Studio::Create());
-    }
+    LARARIUM_RETURN_IF_ERROR(OpenStudio());
     seated_.clear();
     LARARIUM_ASSIGN_OR_RETURN(const SharedPerson person, SharePerson(file));
     const std::shared_ptr<const human::Human>& human = person.human;
@@ -161,6 +183,23 @@ void CastPictures::SetCast(const std::vector<CastDocument>& cast) {
   Start();
 }
 
+void CastPictures::SetObjects(const std::vector<ObjectDocument>& objects) {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, Thing> now;
+  for (const ObjectDocument& object : objects) {
+    Thing& thing = now[object.name];
+    if (const auto known = objects_.find(object.name); known != objects_.end()) {
+      thing = std::move(known->second);
+    }
+    thing.key = StampOf(project_.Prop(object.name));
+    if (thing.key == kNoFile) {
+      thing.done = thing.key;
+    }
+  }
+  objects_ = std::move(now);
+  Start();
+}
+
 void CastPictures::WantPresets() {
   const std::lock_guard lock(mutex_);
   if (!presets_.empty()) {
@@ -191,6 +230,12 @@ CastPictures::Picture CastPictures::PresetThumbnail(const std::string& preset) c
   return found == presets_.end() ? nullptr : found->second.thumbnail;
 }
 
+CastPictures::Picture CastPictures::ObjectThumbnail(const std::string& object) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = objects_.find(object);
+  return found == objects_.end() ? nullptr : found->second.thumbnail;
+}
+
 std::shared_ptr<const CastPortrait> CastPictures::portrait() const {
   const std::lock_guard lock(mutex_);
   return portrait_;
@@ -199,7 +244,7 @@ std::shared_ptr<const CastPortrait> CastPictures::portrait() const {
 bool CastPictures::Working() const {
   const std::lock_guard lock(mutex_);
   const std::optional<Order> order = NextOrder();
-  return order && !order->of_preset;
+  return order && !order->of_preset && order->object.empty();
 }
 
 bool CastPictures::Working(const std::string& name) const {
@@ -229,27 +274,42 @@ void CastPictures::Start() {
   ordered_.notify_one();
 }
 
-// With the lock held. Who is looked at comes first, presets last.
+// With the lock held. Who is looked at comes first, then the cast, objects, and presets.
 std::optional<CastPictures::Order> CastPictures::NextOrder() const {
   if (gaze_) {
     const auto found = cast_.find(gaze_->name);
     if (found != cast_.end() && (found->second.key != gaze_done_ || gaze_ != gazed_)) {
-      return Order{false, found->second.member, found->second.key, gaze_};
+      return Order{"", false, found->second.member, found->second.key, gaze_};
     }
   }
-  for (const auto* people : {&cast_, &presets_}) {
-    for (const auto& [name, sitter] : *people) {
+  const auto next_of = [](const std::map<std::string, Sitter>& people,
+                          bool of_preset) -> std::optional<Order> {
+    for (const auto& [name, sitter] : people) {
       if (sitter.done != sitter.key) {
-        return Order{people == &presets_, sitter.member, sitter.key, {}};
+        return Order{"", of_preset, sitter.member, sitter.key, {}};
       }
     }
+    return std::nullopt;
+  };
+  if (std::optional<Order> person = next_of(cast_, false)) {
+    return person;
   }
-  return std::nullopt;
+  for (const auto& [name, thing] : objects_) {
+    if (thing.done != thing.key) {
+      return Order{name, false, {}, thing.key, {}};
+    }
+  }
+  return next_of(presets_, true);
 }
 
 void CastPictures::Deliver(const Order& order,
                            Picture thumbnail,
                            std::shared_ptr<const CastPortrait> portrait) {
+  if (const auto thing = objects_.find(order.object); thing != objects_.end()) {
+    thing->second.done = order.key;
+    thing->second.thumbnail = std::move(thumbnail);
+    return;
+  }
   auto& people = order.of_preset ? presets_ : cast_;
   if (const auto found = people.find(order.member.name); found != people.end()) {
     found->second.done = order.key;

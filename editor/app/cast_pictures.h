@@ -1,9 +1,9 @@
 #pragma once
 
-// Pictures of the people of a project, made on a thread of its own with an OpenGL context
-// of its own, so that the interface never waits: a thumbnail of each, and a portrait of the
-// one who is looked at. People whose recipe, model or clips have changed are baked first;
-// until a new picture is there the older one stays.
+// Pictures of the people and objects of a project, made on a thread of its own with an OpenGL
+// context of its own, so that the interface never waits: a thumbnail of each, and a portrait of the
+// one who is looked at. Objects have theirs once they are baked. People whose recipe, model or
+// clips have changed are baked first; until a new picture is there the older one stays.
 
 #include <condition_variable>
 #include <filesystem>
@@ -52,6 +52,8 @@ class CastPictures {
 
   // The cast as it is now.
   void SetCast(const std::vector<CastDocument>& cast);
+  // The objects as they are now.
+  void SetObjects(const std::vector<ObjectDocument>& objects);
   // From now on there are thumbnails of presets too.
   void WantPresets();
   // Whom to look at, from where; an empty name: nobody.
@@ -60,6 +62,7 @@ class CastPictures {
   // The newest, nullptr before the first.
   Picture Thumbnail(const std::string& name) const;
   Picture PresetThumbnail(const std::string& preset) const;
+  Picture ObjectThumbnail(const std::string& object) const;
   std::shared_ptr<const CastPortrait> portrait() const;
 
   // Somebody of the project is still to be baked or drawn.
@@ -79,6 +82,11 @@ class CastPictures {
     std::string done;  // of what the thumbnail shows, or could not
     Picture thumbnail;
   };
+  struct Thing {
+    std::string key;   // of the baked file
+    std::string done;  // of what the thumbnail shows, or could not
+    Picture thumbnail;
+  };
   struct Gaze {
     std::string name;
     StudioView view;
@@ -86,8 +94,9 @@ class CastPictures {
 
     friend bool operator==(const Gaze&, const Gaze&) = default;
   };
-  // What the thread does next: the portrait or the thumbnail of one person.
+  // What the thread does next: the portrait or the thumbnail of one person, or of an object.
   struct Order {
+    std::string object;  // its name; empty: a person
     bool of_preset = false;
     CastDocument member;
     std::string key;
@@ -112,6 +121,7 @@ class CastPictures {
   std::condition_variable_any ordered_;
   std::map<std::string, Sitter> cast_;
   std::map<std::string, Sitter> presets_;
+  std::map<std::string, Thing> objects_;
   std::optional<Gaze> gaze_;
   std::string gaze_done_;  // the key of the person whom portrait_ shows, or who failed
   std::optional<Gaze> gazed_;

@@ -75,6 +75,18 @@ class CommandStack {
 
   // The gesture is over: the next edit is a command of its own.
   void EndGesture() { gesture_.clear(); }
+  bool in_gesture() const { return !gesture_.empty(); }
+  // The document as it was before the gesture, whose command is forgotten. Gives the patches whose
+  // reverse is to be applied, from the last to the first. Only within a gesture.
+  std::vector<Patch> CancelGesture() {
+    CHECK(in_gesture() && CanUndo());
+    EndGesture();
+    Command command = std::move(undo_.back());
+    undo_.pop_back();
+    current_ = std::move(command.other_side);
+    bytes_ -= command.bytes;
+    return std::move(command.patches);
+  }
 
   bool CanUndo() const { return !undo_.empty(); }
   bool CanRedo() const { return !redo_.empty(); }

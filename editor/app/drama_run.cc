@@ -72,6 +72,14 @@ StageWords WordsOf(const ProjectPaths& paths,
   return words;
 }
 
+std::shared_ptr<const stage::Navigation> FloorOf(const stage::Stage& stage) {
+  const stage::Stage::Checkpoint now = stage.Save();
+  for (size_t gate = 0; now.navigation != nullptr && gate < now.gates.size(); ++gate) {
+    now.navigation->OpenGate(gate, true);
+  }
+  return now.navigation;
+}
+
 template <typename Named>
 const Named* FindNamed(const std::vector<Named>& list, std::string_view name) {
   const auto found =
@@ -137,8 +145,13 @@ Result<DramaRun> RunDrama(const ProjectPaths& paths,
                           Progress& progress) {
   LARARIUM_ASSIGN_OR_RETURN(const auto staged, StageDrama(paths, document, spoken, script));
   const drama::Drama& drama = *staged->drama;
-  LARARIUM_RETURN_IF_ERROR(PlayDry(*staged->drama, seconds, progress));
+  TrailRecorder trails(staged->stage);
+  trails.Note(drama.time());
+  LARARIUM_RETURN_IF_ERROR(
+      PlayDry(*staged->drama, seconds, progress, [&] { trails.Note(drama.time()); }));
   DramaRun run;
+  run.trails = trails.Take();
+  run.floor = FloorOf(staged->stage);
   run.words = WordsOf(paths, staged->stage, staged->content);
   run.seconds = drama.time();
   run.tasks.assign(drama.tasks().begin(), drama.tasks().end());

@@ -12,6 +12,7 @@
 
 #include "editor/app/project.h"
 #include "editor/app/sounds.h"
+#include "editor/app/walk_trails.h"
 #include "shared/core/log.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
@@ -64,6 +65,9 @@ struct DramaRun {
   std::vector<std::string> problems;     // "drama.lua:12: ...": what failed, each once
   double seconds = 0.0;                  // that were played
   double last = 0.0;                     // when the last task ended
+  std::vector<Trail> trails;             // where everybody went
+  // Where people walk, as it was at the end, with every door open; nullptr: nobody walked.
+  std::shared_ptr<const stage::Navigation> floor;
   StageWords words;
   std::vector<MissingSound> missing_sounds;  // also where the drama could not be run
 };

@@ -1,6 +1,7 @@
 #include "editor/app/layout.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,10 @@ namespace lararium::app {
 
 namespace {
 
+using panels::BottomTab;
+using panels::Focus;
 using panels::Px;
+using panels::Region;
 
 constexpr float kSplitter = 6.0f;  // logical pixels, the gap between panels
 constexpr float kMinPanel = 160.0f;
@@ -30,17 +34,28 @@ constexpr float kMinBottom = 96.0f;
 constexpr float kMinViewportWidth = 280.0f;
 constexpr float kMinViewportHeight = 320.0f;
 
-// A bar between two panels; dragging changes size by the movement times sign.
-void Splitter(const char* id, bool vertical, float length, float sign, float& size) {
+// A bar between two panels; dragging makes the size that one has now another by the movement
+// times sign.
+void Splitter(const char* id, bool vertical, float length, float sign, float now, double& size) {
   const ImVec2 extent = vertical ? ImVec2(Px(kSplitter), length) : ImVec2(length, Px(kSplitter));
+  ImGui::PushItemFlag(ImGuiItemFlags_NoNav, true);  // nothing that could be pressed
   ImGui::InvisibleButton(id, extent);
+  ImGui::PopItemFlag();
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
     ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
   }
   if (ImGui::IsItemActive()) {
     const ImVec2 delta = ImGui::GetIO().MouseDelta;
-    size += sign * (vertical ? delta.x : delta.y) / Px(1.0f);
+    const float moved = vertical ? delta.x : delta.y;
+    if (moved != 0.0f) {
+      size = std::max(now + sign * moved / Px(1.0f), 1.0f);
+    }
   }
+}
+
+// A size as the window has room for it.
+float Fitted(double size, float least, float most) {
+  return std::clamp(static_cast<float>(size), least, std::max(least, most));
 }
 
 bool BeginPanel(const char* id, const ImVec2& size, ImGuiWindowFlags flags = 0) {
@@ -49,6 +64,22 @@ bool BeginPanel(const char* id, const ImVec2& size, ImGuiWindowFlags flags = 0) 
       ImGui::BeginChild(id, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | flags);
   ImGui::PopStyleColor();
   return open;
+}
+
+// Of a panel that takes the keyboard over.
+Focus FocusOf(Region region, BottomTab tab) {
+  if (region != Region::kBottom) {
+    return Focus::kViews;
+  }
+  return tab == BottomTab::kTimeline ? Focus::kTimeline
+         : tab == BottomTab::kScript ? Focus::kScript
+                                     : Focus::kViews;
+}
+
+// Whether what it shows has keys of its own.
+bool HasOwnKeys(Region region, BottomTab tab) {
+  return region == Region::kView ||
+         (region == Region::kBottom && (tab == BottomTab::kTimeline || tab == BottomTab::kScript));
 }
 
 // The panel at hand about a picture that covers what is left of it, and not behind: where software
@@ -80,6 +111,12 @@ Result<std::unique_ptr<Layout>> Layout::Create() {
   return std::unique_ptr<Layout>(new Layout(std::move(around)));
 }
 
+void Layout::BeginFilming(const std::string& place) {
+  state_.dialog = panels::Dialog::kFilm;
+  state_.fields = {};
+  state_.fields.place = place;
+}
+
 void Layout::ShowViewport(Workspace& workspace) {
   switch (state_.view) {
     case panels::ViewKind::kCamera:
@@ -96,7 +133,6 @@ void Layout::ShowViewport(Workspace& workspace) {
 }
 
 void Layout::ShowBottom(Workspace& workspace) {
-  using panels::BottomTab;
   const int problems = panels::CountProblems(workspace) + missing_.count();
   const std::string checks =
       problems > 0 ? panels::Text(panels::Tr("Checks (%d)"), problems) : panels::Tr("Checks");
@@ -123,63 +159,88 @@ void Layout::ShowBottom(Workspace& workspace) {
       break;
     case BottomTab::kMessages:
       panels::ShowMessagesTools(workspace);
-      ImGui::BeginChild("messages");
+      ImGui::BeginChild("messages", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
       panels::ShowMessages(workspace);
       ImGui::EndChild();
       break;
   }
 }
 
-void Layout::ShowPanels(Workspace& workspace) {
+void Layout::ShowPanels(Workspace& workspace, PanelSizes& sizes) {
   const float status = ImGui::GetFrameHeight() + Px(4);
   const ImVec2 available = ImGui::GetContentRegionAvail();
   const float widest = (available.x / Px(1.0f) - kMinViewportWidth) * 0.5f;
-  outliner_width_ = std::clamp(outliner_width_, kMinPanel, std::max(kMinPanel, widest));
-  inspector_width_ = std::clamp(inspector_width_, kMinPanel, std::max(kMinPanel, widest));
+  const float outliner = Fitted(sizes.outliner, kMinPanel, widest);
+  const float inspector = Fitted(sizes.inspector, kMinPanel, widest);
   const float tallest = available.y / Px(1.0f) - kMinViewportHeight;
-  float& bottom = BottomHeight();
-  bottom = std::clamp(bottom, kMinBottom, std::max(kMinBottom, tallest));
+  // The tab may be changed within.
+  double& bottom_size = sizes.bottom[static_cast<size_t>(state_.bottom)];
+  const float bottom = Fitted(bottom_size, kMinBottom, tallest);
 
   const float upper = available.y - Px(bottom) - status - 2 * Px(kSplitter);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
   const ImVec2 spacing(Px(8), Px(7));  // within the panels
-  const auto panel = [&](const char* id, const ImVec2& size, auto&& show,
+  const auto panel = [&](Region region, const char* id, const ImVec2& size, auto&& show,
                          ImGuiWindowFlags flags = 0) {
+    state_.keyboard.Before(region);
     BeginPanel(id, size, flags);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, spacing);
+    state_.keyboard.Begin(region, HasOwnKeys(region, state_.bottom));
+    if (state_.keyboard.TakesOver(region)) {
+      state_.focus = FocusOf(region, state_.bottom);
+    }
     show();
+    state_.keyboard.End(region);
     ImGui::PopStyleVar();
     ImGui::EndChild();
   };
-  panel("outliner", ImVec2(Px(outliner_width_), upper),
+  panel(Region::kOutliner, "outliner", ImVec2(Px(outliner), upper),
         [&] { panels::ShowOutliner(workspace, state_); });
   ImGui::SameLine();
-  Splitter("split outliner", true, upper, 1.0f, outliner_width_);
+  Splitter("split outliner", true, upper, 1.0f, outliner, sizes.outliner);
   ImGui::SameLine();
-  const float viewport =
-      available.x - Px(outliner_width_) - Px(inspector_width_) - 2 * Px(kSplitter);
+  const float viewport = available.x - Px(outliner) - Px(inspector) - 2 * Px(kSplitter);
   const bool covered = state_.view == panels::ViewKind::kAround;
   panel(
-      "viewport", ImVec2(viewport, upper), [&] { ShowViewport(workspace); },
+      Region::kView, "viewport", ImVec2(viewport, upper), [&] { ShowViewport(workspace); },
       covered ? ImGuiWindowFlags_NoBackground : 0);
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
       ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     state_.focus = panels::Focus::kViews;
   }
   ImGui::SameLine();
-  Splitter("split inspector", true, upper, -1.0f, inspector_width_);
+  Splitter("split inspector", true, upper, -1.0f, inspector, sizes.inspector);
   ImGui::SameLine();
-  panel("inspector", ImVec2(Px(inspector_width_), upper),
+  panel(Region::kInspector, "inspector", ImVec2(Px(inspector), upper),
         [&] { panels::ShowInspector(workspace, state_); });
-  const float height = Px(bottom);  // the tab, and so its height, may be changed within
-  Splitter("split bottom", false, available.x, -1.0f, bottom);
-  panel("bottom", ImVec2(available.x, height), [&] { ShowBottom(workspace); });
+  Splitter("split bottom", false, available.x, -1.0f, bottom, bottom_size);
+  panel(Region::kBottom, "bottom", ImVec2(available.x, Px(bottom)), [&] { ShowBottom(workspace); });
   ImGui::Dummy(ImVec2(0, Px(kSplitter)));
   ImGui::PopStyleVar();
   panels::ShowStatusBar(workspace);
 }
 
-void Layout::Show(Workspace& workspace, Settings& settings) {
+void Layout::HandleKeys(Workspace& workspace) {
+  panels::KeyboardFocus& keyboard = state_.keyboard;
+  keyboard.BeginFrame();
+  const bool dialog = state_.dialog != panels::Dialog::kNone || calibration_.is_open();
+  if (!dialog && (menus_ || panels::KeysBelongToMenus())) {
+    state_.keys.clear();
+  } else if (!dialog && keyboard.walks()) {
+    const bool idle = !ImGui::GetIO().WantTextInput && !ImGui::IsAnyItemActive();
+    std::erase_if(state_.keys, [&](const panels::KeyPress& press) {
+      const panels::KeyAction action = panels::ActionOf(panels::KeyScope::kPanels, press);
+      if (action == panels::KeyAction::kStopWalking && idle) {
+        keyboard.Ask(Region::kView, false);
+      }
+      return action != panels::KeyAction::kNone && idle;
+    });
+  }
+  timeline_.HandleKeys(workspace, state_);
+  panels::HandleShortcuts(workspace, state_);
+}
+
+void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
   state_.settings = settings;
   missing_.Look(workspace);
   if (!std::exchange(opened_, true) && missing_.count() > 0) {
@@ -188,11 +249,11 @@ void Layout::Show(Workspace& workspace, Settings& settings) {
   if (missing_.locating()) {
     state_.keys.clear();
   }
-  timeline_.HandleKeys(workspace, state_);
-  panels::HandleShortcuts(workspace, state_);
+  HandleKeys(workspace);
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->WorkPos);
   ImGui::SetNextWindowSize(viewport->WorkSize);
+  state_.keyboard.Before(Region::kToolbar);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(Px(8), Px(6)));
   // The window is painted in its background's colour already.
   ImGui::Begin("Lararium", nullptr,
@@ -201,9 +262,10 @@ void Layout::Show(Workspace& workspace, Settings& settings) {
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_MenuBar |
                    ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
+  state_.keyboard.Begin(Region::kToolbar);
   panels::ShowMenuBar(workspace, state_);
   panels::ShowToolbar(workspace, state_);
-  ShowPanels(workspace);
+  ShowPanels(workspace, sizes);
   if (calibration_.is_open()) {
     calibration_.Show(workspace.paths(), state_.pictures, state_.fields);
   } else if (panels::ShowDialogs(workspace, state_)) {
@@ -213,9 +275,11 @@ void Layout::Show(Workspace& workspace, Settings& settings) {
   if (std::exchange(state_.begin_tour, false)) {
     tour_.Begin(panels::FactsOf(workspace, state_));
   }
+  state_.keyboard.End(Region::kToolbar);
   ImGui::End();
   panels::ShowTourCard(workspace, state_, tour_);
   state_.keys.clear();
+  menus_ = panels::KeysBelongToMenus();
   settings = state_.settings;
 }
 

@@ -2,9 +2,10 @@
 
 // Where the panels are: a fixed arrangement with splitters between them.
 
-#include <array>
 #include <memory>
+#include <string>
 
+#include "editor/app/window_sizes.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/around_view.h"
 #include "editor/panels/calibration_dialog.h"
@@ -24,21 +25,25 @@ class Layout {
   // Needs the window's OpenGL context.
   static Result<std::unique_ptr<Layout>> Create();
 
-  // The whole interface, for one frame. settings: may be changed in it.
-  void Show(Workspace& workspace, Settings& settings);
+  // The whole interface, for one frame. settings and sizes: may be changed in it.
+  void Show(Workspace& workspace, Settings& settings, PanelSizes& sizes);
 
   void BeginTour() { state_.begin_tour = true; }
+  // Opens the dialog that films a place.
+  void BeginFilming(const std::string& place);
   void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
+  // Whether arrows, Enter and Space walk through the panel that has the keyboard.
+  bool keys_walk() const { return state_.keyboard.walks(); }
   bool quit_requested() const { return state_.quit; }
   bool leave_requested() const { return state_.leave; }
 
  private:
   explicit Layout(std::unique_ptr<panels::AroundView> around) : around_(std::move(around)) {}
 
-  void ShowPanels(Workspace& workspace);
+  void HandleKeys(Workspace& workspace);
+  void ShowPanels(Workspace& workspace, PanelSizes& sizes);
   void ShowViewport(Workspace& workspace);
   void ShowBottom(Workspace& workspace);
-  float& BottomHeight() { return bottom_heights_[static_cast<size_t>(state_.bottom)]; }
 
   panels::EditorState state_;
   panels::CameraView camera_;
@@ -51,10 +56,7 @@ class Layout {
   panels::CalibrationDialog calibration_;
   panels::Tour tour_;
   bool opened_ = false;  // a frame was shown
-  // Logical pixels.
-  float outliner_width_ = 224.0f;
-  float inspector_width_ = 336.0f;
-  std::array<float, 4> bottom_heights_ = {336.0f, 400.0f, 240.0f, 136.0f};  // of each tab
+  bool menus_ = false;   // had the keyboard at its end
 };
 
 }  // namespace lararium::app

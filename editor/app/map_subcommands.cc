@@ -8,12 +8,14 @@
 #include "editor/app/camera_measure.h"
 #include "editor/app/document_fields.h"
 #include "editor/app/filming.h"
+#include "editor/app/former_map.h"
 #include "editor/app/project.h"
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
 #include "editor/app/subcommands.h"
 #include "editor/app/text.h"
 #include "editor/app/training.h"
+#include "editor/app/training_report.h"
 #include "editor/train/budget.h"
 #include "editor/train/colmap_exchange.h"
 #include "editor/train/map_statistics.h"
@@ -163,15 +165,6 @@ std::string CameraSummary(const train::TrainReport& report) {
   return text;
 }
 
-std::string TrainSummary(const std::string& place, const train::TrainReport& report) {
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "%s: %zu of %d images located, %d points, mean reprojection error %.3f px\n",
-                place.c_str(), report.located.size(), report.frames, report.points,
-                report.mean_reprojection_error_px);
-  return report.intrinsics_estimated ? text + CameraSummary(report) : text;
-}
-
 // {"points", "descriptors", "images", "bytes", "recall", ...} of each budget.
 Json BudgetJson(const std::vector<train::BudgetRow>& rows) {
   Json json = Json::array();
@@ -251,6 +244,25 @@ Result<CommandResult> RemoveSession(const ProjectPaths& paths,
        {"mean_reprojection_error_px", removed.database.mean_reprojection_error_px}}};
 }
 
+Result<CommandResult> PutBack(const ProjectPaths& paths,
+                              ProjectDocument& document,
+                              const std::string& place_name) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, ChoosePlace(paths, document, place_name));
+  PlaceDocument& place = *document.FindPlace(name);
+  LARARIUM_ASSIGN_OR_RETURN(const PlaceRecordings recordings, PutFormerMapBack(paths, place));
+  SetRecordings(recordings, place);
+  LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
+  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database, LoadMap(paths, name));
+  return CommandResult{name + ": the map from before the last training is back, " +
+                           std::to_string(database.keyframes.size()) + " keyframes, " +
+                           std::to_string(database.points.size()) +
+                           " points; --put-back again brings the other\n",
+                       {{"place", name},
+                        {"keyframes", database.keyframes.size()},
+                        {"points", database.points.size()},
+                        {"mean_reprojection_error_px", database.mean_reprojection_error_px}}};
+}
+
 }  // namespace
 
 Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, Log& log) {
@@ -258,6 +270,9 @@ Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, 
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
   if (options.remove_session) {
     return RemoveSession(paths, document, options.place, *options.remove_session, progress);
+  }
+  if (options.put_back) {
+    return PutBack(paths, document, options.place);
   }
   LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, PlaceToTrain(document, options.place));
   LARARIUM_RETURN_IF_ERROR(CanBeWritten(options.report));
@@ -286,7 +301,11 @@ Result<CommandResult> RunTrain(const TrainOptions& options, Progress& progress, 
   }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, *place));
   const StageReport stage = ReportStage(document, *place, map);
-  CommandResult result{TrainSummary(place->name, report) + stage.text, ReportJson(report)};
+  LARARIUM_ASSIGN_OR_RETURN(const TrainingReport told,
+                            LoadTrainingReport(MapAtHand(paths, place->name).report));
+  CommandResult result{TrainingText(place->name, told), ReportJson(report)};
+  result.text += (report.intrinsics_estimated ? CameraSummary(report) : "") + stage.text;
+  result.json.update(TrainingJson(told));
   result.json["place"] = place->name;
   result.json["stage"] = stage.json;
   return result;
@@ -302,11 +321,11 @@ Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
                             train::FindColmapFolders(options.model, options.images));
   LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database,
                             train::ImportColmap(folders.model, folders.images, {}, progress, log));
-  LARARIUM_RETURN_IF_ERROR(SaveMap(paths, *place, database));
   // Training again would start from the same images, with the model's camera.
-  place->training = {SourceDocument::Kind::kImages, paths.Shorten(folders.images)};
-  place->intrinsics = database.camera;
-  place->added.clear();
+  const PlaceRecordings recordings{
+      {SourceDocument::Kind::kImages, paths.Shorten(folders.images)}, database.camera, {}};
+  LARARIUM_RETURN_IF_ERROR(TakeMap(paths, *place, recordings, database));
+  SetRecordings(recordings, *place);
   LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
   return CommandResult{place->name + ": " + std::to_string(database.keyframes.size()) +
                            " images, " + std::to_string(database.points.size()) + " points\n",

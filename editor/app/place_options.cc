@@ -98,6 +98,8 @@ void AddTrain(CLI::App* command, TrainOptions& train) {
                    "Take an added recording out of the map and forget it: 1 is the first that was "
                    "added")
       ->check(CLI::Range(1, 31));
+  command->add_flag("--put-back", train.put_back,
+                    "Put the map from before the last training back; doing so again undoes it");
   command->add_option("--points", train.points, "Points that the map may have")
       ->check(CLI::Range(100, 10'000'000));
   command
@@ -119,6 +121,9 @@ void CheckTrain(const TrainOptions& train) {
   const bool recorded = !train.video.empty() || !train.images.empty() || !train.camera.empty();
   if (train.remove_session && (train.add || recorded)) {
     throw CLI::ValidationError("--remove-session", "goes without a recording to train from");
+  }
+  if (train.put_back && (train.add || recorded || train.remove_session)) {
+    throw CLI::ValidationError("--put-back", "goes without a recording and --remove-session");
   }
 }
 

@@ -63,6 +63,7 @@ struct TrainOptions {
   std::vector<double> intrinsics;     // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
   bool add = false;                   // merge the recording into the map that is there
   std::optional<int> remove_session;  // take this one out of it instead, from 1 on
+  bool put_back = false;              // the map from before the last training instead
   std::optional<int> points;          // of the database at most
   std::optional<double> tag_size;     // metres: AprilTags of this size fix the scale
   std::string tag_family = "tag36h11";

@@ -1,5 +1,6 @@
 #include "editor/app/preview.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -56,6 +57,7 @@ class Preview::Worker {
   // newest. Empties it beyond the end.
   Status Track(int64_t frame);
   PreviewPicture Describe() const;
+  void PlaceObjects(const std::vector<PreviewObject>& objects);
   void TakeScript(std::shared_ptr<const std::string> script);
   // Adds what the picture that was just drawn is compared with.
   Status Compare(PreviewPicture& picture);
@@ -220,6 +222,18 @@ void Preview::Worker::PlaySound(bool on) {
   sounds_ = on;
 }
 
+void Preview::Worker::PlaceObjects(const std::vector<PreviewObject>& objects) {
+  const std::vector<show::StageObject>& staged = show_->content().objects;
+  for (size_t i = 0; i < staged.size(); ++i) {
+    const auto placed =
+        std::find_if(objects.begin(), objects.end(),
+                     [&](const PreviewObject& object) { return object.name == staged[i].name; });
+    if (placed != objects.end()) {
+      show_->PlaceObject(i, placed->stage_from_object);
+    }
+  }
+}
+
 void Preview::Worker::TakeScript(std::shared_ptr<const std::string> script) {
   if (script == nullptr || script == script_) {
     return;
@@ -239,6 +253,7 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
     renderer_->SetPlace(0, *place_);
     poses_->SetOccluders(0, show::OccludersInMap(*place_));
   }
+  PlaceObjects(request.objects);
   if (request.settled) {
     if (Status status = show_->LayFloor(); !status.ok()) {
       floor_problem_ = std::move(status);

@@ -29,6 +29,12 @@
 
 namespace lararium::app {
 
+// Where an object of the stage is at the beginning of the drama.
+struct PreviewObject {
+  std::string name;
+  stage::Pose stage_from_object;
+};
+
 struct PreviewRequest {
   int64_t frame = 0;  // of the recording; a live camera gives its newest
   double time = 0.0;  // of the drama, seconds
@@ -36,7 +42,9 @@ struct PreviewRequest {
   std::shared_ptr<const std::string> script;
   // Staged as it is now; nullptr: as it was.
   std::shared_ptr<const stage::Place> place;
-  bool settled = false;  // nobody is moving what is in people's way: they go round it
+  std::vector<PreviewObject> objects;  // those that are missing stay where they were
+  // Nobody is moving what is in people's way or used: they go round it, and to it.
+  bool settled = false;
   bool compare = false;  // the picture without people, and where they are, besides
   std::optional<OnionSkin> onion;
   bool evidence = false;      // people and things in the colours of how certain they are

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "editor/app/document_fields.h"
+#include "editor/app/place_recordings.h"
 #include "editor/train/april_tags.h"
 #include "shared/core/file.h"
 #include "shared/stage/acoustics_file.h"
@@ -23,43 +24,6 @@ using geometry::Similarity3;
 constexpr size_t kMaxEntries = 10'000;  // of any list in the file
 constexpr size_t kMaxProbes = 64;       // of a place, as bundles have it
 constexpr double kMaxPixel = 1e6;
-
-Result<SourceDocument> ParseSource(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"video", "images"}));
-  if (view.Has("video") == view.Has("images")) {
-    return view.Problem("must name either a video or a folder of images");
-  }
-  const bool video = view.Has("video");
-  LARARIUM_ASSIGN_OR_RETURN(std::string path, view.Text(video ? "video" : "images"));
-  return SourceDocument{video ? SourceDocument::Kind::kVideo : SourceDocument::Kind::kImages,
-                        std::move(path)};
-}
-
-Result<CameraModel> ParseIntrinsics(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(
-      CheckFields(view, {"width", "height", "fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2"}));
-  constexpr int kMaxSize = 65536;
-  CameraModel camera;
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t width, view.Integer("width", 1, kMaxSize));
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t height, view.Integer("height", 1, kMaxSize));
-  camera.width = static_cast<int>(width);
-  camera.height = static_cast<int>(height);
-  const std::array<std::pair<const char*, double*>, 8> fields = {{{"fx", &camera.fx},
-                                                                  {"fy", &camera.fy},
-                                                                  {"cx", &camera.cx},
-                                                                  {"cy", &camera.cy},
-                                                                  {"k1", &camera.k1},
-                                                                  {"k2", &camera.k2},
-                                                                  {"p1", &camera.p1},
-                                                                  {"p2", &camera.p2}}};
-  for (const auto& [key, value] : fields) {
-    LARARIUM_ASSIGN_OR_RETURN(*value, view.Number(key));
-  }
-  if (const Status status = camera.Validate(); !status.ok()) {
-    return status.At(view.place());
-  }
-  return camera;
-}
 
 Result<stage::Pick> ParsePick(const JsonView& view) {
   LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"frame_index", "frame", "pixel", "session"}));
@@ -129,18 +93,6 @@ Status ParseCheckPicks(const JsonView& view, std::vector<stage::Anchor>& anchors
     LARARIUM_RETURN_IF_ERROR(ParsePickList(picks, anchor));
   }
   return CheckUniqueNames(anchors, view.place());
-}
-
-Result<SessionDocument> ParseSession(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"source", "intrinsics"}));
-  SessionDocument session;
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView source, view.Field("source"));
-  LARARIUM_ASSIGN_OR_RETURN(session.source, ParseSource(source));
-  if (view.Has("intrinsics")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("intrinsics"));
-    LARARIUM_ASSIGN_OR_RETURN(session.intrinsics, ParseIntrinsics(field));
-  }
-  return session;
 }
 
 Result<TagsDocument> ParseTags(const JsonView& view) {
@@ -306,29 +258,18 @@ Status ParseProbes(const JsonView& view, std::vector<ProbeDocument>& probes) {
 
 // Fills place from the fields that may be missing.
 Status ParseOptionalFields(const JsonView& view, PlaceDocument& place) {
-  for (const auto& [key, source] :
-       {std::pair{"training", &place.training}, std::pair{"preview", &place.preview}}) {
-    if (view.Has(key)) {
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
-      LARARIUM_ASSIGN_OR_RETURN(*source, ParseSource(field));
-    }
-  }
-  if (view.Has("intrinsics")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("intrinsics"));
-    LARARIUM_ASSIGN_OR_RETURN(place.intrinsics, ParseIntrinsics(field));
+  LARARIUM_ASSIGN_OR_RETURN(PlaceRecordings recordings, ParseRecordings(view));
+  place.training = std::move(recordings.training);
+  place.intrinsics = recordings.intrinsics;
+  place.added = std::move(recordings.added);
+  if (view.Has("preview")) {
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("preview"));
+    LARARIUM_ASSIGN_OR_RETURN(place.preview, ParseSource(field));
   }
   if (view.Has("camera")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("camera"));
     LARARIUM_RETURN_IF_ERROR(CheckFields(field, {"width", "noise", "blur_px", "knee", "shutter"}));
     LARARIUM_ASSIGN_OR_RETURN(place.camera, light::ParseCameraTraits(field));
-  }
-  if (view.Has("added")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("added"));
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(kMaxAddedSessions));
-    for (const JsonView& entry : list) {
-      LARARIUM_ASSIGN_OR_RETURN(SessionDocument session, ParseSession(entry));
-      place.added.push_back(std::move(session));
-    }
   }
   if (view.Has("tags")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("tags"));
@@ -368,16 +309,6 @@ Result<PlaceDocument> ParsePlace(const JsonView& view) {
   return place;
 }
 
-Json FormatSource(const SourceDocument& source) {
-  return {{source.kind == SourceDocument::Kind::kVideo ? "video" : "images", source.path}};
-}
-
-Json FormatIntrinsics(const CameraModel& camera) {
-  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx}, {"fy", camera.fy},
-          {"cx", camera.cx},       {"cy", camera.cy},         {"k1", camera.k1}, {"k2", camera.k2},
-          {"p1", camera.p1},       {"p2", camera.p2}};
-}
-
 Json FormatPickList(const stage::Anchor& anchor) {
   Json list = Json::array();
   for (const stage::Pick& pick : anchor.picks) {
@@ -397,24 +328,12 @@ Json FormatPlace(const PlaceDocument& place) {
                {"camera_nudge", FormatVector(place.camera_nudge)},
                {"occluders", Json::array()}};
   FormatSimilarity(place.picked_from_stage, json["adjust"]);
-  if (!place.training.empty()) {
-    json["training"] = FormatSource(place.training);
-  }
+  json.update(FormatRecordings(RecordingsOf(place)));
   if (!place.preview.empty()) {
     json["preview"] = FormatSource(place.preview);
   }
-  if (place.intrinsics) {
-    json["intrinsics"] = FormatIntrinsics(*place.intrinsics);
-  }
   if (place.camera) {
     json["camera"] = light::FormatCameraTraits(*place.camera);
-  }
-  for (const SessionDocument& session : place.added) {
-    Json entry = {{"source", FormatSource(session.source)}};
-    if (session.intrinsics) {
-      entry["intrinsics"] = FormatIntrinsics(*session.intrinsics);
-    }
-    json["added"].push_back(std::move(entry));
   }
   if (place.tags) {
     json["tags"] = {{"family", place.tags->family}, {"size_m", place.tags->size_m}};
@@ -512,20 +431,12 @@ void ForgetSession(PlaceDocument& place, uint32_t session) {
     return;
   }
   place.added.erase(place.added.begin() + (session - 1));
-  const auto forget = [&](stage::Anchor& anchor) {
+  ForEachAnchor(place, [&](stage::Anchor& anchor) {
     std::erase_if(anchor.picks, [&](const stage::Pick& pick) { return pick.session == session; });
     for (stage::Pick& pick : anchor.picks) {
       pick.session -= pick.session > session ? 1 : 0;
     }
-  };
-  for (stage::Anchor* anchor : {&place.picks.origin, &place.picks.forward, &place.picks.floor,
-                                &place.picks.length_from, &place.picks.length_to}) {
-    forget(*anchor);
-  }
-  for (OccluderDocument& occluder : place.occluders) {
-    std::for_each(occluder.corners.begin(), occluder.corners.end(), forget);
-  }
-  std::for_each(place.check_picks.begin(), place.check_picks.end(), forget);
+  });
 }
 
 OccluderDocument NewOccluder(const std::string& name, const OccluderShape& shape) {

@@ -8,6 +8,7 @@
 #include "editor/app/baking.h"
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/lines.h"
+#include "editor/app/object_pose.h"
 #include "editor/app/paradata.h"
 #include "editor/app/shared_people.h"
 #include "editor/app/sounds.h"
@@ -255,11 +256,7 @@ Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, LoadBakedProp(paths, object));
     LARARIUM_ASSIGN_OR_RETURN(auto model, stage::ObjectModel::Create(std::move(prop), object.name));
     auto light = show::TakeLight(model->light());
-    const geometry::Rigid3 pose = StageFromObject(object);
-    objects.push_back({object.name,
-                       std::move(model),
-                       {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)},
-                       std::move(light)});
+    objects.push_back({object.name, std::move(model), InitialPose(object), std::move(light)});
   }
   return objects;
 }

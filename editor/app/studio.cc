@@ -12,6 +12,7 @@
 #include "shared/light/spherical_harmonics.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/render_target.h"
+#include "shared/stage/object.h"
 
 namespace lararium::app {
 namespace {
@@ -124,6 +125,14 @@ Subject Choose(StudioFrame frame, const Figure& person, float azimuth) {
   return WholeFigure(person, azimuth);
 }
 
+// A thing as it lies before a camera that looks down on it.
+Subject WholeThing(const stage::ObjectModel& model, float elevation) {
+  const glm::vec3 size = model.upper() - model.lower();
+  const float across = glm::length(glm::vec2(size.x, size.z));
+  const float tall = size.y * std::cos(elevation) + across * std::sin(elevation);
+  return {model.centre(), 0.5f * tall, 0.5f * across};
+}
+
 // Light from one direction as spherical harmonics. irradiance: of a surface that
 // faces it.
 void AddLight(const glm::vec3& direction, const glm::vec3& irradiance, light::ShRgb& light) {
@@ -190,6 +199,15 @@ geometry::Rigid3 PlaceCamera(const Subject& subject, const StudioView& view, cv:
   return render::LookAt({eye.x, eye.y, eye.z},
                         {subject.centre.x, subject.centre.y, subject.centre.z},
                         Eigen::Vector3d::UnitY());
+}
+
+render::RenderScene SceneFor(const Subject& subject, const StudioView& view, cv::Size size) {
+  render::RenderScene scene;
+  scene.background = Backdrop(size);
+  scene.camera = scene.display = Lens(size);
+  scene.camera_from_stage = PlaceCamera(subject, view, size);
+  scene.light = StudioLight(view.azimuth);
+  return scene;
 }
 
 }  // namespace
@@ -259,24 +277,46 @@ Result<StudioShot> Studio::Shoot(const StudioView& view, cv::Size size) {
   shown.human = sitter_->model;
   shown.skin = person.skin();
   shown.vertices = person.vertices();
-  render::RenderScene scene;
-  scene.background = Backdrop(size);
-  scene.camera = scene.display = Lens(size);
-  const geometry::Rigid3 camera_from_actor =
-      PlaceCamera(Choose(view.frame, Figure(person), view.azimuth), view, size);
-  scene.camera_from_stage = camera_from_actor;
+  render::RenderScene scene =
+      SceneFor(Choose(view.frame, Figure(person), view.azimuth), view, size);
   scene.humans = {&shown, 1};
-  scene.light = StudioLight(view.azimuth);
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(scene, target));
   StudioShot shot;
   target.ReadPixels(shot.picture);
   for (const glm::mat4& joint : person.actor_from_joint()) {
     const Eigen::Vector3d at =
-        camera_from_actor * Eigen::Vector3d(joint[3].x, joint[3].y, joint[3].z);
+        *scene.camera_from_stage * Eigen::Vector3d(joint[3].x, joint[3].y, joint[3].z);
     const std::optional<Eigen::Vector2d> pixel = scene.display.Project(at);
     shot.joints.push_back(pixel ? glm::vec2(pixel->x(), pixel->y()) : glm::vec2(-1e6f));
   }
   return shot;
+}
+
+Result<cv::Mat> Studio::ShootThing(const std::shared_ptr<const stage::ObjectModel>& model,
+                                   cv::Size size) {
+  constexpr StudioView kView = {.azimuth = 0.6f, .elevation = 0.4f};
+  LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
+                            render::RenderTarget::Create(size.width, size.height));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const render::ModelHandle handle,
+      renderer_->AddProp(std::shared_ptr<const stage::Prop>(model, &model->prop())));
+  stage::Object thing;
+  thing.model = model;
+  std::vector<glm::mat4> stage_from_part(model->prop().parts.size());
+  std::vector<uint8_t> shown(stage_from_part.size());
+  stage::ComputeParts(*model, stage::InitialState(thing), {}, stage_from_part, shown);
+  render::SceneProp prop;
+  prop.prop = handle;
+  prop.stage_from_part = stage_from_part;
+  prop.shown = shown;
+  render::RenderScene scene = SceneFor(WholeThing(*model, kView.elevation), kView, size);
+  scene.props = {&prop, 1};
+  const Status drawn = renderer_->Draw(scene, target);
+  renderer_->RemoveModel(handle);
+  LARARIUM_RETURN_IF_ERROR(drawn);
+  cv::Mat picture;
+  target.ReadPixels(picture);
+  return picture;
 }
 
 }  // namespace lararium::app

@@ -15,6 +15,7 @@
 #include "shared/human/human.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/renderer.h"
+#include "shared/stage/object_use.h"
 
 namespace lararium::app {
 
@@ -60,6 +61,10 @@ class Studio {
 
   // Likewise.
   Result<StudioShot> Shoot(const StudioView& view, cv::Size size);
+
+  // A thing by itself as it is at the beginning of a drama, from above and aside, as large as fits;
+  // bgr, 8 bits. Whoever sits there stays.
+  Result<cv::Mat> ShootThing(const std::shared_ptr<const stage::ObjectModel>& model, cv::Size size);
 
  private:
   struct Sitter;

@@ -3,8 +3,10 @@
 #include <map>
 #include <utility>
 
+#include "editor/app/former_map.h"
 #include "editor/app/picked_frames.h"
 #include "editor/app/staging.h"
+#include "editor/app/training_report.h"
 #include "editor/train/capture_report.h"
 #include "editor/train/session_merge.h"
 #include "shared/vision/scene_database.h"
@@ -60,12 +62,13 @@ Status WriteReport(const ProjectPaths& paths,
                    const PlaceDocument& place,
                    const SourceDocument& recording,
                    const train::TrainResult& result,
+                   std::optional<double> metres_per_unit,
                    const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, recording));
   train::CaptureReportOptions options;
   options.title = place.name;
   options.source = std::filesystem::path(recording.path).filename().string();
-  options.metres_per_unit = MetresPerUnit(place, result.database);
+  options.metres_per_unit = metres_per_unit;
   std::error_code error;
   const uintmax_t bytes = std::filesystem::file_size(paths.Scene(place.name), error);
   options.database_bytes = error ? 0 : bytes;
@@ -73,15 +76,31 @@ Status WriteReport(const ProjectPaths& paths,
   return train::WriteCaptureReport(result.report, result.database, file, options);
 }
 
-// The map first: a report that cannot be written costs no training.
+// The map in place of the one that is there, which is kept as that of place's recordings where
+// nothing else is known of it.
+Status ReplaceMap(const ProjectPaths& paths,
+                  const PlaceDocument& place,
+                  const SceneDatabase& database,
+                  const TrainingReport& report) {
+  LARARIUM_RETURN_IF_ERROR(KeepFormerMap(paths, place));
+  LARARIUM_RETURN_IF_ERROR(SaveMap(paths, place, database));
+  return SaveTrainingReport(MapAtHand(paths, place.name).report, report);
+}
+
+// recordings: of the new map. The map first: a page that cannot be written costs no training.
 Result<train::TrainReport> Finish(const ProjectPaths& paths,
                                   const PlaceDocument& place,
+                                  const PlaceRecordings& recordings,
                                   const SourceDocument& recording,
                                   train::TrainResult result,
                                   const TrainingOptions& options) {
-  LARARIUM_RETURN_IF_ERROR(SaveMap(paths, place, result.database));
+  const std::optional<double> metres_per_unit = MetresPerUnit(place, result.database);
+  LARARIUM_RETURN_IF_ERROR(
+      ReplaceMap(paths, place, result.database,
+                 DescribeTraining(recordings, recording, result, metres_per_unit)));
   if (!options.report.empty()) {
-    LARARIUM_RETURN_IF_ERROR(WriteReport(paths, place, recording, result, options.report));
+    LARARIUM_RETURN_IF_ERROR(
+        WriteReport(paths, place, recording, result, metres_per_unit, options.report));
   }
   return std::move(result.report);
 }
@@ -109,7 +128,7 @@ Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
     result.report.observations = merged.report.observations;
     result.report.mean_reprojection_error_px = merged.report.mean_reprojection_error_px;
   }
-  return Finish(paths, place, place.training, std::move(result), options);
+  return Finish(paths, place, RecordingsOf(place), place.training, std::move(result), options);
 }
 
 Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
@@ -121,7 +140,9 @@ Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
   LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase map, LoadMap(paths, place.name));
   LARARIUM_ASSIGN_OR_RETURN(train::TrainResult result,
                             MergeSession(paths, place, map, session, options, progress, log));
-  return Finish(paths, place, session.source, std::move(result), options);
+  PlaceRecordings recordings = RecordingsOf(place);
+  recordings.added.push_back(session);
+  return Finish(paths, place, recordings, session.source, std::move(result), options);
 }
 
 Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
@@ -140,8 +161,23 @@ Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
     return Status::Error(place.name, "cancelled");
   }
   progress.Report("removing a session", 0.8);
+  PlaceDocument without = place;
+  ForgetSession(without, session);
   LARARIUM_RETURN_IF_ERROR(SaveMap(paths, place, removed.database));
+  LARARIUM_RETURN_IF_ERROR(ForgetFormerMap(paths, place.name));
+  TrainingReport report;  // of another map than was trained
+  report.recordings = RecordingsOf(without);
+  LARARIUM_RETURN_IF_ERROR(SaveTrainingReport(MapAtHand(paths, place.name).report, report));
   return removed;
+}
+
+Status TakeMap(const ProjectPaths& paths,
+               const PlaceDocument& place,
+               const PlaceRecordings& recordings,
+               const SceneDatabase& database) {
+  TrainingReport report;
+  report.recordings = recordings;
+  return ReplaceMap(paths, place, database, report);
 }
 
 Status SaveMap(const ProjectPaths& paths,

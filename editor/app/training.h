@@ -23,9 +23,10 @@ struct TrainingOptions {
 };
 
 // Trains from place.training, merges the sessions of place.added into it and
-// writes the scene database, atomically. A failed or cancelled training leaves an
-// earlier one as it was. The report is about place.training; points and error are
-// those of the whole map.
+// writes the scene database, atomically, with a report for people (training_report.h). A failed,
+// cancelled or killed training leaves an earlier one as it was; one that is replaced is kept
+// beside it (former_map.h). The report is about place.training; points and error are those of the
+// whole map.
 Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
                                       const PlaceDocument& place,
                                       const TrainingOptions& options,
@@ -42,11 +43,19 @@ Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
                                         Log& log);
 
 // Takes a further recording of the place, from 1 on, out of its map and writes it, atomically.
-// The document is left as it is (ForgetSession()).
+// The document is left as it is (ForgetSession()); the former map, which goes with what is
+// forgotten, goes too.
 Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
                                             const PlaceDocument& place,
                                             uint32_t session,
                                             Progress& progress);
+
+// Likewise a map that was not trained here. recordings: that it is made of; those of place are the
+// former map's.
+Status TakeMap(const ProjectPaths& paths,
+               const PlaceDocument& place,
+               const PlaceRecordings& recordings,
+               const vision::SceneDatabase& database);
 
 // Writes a map as the place's, atomically.
 Status SaveMap(const ProjectPaths& paths,

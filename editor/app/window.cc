@@ -7,6 +7,7 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -15,6 +16,8 @@
 #include "editor/app/frame_painter.h"
 #include "editor/app/window_content.h"
 #include "editor/app/workspace.h"
+#include "editor/panels/keyboard_focus.h"
+#include "editor/panels/keys.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/wrapped_text.h"
 #include "shared/core/memory.h"
@@ -67,15 +70,22 @@ class Interface {
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
-  void Begin() {
+  // key, modifiers: GLFW's.
+  void NotePress(int key, int modifiers) { latch_.Press(key, modifiers); }
+
+  // keys_walk: see panels::Navigation.
+  void Begin(bool keys_walk) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::GetIO().Fonts->ClearTexData();  // the texture has it
     ImGui_ImplGlfw_NewFrame();
+    latch_.Hold();
+    navigation_.Prepare(keys_walk);
     ImGui::NewFrame();
   }
   // False where nothing is to be shown anew. lost: what the window showed is gone.
   bool End(bool lost) {
     ImGui::Render();
+    latch_.LetGo();
     const ImVec4& background = panels::Colours().window;
     const bool painted =
         painter_.Paint(*ImGui::GetDrawData(), {background.x, background.y, background.z});
@@ -87,6 +97,8 @@ class Interface {
 
  private:
   FramePainter painter_;
+  panels::KeyLatch latch_;
+  panels::Navigation navigation_;
   Settings look_;
   bool has_look_ = false;
 };
@@ -106,18 +118,56 @@ int KeyOfLayout(int key) {
   return letter ? name[0] - 'a' + GLFW_KEY_A : key;
 }
 
+// Makes a window that would not fit on the monitor as large as fits.
+void FitOnMonitor(const render::Window& window, const WindowSizes& sizes) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+  if (monitor != nullptr) {
+    glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  }
+  if (width > 0 && height > 0 && (sizes.width > width || sizes.height > height)) {
+    glfwSetWindowSize(window.handle(), std::min(sizes.width, width),
+                      std::min(sizes.height, height));
+    glfwSetWindowPos(window.handle(), x, y);
+  }
+  if (sizes.maximized) {
+    glfwMaximizeWindow(window.handle());
+  }
+}
+
+// How large the window is now; before: what it is when it is not maximized.
+WindowSizes SizesOf(const render::Window& window, WindowSizes before, const PanelSizes& panels) {
+  before.panels = panels;
+  before.maximized = glfwGetWindowAttrib(window.handle(), GLFW_MAXIMIZED) == GLFW_TRUE;
+  const bool shown = glfwGetWindowAttrib(window.handle(), GLFW_ICONIFIED) == GLFW_FALSE;
+  if (shown && !before.maximized) {
+    glfwGetWindowSize(window.handle(), &before.width, &before.height);
+  }
+  return before;
+}
+
 Status MainLoop(render::Window& window,
                 std::unique_ptr<Workspace> workspace,
                 const Settings& settings,
+                const WindowSizes& sizes,
                 Log& log) {
   Interface interface(window);
-  WindowContent content(std::move(workspace), settings, log);
+  WindowContent content(std::move(workspace), settings, sizes.panels, log);
   render::WindowCallbacks callbacks;
-  callbacks.key = [&content](int key, int action, int modifiers) {
+  panels::AltTap alt;
+  callbacks.key = [&](int key, int action, int modifiers) {
+    if (alt.Ends(key, action)) {
+      content.AddKey({GLFW_KEY_F10, 0, false});
+    }
     if (action != GLFW_RELEASE) {
+      interface.NotePress(key, modifiers);
       content.AddKey({KeyOfLayout(key), modifiers, action == GLFW_REPEAT});
     }
   };
+  callbacks.mouse_button = [&alt](int, int, int) { alt.Cancel(); };
   callbacks.character = [&content](char32_t character) { content.AddCharacter(character); };
   bool lost = false;
   callbacks.refresh = [&lost] { lost = true; };
@@ -139,13 +189,14 @@ Status MainLoop(render::Window& window,
       continue;
     }
     interface.SetLook(content.settings(), window.content_scale());
-    interface.Begin();
+    interface.Begin(content.keys_walk());
     status = content.Show();
     if (interface.End(std::exchange(lost, false))) {
       window.SwapBuffers();
     }
   }
   window.SetCallbacks({});
+  KeepWindowSizes(SizesOf(window, sizes, content.panels()), log);
   return status;
 }
 
@@ -158,11 +209,13 @@ Status RunWindow(const WindowOptions& options, Log& log) {
   if (!options.project.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(workspace, Workspace::Open({options.project}, log));
   }
+  const WindowSizes sizes = RestoreWindowSizes(log);
   render::WindowOptions window_options;
-  window_options.width = 1440;
-  window_options.height = 900;
+  window_options.width = sizes.width;
+  window_options.height = sizes.height;
   LARARIUM_ASSIGN_OR_RETURN(render::Window window, render::Window::Create(window_options));
-  return MainLoop(window, std::move(workspace), settings, log);
+  FitOnMonitor(window, sizes);
+  return MainLoop(window, std::move(workspace), settings, sizes, log);
 }
 
 }  // namespace lararium::app

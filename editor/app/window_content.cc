@@ -15,6 +15,7 @@ using panels::StartChoice;
 namespace {
 
 std::filesystem::path SettingsFile() { return ConfigFolder() / "editor.json"; }
+std::filesystem::path SizesFile() { return StateFolder() / "window.json"; }
 
 }  // namespace
 
@@ -28,11 +29,28 @@ Settings RestoreSettings(Log& log) {
   return *settings;
 }
 
+WindowSizes RestoreWindowSizes(Log& log) {
+  const Result<WindowSizes> sizes = LoadWindowSizes(SizesFile());
+  if (!sizes.ok()) {
+    log.warn("{}", sizes.message());
+    return WindowSizes();
+  }
+  return *sizes;
+}
+
+void KeepWindowSizes(const WindowSizes& sizes, Log& log) {
+  if (const Status status = SaveWindowSizes(SizesFile(), sizes); !status.ok()) {
+    log.warn("{}", status.message());
+  }
+}
+
 WindowContent::WindowContent(std::unique_ptr<Workspace> workspace,
                              const Settings& settings,
+                             const PanelSizes& panels,
                              Log& log)
     : log_(log),
       settings_(settings),
+      panels_(panels),
       recent_(StateFolder() / "recent.json"),
       sample_(ShippedSample()) {
   if (const Status status = recent_.Reload(); !status.ok()) {
@@ -106,7 +124,16 @@ Status WindowContent::MakeNew(const StartChoice& choice) {
   LARARIUM_RETURN_IF_ERROR(CreateProject(paths, choice.fields.name));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Workspace> workspace, Workspace::Open(paths, log_));
   Enter(std::move(workspace));
-  panels::TrainRecording(*workspace_, choice.fields);
+  switch (choice.begin) {
+    case StartChoice::Begin::kRecording:
+      panels::TrainRecording(*workspace_, choice.fields);
+      break;
+    case StartChoice::Begin::kFilming:
+      film_ = choice.fields.place;
+      break;
+    case StartChoice::Begin::kEmpty:
+      break;
+  }
   workspace_->Save();
   return Status();
 }
@@ -177,10 +204,13 @@ Status WindowContent::ShowProject() {
   if (std::exchange(tour_, false)) {
     layout_->BeginTour();
   }
+  if (!film_.empty()) {
+    layout_->BeginFilming(std::exchange(film_, ""));
+  }
   for (const panels::KeyPress& press : std::exchange(keys_, {})) {
     layout_->AddKey(press);
   }
-  layout_->Show(*workspace_, settings_);
+  layout_->Show(*workspace_, settings_, panels_);
   quit_ |= layout_->quit_requested();
   if (layout_->leave_requested()) {
     Leave();

@@ -9,6 +9,7 @@
 #include "editor/app/layout.h"
 #include "editor/app/recent_projects.h"
 #include "editor/app/settings.h"
+#include "editor/app/window_sizes.h"
 #include "editor/app/workspace.h"
 #include "editor/panels/start_page.h"
 
@@ -16,11 +17,17 @@ namespace lararium::app {
 
 // What was chosen when the window was last open; its language is that of all texts from now on.
 Settings RestoreSettings(Log& log);
+// How large it was then, and keeping that for the next time.
+WindowSizes RestoreWindowSizes(Log& log);
+void KeepWindowSizes(const WindowSizes& sizes, Log& log);
 
 class WindowContent {
  public:
   // workspace: what is open at first; nullptr: the start page. Borrows log.
-  WindowContent(std::unique_ptr<Workspace> workspace, const Settings& settings, Log& log);
+  WindowContent(std::unique_ptr<Workspace> workspace,
+                const Settings& settings,
+                const PanelSizes& panels,
+                Log& log);
   ~WindowContent();
   WindowContent(const WindowContent&) = delete;
   WindowContent& operator=(const WindowContent&) = delete;
@@ -33,6 +40,11 @@ class WindowContent {
   void AddCharacter(char32_t character);
   // What was chosen in the interface; kept at once.
   const Settings& settings() const { return settings_; }
+  // As they were dragged.
+  const PanelSizes& panels() const { return panels_; }
+  // Whether arrows, Enter and Space walk through what is shown, instead of doing what they do
+  // there.
+  bool keys_walk() const { return layout_ == nullptr || layout_->keys_walk(); }
   // Somebody asked for the end.
   bool quit_requested() const { return quit_; }
 
@@ -54,6 +66,7 @@ class WindowContent {
 
   Log& log_;
   Settings settings_;
+  PanelSizes panels_;
   RecentProjects recent_;
   std::filesystem::path sample_;  // as it was shipped; empty: not there
   panels::StartPage start_;
@@ -61,6 +74,7 @@ class WindowContent {
   std::unique_ptr<Workspace> workspace_;  // nullptr: the start page is shown
   std::unique_ptr<Layout> layout_;        // of workspace_
   bool pictured_ = false;                 // its picture was kept once
+  std::string film_;                      // a place to film, likewise
   bool tour_ = false;                     // begins with the project's first frame
   bool quit_ = false;
 };

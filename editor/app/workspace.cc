@@ -11,6 +11,8 @@
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/exporting.h"
 #include "editor/app/filming.h"
+#include "editor/app/former_map.h"
+#include "editor/app/object_pose.h"
 #include "editor/app/occluder_alignment.h"
 #include "editor/app/player_trial.h"
 #include "editor/app/sounds.h"
@@ -24,6 +26,7 @@ namespace lararium::app {
 namespace {
 
 constexpr size_t kMaxMessages = 200;
+constexpr double kSameFrame = 1e-6;  // frames: what rounding leaves of a frame's own moment
 
 // Changes when the file does: its time alone stands still for a few milliseconds at a time, but
 // whoever writes a file anew gives it another number.
@@ -34,6 +37,14 @@ std::string FileStamp(const std::filesystem::path& file) {
   }
   return std::to_string(found.st_mtim.tv_sec) + '.' + std::to_string(found.st_mtim.tv_nsec) + ' ' +
          std::to_string(found.st_size) + ' ' + std::to_string(found.st_ino);
+}
+
+// What is known of a training; nullptr where that is nothing, or the file is damaged: it is of no
+// use to the map.
+std::shared_ptr<const TrainingReport> ReadReport(const std::filesystem::path& file) {
+  Result<TrainingReport> report = LoadTrainingReport(file);
+  const bool known = report.ok() && !report->recording.empty();
+  return known ? std::make_shared<const TrainingReport>(*std::move(report)) : nullptr;
 }
 
 std::string TagsKey(const PlaceDocument& place) {
@@ -66,7 +77,7 @@ Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log)
   if (!workspace->document().places.empty()) {
     workspace->ShowPlace(workspace->document().places.front().name);
   }
-  workspace->cast_pictures_.SetCast(workspace->document().cast);
+  workspace->AskForPictures();
   return workspace;
 }
 
@@ -300,6 +311,17 @@ void Workspace::ApplyToScript(const drama::TextEdit& edit) {
   OnScriptChanged();
 }
 
+void Workspace::CancelGesture() {
+  if (!commands_.in_gesture()) {
+    return;
+  }
+  const std::vector<drama::TextEdit> patches = commands_.CancelGesture();
+  for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch) {
+    ApplyToScript(patch->Reverse());
+  }
+  OnDocumentChanged();
+}
+
 void Workspace::Undo() {
   if (commands_.CanUndo()) {
     const std::span<const drama::TextEdit> patches = commands_.Undo();
@@ -375,7 +397,7 @@ void Workspace::OnDocumentChanged() {
   since_edit_ = 0.0;
   Note(journal_.NoteProject(document()));
   DiscardIfSaved();
-  cast_pictures_.SetCast(document().cast);
+  AskForPictures();
   stage_changed_ = true;
   if (place() == nullptr && (!place_name_.empty() || !document().places.empty())) {
     // It was taken away, or is the first.
@@ -556,8 +578,10 @@ void Workspace::ReloadMap() {
   const auto loaded = std::make_shared<Database>();
   const auto measures = std::make_shared<MapMeasures>();
   const auto statistics = std::make_shared<train::MapStatistics>();
-  const auto work = [=, place = *place()](Progress& progress) {
+  const auto report = std::make_shared<std::shared_ptr<const TrainingReport>>();
+  const auto work = [=, place = *place(), paths = paths_](Progress& progress) {
     progress.Report("reading the map", 0.0);
+    *report = ReadReport(MapAtHand(paths, place.name).report);
     LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
     progress.Report("looking for the floor and for tags", 0.5);
     *measures = MeasureMap(place, database);
@@ -565,7 +589,7 @@ void Workspace::ReloadMap() {
     *loaded = std::make_shared<const vision::SceneDatabase>(std::move(database));
     return Status();
   };
-  const auto done = [this, loaded, measures, statistics, name = place_name_,
+  const auto done = [this, loaded, measures, statistics, report, name = place_name_,
                      key = TagsKey(*place()),
                      stamp = FileStamp(file)](const Status& status, bool cancelled) {
     if (!status.ok()) {
@@ -575,6 +599,12 @@ void Workspace::ReloadMap() {
       scene_stamp_ = stamp;
       ++map_loads_;
       loaded_.statistics = statistics;
+      loaded_.report = *report;
+      loaded_.has_former = HasFormerMap(paths_, name);
+      if (*report != nullptr && trained_place_ == name) {
+        trained_place_.clear();
+        report_is_new_ = true;
+      }
       loaded_.measures = std::move(*measures);
       loaded_.measured = true;
       tags_key_ = key;
@@ -620,8 +650,9 @@ std::string Workspace::PreviewKey() const {
     key["cast"].push_back(FormatCastMember(member));
   }
   for (const ObjectDocument& object : document().objects) {
-    key["objects"].push_back(
-        {FormatObject(object), object.file.empty() ? "" : FileStamp(paths_.Resolve(object.file))});
+    // Where it is changes without opening anew.
+    key["objects"].push_back({object.name, object.model, object.file,
+                              object.file.empty() ? "" : FileStamp(paths_.Resolve(object.file))});
   }
   return key.dump();
 }
@@ -783,13 +814,22 @@ int64_t Workspace::frame() const {
     return 0;
   }
   const double frames = time_ * source->frames_per_second;
-  return static_cast<int64_t>(frames + 1e-6) % source->frames;
+  return static_cast<int64_t>(frames + kSameFrame) % source->frames;
 }
 
 void Workspace::SetFrame(int64_t frame) {
   if (const std::optional<PreviewSource> source = recording()) {
     const int64_t last = std::max<int64_t>(source->frames - 1, 0);
     SetTime(static_cast<double>(std::clamp<int64_t>(frame, 0, last)) / source->frames_per_second);
+  }
+}
+
+void Workspace::StepFrames(int64_t frames) {
+  const std::optional<PreviewSource> source = recording();
+  if (source && !source->live) {
+    const double rate = source->frames_per_second;
+    const double frame = std::floor(time_ * rate + kSameFrame) + static_cast<double>(frames);
+    SetTime(std::min(frame / rate, std::max(duration() - 1.0 / rate, time_)));
   }
 }
 
@@ -864,6 +904,9 @@ void Workspace::RequestPicture() {
     return;
   }
   request.place = loaded_.staged;
+  for (const ObjectDocument& object : document().objects) {
+    request.objects.push_back({object.name, InitialPose(object)});
+  }
   request.compare = compare_;
   request.evidence = evidence_;
   request.descriptions = descriptions_;
@@ -893,7 +936,7 @@ void Workspace::Update(double seconds) {
   if (since_files_checked_ > kFilesInterval) {
     since_files_checked_ = 0.0;
     preview_stale_ = true;
-    cast_pictures_.SetCast(document().cast);
+    AskForPictures();
     LookOutside();
     // Trained by somebody else.
     map_stale_ |= loaded_.database != nullptr && !tasks_.Running(kTraining) &&
@@ -978,7 +1021,8 @@ void Workspace::RunDramaAgain() {
     *run = std::move(played);
     return Status();
   };
-  const auto done = [this, run](const Status& status, bool cancelled) {
+  const auto done = [this, run, revision = script_.revision()](const Status& status,
+                                                               bool cancelled) {
     if (cancelled) {
       return;
     }
@@ -988,7 +1032,11 @@ void Workspace::RunDramaAgain() {
         run->tasks = drama_run_->tasks;
         run->words = drama_run_->words;
         run->last = drama_run_->last;
+        run->trails = drama_run_->trails;
+        run->floor = drama_run_->floor;
       }
+    } else {
+      played_script_ = revision;
     }
     drama_run_ = run;
     ++drama_run_number_;
@@ -1015,15 +1063,18 @@ void Workspace::Check() {
         }
         checked_ = true;
         problems_.clear();
+        warnings_.clear();
         if (!status.ok()) {
           problems_.push_back(status.message());
           return;
         }
-        for (const char* kind : {"problems", "warnings"}) {
-          for (const Json& problem : result->json.value(kind, Json::array())) {
-            problems_.push_back(problem.get<std::string>());
+        const auto take = [&](const char* kind, std::vector<std::string>& texts) {
+          for (const Json& text : result->json.value(kind, Json::array())) {
+            texts.push_back(text.get<std::string>());
           }
-        }
+        };
+        take("problems", problems_);
+        take("warnings", warnings_);
       });
 }
 
@@ -1037,6 +1088,11 @@ bool Workspace::BringInSound(const std::string& name, const std::filesystem::pat
   stage_changed_ = true;
   preview_stale_ = true;
   return true;
+}
+
+void Workspace::AskForPictures() {
+  cast_pictures_.SetCast(document().cast);
+  cast_pictures_.SetObjects(document().objects);
 }
 
 void Workspace::TellOfPictures() {
@@ -1243,10 +1299,6 @@ void Workspace::SaveBones(const CastDocument& member) {
   Tell(Message::Level::kInfo, Text(Tr("Wrote %s"), file.c_str()));
 }
 
-const train::TrainReport* Workspace::last_training() const {
-  return trained_place_ == place_name_ ? training_.get() : nullptr;
-}
-
 void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
                               std::function<void()> done) {
   const auto report = std::make_shared<train::TrainReport>();
@@ -1263,7 +1315,6 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
                     static_cast<int>(report->located.size()), report->frames,
                     static_cast<int>(report->points)));
         if (status.ok() && !cancelled) {
-          training_ = report;
           trained_place_ = name;
           done();
         }
@@ -1304,8 +1355,7 @@ void Workspace::RemoveSession(uint32_t session) {
   if (place() == nullptr || session == 0 || session > place()->added.size()) {
     return;
   }
-  if (unsaved_map_ || tasks_.Running(kKeeping)) {  // would bring the session back
-    Tell(Message::Level::kWarning, Tr("The map is being written. Try again in a moment."));
+  if (!MapIsFree()) {
     return;
   }
   const auto removed = std::make_shared<train::RemovedSession>();
@@ -1326,13 +1376,42 @@ void Workspace::RemoveSession(uint32_t session) {
         ForgetSession(*place, session);
       }
     });
-    training_.reset();
     map_stale_ |= name == place_name_;
     OnDocumentChanged();
   };
-  if (!tasks_.Start(kTraining, work, done)) {  // which would write the same map
+  tasks_.Start(kTraining, work, done);
+}
+
+bool Workspace::MapIsFree() {
+  if (tasks_.Running(kTraining)) {
     Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
+    return false;
   }
+  if (unsaved_map_ || tasks_.Running(kKeeping)) {  // would bring back what goes
+    Tell(Message::Level::kWarning, Tr("The map is being written. Try again in a moment."));
+    return false;
+  }
+  return true;
+}
+
+void Workspace::PutFormerMapBack() {
+  if (place() == nullptr || !MapIsFree()) {
+    return;
+  }
+  const Result<PlaceRecordings> recordings = app::PutFormerMapBack(paths_, *place());
+  if (!recordings.ok()) {
+    Tell(Message::Level::kError, recordings.message());
+    return;
+  }
+  commands_.Rewrite([&](ProjectDocument& document) {
+    if (PlaceDocument* place = document.FindPlace(place_name_)) {
+      SetRecordings(*recordings, *place);
+    }
+  });
+  map_stale_ = true;
+  OnDocumentChanged();
+  Tell(Message::Level::kInfo,
+       Text(Tr("%s: the other map is in use. Doing so again changes back."), place_name_.c_str()));
 }
 
 void Workspace::Bake() {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "editor/app/background_task.h"
@@ -29,6 +30,7 @@
 #include "editor/app/show_contents.h"
 #include "editor/app/staging.h"
 #include "editor/app/text.h"
+#include "editor/app/training_report.h"
 #include "editor/train/map_statistics.h"
 #include "editor/train/mesh_alignment.h"
 #include "editor/train/trainer.h"
@@ -52,6 +54,8 @@ struct LoadedPlace {
   MapMeasures measures;
   bool measured = false;  // measures are of this map and of the tags that the place names
   ResolvedPicks picks;
+  std::shared_ptr<const TrainingReport> report;  // of the training; nullptr: nothing is known of it
+  bool has_former = false;                       // PutFormerMapBack() can be done
   // As staged for the preview; occluder meshes for drawing. nullptr before that.
   std::shared_ptr<const stage::Place> staged;
   // The probes as they were then, and their light: edits turn and brighten that at once.
@@ -125,6 +129,8 @@ class Workspace {
   // message instead, where the table could not be read back.
   void EditLines(const std::string& name, bake::LineTable table, std::string_view gesture = {});
   void EndGesture() { commands_.EndGesture(); }
+  // As if the gesture at work had not been begun; nothing between gestures.
+  void CancelGesture();
   void Undo();
   void Redo();
   void Save();
@@ -146,8 +152,12 @@ class Workspace {
   // worked the document forgets it too, in all that undo and redo could bring back, for the map
   // will not have it again: to be done only by whoever was asked.
   void RemoveSession(uint32_t session);
-  // Of the last training in this window; nullptr before one, or of another place.
-  const train::TrainReport* last_training() const;
+  // Exchanges the map of the place at hand with the one from before its last training, and what
+  // the document says of its recordings, in all that undo and redo could bring back. Doing it
+  // again undoes it.
+  void PutFormerMapBack();
+  // Once after each training that was done in this window, when its map and report are loaded.
+  bool TakeNewReport() { return std::exchange(report_is_new_, false); }
   void Bake();
   // Lays the model of an occluder by the map's points within so many metres of it: an edit, once
   // that is known, unless it was moved meanwhile. The occluder has to be staged.
@@ -165,6 +175,8 @@ class Workspace {
   void Check();
   bool checked() const { return checked_; }
   const std::vector<std::string>& problems() const { return problems_; }
+  // What it found that is right, but perhaps not meant.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   // Saves first.
   void Export(const ExportRequest& request);
   // What was exported last in this window; nullptr before that. And why the last export failed;
@@ -180,7 +192,7 @@ class Workspace {
   TaskList& tasks() { return tasks_; }
   bool tasks_empty() const { return tasks_.entries().empty(); }
 
-  // The people of the project in pictures.
+  // The people and objects of the project in pictures.
   CastPictures& cast_pictures() { return cast_pictures_; }
   // How many people of the cast are still to be built or pictured.
   size_t PeopleLeft() const;
@@ -239,10 +251,14 @@ class Workspace {
   const DramaRun* drama_run() const { return drama_run_.get(); }
   // Another number for each run.
   int64_t drama_run_number() const { return drama_run_number_; }
+  // It played the script as it is written now.
+  bool drama_run_is_current() const { return played_script_ == script_.revision(); }
 
   // The recording in the camera view, which begins anew where it ends before the drama.
   int64_t frame() const;
   void SetFrame(int64_t frame);
+  // So many frames of the recording on, or back: to the very moment of one.
+  void StepFrames(int64_t frames);
   std::optional<PreviewSource> recording() const {
     return preview_ ? preview_->source() : std::nullopt;
   }
@@ -291,6 +307,8 @@ class Workspace {
   std::string LinesStamp() const;
   void RunDramaAgain();
 
+  // Of whom there are to be pictures, and what was wrong with them.
+  void AskForPictures();
   void TellOfPictures();
   void OnDocumentChanged();
   void ResolvePicksAgain();
@@ -313,6 +331,8 @@ class Workspace {
   // drama names already.
   bool StageIsOutdated() const;
   void AdvancePlayback(double seconds);
+  // False, and a message, while the map is at work otherwise.
+  bool MapIsFree();
   // The work of Train and AddSession. done: edits the document after success.
   void StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
                      std::function<void()> done);
@@ -338,8 +358,8 @@ class Workspace {
   std::string picks_key_;
   std::string tags_key_;  // what was measured last
   bool measures_stale_ = false;
-  std::string trained_place_;
-  std::shared_ptr<const train::TrainReport> training_;
+  std::string trained_place_;   // whose report is to be shown
+  bool report_is_new_ = false;  // and is loaded
   std::string preview_key_;
   bool map_stale_ = false;
   std::optional<UnsavedMap> unsaved_map_;
@@ -375,14 +395,16 @@ class Workspace {
   std::shared_ptr<std::mutex> baking_ = std::make_shared<std::mutex>();  // one at a time
   std::shared_ptr<const DramaRun> drama_run_;
   int64_t drama_run_number_ = 0;
-  int64_t run_script_ = -1;    // revision that was run last
-  double since_script_ = 0.0;  // seconds since it changed
-  bool stage_changed_ = true;  // since the last run
+  int64_t run_script_ = -1;     // revision that was run last
+  int64_t played_script_ = -1;  // and that drama_run_ played
+  double since_script_ = 0.0;   // seconds since it changed
+  bool stage_changed_ = true;   // since the last run
   bool checked_ = false;
   std::optional<Refinement> refinement_;
   std::shared_ptr<const ExportedShow> exported_;
   std::string export_problem_;
   std::vector<std::string> problems_;
+  std::vector<std::string> warnings_;
   CastPictures cast_pictures_;
   std::shared_ptr<const CastCatalogue> catalogue_;
   std::string catalogue_problem_;

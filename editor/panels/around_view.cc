@@ -12,6 +12,7 @@
 #include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/frame_damage.h"
+#include "editor/panels/ghost.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -168,12 +169,11 @@ void AroundView::UpdateOccluders(const app::Workspace& workspace) {
   static const std::vector<stage::Occluder> kNone;
   const std::vector<stage::Occluder>& wanted = staged != nullptr ? staged->occluders : kNone;
   const std::vector<stage::Occluder>& known = staged_ != nullptr ? staged_->occluders : kNone;
-  const bool same = staged == staged_ ||
-                    std::equal(wanted.begin(), wanted.end(), known.begin(), known.end(),
-                               [](const stage::Occluder& a, const stage::Occluder& b) {
-                                 return a.name == b.name && a.mesh.positions == b.mesh.positions &&
-                                        a.mesh.indices == b.mesh.indices;
-                               });
+  const bool same =
+      staged == staged_ || std::equal(wanted.begin(), wanted.end(), known.begin(), known.end(),
+                                      [](const stage::Occluder& a, const stage::Occluder& b) {
+                                        return a.name == b.name && SameMesh(a.mesh, b.mesh);
+                                      });
   staged_ = staged;
   if (same) {
     return;
@@ -453,10 +453,13 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   draw.AddImage(TextureOf(target_->texture(), version_), origin, corner);
   draw.PushClipRect(origin, corner, true);
   DrawCheckPoints(workspace, state, view, draw);
-  const bool was_dragging = state.drag.has_value();
+  const auto dragging = [&] { return state.drag.has_value() || state.walk.drag.has_value(); };
+  const bool was_dragging = dragging();
   const bool picking = ShowModelPoints(workspace, state, view, hovered, draw);
-  const bool busy = ShowGizmo(workspace, state, view, hovered && !picking, draw) &&
-                    (state.drag.has_value() || was_dragging || !active);
+  const bool walking = walks_.Show(workspace, state, view, hovered && !picking, draw);
+  const bool wanted =
+      ShowGizmo(workspace, state, view, hovered && !picking && !walking, draw) || walking;
+  const bool busy = wanted && (dragging() || was_dragging || !active);
   if (busy) {
     pressed_.reset();
   }

@@ -13,6 +13,7 @@
 #include "editor/panels/editor_state.h"
 #include "editor/panels/place_cards.h"
 #include "editor/panels/place_picking.h"
+#include "editor/panels/walk_view.h"
 #include "shared/render/overlay.h"
 #include "shared/render/render_target.h"
 
@@ -76,6 +77,7 @@ class AroundView {
   std::vector<Camera> keyframes_;
   std::vector<render::OverlayLine> cameras_;
   KeyframeCard card_;
+  WalkView walks_;
   // Where a press began that may become a click.
   std::optional<Eigen::Vector2d> pressed_;
 

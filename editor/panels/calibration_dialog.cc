@@ -57,7 +57,7 @@ ImVec4 CellColour(int corners) {
   constexpr float kMany = 12.0f;
   const float share = std::min(1.0f, std::sqrt(static_cast<float>(corners) / kMany));
   const ImVec4 from = corners > 0 ? Colours().line : Colours().frame;
-  const ImVec4 to = kAxisColours[1];
+  const ImVec4 to = Colours().good;
   const float part = corners > 0 ? 0.35f + 0.65f * share : 0.0f;
   return {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
           from.z + part * (to.z - from.z), 1.0f};
@@ -102,7 +102,7 @@ void ShowPicture(PictureTextures& pictures,
     draw.AddImage(pictures.Show("calibration", moment.bgr), from,
                   ImVec2(from.x + shown.x, from.y + shown.y));
     const bool good = moment.sight == BoardSight::kKept || moment.sight == BoardSight::kAlike;
-    const ImVec4 colour = good ? kAxisColours[1] : OverPicture().warning;
+    const ImVec4 colour = good ? OverPicture().good : OverPicture().warning;
     std::vector<ImVec2> points;
     for (const Eigen::Vector2d& pixel : moment.corners) {
       points.emplace_back(from.x + scale * (static_cast<float>(pixel.x()) + 0.5f),
@@ -137,7 +137,7 @@ void ShowProgress(const app::BackgroundTask::State& state) {
 ImVec4 ErrorColour(const CalibratedView& view) {
   switch (view.part) {
     case CalibratedView::Part::kFitted:
-      return kAxisColours[1];
+      return Colours().good;
     case CalibratedView::Part::kHeldOut:
       return kAxisColours[2];
     case CalibratedView::Part::kRejected:

@@ -14,6 +14,7 @@
 #include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/icons.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -77,7 +78,7 @@ void DrawTrails(const app::PreviewPicture& picture, const Rect& rect, ImDrawList
     return ImVec2(rect.origin.x + scale * (pixel.x() + 0.5f),
                   rect.origin.y + scale * (pixel.y() + 0.5f));
   };
-  // Patches that were followed, or features that were found.
+  // Patches that were followed are round, features that were found square.
   const ImVec4 colour = picture.followed ? OverPicture().call : OverPicture().warning;
   for (const app::PointTrail& trail : picture.trails) {
     for (size_t i = 1; i < trail.pixels.size(); ++i) {
@@ -86,8 +87,10 @@ void DrawTrails(const app::PreviewPicture& picture, const Rect& rect, ImDrawList
                    Packed(colour, 0.85f * (1.0f - age)), Px(1.5f));
     }
     const ImVec2 at = place(trail.pixels.front());
-    draw.AddCircleFilled(at, Px(3.0f), Packed(OverPicture().window, 0.6f));
-    draw.AddCircleFilled(at, Px(2.0f), Packed(colour));
+    constexpr int kSquare = 4;
+    const int corners = picture.followed ? 0 : kSquare;
+    draw.AddCircleFilled(at, Px(3.0f), Packed(OverPicture().window, 0.6f), corners);
+    draw.AddCircleFilled(at, Px(2.0f), Packed(colour), corners);
   }
 }
 
@@ -109,6 +112,16 @@ std::string BadgeText(const app::Workspace& workspace,
   return ImGui::CalcTextSize(text.c_str()).x <= width ? text : Text("%s, %.0f %%", state, percent);
 }
 
+Icon BadgeIcon(const app::Workspace& workspace, const app::PreviewPicture& picture) {
+  if (!workspace.camera_is_there()) {
+    return Icon::kWarning;
+  }
+  if (!picture.camera_from_stage) {
+    return picture.state == vision::TrackState::kLost ? Icon::kLost : Icon::kSearching;
+  }
+  return picture.followed ? Icon::kGood : Icon::kFound;
+}
+
 void DrawBadge(const app::Workspace& workspace,
                const app::PreviewPicture& picture,
                const Rect& rect,
@@ -119,9 +132,10 @@ void DrawBadge(const app::Workspace& workspace,
   const ImVec2 at(rect.origin.x + Px(12), rect.origin.y + Px(12));
   draw.AddRectFilled(at, ImVec2(at.x + size.x + Px(34), at.y + size.y + Px(10)),
                      Packed(OverPicture().window, 0.8f), Px(4));
-  draw.AddCircleFilled(ImVec2(at.x + Px(13), at.y + Px(5) + 0.5f * size.y), Px(4),
-                       tracked ? Packed(kAxisColours[1]) : Packed(OverPicture().warning));
-  draw.AddText(ImVec2(at.x + Px(24), at.y + Px(5)), Packed(OverPicture().text), text.c_str());
+  draw.AddText(ImVec2(at.x + Px(5), at.y + Px(5)),
+               Packed(tracked ? OverPicture().good : OverPicture().warning),
+               IconText(BadgeIcon(workspace, picture)).c_str());
+  draw.AddText(ImVec2(at.x + Px(27), at.y + Px(5)), Packed(OverPicture().text), text.c_str());
 }
 
 // Along the camera's axes: x right, y down, z forward.
@@ -325,10 +339,7 @@ void ShowLive(app::Workspace& workspace, float switches) {
 void ShowTransport(app::Workspace& workspace, EditorState& state) {
   const std::optional<app::PreviewSource> recording = workspace.recording();
   ImGui::BeginDisabled(!recording.has_value());
-  if (ImGui::Button(workspace.playing() ? Tr("Pause") : Tr("Play"),
-                    ImVec2(WidestButton(std::array{Tr("Pause"), Tr("Play")}, 72.0f), 0))) {
-    workspace.SetPlaying(!workspace.playing());
-  }
+  PlayButton(workspace);
   ImGui::SameLine();
   const std::span<const RowSwitch> switches = SwitchesThatFit(ImGui::GetContentRegionAvail().x);
   float width = 0.0f;
@@ -438,7 +449,8 @@ void CameraView::Show(app::Workspace& workspace, EditorState& state) {
       DrawStage(workspace, view, draw);
       DrawCheckPoints(workspace, state, view, draw);
       const bool picking = ShowModelPoints(workspace, state, view, hovered, draw);
-      ShowGizmo(workspace, state, view, hovered && !picking, draw);
+      const bool walking = walks_.Show(workspace, state, view, hovered && !picking, draw);
+      ShowGizmo(workspace, state, view, hovered && !picking && !walking, draw);
     }
     if (state.show_matches) {
       DrawTrails(*picture, rect, draw);

@@ -10,6 +10,7 @@
 #include "editor/panels/editor_state.h"
 #include "editor/panels/ghost_view.h"
 #include "editor/panels/light_view.h"
+#include "editor/panels/walk_view.h"
 #include "editor/panels/wipe_view.h"
 #include "shared/render/texture.h"
 
@@ -32,6 +33,7 @@ class CameraView {
 
   render::Texture texture_;
   GhostView ghosts_;
+  WalkView walks_;
   WipeView wipe_;
   CornerDrag corners_;
   LightOverlay light_;

@@ -77,7 +77,7 @@ void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDoc
   // What follows scrolls below the portrait, so that changes are always seen.
   constexpr float kLeast = 220.0f;  // logical pixels
   const float height = std::max(ImGui::GetContentRegionAvail().y, Px(kLeast));
-  ImGui::BeginChild("figure", ImVec2(0, height));
+  ImGui::BeginChild("figure", ImVec2(0, height), false, ImGuiWindowFlags_NavFlattened);
   app::CastDocument edited = member;
   const RecipeChange change = ShowFigure(workspace, state, edited);
   if (change.any()) {

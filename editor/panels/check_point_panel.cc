@@ -39,13 +39,9 @@ const char* VerdictText(Verdict verdict) {
   return "";
 }
 
-void Dot(const ImVec4& colour) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float height = ImGui::GetTextLineHeight();
-  ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + Px(6), at.y + 0.5f * height), Px(4.5f),
-                                              Packed(colour));
-  ImGui::Dummy(ImVec2(Px(14), height));
-  ImGui::SameLine(0.0f, Px(4));
+void Sign(Verdict verdict) {
+  ImGui::TextColored(VerdictColour(verdict), "%s", IconText(VerdictIcon(verdict)).c_str());
+  ImGui::SameLine(0.0f, Px(6));
 }
 
 void EditPoint(app::Workspace& workspace,
@@ -118,7 +114,7 @@ void ShowTable(EditorState& state, const CheckReport& report) {
   for (const CheckPointReport& point : report.points) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    Dot(VerdictColour(point.verdict));
+    Sign(point.verdict);
     const Selection selection{Selection::Kind::kCheckPoint, point.name};
     if (ImGui::Selectable(point.name.c_str(), state.selection == selection,
                           ImGuiSelectableFlags_SpanAllColumns)) {
@@ -136,9 +132,7 @@ void ShowTable(EditorState& state, const CheckReport& report) {
 void ShowOutcome(app::Workspace& workspace, const CheckReport& report) {
   const bool good = report.verdict == CheckReport::Verdict::kGood;
   const bool poor = report.verdict == CheckReport::Verdict::kPoor;
-  Dot(good   ? VerdictColour(Verdict::kGood)
-      : poor ? VerdictColour(Verdict::kOff)
-             : VerdictColour(Verdict::kNotPicked));
+  Sign(good ? Verdict::kGood : poor ? Verdict::kOff : Verdict::kNotPicked);
   Heading(good ? Tr("Good") : poor ? Tr("Poor") : Tr("Not known yet"));
   ImGui::TextWrapped("%s", app::CheckAdvice(report, true).c_str());
   const bool can_lay = report.map_from_stage && report.fit_good;
@@ -209,11 +203,24 @@ const app::CheckPointDocument* SelectedCheckPoint(const app::Workspace& workspac
 ImVec4 VerdictColour(Verdict verdict) {
   switch (verdict) {
     case Verdict::kGood:
-      return kAxisColours[1];
+      return Colours().good;
     case Verdict::kNotPicked:
-      return Colours().line;
+      return Colours().dim;
     default:
       return Colours().warning;
+  }
+}
+
+Icon VerdictIcon(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return Icon::kGood;
+    case Verdict::kNotPicked:
+      return Icon::kNothingYet;
+    case Verdict::kNotLocated:
+      return Icon::kUnclear;
+    default:
+      return Icon::kWarning;
   }
 }
 

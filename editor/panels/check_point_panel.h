@@ -7,6 +7,7 @@
 
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
+#include "editor/panels/icons.h"
 
 namespace lararium::panels {
 
@@ -17,8 +18,9 @@ const app::CheckReport& CheckedPoints(const app::Workspace& workspace, EditorSta
 const app::CheckPointDocument* SelectedCheckPoint(const app::Workspace& workspace,
                                                   const EditorState& state);
 
-// Green, amber or grey.
+// What says it at a glance, by shape as well as by colour.
 ImVec4 VerdictColour(app::CheckPointReport::Verdict verdict);
+Icon VerdictIcon(app::CheckPointReport::Verdict verdict);
 
 // In the inspector.
 void ShowCheckPoint(app::Workspace& workspace,

@@ -2,78 +2,117 @@
 
 #include <imgui.h>
 
-#include <cstdlib>
+#include <array>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "editor/panels/icons.h"
+#include "editor/panels/problem_place.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
-#include "editor/panels/timeline_rows.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::panels {
 
 namespace {
 
-// What the last check of the files found, and what the script as it is now says besides.
-std::vector<std::string> Problems(const app::Workspace& workspace) {
-  std::vector<std::string> problems;
+struct Problem {
+  std::string text;
+  bool warning = false;  // it may be meant so
+};
+
+// What the last check of the files found, and what the script as it is now says besides: errors
+// first.
+std::vector<Problem> Problems(const app::Workspace& workspace) {
+  std::vector<Problem> problems;
   std::set<std::string> known;
-  const auto add = [&](const std::string& problem) {
-    // The same error with and without its time is one.
-    const size_t time = problem.rfind(" (at ");
-    if (known.insert(problem.substr(0, time)).second) {
-      problems.push_back(problem);
+  const auto add = [&](std::span<const std::string> texts, bool warning) {
+    for (const std::string& text : texts) {
+      // The same error with and without its time is one.
+      if (known.insert(text.substr(0, text.rfind(" (at "))).second) {
+        problems.push_back({text, warning});
+      }
     }
   };
   const app::ScriptDocument& script = workspace.script();
   if (!script.problem().ok()) {
-    add(script.problem().message());
-  } else {
-    for (const std::string& problem : script.timeline()->problems()) {
-      add(problem);
-    }
+    add(std::array{script.problem().message()}, false);
   }
-  for (const std::string& problem : workspace.problems()) {
-    add(problem);
-  }
+  add(workspace.problems(), false);
   if (workspace.drama_run() != nullptr) {
-    for (const std::string& problem : workspace.drama_run()->problems) {
-      add(problem);
-    }
+    add(workspace.drama_run()->problems, false);
   }
+  if (script.timeline() != nullptr) {
+    add(script.timeline()->problems(), true);
+  }
+  add(workspace.warnings(), true);
   return problems;
 }
 
-// "... (at 12.34 s)"; below 0: it says no time.
-double TimeOf(const std::string& problem) {
-  const size_t at = problem.rfind("(at ");
-  return at == std::string::npos ? -1.0 : std::strtod(problem.c_str() + at + 4, nullptr);
+// Of what the problem names first: a person, an object, an occluder, a probe, a place.
+std::optional<Selection> NamedThing(const app::Workspace& workspace, const std::string& problem) {
+  std::optional<Selection> named;
+  size_t first = std::string::npos;
+  const auto offer = [&](Selection::Kind kind, const auto& entries) {
+    for (const auto& entry : entries) {
+      if (const size_t at = FindName(problem, entry.name); at < first) {
+        first = at;
+        named = Selection{kind, entry.name};
+      }
+    }
+  };
+  offer(Selection::Kind::kActor, workspace.document().cast);
+  offer(Selection::Kind::kObject, workspace.document().objects);
+  if (workspace.place() != nullptr) {
+    offer(Selection::Kind::kOccluder, workspace.place()->occluders);
+    offer(Selection::Kind::kProbe, workspace.place()->probes);
+  }
+  offer(Selection::Kind::kPlace, workspace.document().places);
+  return named;
 }
 
+// To the time, and to the item of the timeline, else to the line of the script, else to the thing.
 void GoTo(app::Workspace& workspace, EditorState& state, const std::string& problem) {
-  const int line = LineOfPlace(problem, workspace.paths().Drama().filename().string());
-  const double time = TimeOf(problem);
-  if (time >= 0.0) {
+  const ProblemPlace place = PlaceOfProblem(problem, workspace.paths().Drama().filename().string());
+  if (place.seconds >= 0.0) {
     workspace.SetPlaying(false);
-    workspace.SetTime(time);
+    workspace.SetTime(place.seconds);
   }
-  if (line > 0) {
-    state.script_line = line;
+  if (const drama::TimelineText* text = workspace.script().timeline()) {
+    state.timeline_item = place.script_line > 0 ? ItemOnLine(*text, place.script_line)
+                          : !place.line.empty() ? ItemSaying(*text, place.line)
+                                                : std::nullopt;
+  }
+  if (state.timeline_item) {
+    state.bottom = BottomTab::kTimeline;
+    state.focus = Focus::kTimeline;
+  } else if (place.script_line > 0) {
+    state.script_line = place.script_line;
     state.bottom = BottomTab::kScript;
-    return;
+  } else if (const std::optional<Selection> named = NamedThing(workspace, problem)) {
+    state.selection = *named;
   }
-  for (const app::CastDocument& member : workspace.document().cast) {
-    if (problem.find("/" + member.name + ".") != std::string::npos) {
-      state.selection = {Selection::Kind::kActor, member.name};
-    }
+}
+
+void ShowProblem(app::Workspace& workspace, EditorState& state, const Problem& problem) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const char* text = problem.text.c_str();
+  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, width - Px(30));
+  if (ImGui::Selectable("##problem", false, ImGuiSelectableFlags_None, ImVec2(0, size.y + Px(4)))) {
+    GoTo(workspace, state, problem.text);
   }
-  for (const app::ObjectDocument& object : workspace.document().objects) {
-    if (problem.find("'" + object.name + "'") != std::string::npos) {
-      state.selection = {Selection::Kind::kObject, object.name};
-    }
-  }
+  Tip(Tr("Goes to its place: the item of the timeline, the line of the script, or the thing."));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float y = at.y + Px(2);
+  draw.AddText(ImVec2(at.x + Px(2), y),
+               Packed(problem.warning ? Colours().warning : Colours().error),
+               IconText(problem.warning ? Icon::kWarning : Icon::kError).c_str());
+  draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), ImVec2(at.x + Px(26), y),
+               Packed(Colours().text), text, nullptr, width - Px(30));
 }
 
 }  // namespace
@@ -100,8 +139,8 @@ void ShowChecksTools(app::Workspace& workspace) {
 }
 
 void ShowChecks(app::Workspace& workspace, EditorState& state) {
-  const std::vector<std::string> problems = Problems(workspace);
-  ImGui::BeginChild("list", ImVec2(0, 0));
+  const std::vector<Problem> problems = Problems(workspace);
+  ImGui::BeginChild("list", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
   if (problems.empty()) {
     Hint(workspace.checked() ? Tr("Nothing is wrong.")
                              : Tr("Nothing is known to be wrong with the script. A check also "
@@ -109,18 +148,7 @@ void ShowChecks(app::Workspace& workspace, EditorState& state) {
   }
   for (size_t i = 0; i < problems.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
-    const ImVec2 size = ImGui::CalcTextSize(problems[i].c_str(), nullptr, false, width - Px(24));
-    if (ImGui::Selectable("##problem", false, ImGuiSelectableFlags_None,
-                          ImVec2(0, size.y + Px(4)))) {
-      GoTo(workspace, state, problems[i]);
-    }
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddCircleFilled(ImVec2(at.x + Px(8), at.y + 0.5f * ImGui::GetTextLineHeight() + Px(2)),
-                         Px(4), Packed(Colours().warning));
-    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), ImVec2(at.x + Px(20), at.y + Px(2)),
-                 Packed(Colours().text), problems[i].c_str(), nullptr, width - Px(24));
+    ShowProblem(workspace, state, problems[i]);
     ImGui::PopID();
   }
   ImGui::EndChild();

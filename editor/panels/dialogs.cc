@@ -21,6 +21,7 @@
 #include "editor/panels/pick_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
+#include "editor/panels/training_report_panel.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::panels {
@@ -42,6 +43,7 @@ constexpr std::array<const char*, 1> kBones = {".json"};
 bool DialogDone(EditorState& state, const char* action, const std::string& problem) {
   const DialogAnswer answer = DialogButtons(action, problem);
   if (answer != DialogAnswer::kNone) {
+    state.left.erase(state.dialog);
     state.dialog = Dialog::kNone;
   }
   return answer == DialogAnswer::kAct;
@@ -430,6 +432,7 @@ struct DialogEntry {
 
 constexpr DialogEntry kDialogs[] = {
     {Dialog::kTrain, TrLater("Train a place"), TrainDialog},
+    {Dialog::kTrainingReport, TrLater("The training's report"), Plain<TrainingReportDialog>},
     {Dialog::kAddSession, TrLater("Add a session"), AddSessionDialog},
     {Dialog::kExport, TrLater("Export the show"), Plain<ExportDialog>},
     {Dialog::kOccluder, TrLater("Add an occluder"), Plain<OccluderDialog>},
@@ -531,7 +534,17 @@ void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
   workspace.Train();
 }
 
+bool OpenDialog(EditorState& state, Dialog dialog) {
+  state.dialog = dialog;
+  const auto left = state.left.find(dialog);
+  state.fields = left != state.left.end() ? left->second : DialogFields();
+  return left != state.left.end();
+}
+
 bool ShowDialogs(app::Workspace& workspace, EditorState& state) {
+  if (state.dialog == Dialog::kNone && workspace.TakeNewReport()) {
+    state.dialog = Dialog::kTrainingReport;
+  }
   if (state.dialog == Dialog::kKeys && !ShowKeyList(state.keys)) {
     state.dialog = Dialog::kNone;
   }
@@ -541,11 +554,13 @@ bool ShowDialogs(app::Workspace& workspace, EditorState& state) {
     }
     bool open = true;
     bool calibrate = false;
+    const DialogFields typed = state.fields;  // before Escape takes a field's text back
     ShowModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
       calibrate = entry.show(workspace, state);
       open = state.dialog == entry.dialog && !calibrate;
     });
     if (!open && !calibrate && state.dialog == entry.dialog) {  // one may lead on to another
+      state.left[entry.dialog] = typed;
       state.dialog = Dialog::kNone;
     }
     return calibrate;

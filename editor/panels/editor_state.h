@@ -3,6 +3,7 @@
 // What the interface remembers beside the project: what is selected, how the
 // views look, what is being dragged. Nothing of it is saved or undone.
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,10 +18,12 @@
 #include "editor/app/show_contents.h"
 #include "editor/bake/probe_match.h"
 #include "editor/panels/gizmo.h"
+#include "editor/panels/keyboard_focus.h"
 #include "editor/panels/keys.h"
 #include "editor/panels/picture_textures.h"
 #include "editor/panels/point_colours.h"
 #include "editor/panels/view_camera.h"
+#include "shared/drama/timeline_text.h"
 #include "shared/stage/place.h"
 #include "shared/vision/occluders.h"
 
@@ -50,6 +53,7 @@ struct Selection {
 enum class Dialog {
   kNone,
   kTrain,
+  kTrainingReport,
   kAddSession,
   kExport,
   kOccluder,
@@ -143,6 +147,31 @@ struct PlaceView {
   double metres = 0.0;           // typed, of the distance of the two; 0: nothing yet
 };
 
+// Which walks the views show, and what of them the hand moves.
+struct WalkHandles {
+  // What is chosen in the timeline where it is one thing alone: an item, or what was done in the
+  // dry run.
+  std::optional<drama::TimelineItem> item;
+  std::optional<uint32_t> task;
+
+  struct Handle {
+    drama::TimelineItem item;
+    bool begins = false;  // where somebody is placed first; otherwise where they go
+
+    friend bool operator==(const Handle&, const Handle&) = default;
+  };
+  std::optional<Handle> chosen;  // that keys move
+  struct Drag {
+    Handle handle;
+    Eigen::Vector2d pressed = Eigen::Vector2d::Zero();  // window pixel
+    glm::vec2 grip = glm::vec2(0.0f);   // from there on the floor to the handle; stage, metres
+    glm::vec2 place = glm::vec2(0.0f);  // of the handle, as it is dragged
+    bool moved = false;                 // further than a click
+    bool given_up = false;              // nothing comes of it
+  };
+  std::optional<Drag> drag;
+};
+
 // What lies below the views.
 enum class BottomTab { kTimeline, kScript, kChecks, kMessages };
 
@@ -153,11 +182,14 @@ struct EditorState {
   std::vector<KeyPress> keys;  // since the last frame
   BottomTab bottom = BottomTab::kTimeline;
   Focus focus = Focus::kViews;
+  KeyboardFocus keyboard;
   int script_line = 0;  // that the script is to show next, from 1; 0: none
+  std::optional<drama::TimelineItem> timeline_item;  // that the timeline is to choose next
   Selection selection;
   ViewKind view = ViewKind::kCamera;
   GizmoMode gizmo = GizmoMode::kMove;
   std::optional<GizmoDrag> drag;
+  bool drag_given_up = false;  // nothing comes of drag
   OrbitCamera orbit;
   bool show_stage = true;       // axes, grid and handles over the camera's picture
   bool show_points = true;      // around the place
@@ -173,6 +205,7 @@ struct EditorState {
   int keyframe = 0;
 
   PlaceView place;
+  WalkHandles walk;
   CheckView check;
   AlignView align;
   LightView light;
@@ -182,11 +215,15 @@ struct EditorState {
 
   Dialog dialog = Dialog::kNone;
   DialogFields fields;
-  app::Settings settings;    // of the window, which follows and keeps them
-  std::string new_language;  // of the lines, as far as it was typed
-  bool begin_tour = false;   // asked for
-  bool quit = false;         // asked for; the window decides
-  bool leave = false;        // the project, for the start page; likewise
+  std::map<Dialog, DialogFields> left;  // what was typed into those that Escape closed
+  app::Settings settings;               // of the window, which follows and keeps them
+  std::string new_language;             // of the lines, as far as it was typed
+  bool begin_tour = false;              // asked for
+  bool quit = false;                    // asked for; the window decides
+  bool leave = false;                   // the project, for the start page; likewise
 };
+
+// With empty fields, or as it was when Escape closed it; true then.
+bool OpenDialog(EditorState& state, Dialog dialog);
 
 }  // namespace lararium::panels

@@ -26,7 +26,7 @@ constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", 
 ImVec4 CellColour(CoverageGuide::Cell cell) {
   switch (cell) {
     case CoverageGuide::Cell::kCovered:
-      return kAxisColours[1];
+      return Colours().good;
     case CoverageGuide::Cell::kSeen:
       return Colours().warning;
     case CoverageGuide::Cell::kBare:

@@ -107,6 +107,10 @@ double Shade(const std::array<Vector3d, 3>& triangle) {
 
 }  // namespace
 
+bool SameMesh(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b) {
+  return a.positions == b.positions && a.indices == b.indices;
+}
+
 Ghost MakeGhost(const geometry::TriangleMesh& mesh) {
   Ghost ghost;
   const std::vector<uint32_t> welded = Weld(mesh.positions, ghost.corners);

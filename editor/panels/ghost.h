@@ -14,6 +14,9 @@
 
 namespace lararium::panels {
 
+// Whether two meshes have the same corners and triangles.
+bool SameMesh(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b);
+
 // A mesh made ready for that; corners in its own coordinates.
 struct Ghost {
   std::vector<Eigen::Vector3d> corners;  // each place once

@@ -17,10 +17,6 @@ constexpr float kFaceOpacity = 0.28f;
 constexpr float kEdgeOpacity = 0.75f;
 constexpr size_t kMostIndices = 3 * 4000;  // of one occluder
 
-bool SameMesh(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b) {
-  return a.positions == b.positions && a.indices == b.indices;
-}
-
 Ghost GhostOf(const geometry::TriangleMesh& mesh) {
   if (mesh.indices.size() <= kMostIndices) {
     return MakeGhost(mesh);

@@ -151,13 +151,18 @@ std::vector<Vector2d> GizmoLayout::Outline(GizmoHandle handle, const ViewCamera&
   return outline;
 }
 
-const std::vector<GizmoHandle>& HandlesOf(GizmoMode mode) {
+const std::vector<GizmoHandle>& HandlesOf(GizmoMode mode, GizmoFreedom freedom) {
   static const std::vector<GizmoHandle> kMove = {GizmoHandle::kMoveYz, GizmoHandle::kMoveZx,
                                                  GizmoHandle::kMoveXy, GizmoHandle::kMoveX,
                                                  GizmoHandle::kMoveY,  GizmoHandle::kMoveZ};
   static const std::vector<GizmoHandle> kTurn = {GizmoHandle::kTurnX, GizmoHandle::kTurnY,
                                                  GizmoHandle::kTurnZ};
   static const std::vector<GizmoHandle> kScale = {GizmoHandle::kScale};
+  static const std::vector<GizmoHandle> kTurnUpright = {GizmoHandle::kTurnY};
+  static const std::vector<GizmoHandle> kNone;
+  if (freedom == GizmoFreedom::kUpright && mode != GizmoMode::kMove) {
+    return mode == GizmoMode::kTurn ? kTurnUpright : kNone;
+  }
   switch (mode) {
     case GizmoMode::kMove:
       return kMove;
@@ -172,10 +177,11 @@ const std::vector<GizmoHandle>& HandlesOf(GizmoMode mode) {
 std::optional<GizmoHandle> PickHandle(const GizmoLayout& layout,
                                       GizmoMode mode,
                                       const ViewCamera& view,
-                                      const Vector2d& pixel) {
+                                      const Vector2d& pixel,
+                                      GizmoFreedom freedom) {
   std::optional<GizmoHandle> picked;
   double best = GizmoLayout::kGrabPx;
-  for (const GizmoHandle handle : HandlesOf(mode)) {
+  for (const GizmoHandle handle : HandlesOf(mode, freedom)) {
     const double distance = DistanceToOutline(handle, layout.Outline(handle, view), pixel);
     if (distance < best) {
       best = distance;

@@ -45,6 +45,12 @@ std::optional<Eigen::Vector3d> MeetPlane(const Ray& ray,
                                          const Eigen::Vector3d& origin,
                                          const Eigen::Vector3d& normal);
 
+// How a thing may be moved.
+enum class GizmoFreedom {
+  kFree,
+  kUpright,  // it turns about its own Y alone and keeps its size
+};
+
 // Where things lie on the screen.
 struct GizmoLayout {
   static constexpr double kArmPx = 86.0;
@@ -65,13 +71,15 @@ struct GizmoLayout {
   std::vector<Eigen::Vector2d> Outline(GizmoHandle handle, const ViewCamera& view) const;
 };
 
-const std::vector<GizmoHandle>& HandlesOf(GizmoMode mode);
+const std::vector<GizmoHandle>& HandlesOf(GizmoMode mode,
+                                          GizmoFreedom freedom = GizmoFreedom::kFree);
 
 // The handle below a pixel.
 std::optional<GizmoHandle> PickHandle(const GizmoLayout& layout,
                                       GizmoMode mode,
                                       const ViewCamera& view,
-                                      const Eigen::Vector2d& pixel);
+                                      const Eigen::Vector2d& pixel,
+                                      GizmoFreedom freedom = GizmoFreedom::kFree);
 
 // The steps of a drag from where it began. World units of a thing whose axes are turned but not
 // scaled; 0: no steps.

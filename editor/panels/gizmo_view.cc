@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "editor/app/object_pose.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 
@@ -23,7 +24,18 @@ ImU32 HandleColour(GizmoHandle handle, bool hot) {
                                        : Packed(kAxisColours[AxisOf(handle)]);
 }
 
-void DrawArrow(const std::vector<Vector2d>& outline, ImU32 packed, bool hot, ImDrawList& draw) {
+// X, Y or Z in its colour, with its middle there.
+void DrawAxisLetter(const ImVec2& at, int axis, ImU32 packed, ImDrawList& draw) {
+  static constexpr const char* kLetters[] = {"X", "Y", "Z"};
+  const ImVec2 size = ImGui::CalcTextSize(kLetters[axis]);
+  const ImVec2 corner(at.x - 0.5f * size.x, at.y - 0.5f * size.y);
+  draw.AddText(ImVec2(corner.x + Px(1), corner.y + Px(1)), Packed(OverPicture().window),
+               kLetters[axis]);
+  draw.AddText(corner, packed, kLetters[axis]);
+}
+
+void DrawArrow(
+    const std::vector<Vector2d>& outline, int axis, ImU32 packed, bool hot, ImDrawList& draw) {
   const Vector2d along = outline[1] - outline[0];
   const double length = along.norm();
   const ImVec2 tip = ToImGui(outline[1]);
@@ -35,6 +47,7 @@ void DrawArrow(const std::vector<Vector2d>& outline, ImU32 packed, bool hot, ImD
     draw.AddTriangleFilled(ToImGui(outline[1] + 2.0 * size * unit),
                            ToImGui(outline[1] + size * side), ToImGui(outline[1] - size * side),
                            packed);
+    DrawAxisLetter(ToImGui(outline[1] + (2.0 * size + Px(10)) * unit), axis, packed, draw);
   } else {
     draw.AddCircleFilled(tip, Px(5), packed);  // seen end on
   }
@@ -52,7 +65,7 @@ void DrawHandle(GizmoHandle handle,
   std::transform(outline.begin(), outline.end(), std::back_inserter(points), ToImGui);
   const int count = static_cast<int>(points.size());
   if (count == 2) {
-    DrawArrow(outline, packed, hot, draw);
+    DrawArrow(outline, AxisOf(handle), packed, hot, draw);
   } else if (handle == GizmoHandle::kScale) {
     draw.AddRectFilled(points[0], points[2], Packed(OverPicture().panel), Px(3));
     draw.AddRect(points[0], points[2], packed, Px(3), 0, Px(2));
@@ -62,7 +75,15 @@ void DrawHandle(GizmoHandle handle,
     draw.AddPolyline(points.data(), count, packed, ImDrawFlags_Closed, Px(1));
   } else {
     draw.AddPolyline(points.data(), count, packed, 0, Px(hot ? 3.5f : 2.2f));
+    DrawAxisLetter(points[points.size() / 8], AxisOf(handle), packed, draw);
   }
+}
+
+const app::ObjectDocument* FindObject(const app::ProjectDocument& document,
+                                      const std::string& name) {
+  const auto found = std::find_if(document.objects.begin(), document.objects.end(),
+                                  [&](const auto& object) { return object.name == name; });
+  return found == document.objects.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -80,6 +101,12 @@ std::optional<Similarity3> SelectedTransform(const app::Workspace& workspace,
     const app::OccluderDocument* occluder = place->FindOccluder(selection.name);
     if (occluder != nullptr && !occluder->drawn()) {
       return place->picked_from_stage * occluder->stage_from_mesh;
+    }
+  }
+  if (selection.kind == Selection::Kind::kObject) {
+    if (const app::ObjectDocument* object = FindObject(workspace.document(), selection.name)) {
+      const geometry::Rigid3 pose = app::StageFromObject(*object);
+      return place->picked_from_stage * Similarity3{1.0, pose.rotation, pose.translation};
     }
   }
   return std::nullopt;
@@ -107,10 +134,33 @@ void MoveSelected(app::Workspace& workspace,
           }
         },
         gesture);
+  } else if (selection.kind == Selection::Kind::kObject) {
+    const Similarity3 stage_from_thing =
+        workspace.place()->picked_from_stage.Inverse() * world_from_thing;
+    workspace.Edit(
+        Text(Tr("move %s"), selection.name.c_str()),
+        [&](app::ProjectDocument& document) {
+          for (app::ObjectDocument& object : document.objects) {
+            if (object.name == selection.name) {
+              app::PlaceObject(stage_from_thing.rotation, stage_from_thing.translation, object);
+            }
+          }
+        },
+        gesture);
   }
 }
 
 namespace {
+
+GizmoFreedom FreedomOf(const Selection& selection) {
+  return selection.kind == Selection::Kind::kObject ? GizmoFreedom::kUpright : GizmoFreedom::kFree;
+}
+
+bool GivesUp(const EditorState& state) {
+  return std::any_of(state.keys.begin(), state.keys.end(), [](const KeyPress& press) {
+    return ActionOf(KeyScope::kViews, press) == KeyAction::kUnselect;
+  });
+}
 
 // Ctrl while dragging, or the switch in the view around the place.
 GizmoSnap SnapOf(const app::Workspace& workspace,
@@ -138,6 +188,26 @@ GizmoSnap SnapOf(const app::Workspace& workspace,
   return snap;
 }
 
+// To where the pointer is; given up, it stays put back until the button is let go.
+void Drag(app::Workspace& workspace,
+          EditorState& state,
+          const ViewCamera& view,
+          const Vector3d& origin) {
+  if (!state.drag_given_up && GivesUp(state)) {
+    state.drag_given_up = true;
+    workspace.CancelGesture();
+  }
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    state.drag.reset();
+    workspace.EndGesture();
+  } else if (!state.drag_given_up && (moved.x != 0.0f || moved.y != 0.0f)) {
+    const GizmoSnap snap = SnapOf(workspace, state, view, origin);
+    const Vector2d pointer = ToEigen(ImGui::GetMousePos());
+    MoveSelected(workspace, state.selection, state.drag->Update(view, pointer, snap), "gizmo");
+  }
+}
+
 }  // namespace
 
 bool ShowGizmo(app::Workspace& workspace,
@@ -152,25 +222,22 @@ bool ShowGizmo(app::Workspace& workspace,
   }
   const Vector2d pointer = ToEigen(ImGui::GetMousePos());
   const GizmoLayout layout(*transform, view);
+  const GizmoFreedom freedom = FreedomOf(state.selection);
   std::optional<GizmoHandle> hot;
   if (state.drag) {
     hot = state.drag->handle();
   } else if (hovered) {
-    hot = PickHandle(layout, state.gizmo, view, pointer);
+    hot = PickHandle(layout, state.gizmo, view, pointer, freedom);
   }
   if (hot && !state.drag && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    state.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
-  }
-  if (state.drag && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    if (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f) {
-      const GizmoSnap snap = SnapOf(workspace, state, view, transform->translation);
-      MoveSelected(workspace, state.selection, state.drag->Update(view, pointer, snap), "gizmo");
-    }
-  } else if (state.drag) {
-    state.drag.reset();
     workspace.EndGesture();
+    state.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
+    state.drag_given_up = false;
   }
-  for (const GizmoHandle handle : HandlesOf(state.gizmo)) {
+  if (state.drag) {
+    Drag(workspace, state, view, transform->translation);
+  }
+  for (const GizmoHandle handle : HandlesOf(state.gizmo, freedom)) {
     DrawHandle(handle, layout.Outline(handle, view), hot == handle, draw);
   }
   draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(OverPicture().text));
@@ -214,6 +281,9 @@ void DrawStage(const app::Workspace& workspace, const ViewCamera& view, ImDrawLi
   for (int axis = 0; axis < 3; ++axis) {
     DrawWorldLine(view, world_from_stage.translation, world_from_stage * Vector3d::Unit(axis),
                   Packed(kAxisColours[axis]), Px(2), draw);
+    if (const auto end = view.Project(world_from_stage * (1.1 * Vector3d::Unit(axis)))) {
+      DrawAxisLetter(ToImGui(*end), axis, Packed(kAxisColours[axis]), draw);
+    }
   }
 }
 

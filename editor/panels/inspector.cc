@@ -68,21 +68,21 @@ std::string SourceText(const app::SourceDocument& source) {
 
 void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& database) {
   const geometry::CameraModel& camera = database.camera;
-  const train::TrainReport* training = workspace.last_training();
+  const app::TrainingReport* training = workspace.loaded().report.get();
   if (training != nullptr) {
-    PropertyText(Tr("Frames"),
-                 Text(Tr("%zu of %d located"), training->located.size(), training->frames));
+    PropertyText(Tr("Frames"), Text(Tr("%d of %d located"), training->located, training->frames));
   }
   PropertyText(Tr("Keyframes"), std::to_string(database.keyframes.size()));
   PropertyText(Tr("Points"), std::to_string(database.points.size()));
   PropertyText(Tr("Error"), Text("%.3f px", database.mean_reprojection_error_px));
   PropertyText(Tr("Image"), Text("%d x %d", camera.width, camera.height));
   std::string focal = Text("%.1f, %.1f px", camera.fx, camera.fy);
-  if (training != nullptr && training->intrinsics_estimated) {
-    focal = Text("%.1f \xc2\xb1 %.1f px", camera.fx, training->focal_deviation_px);
+  const bool estimated = training != nullptr && training->focal_deviation_px.has_value();
+  if (estimated) {
+    focal = Text("%.1f \xc2\xb1 %.1f px", camera.fx, *training->focal_deviation_px);
   }
   PropertyText(Tr("Focal"), focal);
-  if (training != nullptr && training->intrinsics_estimated && ImGui::IsItemHovered()) {
+  if (estimated && ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s",
                       Tr("Estimated from the video itself; \xc2\xb1 is a standard deviation."));
   }
@@ -244,6 +244,24 @@ void RemoveSessionButton(app::Workspace& workspace, uint32_t session, const std:
   ImGui::PopID();
 }
 
+void ShowTraining(app::Workspace& workspace, EditorState& state) {
+  if (workspace.loaded().report != nullptr &&
+      ImGui::Button(Tr("The training's report\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
+    state.dialog = Dialog::kTrainingReport;
+  }
+  if (workspace.loaded().has_former) {
+    ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kTraining));
+    if (ImGui::Button(Tr("Put the former map back"), ImVec2(-FLT_MIN, 0))) {
+      workspace.PutFormerMapBack();
+    }
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s", Tr("The map from before the last training. Doing so again changes "
+                                 "back to the one at hand."));
+    }
+  }
+}
+
 // The recordings of which the map is made, each with what it gave.
 void ShowSessions(app::Workspace& workspace,
                   const app::PlaceDocument& place,
@@ -268,7 +286,7 @@ void ShowSessions(app::Workspace& workspace,
   }
 }
 
-void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
+void ShowPlace(app::Workspace& workspace, EditorState& state, const app::PlaceDocument& place) {
   Heading(place.name.c_str());
   const auto database = workspace.loaded().database;
   if (BeginProperties("place")) {
@@ -282,6 +300,7 @@ void ShowPlace(app::Workspace& workspace, const app::PlaceDocument& place) {
     EndProperties();
   }
   if (database != nullptr) {
+    ShowTraining(workspace, state);
     ShowSessions(workspace, place, *workspace.loaded().statistics);
     ShowScale(workspace, place);
     ShowFloor(workspace, place);
@@ -505,7 +524,7 @@ void ShowInspector(app::Workspace& workspace, EditorState& state) {
   }
   switch (state.selection.kind) {
     case Kind::kPlace:
-      ShowPlace(workspace, *place);
+      ShowPlace(workspace, state, *place);
       break;
     case Kind::kStage:
       ShowStage(workspace, state, *place);

@@ -59,11 +59,12 @@ void ShowColumns() {
   }
   ImGui::TableNextColumn();
   for (const KeyScope scope :
-       {KeyScope::kAlways, KeyScope::kStart, KeyScope::kViews, KeyScope::kCamera}) {
+       {KeyScope::kAlways, KeyScope::kPanels, KeyScope::kViews, KeyScope::kCamera}) {
     ShowScope(scope);
   }
   ImGui::TableNextColumn();
-  for (const KeyScope scope : {KeyScope::kTimeline, KeyScope::kLight}) {
+  for (const KeyScope scope :
+       {KeyScope::kTimeline, KeyScope::kWalk, KeyScope::kLight, KeyScope::kStart}) {
     ShowScope(scope);
   }
   ImGui::EndTable();
@@ -81,7 +82,7 @@ bool ShowKeyList(std::span<const KeyPress> keys) {
     ShowColumns();
     ImGui::EndChild();
     Hint(
-        Tr("While you type into a field, only keys with Ctrl and F1 to F8 mean this. In the "
+        Tr("While you type into a field, only keys with Ctrl and F1 to F10 mean this. In the "
            "script and in fields, Ctrl+A, C, X and V choose, copy, cut and paste text."));
   });
   const bool again = std::any_of(keys.begin(), keys.end(), [](const KeyPress& press) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "editor/panels/text.h"
 
@@ -20,7 +21,14 @@ constexpr int kAlt = GLFW_MOD_ALT;
 constexpr int kKnownModifiers = kCtrl | kShift | kAlt;  // not Caps Lock and the like
 
 constexpr auto kBindings = std::to_array<KeyBinding>({
-    {Scope::kStart, Action::kNewProject, GLFW_KEY_N, kCtrl, 0, TrLater("Begins a new project")},
+    {Scope::kStart, Action::kNewProject, GLFW_KEY_N, kCtrl, 0,
+     TrLater("Begins a new project from a video")},
+    {Scope::kStart, Action::kNewFromImages, GLFW_KEY_I, kCtrl, 0,
+     TrLater("Begins one from a folder of images")},
+    {Scope::kStart, Action::kNewFromCamera, GLFW_KEY_K, kCtrl, 0,
+     TrLater("Begins one by filming with a camera")},
+    {Scope::kStart, Action::kNewEmpty, GLFW_KEY_N, kCtrl | kShift, 0,
+     TrLater("Begins one without a place")},
     {Scope::kStart, Action::kOpenProject, GLFW_KEY_O, kCtrl, 0, TrLater("Opens a project")},
 
     {Scope::kAlways, Action::kKeyList, GLFW_KEY_F1, 0, 0, TrLater("Shows this list")},
@@ -38,6 +46,29 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kAlways, Action::kChecksTab, GLFW_KEY_F7, 0, 0, TrLater("Shows the checks")},
     {Scope::kAlways, Action::kMessagesTab, GLFW_KEY_F8, 0, 0, TrLater("Shows the messages")},
     {Scope::kAlways, Action::kPlay, GLFW_KEY_SPACE, 0, 0, TrLater("Plays and pauses")},
+    {Scope::kAlways, Action::kPanelAfter, GLFW_KEY_TAB, kCtrl, 0,
+     TrLater("Gives the keyboard to the next panel")},
+    {Scope::kAlways, Action::kPanelBefore, GLFW_KEY_TAB, kCtrl | kShift, 0,
+     TrLater("To the panel before")},
+    {Scope::kAlways, Action::kMenus, GLFW_KEY_F10, 0, 0,
+     TrLater("Gives it to the menus, as does a tap of Alt")},
+
+    {Scope::kPanels, Action::kWalkOn, GLFW_KEY_LEFT, 0, 0,
+     TrLater("Walks; changes the number that was pressed")},
+    {Scope::kPanels, Action::kWalkOn, GLFW_KEY_RIGHT, 0, 0, nullptr},
+    {Scope::kPanels, Action::kWalkOn, GLFW_KEY_UP, 0, 0, nullptr},
+    {Scope::kPanels, Action::kWalkOn, GLFW_KEY_DOWN, 0, 0, nullptr},
+    {Scope::kPanels, Action::kWalkOn, GLFW_KEY_HOME, 0, 0, nullptr},
+    {Scope::kPanels, Action::kWalkOn, GLFW_KEY_END, 0, 0, nullptr},
+    {Scope::kPanels, Action::kWalkOn, GLFW_KEY_PAGE_UP, 0, 0, nullptr},
+    {Scope::kPanels, Action::kWalkOn, GLFW_KEY_PAGE_DOWN, 0, 0, nullptr},
+    {Scope::kPanels, Action::kPress, GLFW_KEY_ENTER, 0, 0,
+     TrLater("Presses or opens what has the ring; confirms a dialog")},
+    {Scope::kPanels, Action::kPress, GLFW_KEY_SPACE, 0, 0, nullptr},
+    {Scope::kPanels, Action::kFieldAfter, GLFW_KEY_TAB, 0, 0,
+     TrLater("To the next field that is typed into"), TrLater("the one before")},
+    {Scope::kPanels, Action::kStopWalking, GLFW_KEY_ESCAPE, 0, 0,
+     TrLater("Closes a menu, cancels a dialog; back to the views")},
 
     {Scope::kViews, Action::kCameraView, GLFW_KEY_1, 0, 0, TrLater("Looks through the camera")},
     {Scope::kViews, Action::kAroundView, GLFW_KEY_2, 0, 0, TrLater("Looks around the place")},
@@ -62,8 +93,12 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
      TrLater("Measures the distance of two points")},
     {Scope::kViews, Action::kSnapHandles, GLFW_KEY_N, 0, 0,
      TrLater("Handles move in steps; or hold Ctrl while dragging")},
+    {Scope::kViews, Action::kFrameBack, 0, 0, U',', TrLater("One frame of the recording back")},
+    {Scope::kViews, Action::kFrameOn, 0, 0, U'.', TrLater("One frame of the recording on")},
     {Scope::kViews, Action::kUnselect, GLFW_KEY_ESCAPE, 0, 0,
-     TrLater("Adds no more points of a model; unselects the points around the place")},
+     TrLater(
+         "Adds no more points of a model; unselects the points around the place; puts back what "
+         "is being dragged")},
 
     {Scope::kCamera, Action::kNudgeLeft, GLFW_KEY_LEFT, 0, 0,
      TrLater("Moves the camera to the left by 5 mm"), TrLater("by 5 cm")},
@@ -75,6 +110,16 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
      TrLater("by 5 cm")},
     {Scope::kCamera, Action::kNudgeBack, GLFW_KEY_PAGE_DOWN, 0, 0, TrLater("Back"),
      TrLater("by 5 cm")},
+
+    {Scope::kWalk, Action::kWalkLeft, GLFW_KEY_LEFT, 0, 0,
+     TrLater("Moves it to the left over the floor by 1 cm"), TrLater("by 10 cm")},
+    {Scope::kWalk, Action::kWalkRight, GLFW_KEY_RIGHT, 0, 0, TrLater("To the right"),
+     TrLater("by 10 cm")},
+    {Scope::kWalk, Action::kWalkAway, GLFW_KEY_UP, 0, 0, TrLater("Away"), TrLater("by 10 cm")},
+    {Scope::kWalk, Action::kWalkNearer, GLFW_KEY_DOWN, 0, 0, TrLater("Towards you"),
+     TrLater("by 10 cm")},
+    {Scope::kWalk, Action::kLeaveWalk, GLFW_KEY_ESCAPE, 0, 0,
+     TrLater("Lets go of it; a drag is not done")},
 
     {Scope::kLight, Action::kLightLeft, 0, 0, U'[',
      TrLater("Turns the light to the left by 1\xc2\xb0")},
@@ -144,10 +189,19 @@ bool Matches(const KeyBinding& binding, const KeyPress& press) {
   return press.key == binding.key && (held & ~may_be_held) == binding.modifiers;
 }
 
+const KeyBinding* FirstOf(KeyAction action) {
+  const auto found =
+      std::find_if(kBindings.begin(), kBindings.end(),
+                   [&](const KeyBinding& binding) { return binding.action == action; });
+  return found != kBindings.end() ? &*found : nullptr;
+}
+
 std::string KeyName(int key) {
   switch (key) {
     case GLFW_KEY_SPACE:
       return Tr("Space");
+    case GLFW_KEY_TAB:
+      return Tr("Tab");
     case GLFW_KEY_ENTER:
       return Tr("Enter");
     case GLFW_KEY_ESCAPE:
@@ -207,14 +261,28 @@ std::string KeyText(const KeyBinding& binding) {
 }
 
 std::string KeyText(KeyAction action) {
-  const auto found =
-      std::find_if(kBindings.begin(), kBindings.end(),
-                   [&](const KeyBinding& binding) { return binding.action == action; });
-  return found != kBindings.end() ? KeyText(*found) : "";
+  const KeyBinding* binding = FirstOf(action);
+  return binding != nullptr ? KeyText(*binding) : "";
+}
+
+std::string TextOf(KeyAction action) {
+  const KeyBinding* binding = FirstOf(action);
+  return binding != nullptr ? Tr(binding->does) : "";
 }
 
 std::string WithKey(const char* text, KeyAction action) {
   return std::string(text) + " (" + KeyText(action) + ")";
+}
+
+bool AltTap::Ends(int key, int action) {
+  const bool alt = key == GLFW_KEY_LEFT_ALT;  // the right one types signs on many keyboards
+  if (alt && action == GLFW_RELEASE) {
+    return std::exchange(alone_, false);
+  }
+  if (action == GLFW_PRESS) {
+    alone_ = alt;
+  }
+  return false;
 }
 
 const char* ScopeTitle(KeyScope scope) {
@@ -223,10 +291,14 @@ const char* ScopeTitle(KeyScope scope) {
       return Tr("On the start page");
     case Scope::kAlways:
       return Tr("Everywhere");
+    case Scope::kPanels:
+      return Tr("In panels, menus and dialogs");
     case Scope::kViews:
       return Tr("In the views");
     case Scope::kCamera:
       return Tr("Through the camera");
+    case Scope::kWalk:
+      return Tr("While the end of a walk is chosen");
     case Scope::kLight:
       return Tr("While a light probe is selected");
     case Scope::kTimeline:

@@ -18,15 +18,18 @@ struct KeyPress {
   char32_t character = 0;  // that it types; 0: none
 };
 
-// Where a key means something. A press is offered to the timeline while that was clicked last,
-// then to the light while a probe is selected, then to the camera view and to the rest.
-enum class KeyScope { kStart, kAlways, kViews, kCamera, kLight, kTimeline };
-inline constexpr int kKeyScopes = 6;
+// Where a key means something. A press is ImGui's while it walks the panels (KeyboardFocus), else it
+// is offered to the timeline while that was clicked last, then to the light while a probe is
+// selected, then to the end of a walk while one is chosen, then to the camera view and to the rest.
+enum class KeyScope { kStart, kAlways, kPanels, kViews, kCamera, kWalk, kLight, kTimeline };
 
 enum class KeyAction {
   kNone,
   // the start page
   kNewProject,
+  kNewFromImages,
+  kNewFromCamera,
+  kNewEmpty,
   kOpenProject,
   // always
   kSave,
@@ -41,6 +44,14 @@ enum class KeyAction {
   kMessagesTab,
   kEvidence,
   kPlay,
+  kPanelAfter,
+  kPanelBefore,
+  kMenus,
+  // walking through panels, menus and dialogs
+  kWalkOn,
+  kPress,
+  kFieldAfter,
+  kStopWalking,
   // the views
   kCameraView,
   kAroundView,
@@ -58,6 +69,8 @@ enum class KeyAction {
   kPointColours,
   kMeasure,
   kSnapHandles,
+  kFrameBack,
+  kFrameOn,
   kUnselect,
   // the camera view
   kNudgeLeft,
@@ -66,6 +79,12 @@ enum class KeyAction {
   kNudgeDown,
   kNudgeForward,
   kNudgeBack,
+  // the end of a walk
+  kWalkLeft,
+  kWalkRight,
+  kWalkAway,
+  kWalkNearer,
+  kLeaveWalk,
   // a light probe
   kLightLeft,
   kLightRight,
@@ -128,9 +147,23 @@ KeyAction ActionOf(KeyScope scope, const KeyPress& press);
 std::string KeyText(const KeyBinding& binding);
 // The first binding of an action, for menus and tooltips.
 std::string KeyText(KeyAction action);
+// What an action does, in the language of the interface.
+std::string TextOf(KeyAction action);
 // "Plays (Space)".
 std::string WithKey(const char* text, KeyAction action);
 
 const char* ScopeTitle(KeyScope scope);
+
+// Tells when Alt is pressed and let go, and nothing else meanwhile: that opens the menus.
+class AltTap {
+ public:
+  // Of every event of a key, with GLFW's codes. True when that was a tap.
+  bool Ends(int key, int action);
+  // A button of the mouse was pressed.
+  void Cancel() { alone_ = false; }
+
+ private:
+  bool alone_ = false;
+};
 
 }  // namespace lararium::panels

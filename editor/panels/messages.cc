@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/panels/icons.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -24,6 +25,18 @@ ImVec4 ColourOf(app::Message::Level level) {
       break;
   }
   return Colours().dim;
+}
+
+Icon IconOf(app::Message::Level level) {
+  switch (level) {
+    case app::Message::Level::kWarning:
+      return Icon::kWarning;
+    case app::Message::Level::kError:
+      return Icon::kError;
+    case app::Message::Level::kInfo:
+      break;
+  }
+  return Icon::kInfo;
 }
 
 void ShowTask(app::BackgroundTask& task) {
@@ -87,7 +100,7 @@ void ShowMessages(const app::Workspace& workspace) {
   }
   for (const app::Message& message : workspace.messages()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ColourOf(message.level));
-    ImGui::TextWrapped("%s", message.text.c_str());
+    ImGui::TextWrapped("%s", WithIcon(IconOf(message.level), message.text).c_str());
     ImGui::PopStyleColor();
   }
   if (at_end) {
@@ -112,7 +125,7 @@ void ShowStatusBar(app::Workspace& workspace) {
     const app::Message& newest = workspace.messages().back();
     ImGui::AlignTextToFramePadding();
     const float room = 0.62f * ImGui::GetContentRegionAvail().x;
-    const std::string shown = Elided(newest.text, room);
+    const std::string shown = Elided(WithIcon(IconOf(newest.level), newest.text), room);
     ImGui::TextColored(ColourOf(newest.level), "%s", shown.c_str());
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s", newest.text.c_str());

@@ -12,6 +12,7 @@
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
+#include "editor/panels/trackball_view.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::panels {
@@ -48,6 +49,19 @@ void ShowPlaced(app::Workspace& workspace,
   if (changed) {
     MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
                  "inspector occluder");
+  }
+}
+
+// Turned by the ball, in the axes of the view.
+void ShowBall(app::Workspace& workspace,
+              const EditorState& state,
+              const app::OccluderDocument& occluder) {
+  if (!Fold(Label(Tr("Turn by hand"), "ball"), false)) {
+    return;
+  }
+  Similarity3 world_from_mesh = workspace.place()->picked_from_stage * occluder.stage_from_mesh;
+  if (ShowTrackball(workspace, state, world_from_mesh.rotation)) {
+    MoveSelected(workspace, state.selection, world_from_mesh, "ball of an occluder");
   }
 }
 
@@ -178,6 +192,9 @@ void ShowOccluder(app::Workspace& workspace,
     ShowAlignment(workspace, state, occluder);
   }
   ShowEffects(workspace, occluder);
+  if (!occluder.drawn()) {
+    ShowBall(workspace, state, occluder);
+  }
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
                         [name = occluder.name](app::PlaceDocument& p) {

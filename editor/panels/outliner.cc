@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "editor/panels/check_point_panel.h"
+#include "editor/panels/icons.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -11,11 +12,11 @@ namespace lararium::panels {
 
 namespace {
 
-void Row(EditorState& state, const char* label, const Selection& selection) {
+void Row(EditorState& state, Icon icon, const std::string& label, const Selection& selection) {
   ImGui::PushID(static_cast<int>(selection.kind));
   ImGui::PushID(selection.name.c_str());
   ImGui::Indent(Px(6));
-  if (ImGui::Selectable(label, state.selection == selection)) {
+  if (ImGui::Selectable(WithIcon(icon, label).c_str(), state.selection == selection)) {
     state.selection = selection;
   }
   ImGui::Unindent(Px(6));
@@ -23,41 +24,48 @@ void Row(EditorState& state, const char* label, const Selection& selection) {
   ImGui::PopID();
 }
 
-// A check point with a dot at the right: how it is at this place.
+// A check point with a sign at the right: how it is at this place.
 void CheckPointRow(EditorState& state, const app::CheckPointReport& point) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  Row(state, point.name.c_str(), {Selection::Kind::kCheckPoint, point.name});
-  ImGui::GetWindowDrawList()->AddCircleFilled(
-      ImVec2(right - Px(10), from.y + 0.5f * ImGui::GetTextLineHeight()), Px(4.5f),
-      Packed(VerdictColour(point.verdict)));
+  Row(state, Icon::kCheckPoint, point.name, {Selection::Kind::kCheckPoint, point.name});
+  ImGui::GetWindowDrawList()->AddText(ImVec2(right - Px(kIconPx + 2), from.y),
+                                      Packed(VerdictColour(point.verdict)),
+                                      IconText(VerdictIcon(point.verdict)).c_str());
 }
 
-// A person with their thumbnail before the name.
-void PersonRow(app::Workspace& workspace, EditorState& state, const app::CastDocument& member) {
-  const Selection selection{Selection::Kind::kActor, member.name};
+// A person or an object with a thumbnail before the name.
+void PicturedRow(EditorState& state,
+                 const Selection& selection,
+                 const app::CastPictures::Picture& picture) {
+  const bool person = selection.kind == Selection::Kind::kActor;
   const float side = Px(34);
-  ImGui::PushID(member.name.c_str());
+  ImGui::PushID(static_cast<int>(selection.kind));
+  ImGui::PushID(selection.name.c_str());
   ImGui::Indent(Px(6));
   const ImVec2 from = ImGui::GetCursorPos();
-  if (ImGui::Selectable("##person", state.selection == selection, ImGuiSelectableFlags_None,
+  if (ImGui::Selectable("##pictured", state.selection == selection, ImGuiSelectableFlags_None,
                         ImVec2(0, side))) {
     state.selection = selection;
   }
   const ImVec2 after = ImGui::GetCursorPos();
   ImGui::SetCursorPos(from);
-  ShowThumbnail(state.pictures, "person " + member.name,
-                workspace.cast_pictures().Thumbnail(member.name), side);
+  ShowThumbnail(state.pictures, (person ? "person " : "object ") + selection.name, picture, side,
+                person ? ThumbnailOf::kPerson : ThumbnailOf::kThing);
   ImGui::SetCursorPos(
       ImVec2(from.x + side + Px(8), from.y + 0.5f * (side - ImGui::GetTextLineHeight())));
-  ImGui::TextUnformatted(member.name.c_str());
+  ImGui::TextUnformatted(selection.name.c_str());
   ImGui::SetCursorPos(after);
   ImGui::Unindent(Px(6));
   ImGui::PopID();
+  ImGui::PopID();
 }
 
-// A heading with a button at the right that adds to its list.
-void Section(const char* title, EditorState* state = nullptr, Dialog add = Dialog::kNone) {
+// A heading with a button at the right that adds to its list; does: what that button does.
+void Section(const char* title,
+             EditorState* state = nullptr,
+             Dialog add = Dialog::kNone,
+             const char* does = "") {
   ImGui::Dummy(ImVec2(0, Px(4)));
   ImGui::AlignTextToFramePadding();
   DimText(title);
@@ -66,9 +74,9 @@ void Section(const char* title, EditorState* state = nullptr, Dialog add = Dialo
     ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
     ImGui::PushID(static_cast<int>(add));
     if (ImGui::Button("+", ImVec2(width, 0))) {
-      state->dialog = add;
-      state->fields = {};
+      OpenDialog(*state, add);
     }
+    Tip(does);
     ImGui::PopID();
   }
 }
@@ -77,12 +85,12 @@ void Section(const char* title, EditorState* state = nullptr, Dialog add = Dialo
 
 void ShowOutliner(app::Workspace& workspace, EditorState& state) {
   using Kind = Selection::Kind;
-  Row(state, Tr("Project"), {Kind::kProject, ""});
-  Section(Tr("Places"), &state, Dialog::kTrain);
+  Row(state, Icon::kProject, Tr("Project"), {Kind::kProject, ""});
+  Section(Tr("Places"), &state, Dialog::kTrain, Tr("Adds a place"));
   for (const app::PlaceDocument& place : workspace.document().places) {
     const bool shown = workspace.place() == &place;
     const std::string label = shown ? place.name : Text(Tr("%s (not shown)"), place.name.c_str());
-    Row(state, label.c_str(), {Kind::kPlace, place.name});
+    Row(state, Icon::kPlace, label, {Kind::kPlace, place.name});
     if (!shown && state.selection == Selection{Kind::kPlace, place.name}) {
       workspace.ShowPlace(place.name);
       return;  // the document's views have changed
@@ -90,28 +98,30 @@ void ShowOutliner(app::Workspace& workspace, EditorState& state) {
   }
   if (const app::PlaceDocument* place = workspace.place()) {
     Section(Tr("On the stage"));
-    Row(state, Tr("Stage"), {Kind::kStage, ""});
-    Row(state, Tr("Picks"), {Kind::kPicks, ""});
-    Row(state, Tr("Camera nudge"), {Kind::kNudge, ""});
-    Section(Tr("Light probes"), &state, Dialog::kProbe);
+    Row(state, Icon::kStage, Tr("Stage"), {Kind::kStage, ""});
+    Row(state, Icon::kPicks, Tr("Picks"), {Kind::kPicks, ""});
+    Row(state, Icon::kNudge, Tr("Camera nudge"), {Kind::kNudge, ""});
+    Section(Tr("Light probes"), &state, Dialog::kProbe, Tr("Adds a light probe"));
     for (const app::ProbeDocument& probe : place->probes) {
-      Row(state, probe.name.c_str(), {Kind::kProbe, probe.name});
+      Row(state, Icon::kProbe, probe.name, {Kind::kProbe, probe.name});
     }
-    Section(Tr("Occluders"), &state, Dialog::kOccluder);
+    Section(Tr("Occluders"), &state, Dialog::kOccluder, Tr("Adds an occluder"));
     for (const app::OccluderDocument& occluder : place->occluders) {
-      Row(state, occluder.name.c_str(), {Kind::kOccluder, occluder.name});
+      Row(state, Icon::kOccluder, occluder.name, {Kind::kOccluder, occluder.name});
     }
   }
-  Section(Tr("Cast"), &state, Dialog::kCast);
+  Section(Tr("Cast"), &state, Dialog::kCast, Tr("Adds a person"));
   for (const app::CastDocument& member : workspace.document().cast) {
-    PersonRow(workspace, state, member);
+    PicturedRow(state, {Kind::kActor, member.name},
+                workspace.cast_pictures().Thumbnail(member.name));
   }
-  Section(Tr("Objects"), &state, Dialog::kObject);
+  Section(Tr("Objects"), &state, Dialog::kObject, Tr("Adds an object"));
   for (const app::ObjectDocument& object : workspace.document().objects) {
-    Row(state, object.name.c_str(), {Kind::kObject, object.name});
+    PicturedRow(state, {Kind::kObject, object.name},
+                workspace.cast_pictures().ObjectThumbnail(object.name));
   }
   if (workspace.place() != nullptr) {
-    Section(Tr("Check points"), &state, Dialog::kCheckPoint);
+    Section(Tr("Check points"), &state, Dialog::kCheckPoint, Tr("Adds a check point"));
     for (const app::CheckPointReport& point : CheckedPoints(workspace, state).points) {
       CheckPointRow(state, point);
     }

@@ -18,6 +18,7 @@ const Palette kDark = {.accent = Rgb(0xd96b49),
                        .chosen = Rgb(0x9c4328),
                        .text = Rgb(0xe3e5e9),
                        .dim = Rgb(0xa8adb6),
+                       .good = Rgb(0x42b0e0),
                        .warning = Rgb(0xeabf5f),
                        .error = Rgb(0xf27871),
                        .window = Rgb(0x191b1f),
@@ -34,8 +35,9 @@ const Palette kLight = {.accent = Rgb(0xb84f2b),
                         .chosen = Rgb(0xf1b194),
                         .text = Rgb(0x1e2126),
                         .dim = Rgb(0x4a505a),
-                        .warning = Rgb(0x7a5000),
-                        .error = Rgb(0xb0211e),
+                        .good = Rgb(0x00658a),
+                        .warning = Rgb(0x8a5a00),
+                        .error = Rgb(0x900028),
                         .window = Rgb(0xe6e8eb),
                         .panel = Rgb(0xf8f9fa),
                         .frame = Rgb(0xd9dce1),
@@ -53,6 +55,36 @@ ImVec4 SessionColour(uint32_t session) {
                                                    Rgb(0xf0e442), Rgb(0xd98cb9), Rgb(0xe8672c),
                                                    Rgb(0x6f86e0), Rgb(0xa5854f)};
   return kColours[session % kSessionColours];
+}
+
+ImVec4 LaneColour(drama::LaneKind kind) {
+  using drama::LaneKind;
+  switch (kind) {
+    case LaneKind::kSpeech:
+      return {0.337f, 0.706f, 0.914f, 1.0f};  // sky blue
+    case LaneKind::kWalks:
+      return {0.160f, 0.660f, 0.520f, 1.0f};  // bluish green
+    case LaneKind::kUses:
+      return {0.902f, 0.624f, 0.100f, 1.0f};  // orange
+    case LaneKind::kGestures:
+      return {0.900f, 0.850f, 0.360f, 1.0f};  // yellow
+    case LaneKind::kGaze:
+      return {0.800f, 0.520f, 0.680f, 1.0f};  // reddish purple
+    case LaneKind::kExpressions:
+      return {0.835f, 0.400f, 0.180f, 1.0f};  // vermillion
+    case LaneKind::kClips:
+      return {0.220f, 0.490f, 0.760f, 1.0f};  // blue
+    case LaneKind::kLights:
+      return {0.900f, 0.850f, 0.360f, 1.0f};
+    case LaneKind::kSounds:
+      return {0.220f, 0.490f, 0.760f, 1.0f};
+    case LaneKind::kCaptions:
+    case LaneKind::kDescriptions:
+      return {0.337f, 0.706f, 0.914f, 1.0f};
+    case LaneKind::kMarkers:
+      return {0.780f, 0.800f, 0.840f, 1.0f};
+  }
+  return {0.780f, 0.800f, 0.840f, 1.0f};
 }
 
 ImVec4 RampColour(double t) {

@@ -1,13 +1,15 @@
 #pragma once
 
 // The colours of the interface, dark and light. Text keeps a contrast of at least 4.5 to 1 on
-// whatever lies below it (WCAG 2, level AA); tests hold both palettes to that.
+// whatever lies below it (WCAG 2, level AA), and colours that tell states apart do so for people
+// who see no red or no green; tests hold both palettes to that.
 
 #include <imgui.h>
 
 #include <cstdint>
 
 #include "editor/app/settings.h"
+#include "shared/drama/timeline_lanes.h"
 
 namespace lararium::panels {
 
@@ -19,6 +21,7 @@ struct Palette {
   ImVec4 chosen;  // below the text of what is chosen, or of the button that matters most
   ImVec4 text;
   ImVec4 dim;  // text that matters less
+  ImVec4 good;
   ImVec4 warning;
   ImVec4 error;
   ImVec4 window;  // behind and between the panels
@@ -39,7 +42,7 @@ const Palette& PaletteOf(Theme theme);
 // Of what lies over photographs and in the view around the place, in either theme.
 inline const Palette& OverPicture() { return PaletteOf(Theme::kDark); }
 
-// X, Y, Z.
+// X, Y, Z: beside their letters, since not everybody tells red from green.
 inline const ImVec4 kAxisColours[3] = {
     {0.878f, 0.365f, 0.365f, 1.0f}, {0.482f, 0.757f, 0.388f, 1.0f}, {0.369f, 0.592f, 0.918f, 1.0f}};
 
@@ -48,6 +51,11 @@ inline const ImVec4 kAxisColours[3] = {
 // eighth.
 ImVec4 SessionColour(uint32_t session);
 inline constexpr uint32_t kSessionColours = 8;
+// Of a person of the cast, where something of theirs is drawn over a picture; the same set.
+inline ImVec4 PersonColour(uint32_t cast) { return SessionColour(cast); }
+// Of a kind of item on the timeline (likewise, calmed), beside its icon. Kinds of the stage share
+// those of people.
+ImVec4 LaneColour(drama::LaneKind kind);
 // Of what several sessions saw.
 inline const ImVec4 kSeveralColour = {0.86f, 0.87f, 0.89f, 1.0f};
 

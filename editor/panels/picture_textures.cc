@@ -22,7 +22,8 @@ ImTextureID PictureTextures::Show(const std::string& key,
 void ShowThumbnail(PictureTextures& textures,
                    const std::string& key,
                    const std::shared_ptr<const cv::Mat>& picture,
-                   float side) {
+                   float side,
+                   ThumbnailOf what) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const ImVec2 to(from.x + side, from.y + side);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -30,6 +31,8 @@ void ShowThumbnail(PictureTextures& textures,
   if (picture != nullptr) {
     draw.AddImageRounded(textures.Show(key, picture), from, to, ImVec2(0, 0), ImVec2(1, 1),
                          IM_COL32_WHITE, rounding);
+  } else if (what == ThumbnailOf::kThing) {
+    draw.AddRectFilled(from, to, Packed(Colours().frame), rounding);
   } else {
     // A head and shoulders in outline, until there is a picture.
     const ImU32 ink = Packed(Colours().dim, 0.35f);

@@ -30,11 +30,14 @@ class PictureTextures {
   std::map<std::string, Entry> entries_;
 };
 
+enum class ThumbnailOf { kPerson, kThing };
+
 // The picture over the next square of side pixels, cut out with round corners; an empty
-// frame where there is none. Advances the cursor like an item.
+// frame where there is none, with an outline of a person. Advances the cursor like an item.
 void ShowThumbnail(PictureTextures& textures,
                    const std::string& key,
                    const std::shared_ptr<const cv::Mat>& picture,
-                   float side);
+                   float side,
+                   ThumbnailOf what = ThumbnailOf::kPerson);
 
 }  // namespace lararium::panels

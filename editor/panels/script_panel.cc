@@ -93,11 +93,12 @@ void ScriptPanel::EndTyping(app::Workspace& workspace) {
 void ScriptPanel::CollectProblems(const app::Workspace& workspace) {
   const app::ScriptDocument& script = workspace.script();
   const int64_t of = script.revision() * 1000003 + workspace.drama_run_number();
-  if (of == problems_of_ && problem_count_ == workspace.problems().size()) {
+  const size_t found = workspace.problems().size() + workspace.warnings().size();
+  if (of == problems_of_ && problem_count_ == found) {
     return;
   }
   problems_of_ = of;
-  problem_count_ = workspace.problems().size();
+  problem_count_ = found;
   problems_.clear();
   const std::string file = workspace.paths().Drama().filename().string();
   const auto add = [&](const std::string& message) {
@@ -121,8 +122,8 @@ void ScriptPanel::CollectProblems(const app::Workspace& workspace) {
       add(problem);
     }
   }
-  for (const std::string& problem : workspace.problems()) {
-    add(problem);
+  for (const auto* problems : {&workspace.problems(), &workspace.warnings()}) {
+    std::for_each(problems->begin(), problems->end(), add);
   }
 }
 
@@ -312,6 +313,7 @@ void ScriptPanel::ShowTools(app::Workspace& workspace, EditorState& state) {
 
 void ScriptPanel::Show(app::Workspace& workspace, EditorState& state) {
   CollectProblems(workspace);
+  focus_field_ |= state.keyboard.TakesOver(Region::kBottom);
   if (state.script_line > 0) {
     Refresh(workspace);
     const auto line = std::min(static_cast<size_t>(state.script_line), lines_.size());

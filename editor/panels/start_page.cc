@@ -4,7 +4,6 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "editor/app/project.h"
@@ -29,21 +28,6 @@ constexpr float kCard = 264.0f;
 constexpr float kPad = 10.0f;  // within a card
 constexpr float kGap = 18.0f;  // between cards
 constexpr const char* kSuffix = ".lararium";
-
-// "22 Nov 2026, 14:05", local.
-std::string DateText(int64_t seconds) {
-  const std::time_t time = static_cast<std::time_t>(seconds);
-  std::tm parts = {};
-  if (localtime_r(&time, &parts) == nullptr) {
-    return "";
-  }
-  static constexpr const char* kMonths[] = {TrLater("Jan"), TrLater("Feb"), TrLater("Mar"),
-                                            TrLater("Apr"), TrLater("May"), TrLater("Jun"),
-                                            TrLater("Jul"), TrLater("Aug"), TrLater("Sep"),
-                                            TrLater("Oct"), TrLater("Nov"), TrLater("Dec")};
-  return Text("%d %s %d, %02d:%02d", parts.tm_mday, Tr(kMonths[parts.tm_mon]), parts.tm_year + 1900,
-              parts.tm_hour, parts.tm_min);
-}
 
 // As people write it: "~" for their own folder.
 std::string FolderText(const fs::path& folder) {
@@ -123,10 +107,17 @@ void StartPage::HandleKeys(const app::RecentProjects& recent,
     }
     if (action == KeyAction::kKeyList) {
       OpenDialog(Open::kKeys, recent);
-    } else if (ActionOf(KeyScope::kStart, press) == KeyAction::kNewProject) {
-      OpenDialog(Open::kNew, recent);
-    } else if (ActionOf(KeyScope::kStart, press) == KeyAction::kOpenProject) {
-      OpenDialog(Open::kProject, recent);
+      continue;
+    }
+    constexpr std::pair<KeyAction, Open> kOpens[] = {{KeyAction::kNewProject, Open::kVideo},
+                                                     {KeyAction::kNewFromImages, Open::kImages},
+                                                     {KeyAction::kNewFromCamera, Open::kCamera},
+                                                     {KeyAction::kNewEmpty, Open::kEmpty},
+                                                     {KeyAction::kOpenProject, Open::kProject}};
+    for (const auto& [opens, dialog] : kOpens) {
+      if (ActionOf(KeyScope::kStart, press) == opens) {
+        OpenDialog(dialog, recent);
+      }
     }
   }
 }
@@ -134,6 +125,7 @@ void StartPage::HandleKeys(const app::RecentProjects& recent,
 void StartPage::OpenDialog(Open dialog, const app::RecentProjects& recent) {
   dialog_ = dialog;
   fields_ = {};
+  fields_.images = dialog == Open::kImages;
   problem_.clear();
   folder_ = UsualFolder(recent).string();
 }
@@ -148,8 +140,18 @@ void StartPage::ShowActions(const app::RecentProjects& recent,
   Hint(Tr("People of the past, where they lived."));
   ImGui::Dummy(ImVec2(0, Px(12)));
   if (WideButton(Tr("New from video\xe2\x80\xa6"), true)) {
-    OpenDialog(Open::kNew, recent);
+    OpenDialog(Open::kVideo, recent);
   }
+  if (WideButton(Tr("New from images\xe2\x80\xa6"), false)) {
+    OpenDialog(Open::kImages, recent);
+  }
+  if (WideButton(Tr("New from camera\xe2\x80\xa6"), false)) {
+    OpenDialog(Open::kCamera, recent);
+  }
+  if (WideButton(Tr("New, empty\xe2\x80\xa6"), false)) {
+    OpenDialog(Open::kEmpty, recent);
+  }
+  ImGui::Dummy(ImVec2(0, Px(8)));
   if (WideButton(Tr("Open\xe2\x80\xa6"), false)) {
     OpenDialog(Open::kProject, recent);
   }
@@ -280,43 +282,77 @@ void StartPage::ShowRecent(app::RecentProjects& recent, StartChoice& choice) {
   ImGui::PopStyleVar();
 }
 
+const char* StartPage::TitleOf(Open dialog) {
+  switch (dialog) {
+    case Open::kVideo:
+      return Tr("New from video");
+    case Open::kImages:
+      return Tr("New from images");
+    case Open::kCamera:
+      return Tr("New from camera");
+    case Open::kEmpty:
+      return Tr("New, empty");
+    case Open::kProject:
+      return Tr("Open a project");
+    case Open::kLocate:
+      return Tr("Locate the project");
+    case Open::kNothing:
+    case Open::kKeys:
+      break;
+  }
+  return "";
+}
+
+std::string StartPage::NewProblem(const fs::path& parent) const {
+  std::error_code ignored;
+  const std::string problem = NameProblem(fields_.name);
+  if (!problem.empty()) {
+    return problem;
+  }
+  if (!fs::is_directory(parent, ignored)) {
+    return Tr("Choose a folder that exists.");
+  }
+  if (fs::exists(parent / (fields_.name + kSuffix), ignored)) {
+    return Tr("A project of that name is there already.");
+  }
+  const bool recorded = dialog_ == Open::kVideo || dialog_ == Open::kImages;
+  return recorded ? RecordingProblem({parent}, fields_) : "";
+}
+
 void StartPage::NewDialog(StartChoice& choice) {
-  Hint(
-      Tr("Learns a place from a recording: walk sideways around it, slowly, with everything in "
-         "view that visitors will see."));
+  const bool filming = dialog_ == Open::kCamera;
+  const bool empty = dialog_ == Open::kEmpty;
+  Hint(empty     ? Tr("A project without a place: train one later, or write the drama first.")
+       : filming ? Tr("Films the place with a camera, says meanwhile what to do next and what is "
+                      "still missing, and learns the place from that.")
+                 : Tr("Learns a place from a recording: walk sideways around it, slowly, with "
+                      "everything in view that visitors will see."));
   if (BeginProperties("new")) {
     PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields_.name);
     PropertyLabel(Tr("In the folder"));
     PathField("folder", folder_, app::HomeFolder(), {});
-    if (RecordingFields(folder_, fields_, Tr(kFromVideo), Tr(kFromVideoHint))) {
+    if (!filming && !empty &&
+        RecordingFields(folder_, fields_, Tr(kFromVideo), Tr(kFromVideoHint))) {
       calibration_.Open();
     }
     EndProperties();
   }
   const fs::path parent = app::HomeFolder() / folder_;
-  const fs::path project = parent / (fields_.name + kSuffix);
-  std::error_code ignored;
-  std::string problem = NameProblem(fields_.name);
-  if (problem.empty() && !fs::is_directory(parent, ignored)) {
-    problem = Tr("Choose a folder that exists.");
-  }
-  if (problem.empty() && fs::exists(project, ignored)) {
-    problem = Tr("A project of that name is there already.");
-  }
-  if (problem.empty()) {
-    problem = RecordingProblem({parent}, fields_);
-  }
-  const DialogAnswer answer = DialogButtons(Tr("Train"), problem);
-  if (answer != DialogAnswer::kNone) {
-    dialog_ = Open::kNothing;
-  }
+  const char* action = empty ? Tr("Make") : filming ? Tr("Film") : Tr("Train");
+  const DialogAnswer answer = DialogButtons(action, NewProblem(parent));
   if (answer == DialogAnswer::kAct) {
     choice.kind = StartChoice::Kind::kNew;
-    choice.project = project;
+    choice.begin = empty     ? StartChoice::Begin::kEmpty
+                   : filming ? StartChoice::Begin::kFilming
+                             : StartChoice::Begin::kRecording;
+    choice.project = parent / (fields_.name + kSuffix);
     choice.fields = fields_;
     choice.fields.place = fields_.name;
     choice.fields.file = (parent / fields_.file).string();
+  }
+  if (answer != DialogAnswer::kNone) {
+    dialog_ = Open::kNothing;
   }
 }
 
@@ -357,15 +393,12 @@ void StartPage::ShowDialog(app::RecentProjects& recent,
     calibration_.Show({app::HomeFolder() / folder_}, pictures_, fields_);
     return;
   }
-  const char* title = dialog_ == Open::kNew       ? Tr("New from video")
-                      : dialog_ == Open::kProject ? Tr("Open a project")
-                                                  : Tr("Locate the project");
   bool open = true;
-  ShowModal(Label(title, "dialog").c_str(), 560, open, [&] {
-    if (dialog_ == Open::kNew) {
-      NewDialog(choice);
-    } else {
+  ShowModal(Label(TitleOf(dialog_), "dialog").c_str(), 560, open, [&] {
+    if (dialog_ == Open::kProject || dialog_ == Open::kLocate) {
       ProjectDialog(recent, choice);
+    } else {
+      NewDialog(choice);
     }
     open = dialog_ != Open::kNothing && !calibration_.is_open();
   });
@@ -392,11 +425,11 @@ StartChoice StartPage::Show(app::RecentProjects& recent,
                    ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
-  ImGui::BeginChild("actions", ImVec2(Px(kActions), 0));
+  ImGui::BeginChild("actions", ImVec2(Px(kActions), 0), false, ImGuiWindowFlags_NavFlattened);
   ShowActions(recent, has_sample, settings, choice);
   ImGui::EndChild();
   ImGui::SameLine(0.0f, Px(48));
-  ImGui::BeginChild("recent");
+  ImGui::BeginChild("recent", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
   if (!problem_.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
     ImGui::TextWrapped("%s", problem_.c_str());

@@ -20,9 +20,13 @@ namespace lararium::panels {
 // What somebody chose on the start page.
 struct StartChoice {
   enum class Kind { kNothing, kOpen, kNew, kSample, kQuit };
+  // What a new project begins with: a recording to train its first place from, filming that
+  // recording, or nothing.
+  enum class Begin { kRecording, kFilming, kEmpty };
   Kind kind = Kind::kNothing;
   std::filesystem::path project;  // to open, or to make
-  DialogFields fields;            // of a new project: its place and recording
+  Begin begin = Begin::kRecording;
+  DialogFields fields;  // of a new project: its name, its place and recording
 };
 
 class StartPage {
@@ -39,7 +43,8 @@ class StartPage {
   void SetProblem(std::string problem) { problem_ = std::move(problem); }
 
  private:
-  enum class Open { kNothing, kNew, kProject, kLocate, kKeys };
+  enum class Open { kNothing, kVideo, kImages, kCamera, kEmpty, kProject, kLocate, kKeys };
+  static const char* TitleOf(Open dialog);
   // What is known of an entry's folder; looked at now and then, as folders come and go.
   struct Face {
     bool exists = false;
@@ -63,6 +68,7 @@ class StartPage {
   void ShowPicture(const app::RecentProject& project, const Face& face, const ImVec2& size);
   void ShowDialog(app::RecentProjects& recent, std::span<const KeyPress> keys, StartChoice& choice);
   void NewDialog(StartChoice& choice);
+  std::string NewProblem(const std::filesystem::path& parent) const;
   void ProjectDialog(app::RecentProjects& recent, StartChoice& choice);
 
   std::map<std::filesystem::path, Face> faces_;

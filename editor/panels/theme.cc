@@ -1,7 +1,13 @@
 #include "editor/panels/theme.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
+#include "editor/panels/icons.h"
 #include "editor/panels/wrapped_text.h"
 
 namespace lararium::panels {
@@ -34,6 +40,35 @@ ImFont* LoadFont(const char* name, float size) {
   return nullptr;
 }
 
+// Numbers of the icons' rectangles in the font texture.
+using IconRects = std::array<int, kIcons>;
+
+// In the middle of a line of a font.
+IconRects ReserveIcons(ImFont* font, float line, int side) {
+  const ImVec2 offset(0.0f, std::round(0.5f * (line - static_cast<float>(side))));
+  IconRects rects = {};
+  for (int i = 0; i < kIcons; ++i) {
+    rects[static_cast<size_t>(i)] = ImGui::GetIO().Fonts->AddCustomRectFontGlyph(
+        font, static_cast<ImWchar>(LetterOf(static_cast<Icon>(i))), side, side,
+        static_cast<float>(side), offset);
+  }
+  return rects;
+}
+
+void DrawIcons(const IconRects& rects, int side) {
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  unsigned char* texture = nullptr;
+  int width = 0;
+  atlas.GetTexDataAsAlpha8(&texture, &width, nullptr);
+  for (int i = 0; i < kIcons; ++i) {
+    const ImFontAtlasCustomRect& rect = *atlas.GetCustomRectByIndex(rects[static_cast<size_t>(i)]);
+    const std::vector<uint8_t> pixels = DrawIcon(static_cast<Icon>(i), side);
+    for (int y = 0; y < side; ++y) {
+      std::copy_n(pixels.begin() + y * side, side, texture + (rect.Y + y) * width + rect.X);
+    }
+  }
+}
+
 Fonts LoadFonts(float scale) {
   Fonts fonts;
   ImGui::GetIO().Fonts->Flags |= ImFontAtlasFlags_NoPowerOfTwoHeight;
@@ -47,6 +82,8 @@ Fonts LoadFonts(float scale) {
     ImGui::GetIO().Fonts->AddCustomRectFontGlyph(fonts.regular, static_cast<ImWchar>(sign), 1, 1,
                                                  0.0f);
   }
+  const int side = static_cast<int>(std::lround(kIconPx * scale));
+  const IconRects icons = ReserveIcons(fonts.regular, kTextPx * scale, side);
   // Behind that of the interface, which ImGui takes to be the first.
   fonts.strong = LoadFont("Inter-SemiBold.otf", kTextPx * scale);
   fonts.code = LoadFont("DejaVuSansMono.ttf", kCodePx * scale);
@@ -58,6 +95,7 @@ Fonts LoadFonts(float scale) {
   if (fonts.code == nullptr) {
     fonts.code = ImGui::GetIO().Fonts->AddFontDefault();
   }
+  DrawIcons(icons, side);  // builds the texture
   return fonts;
 }
 

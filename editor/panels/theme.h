@@ -19,6 +19,7 @@ struct Fonts {
 inline constexpr float kTextPx = 15.5f;
 inline constexpr float kCodePx = 15.0f;
 inline constexpr float kTitlePx = 30.0f;
+inline constexpr float kIconPx = 16.0f;
 
 // Sets colours, spacing and fonts of the current ImGui context. scale: of the display and of
 // the interface together. Not within a frame; the back end's font texture must be made anew.

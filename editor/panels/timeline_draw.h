@@ -14,8 +14,6 @@
 
 namespace lararium::panels {
 
-// Colours that are told apart with any kind of colour vision (Okabe & Ito, 2008), calmed.
-ImVec4 LaneColour(drama::LaneKind kind);
 // What people call a kind of lane, and one of its items.
 const char* LaneTitle(drama::LaneKind kind);
 const char* ItemTitle(drama::LaneKind kind);

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "editor/app/timeline_fields.h"
+#include "editor/panels/icons.h"
+#include "editor/panels/palette.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/timeline_draw.h"
@@ -34,16 +36,14 @@ constexpr float kInspector = 300.0f;
 
 uint64_t KeyOf(const TimelineItem& item) { return uint64_t{item.lane} << 40 | item.item; }
 
-bool ToggleButton(const char* label, bool& on, const std::string& tip) {
+bool ToggleButton(const std::string& label, bool& on, const std::string& tip) {
   ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
-  const bool pressed = ImGui::Button(label);
+  const bool pressed = ImGui::Button(label.c_str());
   ImGui::PopStyleColor();
   if (pressed) {
     on = !on;
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", tip.c_str());
-  }
+  Tip(tip);
   return pressed;
 }
 
@@ -222,7 +222,8 @@ void TimelinePanel::DrawItems(const app::Workspace& workspace,
       const float width = x1 - x0;
       const bool labelled = width > Px(24);
       DrawItem(draw, ImVec2(std::max(x0, scale_.left - Px(8)), y0), ImVec2(x1 - 1.0f, y1), colour,
-               labelled ? FaceOf(workspace, item).label : std::string(), look);
+               labelled ? WithIcon(IconOf(row.lane), FaceOf(workspace, item).label) : std::string(),
+               look);
       if (row.lane == LaneKind::kMarkers) {
         const std::string& name = FaceOf(workspace, item).label;
         draw.AddText(ImVec2(x1 + Px(3), y0 + Px(1)), Packed(Colours().text), name.c_str());
@@ -259,7 +260,9 @@ void TimelinePanel::DrawBlocks(const app::Workspace& workspace,
     look.hovered = hit.block == block;
     DrawItem(draw, ImVec2(std::max(x0, scale_.left - Px(8)), top + Px(3)),
              ImVec2(x1 - 1.0f, top + height - Px(3)), colour,
-             x1 - x0 > Px(24) ? BlockLabel(task, row.of_object) : std::string(), look);
+             x1 - x0 > Px(24) ? WithIcon(IconOf(row.lane), BlockLabel(task, row.of_object))
+                              : std::string(),
+             look);
     if (row.lane == LaneKind::kSpeech && x1 - x0 > Px(24)) {
       DrawVoiceOf(workspace, BlockLabel(task, false), task.began, ImVec2(x0, top + Px(22)),
                   ImVec2(x1 - 1.0f, top + height - Px(3)), Packed(colour, 0.85f), draw);
@@ -276,14 +279,14 @@ void TimelinePanel::DrawGutter(const TimelineRow& row, const ImVec2& at, float w
                  0.0f, &clip);
   };
   if (row.kind != TimelineRow::Kind::kHeading) {
-    draw.AddRectFilled(ImVec2(at.x + Px(24), at.y + Px(7)),
-                       ImVec2(at.x + Px(28), at.y + Px(kRow - 7)), Packed(LaneColour(row.lane)),
+    draw.AddRectFilled(ImVec2(at.x + Px(14), at.y + Px(5)),
+                       ImVec2(at.x + Px(17), at.y + Px(kRow - 5)), Packed(LaneColour(row.lane)),
                        Px(1));
     const bool scripted = row.kind == TimelineRow::Kind::kBlocks;
-    write(Px(36), Colours().dim,
-          row.of_object ? Tr("used")
-          : scripted    ? std::string(LaneTitle(row.lane)) + ", " + Tr("script")
-                        : LaneTitle(row.lane));
+    const std::string title = row.of_object ? Tr("used")
+                              : scripted    ? std::string(LaneTitle(row.lane)) + ", " + Tr("script")
+                                            : LaneTitle(row.lane);
+    write(Px(22), Colours().dim, WithIcon(IconOf(row.lane), title));
     return;
   }
   const bool folded = folded_.contains((row.of_object ? "object " : "person ") + row.group);
@@ -357,11 +360,26 @@ void TimelinePanel::ShowRuler(app::Workspace& workspace, float height) {
   draw.PopClipRect();
 }
 
+// Within the rows, as little as shows the row of what is chosen.
+void TimelinePanel::ScrollToChosen() {
+  for (size_t i = 0; i < shown_.size() && !selection_.empty(); ++i) {
+    const std::vector<size_t>& lanes = shown_[i]->lanes;
+    if (std::find(lanes.begin(), lanes.end(), selection_.front().lane) != lanes.end()) {
+      const float lowest = tops_[i + 1] - ImGui::GetWindowHeight();
+      ImGui::SetScrollY(std::clamp(ImGui::GetScrollY(), std::min(lowest, tops_[i]), tops_[i]));
+      return;
+    }
+  }
+}
+
 void TimelinePanel::ShowRows(app::Workspace& workspace, EditorState& state) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::BeginChild("rows", ImVec2(0, 0), false,
                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_AlwaysVerticalScrollbar);
   ImGui::PopStyleVar();
+  if (std::exchange(scroll_to_chosen_, false)) {
+    ScrollToChosen();
+  }
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 view = ImGui::GetWindowPos();
   const ImVec2 view_size = ImGui::GetWindowSize();
@@ -433,7 +451,8 @@ void TimelinePanel::ShowRows(app::Workspace& workspace, EditorState& state) {
 
 void TimelinePanel::ShowKindMenu(app::Workspace& workspace, const std::string& actor) {
   for (const drama::LaneName& lane : drama::kLaneNames) {
-    if (lane.of_actor == !actor.empty() && ImGui::MenuItem(ItemTitle(lane.kind))) {
+    if (lane.of_actor == !actor.empty() &&
+        ImGui::MenuItem(WithIcon(IconOf(lane.kind), ItemTitle(lane.kind)).c_str())) {
       Add(workspace, lane.kind, actor);
     }
   }
@@ -442,7 +461,7 @@ void TimelinePanel::ShowKindMenu(app::Workspace& workspace, const std::string& a
 void TimelinePanel::ShowAddMenu(app::Workspace& workspace) {
   DimText(Text(Tr("At %s"), FormatTime(workspace.time(), 0.01).c_str()));
   for (const app::CastDocument& member : workspace.document().cast) {
-    if (ImGui::BeginMenu(member.name.c_str())) {
+    if (ImGui::BeginMenu(WithIcon(Icon::kPerson, member.name).c_str())) {
       ShowKindMenu(workspace, member.name);
       ImGui::EndMenu();
     }
@@ -508,16 +527,7 @@ void TimelinePanel::ShowContextMenu(app::Workspace& workspace, EditorState& stat
 // ---- the panel ----
 
 void TimelinePanel::ShowTools(app::Workspace& workspace, EditorState& state) {
-  const auto tip = [](const std::string& text) {
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s", text.c_str());
-    }
-  };
-  if (ImGui::Button(workspace.playing() ? Tr("Pause") : Tr("Play"),
-                    ImVec2(WidestButton(std::array{Tr("Pause"), Tr("Play")}, 70.0f), 0))) {
-    workspace.SetPlaying(!workspace.playing());
-  }
-  tip(WithKey(Tr("Plays the drama"), KeyAction::kPlay));
+  PlayButton(workspace);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(FormatTime(workspace.time(), 0.01).c_str());
@@ -525,13 +535,16 @@ void TimelinePanel::ShowTools(app::Workspace& workspace, EditorState& state) {
   DimText("/ " + FormatTime(workspace.duration(), 1.0));
   ImGui::SameLine(0.0f, Px(16));
   ImGui::BeginDisabled(workspace.script().timeline() == nullptr);
-  if (ImGui::Button(Tr("Add"))) {
+  if (ImGui::Button(WithIcon(Icon::kAdd, Tr("Add")).c_str())) {
     open_add_ = true;
     state.focus = Focus::kTimeline;
   }
-  tip(WithKey(Tr("Adds an item at the playhead"), KeyAction::kAdd));
   ImGui::EndDisabled();
-  if (FitsBeside(std::array{Tr("Snap"), Tr("Ripple"), Tr("Fit"), "   "})) {
+  Tip(WithKey(Tr("Adds an item at the playhead"), KeyAction::kAdd));
+  const std::string snap = WithIcon(Icon::kSnap, Tr("Snap"));
+  const std::string ripple = WithIcon(Icon::kRipple, Tr("Ripple"));
+  const std::string fit = WithIcon(Icon::kFit, Tr("Fit"));
+  if (FitsBeside(std::array{snap.c_str(), ripple.c_str(), fit.c_str(), "   "})) {
     ShowSwitches(workspace);
   } else {
     ShowSwitchMenu(workspace);
@@ -540,21 +553,18 @@ void TimelinePanel::ShowTools(app::Workspace& workspace, EditorState& state) {
 
 void TimelinePanel::ShowSwitches(const app::Workspace& workspace) {
   ImGui::SameLine();
-  ToggleButton(Tr("Snap"), snap_,
+  ToggleButton(WithIcon(Icon::kSnap, Tr("Snap")), snap_,
                WithKey(Tr("Items are drawn to others, to the playhead and to the grid; not while "
                           "Alt is held"),
                        KeyAction::kSnap));
   ImGui::SameLine();
-  ToggleButton(Tr("Ripple"), ripple_,
+  ToggleButton(WithIcon(Icon::kRipple, Tr("Ripple")), ripple_,
                WithKey(Tr("What comes later moves along"), KeyAction::kRipple));
   ImGui::SameLine();
-  if (ImGui::Button(Tr("Fit"))) {
+  if (ImGui::Button(WithIcon(Icon::kFit, Tr("Fit")).c_str())) {
     ZoomToFit(scale_, workspace.duration());
   }
-  if (ImGui::IsItemHovered()) {
-    const char* does = Tr("Shows all of the drama; Ctrl and the wheel zoom");
-    ImGui::SetTooltip("%s", WithKey(does, KeyAction::kFit).c_str());
-  }
+  Tip(WithKey(Tr("Shows all of the drama; Ctrl and the wheel zoom"), KeyAction::kFit));
 }
 
 void TimelinePanel::ShowSwitchMenu(const app::Workspace& workspace) {
@@ -562,6 +572,7 @@ void TimelinePanel::ShowSwitchMenu(const app::Workspace& workspace) {
   if (ImGui::Button("\xe2\x80\xa6")) {
     ImGui::OpenPopup("switches");
   }
+  Tip(Tr("Snap, ripple and fit"));
   if (ImGui::BeginPopup("switches")) {
     ImGui::MenuItem(Tr("Snap"), KeyText(KeyAction::kSnap).c_str(), &snap_);
     ImGui::MenuItem(Tr("Ripple"), KeyText(KeyAction::kRipple).c_str(), &ripple_);
@@ -574,6 +585,15 @@ void TimelinePanel::ShowSwitchMenu(const app::Workspace& workspace) {
 
 void TimelinePanel::Show(app::Workspace& workspace, EditorState& state) {
   Refresh(workspace);
+  const auto asked = std::exchange(state.timeline_item, std::nullopt);
+  if (const TimelineText* text = workspace.script().timeline(); asked && text != nullptr) {
+    app::ItemSet still_there = {*asked};
+    app::KeepValid(*text, still_there);
+    for (const TimelineItem& item : still_there) {
+      Choose(*text, item);
+      FillShown();
+    }
+  }
   const ImVec2 available = ImGui::GetContentRegionAvail();
   const float inspector = std::min(Px(kInspector), 0.4f * available.x);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
@@ -591,9 +611,14 @@ void TimelinePanel::Show(app::Workspace& workspace, EditorState& state) {
   ImGui::EndChild();
   ImGui::PopStyleVar();
   ImGui::SameLine(0.0f, Px(12));
+  state.keyboard.Before(Region::kItem);
   ImGui::BeginChild("item", ImVec2(0, available.y));
+  state.keyboard.Begin(Region::kItem);
   ShowTimelineInspector(workspace, state, selection_, block_);
+  state.keyboard.End(Region::kItem);
   ImGui::EndChild();
+  state.walk.item = selection_.size() == 1 ? std::optional(selection_.front()) : std::nullopt;
+  state.walk.task = selection_.empty() ? block_ : std::nullopt;
 }
 
 }  // namespace lararium::panels

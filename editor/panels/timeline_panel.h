@@ -126,6 +126,9 @@ class TimelinePanel {
   void Nudge(app::Workspace& workspace, double seconds);
   void TrimToPlayhead(app::Workspace& workspace, bool begins);
   void SelectAll(const app::Workspace& workspace);
+  // One alone, and brings it into view.
+  void Choose(const drama::TimelineText& text, drama::TimelineItem item);
+  void ScrollToChosen();
   void StepSelection(const app::Workspace& workspace, int items, int rows);
   void JumpToEdge(app::Workspace& workspace, int direction);
   void GoToScript(const app::Workspace& workspace, EditorState& state);
@@ -142,6 +145,7 @@ class TimelinePanel {
   bool ripple_ = false;
   bool open_add_ = false;
   bool open_context_ = false;
+  bool scroll_to_chosen_ = false;  // in the rows that are shown next
   Hit context_;
   app::ItemSet selection_;
   std::optional<uint32_t> block_;  // a task that is selected

@@ -128,6 +128,15 @@ void TimelinePanel::SelectAll(const app::Workspace& workspace) {
   }
 }
 
+void TimelinePanel::Choose(const TimelineText& text, TimelineItem item) {
+  const TimelineLane& lane = text.lanes()[item.lane];
+  selection_ = {item};
+  block_.reset();
+  folded_.erase("person " + lane.actor);
+  ScrollTo(scale_, lane.at[item.item]);
+  scroll_to_chosen_ = true;
+}
+
 // To the item so many further in time in its line, or in the next line that has any.
 void TimelinePanel::StepSelection(const app::Workspace& workspace, int items, int rows) {
   const TimelineText& text = *workspace.script().timeline();
@@ -180,9 +189,7 @@ void TimelinePanel::StepSelection(const app::Workspace& workspace, int items, in
                                                  }) -
                                 in.begin());
   }
-  selection_ = {in[place].item};
-  block_.reset();
-  ScrollTo(scale_, in[place].at);
+  Choose(text, in[place].item);
 }
 
 // The playhead to the next beginning or end of anything.

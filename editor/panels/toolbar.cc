@@ -3,12 +3,15 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
-#include <cstdio>
+#include <span>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "editor/app/calibrating.h"
+#include "editor/panels/icons.h"
 #include "editor/panels/light_panel.h"
 #include "editor/panels/look.h"
 #include "editor/panels/pick_view.h"
@@ -22,17 +25,14 @@ namespace lararium::panels {
 
 namespace {
 
-void OpenDialog(EditorState& state, Dialog dialog) {
-  state.dialog = dialog;
-  state.fields = {};
-}
-
 bool MenuItem(const char* label, KeyAction key, bool chosen = false, bool possible = true) {
   return ImGui::MenuItem(label, KeyText(key).c_str(), chosen, possible);
 }
 
 void OpenTrainDialog(const app::Workspace& workspace, EditorState& state) {
-  OpenDialog(state, Dialog::kTrain);
+  if (OpenDialog(state, Dialog::kTrain)) {
+    return;
+  }
   state.fields.place = "place";
   if (const app::PlaceDocument* place = workspace.place()) {
     state.fields.place = place->name;
@@ -93,6 +93,14 @@ void PlaceMenu(app::Workspace& workspace, EditorState& state) {
   }
   if (ImGui::MenuItem(Tr("Add a session\xe2\x80\xa6"), nullptr, false, CanAddSession(workspace))) {
     OpenDialog(state, Dialog::kAddSession);
+  }
+  if (ImGui::MenuItem(Tr("The training's report\xe2\x80\xa6"), nullptr, false,
+                      workspace.loaded().report != nullptr)) {
+    OpenDialog(state, Dialog::kTrainingReport);
+  }
+  if (ImGui::MenuItem(Tr("Put the former map back"), nullptr, false,
+                      workspace.loaded().has_former && !training)) {
+    workspace.PutFormerMapBack();
   }
   if (ImGui::MenuItem(Tr("Bake"))) {
     workspace.Bake();
@@ -229,6 +237,87 @@ void SelectLight(const app::Workspace& workspace, EditorState& state) {
   }
 }
 
+// A button of the toolbar.
+struct Tool {
+  Icon icon;
+  const char* label;
+  const char* does;  // nullptr: as the list of keys says
+  KeyAction key = KeyAction::kNone;
+};
+
+constexpr Tool kTrain = {Icon::kTrain, TrLater("Train\xe2\x80\xa6"),
+                         TrLater("Learns a place from a recording")};
+constexpr Tool kAddSession = {
+    Icon::kAddSession, TrLater("Add a session\xe2\x80\xa6"),
+    TrLater("Merges a recording of this place in other light into its map")};
+constexpr Tool kBake = {Icon::kBake, TrLater("Bake"),
+                        TrLater("Builds people, their light and their voices; only what changed")};
+constexpr Tool kExport = {Icon::kExport, TrLater("Export\xe2\x80\xa6"),
+                          TrLater("Packs the show for visitors")};
+constexpr std::array<Tool, 3> kViews = {{
+    {Icon::kCameraView, TrLater("Through the camera"), nullptr, KeyAction::kCameraView},
+    {Icon::kAroundView, TrLater("Around the place"), nullptr, KeyAction::kAroundView},
+    {Icon::kPicks, TrLater("Picks"), nullptr, KeyAction::kPickView},
+}};
+constexpr std::array<Tool, 3> kModes = {{
+    {Icon::kMove, TrLater("Move"), nullptr, KeyAction::kMove},
+    {Icon::kTurn, TrLater("Turn"), nullptr, KeyAction::kTurn},
+    {Icon::kScale, TrLater("Scale"), nullptr, KeyAction::kScale},
+}};
+constexpr Tool kUndo = {Icon::kUndo, TrLater("Undo"), nullptr, KeyAction::kUndo};
+constexpr Tool kRedo = {Icon::kRedo, TrLater("Redo"), nullptr, KeyAction::kRedo};
+
+std::string NameOf(const Tool& tool, bool words) {
+  return words ? WithIcon(tool.icon, Tr(tool.label)) : IconText(tool.icon);
+}
+
+// Without words it begins with them.
+std::string TipOf(const Tool& tool, bool words) {
+  const std::string does = tool.does != nullptr ? Tr(tool.does) : TextOf(tool.key);
+  const std::string tip = words ? does : std::string(Tr(tool.label)) + ": " + does;
+  return tool.key != KeyAction::kNone ? WithKey(tip.c_str(), tool.key) : tip;
+}
+
+// Whether all buttons fit into one row with words; otherwise they are icons alone. gap: between
+// their groups, pixels.
+bool WordsFit(float gap) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = 3.0f * gap;
+  const auto add = [&](const Tool& tool) {
+    width += ImGui::CalcTextSize(NameOf(tool, true).c_str()).x + 2.0f * style.FramePadding.x +
+             style.ItemSpacing.x;
+  };
+  for (const Tool& tool : {kTrain, kAddSession, kBake, kExport, kUndo, kRedo}) {
+    add(tool);
+  }
+  for (const auto& group : {kViews, kModes}) {
+    std::for_each(group.begin(), group.end(), add);
+  }
+  return width <= ImGui::GetContentRegionAvail().x;
+}
+
+bool ShowTool(const Tool& tool, bool words, bool possible) {
+  ImGui::BeginDisabled(!possible);
+  const bool pressed = ImGui::Button(Label(NameOf(tool, words).c_str(), tool.label).c_str());
+  ImGui::EndDisabled();
+  Tip(TipOf(tool, words));
+  return pressed;
+}
+
+bool ShowChoice(const char* id, std::span<const Tool> tools, bool words, int& chosen) {
+  std::vector<std::string> names;
+  std::vector<std::string> tips;
+  for (const Tool& tool : tools) {
+    names.push_back(NameOf(tool, words));
+    tips.push_back(TipOf(tool, words));
+  }
+  std::vector<const char*> labels;
+  for (const std::string& name : names) {
+    labels.push_back(name.c_str());
+  }
+  return Segmented(id, labels, chosen, tips);
+}
+
 // Of those everywhere.
 void Do(app::Workspace& workspace, EditorState& state, KeyAction action) {
   const bool own_undo =
@@ -269,6 +358,13 @@ void Do(app::Workspace& workspace, EditorState& state, KeyAction action) {
       break;
     case KeyAction::kPlay:
       workspace.SetPlaying(!workspace.playing());
+      break;
+    case KeyAction::kPanelAfter:
+    case KeyAction::kPanelBefore:
+      state.keyboard.Step(action == KeyAction::kPanelBefore);
+      break;
+    case KeyAction::kMenus:
+      state.keyboard.AskForMenus();
       break;
     default:
       break;
@@ -325,6 +421,11 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
     case KeyAction::kSnapHandles:
       state.place.snap = !state.place.snap;
       break;
+    case KeyAction::kFrameBack:
+    case KeyAction::kFrameOn:
+      workspace.SetPlaying(false);
+      workspace.StepFrames(action == KeyAction::kFrameOn ? 1 : -1);
+      break;
     case KeyAction::kUnselect:
       if (state.align.picking) {
         state.align.picking = false;
@@ -335,6 +436,12 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
     default:
       break;
   }
+}
+
+bool Pressed(const EditorState& state, KeyAction walking) {
+  return std::any_of(state.keys.begin(), state.keys.end(), [&](const KeyPress& press) {
+    return ActionOf(KeyScope::kPanels, press) == walking;
+  });
 }
 
 // Whether whoever types into a field would not type this.
@@ -379,60 +486,49 @@ void ShowMenuBar(app::Workspace& workspace, EditorState& state) {
 
 void ShowToolbar(app::Workspace& workspace, EditorState& state) {
   const float gap = Px(22);
-  ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kTraining));
-  if (ImGui::Button(Tr("Train\xe2\x80\xa6"))) {
+  const bool words = WordsFit(gap);
+  const app::TaskList& tasks = workspace.tasks();
+  if (ShowTool(kTrain, words, !tasks.Running(app::Workspace::kTraining))) {
     OpenTrainDialog(workspace, state);
   }
-  ImGui::EndDisabled();
-  SameLineIfFits(std::array{Tr("Add a session\xe2\x80\xa6")});
-  ImGui::BeginDisabled(!CanAddSession(workspace));
-  if (ImGui::Button(Tr("Add a session\xe2\x80\xa6"))) {
+  ImGui::SameLine();
+  if (ShowTool(kAddSession, words, CanAddSession(workspace))) {
     OpenDialog(state, Dialog::kAddSession);
   }
-  ImGui::EndDisabled();
-  SameLineIfFits(std::array{Tr("Bake")});
-  ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kBaking));
-  if (ImGui::Button(Tr("Bake"))) {
+  ImGui::SameLine();
+  if (ShowTool(kBake, words, !tasks.Running(app::Workspace::kBaking))) {
     workspace.Bake();
   }
-  ImGui::EndDisabled();
-  SameLineIfFits(std::array{Tr("Export\xe2\x80\xa6")});
-  ImGui::BeginDisabled(workspace.tasks().Running(app::Workspace::kExporting));
-  if (ImGui::Button(Tr("Export\xe2\x80\xa6"))) {
+  ImGui::SameLine();
+  if (ShowTool(kExport, words, !tasks.Running(app::Workspace::kExporting))) {
     OpenDialog(state, Dialog::kExport);
   }
-  ImGui::EndDisabled();
-
-  const char* const views[] = {Tr("Through the camera"), Tr("Around the place"), Tr("Picks")};
-  SameLineIfFits(views, gap);
+  ImGui::SameLine(0.0f, gap);
   int view = static_cast<int>(state.view);
-  if (Segmented("view", views, view)) {
+  if (ShowChoice("view", kViews, words, view)) {
     state.view = static_cast<ViewKind>(view);
   }
-  const char* const modes[] = {Tr("Move"), Tr("Turn"), Tr("Scale")};
-  SameLineIfFits(modes, gap);
+  ImGui::SameLine(0.0f, gap);
   int mode = static_cast<int>(state.gizmo);
-  if (Segmented("gizmo", modes, mode)) {
+  if (ShowChoice("gizmo", kModes, words, mode)) {
     SetGizmo(state, static_cast<GizmoMode>(mode));
   }
-  const char* const undo[] = {Tr("Undo"), Tr("Redo")};
-  SameLineIfFits(undo, gap);
-  ImGui::BeginDisabled(!workspace.commands().CanUndo());
-  if (ImGui::Button(Tr("Undo"))) {
+  ImGui::SameLine(0.0f, gap);
+  if (ShowTool(kUndo, words, workspace.commands().CanUndo())) {
     workspace.Undo();
   }
-  ImGui::EndDisabled();
   ImGui::SameLine();
-  ImGui::BeginDisabled(!workspace.commands().CanRedo());
-  if (ImGui::Button(Tr("Redo"))) {
+  if (ShowTool(kRedo, words, workspace.commands().CanRedo())) {
     workspace.Redo();
   }
-  ImGui::EndDisabled();
 }
 
 void HandleShortcuts(app::Workspace& workspace, EditorState& state) {
   if (state.dialog != Dialog::kNone) {
     return;
+  }
+  if (ImGui::GetIO().WantTextInput && Pressed(state, KeyAction::kStopWalking)) {
+    workspace.EndGesture();  // Escape takes back what was typed: undo brings it again
   }
   for (const KeyPress& press : state.keys) {
     if (ImGui::GetIO().WantTextInput && !IsNoTyping(press)) {

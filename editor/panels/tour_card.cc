@@ -57,7 +57,7 @@ TourFacts FactsOf(const app::Workspace& workspace, const EditorState& state) {
   return facts;
 }
 
-void ShowTourCard(const app::Workspace& workspace, const EditorState& state, Tour& tour) {
+void ShowTourCard(const app::Workspace& workspace, EditorState& state, Tour& tour) {
   if (tour.step() == nullptr) {
     return;
   }
@@ -71,11 +71,13 @@ void ShowTourCard(const app::Workspace& workspace, const EditorState& state, Tou
   ImGui::SetNextWindowSize(ImVec2(Px(kWidth), 0));
   const std::string title = Label(Tr("Tour"), "tour");
   bool open = true;
+  state.keyboard.Before(Region::kTour);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, Colours().frame);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6));
   if (ImGui::Begin(title.c_str(), &open,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoSavedSettings)) {
+    state.keyboard.Begin(Region::kTour);
     ShowProgress(tour);
     if (tour.finished()) {
       ImGui::TextWrapped("%s", Tr("That was the tour. Film a place of your own and begin with New "
@@ -90,6 +92,7 @@ void ShowTourCard(const app::Workspace& workspace, const EditorState& state, Tou
       ImGui::SameLine();
       open &= !ImGui::Button(Tr("End the tour"));
     }
+    state.keyboard.End(Region::kTour);
   }
   ImGui::End();
   ImGui::PopStyleVar();

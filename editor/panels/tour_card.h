@@ -9,6 +9,6 @@ namespace lararium::panels {
 TourFacts FactsOf(const app::Workspace& workspace, const EditorState& state);
 
 // The step at hand on a card over the views, until the tour ends.
-void ShowTourCard(const app::Workspace& workspace, const EditorState& state, Tour& tour);
+void ShowTourCard(const app::Workspace& workspace, EditorState& state, Tour& tour);
 
 }  // namespace lararium::panels

@@ -8,6 +8,22 @@
 
 namespace lararium::panels {
 
+namespace {
+
+// The axes of the camera whose picture is shown, which do not change as the stage is turned; else
+// of the view around the place.
+Eigen::Quaterniond WorldFromCamera(const app::Workspace& workspace, const EditorState& state) {
+  const std::shared_ptr<const app::PreviewPicture>& picture = workspace.picture();
+  if (state.view == ViewKind::kCamera && picture != nullptr && picture->camera_from_map) {
+    return geometry::CameraFromB(*picture->camera_from_map,
+                                 workspace.loaded().picks.map_from_picked)
+        .rotation.conjugate();
+  }
+  return state.orbit.CameraFromWorld().rotation.conjugate();
+}
+
+}  // namespace
+
 bool ShowTrackball(app::Workspace& workspace,
                    const EditorState& state,
                    Eigen::Quaterniond& world_from_thing) {
@@ -28,7 +44,7 @@ bool ShowTrackball(app::Workspace& workspace,
   // View axes are x right, y up, z to the viewer: half a turn about x from the
   // camera's.
   const Eigen::Quaterniond world_from_view =
-      state.orbit.CameraFromWorld().rotation.conjugate() * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+      WorldFromCamera(workspace, state) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
   bool changed = false;
   const ImGuiIO& io = ImGui::GetIO();
   if (active && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {

@@ -5,8 +5,8 @@
 
 namespace lararium::panels {
 
-// A ball that turns a rotation in the axes of the view around the place. True
-// while it does.
+// A ball that turns a rotation in the axes of the view that is shown: through the camera or around
+// the place. True while it does.
 bool ShowTrackball(app::Workspace& workspace,
                    const EditorState& state,
                    Eigen::Quaterniond& world_from_thing);

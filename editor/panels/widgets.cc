@@ -1,14 +1,18 @@
 #include "editor/panels/widgets.h"
 
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <vector>
 
 #include "editor/app/angles.h"
+#include "editor/panels/icons.h"
+#include "editor/panels/keys.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "shared/core/lower_case.h"
@@ -111,37 +115,77 @@ void ShowModal(const char* title, float width, bool& open, const std::function<v
                               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
     return;
   }
-  content();
-  if (!kept || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
-    open = false;
+  if (ImGui::IsWindowAppearing() && ImGui::GetIO().NavVisible) {
+    ImGui::SetKeyboardFocusHere();  // of who came by keys, and now types
   }
+  content();
+  // Lists that are open above it, in the frame before: by now Escape has closed them.
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  bool& covered = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("covered"));
+  const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+  open &= kept && !(escape && !covered);
+  covered = g.OpenPopupStack.Size > g.BeginPopupStack.Size;
   if (!open) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndPopup();
 }
 
+namespace {
+
+bool EnterPressed() {
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
+         ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false);
+}
+
+// Whether Enter is the dialog's: it ends a field that is typed into, or nothing has the ring that
+// it would press, and no list is open above.
+bool EnterConfirms() {
+  constexpr ImGuiFocusedFlags kHere =
+      ImGuiFocusedFlags_RootAndChildWindows | ImGuiFocusedFlags_NoPopupHierarchy;
+  const ImGuiIO& io = ImGui::GetIO();
+  return EnterPressed() && !ImGui::IsWindowAppearing() && ImGui::IsWindowFocused(kHere) &&
+         (io.WantTextInput || !io.NavVisible);
+}
+
+}  // namespace
+
 DialogAnswer DialogButtons(const char* action, const std::string& problem, const char* cancel) {
   ImGui::Dummy(ImVec2(0, Px(2)));
   ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
   ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
   ImGui::PopStyleColor();
-  const float width = WidestButton(std::array{Tr("Cancel"), action}, 110.0f);
+  const char* const other = cancel != nullptr ? cancel : Tr("Cancel");
+  const float width = WidestButton(std::array{other, action}, 110.0f);
   const float spacing = ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
   DialogAnswer answer = DialogAnswer::kNone;
-  if (ImGui::Button(cancel != nullptr ? cancel : Tr("Cancel"), ImVec2(width, 0))) {
+  if (ImGui::Button(other, ImVec2(width, 0))) {
     answer = DialogAnswer::kCancel;
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!problem.empty());
   ImGui::PushStyleColor(ImGuiCol_Button, Colours().chosen);
-  if (ImGui::Button(action, ImVec2(width, 0))) {
+  if (ImGui::Button(action, ImVec2(width, 0)) || (problem.empty() && EnterConfirms())) {
     answer = DialogAnswer::kAct;
   }
   ImGui::PopStyleColor();
   ImGui::EndDisabled();
   return answer;
+}
+
+std::string DateText(int64_t seconds) {
+  const std::time_t time = static_cast<std::time_t>(seconds);
+  std::tm parts = {};
+  if (localtime_r(&time, &parts) == nullptr) {
+    return "";
+  }
+  static constexpr const char* kMonths[] = {TrLater("Jan"), TrLater("Feb"), TrLater("Mar"),
+                                            TrLater("Apr"), TrLater("May"), TrLater("Jun"),
+                                            TrLater("Jul"), TrLater("Aug"), TrLater("Sep"),
+                                            TrLater("Oct"), TrLater("Nov"), TrLater("Dec")};
+  return Text("%d %s %d, %02d:%02d", parts.tm_mday, Tr(kMonths[parts.tm_mon]), parts.tm_year + 1900,
+              parts.tm_hour, parts.tm_min);
 }
 
 std::string Elided(const std::string& text, float width) {
@@ -179,7 +223,21 @@ bool FitsBeside(std::span<const char* const> labels, float gap) {
   return ImGui::GetItemRectMax().x + width <= right;
 }
 
-bool Segmented(const char* id, std::span<const char* const> labels, int& chosen) {
+void Tip(const std::string& text) {
+  constexpr float kWidest = 440.0f;  // logical pixels
+  if (!text.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(Px(kWidest));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+}
+
+bool Segmented(const char* id,
+               std::span<const char* const> labels,
+               int& chosen,
+               std::span<const std::string> tips) {
   ImGui::PushID(id);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(1), 0));
   bool changed = false;
@@ -199,10 +257,24 @@ bool Segmented(const char* id, std::span<const char* const> labels, int& chosen)
     }
     ImGui::PopID();
     ImGui::PopStyleColor(2);
+    if (!tips.empty()) {
+      Tip(tips[static_cast<size_t>(i)]);
+    }
   }
   ImGui::PopStyleVar();
   ImGui::PopID();
   return changed;
+}
+
+void PlayButton(app::Workspace& workspace) {
+  const std::string play = WithIcon(Icon::kPlay, Tr("Play"));
+  const std::string pause = WithIcon(Icon::kPause, Tr("Pause"));
+  const float width = WidestButton(std::array{play.c_str(), pause.c_str()}, 0.0f);
+  const std::string& shown = workspace.playing() ? pause : play;
+  if (ImGui::Button(Label(shown.c_str(), "play").c_str(), ImVec2(width, 0))) {
+    workspace.SetPlaying(!workspace.playing());
+  }
+  Tip(WithKey(Tr("Plays the drama"), KeyAction::kPlay));
 }
 
 float WidestButton(std::span<const char* const> labels, float least) {
@@ -423,6 +495,7 @@ bool NameCombo(const char* id,
       chosen = names[i];
     }
     if (selected && ImGui::IsWindowAppearing()) {
+      ImGui::SetItemDefaultFocus();
       ImGui::SetScrollHereY();
     }
     ImGui::PopID();

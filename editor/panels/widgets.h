@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
@@ -21,24 +22,37 @@ void DimText(const std::string& text);
 // Wrapped, dim.
 void Hint(const std::string& text);
 
-// A dialog in the middle of the window, until open is false: Escape and its cross close it.
+// A dialog in the middle of the window, until open is false: Escape and its cross close it, but
+// Escape a list first that is open in it.
 // width: logical pixels.
 void ShowModal(const char* title, float width, bool& open, const std::function<void()>& content);
 
 enum class DialogAnswer { kNone, kCancel, kAct };
-// Ends a dialog with a row of Cancel, or what takes its place, and the action. problem: why the
-// action is not possible yet; empty when it is.
+// Ends a dialog with a row of Cancel, or what takes its place, and the action, which Enter does too
+// unless it presses something else. problem: why the action is not possible yet; empty when it is.
 DialogAnswer DialogButtons(const char* action,
                            const std::string& problem,
                            const char* cancel = nullptr);
+
+// "22 Nov 2026, 14:05", local. seconds: since 1970.
+std::string DateText(int64_t seconds);
 
 // As much of a text as fits in pixels, with an ellipsis for the rest: its end, or its front.
 std::string Elided(const std::string& text, float width);
 std::string ElidedFront(const std::string& text, float width);
 
+// What the item before this does, while the mouse or the keyboard is there.
+void Tip(const std::string& text);
+
 // A row of buttons of which one is chosen, or several rows where they do not fit; true when the
-// choice changed.
-bool Segmented(const char* id, std::span<const char* const> labels, int& chosen);
+// choice changed. tips: of each, or none.
+bool Segmented(const char* id,
+               std::span<const char* const> labels,
+               int& chosen,
+               std::span<const std::string> tips = {});
+
+// Plays and pauses, the same wherever it is.
+void PlayButton(app::Workspace& workspace);
 
 // As wide as a button must be for any of the labels, and at least so many logical pixels.
 float WidestButton(std::span<const char* const> labels, float least);

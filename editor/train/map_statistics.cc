@@ -144,6 +144,23 @@ MapStatistics MeasureStatistics(const SceneDatabase& database) {
   return statistics;
 }
 
+double ErrorQuantilePx(const SceneDatabase& database, double share) {
+  std::vector<double> errors;
+  errors.reserve(database.observations.size());
+  for (const Observation& o : database.observations) {
+    if (const std::optional<double> error = ErrorPx(database, o)) {
+      errors.push_back(*error);
+    }
+  }
+  if (errors.empty()) {
+    return 0.0;
+  }
+  const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(errors.size())));
+  const size_t index = std::clamp<size_t>(rank, 1, errors.size()) - 1;
+  std::nth_element(errors.begin(), errors.begin() + static_cast<ptrdiff_t>(index), errors.end());
+  return errors[index];
+}
+
 void AddUnobserved(uint32_t session, MapStatistics& statistics) {
   ++statistics.session_keyframes[session];
   statistics.keyframe_points.push_back(0);

@@ -50,6 +50,10 @@ struct MapStatistics {
 // Of a valid database. A tenth of a second for a hundred thousand points.
 MapStatistics MeasureStatistics(const vision::SceneDatabase& database);
 
+// The reprojection error, in raw pixels, that this share of the observations, 0 to 1, does not
+// exceed; 0 where none can be judged.
+double ErrorQuantilePx(const vision::SceneDatabase& database, double share);
+
 // What they are of the same database with one keyframe more, which observes no points, of a session
 // that it has.
 void AddUnobserved(uint32_t session, MapStatistics& statistics);

@@ -135,9 +135,46 @@ Status Show::Reload(std::string_view script) {
   return status;
 }
 
+void Show::PlaceObject(size_t index, const stage::Pose& stage_from_object) {
+  if (content_.objects[index].stage_from_object == stage_from_object) {
+    return;
+  }
+  content_.objects[index].stage_from_object = stage_from_object;
+  PlaceAtBeginning(index);
+  floor_changed_ = true;
+  stage_.Capture(current_);
+  previous_ = current_;
+}
+
+// The object is there at once where nobody has moved it since, with what stands on it.
+void Show::PlaceAtBeginning(size_t index) {
+  stage::Object& object = *stage_.Find(object_ids_[index]);
+  const stage::Pose& now = object.state.stage_from_object;
+  const stage::Pose moved = content_.objects[index].stage_from_object * now.Inverse();
+  const bool unmoved = now == object.initial_pose && stage_.Find(object.state.holder) == nullptr;
+  object.initial_pose = content_.objects[index].stage_from_object;
+  if (unmoved) {
+    object.state.stage_from_object = object.initial_pose;
+    MoveRiders(object_ids_[index], moved);
+  }
+}
+
+void Show::MoveRiders(stage::ObjectId base, const stage::Pose& moved) {
+  for (const stage::ObjectId id : object_ids_) {
+    stage::ObjectState& rider = stage_.Find(id)->state;
+    if (rider.support.object == base) {
+      rider.stage_from_object = moved * rider.stage_from_object;
+      MoveRiders(id, moved);
+    }
+  }
+}
+
 Status Show::LayFloor() {
   if (!std::exchange(floor_changed_, false)) {
     return Status();
+  }
+  for (size_t i = 0; i < object_ids_.size(); ++i) {  // seeking has brought back what was kept
+    PlaceAtBeginning(i);
   }
   Status status = PrepareFloor();
   const Status played = drama_->PlayAgain();

@@ -189,10 +189,14 @@ class Show {
     camera_motion_.Reset();  // poses of before mean another stage
   }
 
-  // After SetPlace() people still go round what was in their way before. From here on they go
-  // round what is there, and the drama is as if it had always been. Costs nothing where that is
-  // so; otherwise as much as to play until now. Not while a frame is being staged. Fails where no
-  // floor is left to walk on; the drama goes on.
+  // Likewise where content().objects[index] is at the beginning of the drama. It is seen there at
+  // once where nobody has moved it since.
+  void PlaceObject(size_t index, const stage::Pose& stage_from_object);
+
+  // After SetPlace() and PlaceObject() people still go round what was in their way before, and
+  // reach for things where they were. From here on the drama is as if all had always been where it
+  // is. Costs nothing where that is so; otherwise as much as to play until now. Not while a frame
+  // is being staged. Fails where no floor is left to walk on; the drama goes on.
   Status LayFloor();
 
   // From now on people fade while tracking is lost, and the visitor is guided; without it they
@@ -229,6 +233,9 @@ class Show {
   Status FillStage();
   void DropSounds();
   Status PrepareFloor();
+  void PlaceAtBeginning(size_t index);
+  // What stands on an object, and on that.
+  void MoveRiders(stage::ObjectId base, const stage::Pose& moved);
   void ShowTick();
   void AdvanceTo(double time);
   void TickOnce();

@@ -74,6 +74,21 @@ TEST(CommandStack, OneGestureIsOneCommand) {
   EXPECT_EQ(stack.document(), "a123");
 }
 
+TEST(CommandStack, AGestureThatIsGivenUpWasNeverThere) {
+  Stack stack("");
+  Append(stack, "a");
+  stack.MarkSaved();
+  Append(stack, "1", "drag");
+  Append(stack, "2", "drag");
+  EXPECT_TRUE(stack.in_gesture());
+  stack.CancelGesture();
+  EXPECT_EQ(stack.document(), "a");
+  EXPECT_FALSE(stack.in_gesture());
+  EXPECT_FALSE(stack.dirty());
+  EXPECT_FALSE(stack.CanRedo());
+  EXPECT_EQ(stack.undo_name(), "append a");
+}
+
 TEST(CommandStack, ANewGestureIsANewCommand) {
   Stack stack("");
   Append(stack, "1", "drag");

@@ -76,6 +76,19 @@ INSTANTIATE_TEST_SUITE_P(Modes,
                          GizmoHandles,
                          testing::Values(GizmoMode::kMove, GizmoMode::kTurn, GizmoMode::kScale));
 
+TEST(GizmoFreedom, WhatStandsUprightTurnsAboutItsOwnVerticalAlone) {
+  EXPECT_EQ(HandlesOf(GizmoMode::kMove, GizmoFreedom::kUpright), HandlesOf(GizmoMode::kMove));
+  EXPECT_EQ(HandlesOf(GizmoMode::kTurn, GizmoFreedom::kUpright),
+            std::vector<GizmoHandle>{GizmoHandle::kTurnY});
+  EXPECT_TRUE(HandlesOf(GizmoMode::kScale, GizmoFreedom::kUpright).empty());
+  const ViewCamera view = SomeView();
+  const GizmoLayout layout(SomeThing(), view);
+  const Vector2d on_other_ring = layout.Outline(GizmoHandle::kTurnX, view)[8];
+  EXPECT_EQ(PickHandle(layout, GizmoMode::kTurn, view, on_other_ring), GizmoHandle::kTurnX);
+  EXPECT_NE(PickHandle(layout, GizmoMode::kTurn, view, on_other_ring, GizmoFreedom::kUpright),
+            GizmoHandle::kTurnX);
+}
+
 TEST(GizmoLayout, ArmsHaveTheSameSizeAtAnyDistance) {
   for (const double distance : {0.5, 3.0, 40.0}) {
     OrbitCamera orbit;

@@ -39,7 +39,8 @@ TEST(Keys, NoKeyMeansTwoThingsInOneScope) {
 }
 
 TEST(Keys, NoKeyThatWorksEverywhereIsHiddenByTheViews) {
-  for (const KeyScope scope : {KeyScope::kViews, KeyScope::kCamera, KeyScope::kLight}) {
+  for (const KeyScope scope :
+       {KeyScope::kViews, KeyScope::kCamera, KeyScope::kWalk, KeyScope::kLight}) {
     for (const KeyBinding& binding : KeyBindings()) {
       if (binding.scope == scope) {
         EXPECT_EQ(ActionOf(KeyScope::kAlways, PressOf(binding)), KeyAction::kNone)
@@ -86,12 +87,48 @@ TEST(Keys, SignsCountWhereverTheKeyboardHasThem) {
   }
 }
 
+TEST(Keys, WhatWalksThroughPanelsNeverNeedsControlOrAlt) {
+  // Those stay with the whole window while a panel has the keyboard.
+  for (const KeyBinding& binding : KeyBindings()) {
+    if (binding.scope == KeyScope::kPanels) {
+      EXPECT_EQ(binding.modifiers, 0) << KeyText(binding);
+      EXPECT_EQ(binding.character, 0u) << KeyText(binding);
+    }
+  }
+}
+
+TEST(AltTap, IsAltPressedAndLetGoAlone) {
+  AltTap tap;
+  EXPECT_FALSE(tap.Ends(GLFW_KEY_LEFT_ALT, GLFW_PRESS));
+  EXPECT_TRUE(tap.Ends(GLFW_KEY_LEFT_ALT, GLFW_RELEASE));
+  EXPECT_FALSE(tap.Ends(GLFW_KEY_LEFT_ALT, GLFW_RELEASE)) << "once";
+}
+
+TEST(AltTap, IsNoneWhereAltWasHeldForAnotherKeyOrTheMouse) {
+  AltTap tap;
+  tap.Ends(GLFW_KEY_LEFT_ALT, GLFW_PRESS);
+  tap.Ends(GLFW_KEY_LEFT, GLFW_PRESS);
+  tap.Ends(GLFW_KEY_LEFT, GLFW_RELEASE);
+  EXPECT_FALSE(tap.Ends(GLFW_KEY_LEFT_ALT, GLFW_RELEASE));
+  tap.Ends(GLFW_KEY_LEFT_ALT, GLFW_PRESS);
+  tap.Cancel();
+  EXPECT_FALSE(tap.Ends(GLFW_KEY_LEFT_ALT, GLFW_RELEASE));
+}
+
+TEST(AltTap, LeavesTheKeyAloneThatTypesSigns) {
+  AltTap tap;
+  tap.Ends(GLFW_KEY_RIGHT_ALT, GLFW_PRESS);
+  EXPECT_FALSE(tap.Ends(GLFW_KEY_RIGHT_ALT, GLFW_RELEASE));
+}
+
 TEST(Keys, AreWrittenAsPeopleWriteThem) {
   EXPECT_EQ(KeyText(KeyAction::kRedo), "Ctrl+Shift+Z");
   EXPECT_EQ(KeyText(KeyAction::kItemBack), "Alt+Left");
   EXPECT_EQ(KeyText(KeyAction::kKeyList), "F1");
   EXPECT_EQ(KeyText(KeyAction::kTrimBegin), "[");
+  EXPECT_EQ(KeyText(KeyAction::kPanelBefore), "Ctrl+Shift+Tab");
   EXPECT_EQ(WithKey("Plays", KeyAction::kPlay), "Plays (Space)");
+  EXPECT_EQ(TextOf(KeyAction::kPlay), "Plays and pauses");
 }
 
 }  // namespace

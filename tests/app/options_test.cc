@@ -243,6 +243,7 @@ TEST(EditorOptions, MeasureNamesTwoPoints) {
 
 TEST(EditorOptions, TrainRemovesASessionOnItsOwn) {
   EXPECT_EQ(Parsed<TrainOptions>({"train", "p", "--remove-session", "2"}).remove_session, 2);
+  EXPECT_TRUE(Parsed<TrainOptions>({"train", "p", "--put-back"}).put_back);
   EXPECT_FALSE(Parsed<TrainOptions>({"train", "p"}).remove_session.has_value());
 }
 

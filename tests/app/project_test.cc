@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "editor/app/place_recordings.h"
 #include "shared/core/file.h"
 #include "tests/support/test_files.h"
 
@@ -318,13 +319,17 @@ TEST(ForgetSession, LetsGoOfItsPicksAndMovesLaterSessionsUp) {
   place.picks.length_to = anchor;
   place.occluders.resize(1);
   place.occluders[0].corners = {anchor};
+  place.occluders[0].model_pairs.resize(1);
+  place.occluders[0].model_pairs[0].anchor = anchor;
   place.check_picks = {anchor};
+  EXPECT_EQ(PicksInSessionsFrom(place, 2), 10u);
   ForgetSession(place, 2);
   ASSERT_EQ(place.added.size(), 2u);
   EXPECT_EQ(place.added[0].source.path, "evening.mp4");
   EXPECT_EQ(place.added[1].source.path, "rain.mp4");
-  for (const stage::Anchor* left : {&place.picks.floor, &place.picks.length_to,
-                                    &place.occluders[0].corners[0], &place.check_picks[0]}) {
+  for (const stage::Anchor* left :
+       {&place.picks.floor, &place.picks.length_to, &place.occluders[0].corners[0],
+        &place.check_picks[0], &place.occluders[0].model_pairs[0].anchor}) {
     ASSERT_EQ(left->picks.size(), 3u);
     EXPECT_EQ(left->picks[1].session, 1u);
     EXPECT_EQ(left->picks[2].session, 2u);

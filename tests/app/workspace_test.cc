@@ -260,6 +260,43 @@ TEST_F(WorkspaceTest, ARemovedSessionIsGoneFromMapAndDocumentAndNoUndoBringsItBa
   EXPECT_TRUE(workspace->place()->added.empty());
 }
 
+TEST_F(WorkspaceTest, TheFormerMapIsPutBackWithWhatItWasMadeOfAndDoingSoAgainUndoesIt) {
+  ProjectDocument document = *LoadProject(paths_);
+  PlaceDocument& place = document.places.emplace_back();
+  place.name = "site";
+  const auto take = [&](const std::string& video, int points) {
+    PlaceRecordings recordings;
+    recordings.training = {SourceDocument::Kind::kVideo, video};
+    ASSERT_TRUE(TakeMap(paths_, place, recordings,
+                        test::MakeSceneDatabase(test::MakeSyntheticWorld({.points = points})))
+                    .ok());
+    SetRecordings(recordings, place);
+  };
+  take("first.mp4", 20);
+  take("second.mp4", 30);
+  ASSERT_TRUE(SaveProject(paths_, document).ok());
+  const auto workspace = Open();
+  workspace->EditPlace("nudge", [](PlaceDocument& p) { p.camera_nudge.x() = 0.1; });
+  workspace->PutFormerMapBack();
+  EXPECT_EQ(LoadMap(paths_, "site")->points.size(), 20u) << workspace->messages().back().text;
+  EXPECT_EQ(workspace->place()->training.path, "first.mp4");
+  workspace->Undo();
+  EXPECT_EQ(workspace->place()->camera_nudge.x(), 0.0);
+  EXPECT_EQ(workspace->place()->training.path, "first.mp4") << "as the map's file is";
+  workspace->PutFormerMapBack();
+  EXPECT_EQ(LoadMap(paths_, "site")->points.size(), 30u);
+  EXPECT_EQ(workspace->place()->training.path, "second.mp4");
+}
+
+TEST_F(WorkspaceTest, WithoutAFormerMapPuttingItBackIsAMessage) {
+  ProjectDocument document = *LoadProject(paths_);
+  document.places.emplace_back().name = "site";
+  ASSERT_TRUE(SaveProject(paths_, document).ok());
+  const auto workspace = Open();
+  workspace->PutFormerMapBack();
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("has no former map"));
+}
+
 TEST_F(WorkspaceTest, AFailedExportIsAMessageAndWritesNothing) {
   const auto workspace = Open();
   const std::filesystem::path out = folder_ / "show.larshow";

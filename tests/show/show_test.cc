@@ -207,6 +207,72 @@ TEST_F(ShowTest, AWallThatWasMovedIsGoneRoundAsIfItHadAlwaysStoodThere) {
   EXPECT_NEAR(PositionX(At(*show, kBeside)), 0.0f, 0.01f) << "through it";
 }
 
+TEST_F(ShowTest, AThingThatWasMovedIsSeenThereAtOnceAndWasAlwaysThereOnceThatIsSettled) {
+  const auto with_table = [](float z) {
+    ShowContent content = test::SmallContent();
+    content.cast[0].human = test::MakeTestHuman();
+    content.objects = {{"table", test::Model(test::MakeTable()), {{0.0f, 0.0f, z}}},
+                       {"cup", test::Model(test::MakeCup()), {{3.0f, 0.0f, 3.0f}}}};
+    content.drama = R"(
+      function main()
+        object("cup"):place{on = object("table")}
+        actor("one"):place{x = 0, z = 0}
+        actor("one"):walk_to{x = 0, z = -4}
+      end
+    )";
+    return content;
+  };
+  const auto create = [&](float z) { return Show::Create(with_table(z), {}, *log_).value(); };
+  const auto place_of = [](const StagedFrame& staged, size_t object) {
+    return glm::vec3(staged.stage_from_part[staged.objects.at(object).part_begin][3]);
+  };
+  constexpr double kBeside = 2.5;  // seconds: about half of the way
+  const std::unique_ptr<Show> show = create(2.0f);
+  const StagedFrame before = At(*show, kBeside);
+  ASSERT_TRUE(show->drama().errors().empty()) << show->drama().errors().front().message;
+  EXPECT_NEAR(PositionX(before), 0.0f, 0.01f) << "straight on";
+
+  show->PlaceObject(0, {{0.0f, 0.0f, -2.0f}});
+  const StagedFrame moved = At(*show, kBeside);
+  const glm::vec3 by(0.0f, 0.0f, -4.0f);
+  for (const size_t object : {0, 1}) {
+    EXPECT_LT(glm::distance(place_of(moved, object), place_of(before, object) + by), 1e-4f)
+        << "what stands on it comes along";
+  }
+  EXPECT_NEAR(PositionX(moved), 0.0f, 0.01f) << "they go on as before";
+
+  ASSERT_TRUE(show->LayFloor().ok());
+  const std::unique_ptr<Show> always = create(-2.0f);
+  for (const double time : {kBeside, 1.0, 4.0}) {
+    const StagedFrame expected = At(*always, time);
+    const StagedFrame settled = At(*show, time);
+    EXPECT_EQ(settled.actors[0].stage_from_actor, expected.actors[0].stage_from_actor) << time;
+    EXPECT_EQ(settled.stage_from_part, expected.stage_from_part) << time;
+  }
+  EXPECT_GT(std::abs(PositionX(At(*show, kBeside))), 0.2f) << "round it";
+  const int64_t played = show->drama().played_ticks();
+  show->PlaceObject(0, {{0.0f, 0.0f, -2.0f}});
+  ASSERT_TRUE(show->LayFloor().ok());
+  EXPECT_EQ(show->drama().played_ticks(), played) << "nothing was moved";
+}
+
+TEST_F(ShowTest, WhereAThingIsSinceSomebodyMovedItStaysUntilThatIsSettled) {
+  ShowContent content = test::SmallContent();
+  content.objects = {{"lamp", test::Model(test::MakeLamp()), {{1.0f, 0.0f, -2.0f}}}};
+  content.drama += "function main() wait(1); object('lamp'):place{x = 5, z = 0} end";
+  const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
+  const auto x_at = [&](double time) {
+    const StagedFrame staged = At(*show, time);
+    return staged.stage_from_part[staged.objects.at(0).part_begin][3].x;
+  };
+  EXPECT_NEAR(x_at(1.5), 5.0f, 1e-5f);
+  show->PlaceObject(0, {{2.0f, 0.0f, -2.0f}});
+  EXPECT_NEAR(x_at(1.5), 5.0f, 1e-5f);
+  ASSERT_TRUE(show->LayFloor().ok());
+  EXPECT_NEAR(x_at(1.5), 5.0f, 1e-5f);
+  EXPECT_NEAR(x_at(0.5), 2.0f, 1e-5f);
+}
+
 TEST_F(ShowTest, TheGainIsSteadiedUntilThePlaceChangesOrThePoseIsLost) {
   const std::unique_ptr<Show> show = Make();
   StagedFrame staged;

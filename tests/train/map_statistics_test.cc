@@ -35,6 +35,20 @@ TEST(MapStatistics, ErrorIsTheMeanDistanceOverAPointsObservations) {
   EXPECT_NEAR(statistics.point_error_px[8], 0.0, 1e-3);
 }
 
+TEST(ErrorQuantilePx, IsNotExceededByThatShareOfTheSights) {
+  SceneDatabase db = Map(30);
+  ASSERT_GT(db.observations.size(), 100u);
+  for (size_t i = 0; i < db.observations.size(); ++i) {  // 0, 1, 2 and so on pixels off
+    db.observations[i].y += static_cast<float>(i);
+  }
+  const auto count = static_cast<double>(db.observations.size());
+  EXPECT_NEAR(ErrorQuantilePx(db, 0.95), std::ceil(0.95 * count) - 1.0, 0.01);
+  EXPECT_NEAR(ErrorQuantilePx(db, 0.0), 0.0, 0.01);
+  EXPECT_NEAR(ErrorQuantilePx(db, 1.0), count - 1.0, 0.01);
+  db.observations.clear();
+  EXPECT_EQ(ErrorQuantilePx(db, 0.95), 0.0);
+}
+
 TEST(MapStatistics, APointThatNobodySawHasNoError) {
   SceneDatabase db = Map(10);
   std::erase_if(db.observations, [](const vision::Observation& o) { return o.point == 3; });

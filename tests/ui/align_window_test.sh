@@ -49,7 +49,7 @@ open_window 700 780 "$project"
 sleep 6
 press F8
 click 60 365   # the occluder
-click 546 44   # Around the place
+click 673 44   # Around the place
 sleep 1
 import -window root "$out/before.png"
 

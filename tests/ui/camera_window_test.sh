@@ -61,7 +61,7 @@ xdotool mousemove 700 780
 wait_for 10 is_part $left "$left_after" || fail "the button does not end it"
 
 # Onion skin: somebody walks behind the counter; while the drama plays there is none.
-click 430 690  # a frame
+click 435 690  # a frame
 xdotool mousemove 700 780
 sleep 3
 walker=40x40+725+270
@@ -79,7 +79,7 @@ press Escape
 click 700 760  # closes it
 press k
 wait_for 10 is_part $walker "$without" || fail "without onion skin the picture is another"
-click 430 690
+click 435 690
 xdotool mousemove 700 780
 press b
 press b
@@ -101,13 +101,13 @@ xdotool mousemove 700 780
 wait_for 60 is_other $picture "$shown" || fail "the training's recording is not shown"
 sleep 10
 # The corners of the yellow wall's picture, in two frames.
-click 504 690
+click 507 690
 sleep 2
 for corner in "708 143" "803 143" "803 264" "708 264"; do
   click $corner
 done
 import -window root "$out/corners.png"
-click 535 690
+click 538 690
 sleep 2
 for corner in "877 187" "968 187" "968 297" "877 297"; do
   click $corner

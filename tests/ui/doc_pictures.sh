@@ -59,7 +59,7 @@ shot timeline 1424x338+8+522 1424
 
 # The light panel: the messages leave the most room above.
 press F8
-click 338 690  # the first frame, in which nobody speaks
+click 344 690  # the first frame, in which nobody speaks
 press l
 xdotool mousemove 1250 870
 sleep 5

@@ -64,7 +64,7 @@ press F8  # the messages leave the most room above
 shot trained
 
 # The stage: each point in three training images, then a length that was measured.
-click 634 44
+click 783 44
 click 284 87
 pick 0 421 439
 pick 71 201 441
@@ -147,7 +147,7 @@ sleep 8
 shot staged
 
 # The export, signed with keys made for it; what is not saved yet goes in too.
-click 288 44
+click 368 44
 sleep 1
 shot export
 click 928 377

@@ -1,0 +1,96 @@
+#!/bin/bash
+# Uses the editor without one event of a mouse: goes round the panels, chooses a person and makes
+# them taller, opens menus and a dialog, cancels it and finds it as it was left, plays, undoes.
+# Looks at the saved project and at screenshots.
+#
+#   keyboard_window_test.sh EDITOR OUTPUT_FOLDER
+set -u
+. "$(dirname "$0")/window.sh"
+need compare
+begin_test "$0" "$@"
+
+shot() { import -window root "$out/$1.png"; }
+# Pixels by which two screenshots differ.
+difference() {
+  compare -metric AE -fuzz 2% "$out/$1.png" "$out/$2.png" null: 2>&1 | awk '{printf "%d", $1}'
+}
+# times COUNT KEY
+times() { for ((n = 0; n < $1; ++n)); do press "$2"; done; }
+# saved REGEX WHAT: saves until the project holds it.
+saved() {
+  for ((n = 0; n < 6; ++n)); do
+    press ctrl+s
+    tr -d ' \n' < "$json" | grep -qE "$1" && return 0
+  done
+  cat "$json"
+  fail "$2"
+}
+# Opens the dialog that adds a check point, which is the last but one of the menu Place.
+open_dialog() {
+  press "$1"
+  times 2 Right
+  press Down
+  times 2 Up
+  press Return
+  sleep 1
+}
+
+new_project_with_place
+sed -i 's/"cast": \[\]/"cast": [{"name": "keeper", "height": 1.7, "tunic": [0.5, 0.3, 0.2]}]/' "$json"
+echo 'track{markers = {{at = 6, name = "noon"}}}' > "$project/drama.lua"
+"$editor" "$project" >> "$out/editor.log" 2>&1 &
+pid=$!
+wait_for 40 titled Test || fail "no window"
+sleep 3
+shot begin
+
+# The list at the left lies before the view. Its last rows are a person and two buttons.
+press ctrl+shift+Tab
+shot list
+[ "$(difference begin list)" -gt 200 ] || fail "no ring is seen"
+press End
+times 2 Up
+press Return
+shot person
+
+# What is chosen lies behind the view; its first field is how tall somebody is.
+times 2 ctrl+Tab
+press Tab
+xdotool type --delay 80 1.9
+press Return
+shot field
+saved '"height":1.9' "the field was not changed"
+
+# A dialog from the menus, by Alt and by F10: Enter confirms, Escape cancels and keeps what was typed.
+open_dialog Alt_L
+xdotool type --delay 80 door
+shot dialog
+press Return
+saved '"check_points":\[\{"name":"door"' "Enter did not confirm the dialog"
+open_dialog F10
+xdotool type --delay 80 window
+press Escape
+shot cancelled
+saved '"check_points":\[\{"name":"door"[^}]*\}\]' "Escape did not cancel the dialog"
+open_dialog F10
+shot again
+press Return
+saved '"name":"window"' "the dialog has not what was typed before Escape"
+
+# Back to the views, where Space plays.
+press Escape
+press F5
+sleep 2
+shot still
+press space
+sleep 2
+shot playing
+[ "$(difference still playing)" -gt 50 ] || fail "Space does not play"
+press space
+
+# All of it is undone.
+times 3 ctrl+z
+saved '"height":1.7' "undo of the field"
+grep -q door "$json" && fail "undo of the dialog"
+quit
+echo "passed; screenshots: $out/list.png $out/field.png $out/dialog.png"
