@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/app/place_recordings.h"
 #include "editor/app/project.h"
 #include "editor/train/session_removal.h"
 #include "editor/train/trainer.h"

@@ -337,7 +337,8 @@ bool BeginProperties(const char* id, float label_width) {
     return false;
   }
   ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, Px(label_width));
-  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  // With a weight: without one its first frame is as narrow as if it were empty.
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.0f);
   return true;
 }
 

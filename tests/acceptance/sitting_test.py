@@ -27,7 +27,8 @@ ANCHORS = {"origin": (0.0, 0.0, 0.0), "forward": (0.0, 0.85, 0.0), "floor": (0.8
            "length_from": (-1.25, 0.9, 0.0), "length_to": (2.2, 0.9, 0.0)}
 LENGTH = 3.45
 COUNTER = [(-1.2, 0.88, 0.0), (2.2, 0.88, 0.0), (2.2, 0.88, 0.95), (-1.2, 0.88, 0.95)]
-LEG = [(-1.92, -0.52, 0.0), (-1.23, -0.52, 0.0), (-1.23, -0.52, 0.95), (-1.92, -0.52, 0.95)]
+# The inner side of the counter's short leg: no image shows the whole of its front.
+LEG = [(-1.25, -0.5, 0.0), (-1.25, 0.88, 0.0), (-1.25, 0.88, 0.95), (-1.25, -0.5, 0.95)]
 # Where somebody ends their walk behind the counter, and when.
 BEHIND = (0.75, 1.95)
 THERE_FROM = 90  # frame
@@ -102,7 +103,7 @@ def lay_stage(sitting: Sitting, report: Report, images: list[int]) -> None:
 
 def hide(sitting: Sitting, report: Report, images: list[int]) -> None:
     """Two occluders drawn on training images, and the floor that catches shadows."""
-    for name, corners, depth in (("counter", COUNTER, 0.66), ("leg", LEG, 1.4)):
+    for name, corners, depth in (("counter", COUNTER, 0.66), ("leg", LEG, 0.66)):
         seen = []
         for image in sitting.images_of(corners, images):
             pixels = ",".join(f"{x:g},{y:g}" for x, y in sitting.seen(image, corners))

@@ -166,6 +166,7 @@ int main(int argc, char** argv) {
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().DisplaySize = ImVec2(1440, 900);
   app::Settings settings;
+  app::PanelSizes sizes;
   panels::ApplyTheme(app::Theme::kDark, 1.0f);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   const auto layout = app::Layout::Create();
@@ -188,7 +189,7 @@ int main(int argc, char** argv) {
       (*workspace)->Update(1.0 / 60.0);
       ImGui_ImplOpenGL3_NewFrame();
       ImGui::NewFrame();
-      (*layout)->Show(**workspace, settings);
+      (*layout)->Show(**workspace, settings, sizes);
       ImGui::Render();
       const double laid_out = ThreadSeconds();
       if (painter.Paint(*ImGui::GetDrawData(), glm::vec3(0.0f))) {

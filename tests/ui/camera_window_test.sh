@@ -88,7 +88,7 @@ is_part $walker "$without" || fail "the picture is another after onion skins wer
 # An occluder is drawn on frames of the training recording, which the view is told to show: the
 # frames become images of the map.
 click 107 14   # Place
-click 150 161  # Draw an occluder
+click 150 205  # Draw an occluder
 press 1
 sleep 1
 import -window root "$out/other_recording.png"

@@ -20,7 +20,7 @@ open_window 700 780 "$project"
 sleep 5
 press F8  # the messages leave the most room above
 click 107 14   # Place
-click 150 161  # Draw an occluder
+click 150 205  # Draw an occluder
 for corner in "560 250" "700 250" "700 400" "560 400"; do
   click $corner
 done

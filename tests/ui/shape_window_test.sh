@@ -15,7 +15,7 @@ not_saved() { ! saved "$1"; }
 save() { press ctrl+s; }
 add_occluder() {
   click 107 14   # Place
-  click 150 139  # Add an occluder
+  click 150 183  # Add an occluder
 }
 
 new_project_with_place
