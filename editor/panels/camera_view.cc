@@ -301,9 +301,14 @@ void ShowSlider(app::Workspace& workspace,
   const std::string longest = Text(Tr("frame %d"), static_cast<int>(last));
   const bool named = ImGui::CalcTextSize(longest.c_str()).x + Px(16) <= width;
   ImGui::SetNextItemWidth(width);
+  // The grab is as wide as a frame: with nothing to go to it would fill the slider.
+  const ImVec4 grab = ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab);
+  ImGui::PushStyleColor(ImGuiCol_SliderGrab, last > 0 ? grab : ImVec4());
   int frame = static_cast<int>(workspace.frame());
-  if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last), named ? Tr("frame %d") : "%d",
-                       ImGuiSliderFlags_AlwaysClamp)) {
+  const bool moved = ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last),
+                                      named ? Tr("frame %d") : "%d", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::PopStyleColor();
+  if (moved) {
     workspace.SetPlaying(false);
     workspace.SetFrame(frame);
   }

@@ -120,7 +120,7 @@ click 54 745  # the timeline
 sleep 2
 click 512 545
 xdotool mousemove 575 586 sleep 1
-click 655 651
+click 705 651
 type_into 1251 664 0.9
 type_into 1335 664 -1.95
 type_into 1310 696 180
@@ -136,7 +136,7 @@ wait_for 120 test -s "$project/cast/keeper.larhuman" || fail "the keeper was not
 click 850 575
 click 520 545
 xdotool mousemove 570 586 sleep 1
-click 655 630
+click 705 630
 click 1313 736
 xdotool type --delay 60 la
 hold Return

@@ -78,7 +78,7 @@ wait_for 60 titled "Lararium$" || fail "not back on the start page"
 
 # The sample: a copy of one's own.
 sleep 1
-click 250 227
+click 250 377
 wait_for 20 titled "The maquette" || fail "the sample did not open"
 [ -e "$XDG_DATA_HOME/lararium/maquette.lararium/project.json" ] || fail "the sample was not copied"
 quit
