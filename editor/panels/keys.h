@@ -18,8 +18,8 @@ struct KeyPress {
   char32_t character = 0;  // that it types; 0: none
 };
 
-// Where a key means something. A press is ImGui's while it walks the panels (KeyboardFocus), else it
-// is offered to the timeline while that was clicked last, then to the light while a probe is
+// Where a key means something. A press is ImGui's while it walks the panels (KeyboardFocus), else
+// it is offered to the timeline while that was clicked last, then to the light while a probe is
 // selected, then to the end of a walk while one is chosen, then to the camera view and to the rest.
 enum class KeyScope { kStart, kAlways, kPanels, kViews, kCamera, kWalk, kLight, kTimeline };
 

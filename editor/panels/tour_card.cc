@@ -63,17 +63,19 @@ void ShowTourCard(const app::Workspace& workspace, EditorState& state, Tour& tou
   }
   const TourFacts facts = FactsOf(workspace, state);
   tour.Update(facts);
-  // Over the views, at their left; it can be moved.
+  // Below the tracks, where it hides neither picture nor map; it can be moved.
   const ImGuiViewport& window = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(
-      ImVec2(window.WorkPos.x + Px(250), window.WorkPos.y + 0.5f * window.WorkSize.y),
+      ImVec2(window.WorkPos.x + Px(250), window.WorkPos.y + window.WorkSize.y - Px(52)),
       ImGuiCond_Appearing, ImVec2(0.0f, 1.0f));
   ImGui::SetNextWindowSize(ImVec2(Px(kWidth), 0));
   const std::string title = Label(Tr("Tour"), "tour");
   bool open = true;
   state.keyboard.Before(Region::kTour);
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, Colours().frame);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, Colours().panel);
+  ImGui::PushStyleColor(ImGuiCol_Border, Colours().accent);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, Px(1));
   if (ImGui::Begin(title.c_str(), &open,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoSavedSettings)) {
@@ -95,8 +97,8 @@ void ShowTourCard(const app::Workspace& workspace, EditorState& state, Tour& tou
     state.keyboard.End(Region::kTour);
   }
   ImGui::End();
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor(2);
   if (!open) {
     tour.End();
   }
