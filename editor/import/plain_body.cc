@@ -63,15 +63,6 @@ glm::vec3 FaceAlbedo(const glm::vec3& p, const PlainFigureOptions& options) {
   return albedo;
 }
 
-glm::vec3 TunicAlbedo(const glm::vec3& p, const PlainFigureOptions& options) {
-  // Two clavi run over the shoulders to the hem, which has a band of its own.
-  const float spread = 0.078f + 0.030f * glm::smoothstep(1.0f, kPlainHem, p.y);
-  const float clavus = std::abs(std::abs(p.x) - spread) - 0.011f;
-  const float hem = std::abs(p.y - (kPlainHem + 0.040f)) - 0.011f;
-  const float stripe = glm::smoothstep(0.006f, -0.005f, std::min(clavus, hem));
-  return glm::mix(options.tunic, options.stripe, stripe);
-}
-
 // ---- Assembly -------------------------------------------------------------------
 
 // All that the pieces refer to.
@@ -196,7 +187,7 @@ void AddClothes(const Body& body, std::vector<Piece>& pieces) {
                     {{-0.42f, 0.46f, -0.22f}, {0.42f, 1.50f, 0.22f}},
                     0.0130f,
                     tunic,
-                    [&body](const glm::vec3& p) { return TunicAlbedo(p, body.options); },
+                    [&body](const glm::vec3&) { return body.options.tunic; },
                     weights});
   pieces.push_back({kBeltPart,
                     belt,

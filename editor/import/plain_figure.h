@@ -16,7 +16,6 @@ struct PlainFigureOptions {
   glm::vec3 skin = {0.45f, 0.28f, 0.20f};
   glm::vec3 hair = {0.045f, 0.030f, 0.022f};
   glm::vec3 tunic = {0.60f, 0.55f, 0.45f};
-  glm::vec3 stripe = {0.42f, 0.14f, 0.09f};  // the two clavi and the hem
   glm::vec3 belt = {0.16f, 0.08f, 0.04f};
   glm::vec3 sandals = {0.20f, 0.11f, 0.06f};
 };

@@ -51,8 +51,12 @@ void ShowDirections(const app::FilmMoment& moment) {
     for (int column = 0; column < CoverageGuide::kColumns; ++column) {
       const float x = at.x + static_cast<float>(column) * cell;
       const auto kind = moment.cells[static_cast<size_t>(row)][static_cast<size_t>(column)];
-      draw.AddRectFilled(ImVec2(x, y), ImVec2(x + cell - Px(1), y + height - Px(1)),
-                         Packed(CellColour(kind)));
+      const ImVec2 end(x + cell - Px(1), y + height - Px(1));
+      const bool half = kind == CoverageGuide::Cell::kSeen;  // not told by its colour alone
+      if (half) {
+        draw.AddRectFilled(ImVec2(x, y), end, Packed(Colours().frame));
+      }
+      draw.AddRectFilled(ImVec2(x, half ? y + 0.5f * height : y), end, Packed(CellColour(kind)));
     }
   }
   const double heading = moment.coverage.heading / std::numbers::pi;
@@ -64,8 +68,8 @@ void ShowDirections(const app::FilmMoment& moment) {
                Px(2), 0, Px(1.5f));
   ImGui::Dummy(ImVec2(width, CoverageGuide::kRows * height + Px(2)));
   Hint(
-      Tr("Directions, the first one in the middle: green ones were seen from places well apart, "
-         "amber ones from one place only."));
+      Tr("Directions, the first one in the middle: full ones were seen from places well apart, "
+         "half ones from one place only."));
 }
 
 void ShowShare(const char* label, double share) {

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <string>
 
 #include "editor/panels/text.h"
@@ -63,11 +64,13 @@ void ShowTourCard(const app::Workspace& workspace, EditorState& state, Tour& tou
   }
   const TourFacts facts = FactsOf(workspace, state);
   tour.Update(facts);
-  // Below the tracks, where it hides neither picture nor map; it can be moved.
+  // Over the end of the tracks, where it hides neither picture nor map nor what lists begin with;
+  // it can be moved.
   const ImGuiViewport& window = *ImGui::GetMainViewport();
-  ImGui::SetNextWindowPos(
-      ImVec2(window.WorkPos.x + Px(250), window.WorkPos.y + window.WorkSize.y - Px(52)),
-      ImGuiCond_Appearing, ImVec2(0.0f, 1.0f));
+  const float x = std::max(window.WorkSize.x - Px(744), 0.0f);
+  const float y = window.WorkSize.y - Px(52);
+  ImGui::SetNextWindowPos(ImVec2(window.WorkPos.x + x, window.WorkPos.y + y), ImGuiCond_Appearing,
+                          ImVec2(0.0f, 1.0f));
   ImGui::SetNextWindowSize(ImVec2(Px(kWidth), 0));
   const std::string title = Label(Tr("Tour"), "tour");
   bool open = true;

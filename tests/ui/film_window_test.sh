@@ -44,5 +44,6 @@ press ctrl+s
 wait_for 20 named || fail "the project does not name the recording: $(tr -d ' \n' < "$json")"
 wait_for 60 shows_picture || fail "the place is not shown: $(colours) colours"
 shot trained
+press Escape  # the training's report
 quit
 echo "passed; screenshots: $out/filming.png $out/trained.png"
