@@ -42,7 +42,7 @@ void ShowAdvice(const app::TrainingReport& report) {
   const size_t shown = std::min(kMost, report.advice.size());
   for (size_t i = 0; i < shown; ++i) {
     ImGui::Bullet();
-    ImGui::SameLine(0.0f, Px(6));
+    ImGui::SameLine(0.0f, Px(14));
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextUnformatted(report.advice[i].c_str());
     ImGui::PopTextWrapPos();

@@ -148,6 +148,16 @@ bool EnterConfirms() {
          (io.WantTextInput || !io.NavVisible);
 }
 
+// A dialog without a field, which asked for the focus of its first, gives the ring to none of its
+// buttons: so Enter confirms it too, and never what happens to be the first.
+void KeepRingOffButtons() {
+  ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (ImGui::IsWindowAppearing() && g.NavTabbingCounter > 0) {
+    ImGui::NavMoveRequestCancel();
+    g.NavDisableHighlight = true;
+  }
+}
+
 }  // namespace
 
 DialogAnswer DialogButtons(const char* action, const std::string& problem, const char* cancel) {
@@ -159,6 +169,7 @@ DialogAnswer DialogButtons(const char* action, const std::string& problem, const
   const float width = WidestButton(std::array{other, action}, 110.0f);
   const float spacing = ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
+  KeepRingOffButtons();
   DialogAnswer answer = DialogAnswer::kNone;
   if (ImGui::Button(other, ImVec2(width, 0))) {
     answer = DialogAnswer::kCancel;

@@ -122,7 +122,11 @@ add_session
 wait_for 400 is_other_map || fail "the session was not added"
 sleep 5
 shot added
-press Escape  # the training's report
+before=$(sha256sum < "$scene")
+press Return  # keeps this map
+sleep 2
+shot kept
+is_other_map && fail "Enter put the former map back"
 press ctrl+s
 wait_for 10 added || fail "the project does not name the session"
 quit
