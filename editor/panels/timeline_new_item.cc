@@ -1,5 +1,8 @@
 #include "editor/panels/timeline_new_item.h"
 
+#include <algorithm>
+
+#include "editor/app/drama_run.h"
 #include "editor/app/line_edits.h"
 #include "shared/bundle/show_manifest.h"
 
@@ -21,6 +24,17 @@ std::string LineFor(const app::Workspace& workspace, const std::string& actor) {
     }
   }
   return app::FreeLineId(lines, actor.empty() ? "text" : actor);
+}
+
+// Whether somebody is not on the stage by then, as far as the drama was played: a walk has to say
+// where they appear.
+bool IsYetToAppear(const app::DramaRun* run, const std::string& actor, double at) {
+  if (run == nullptr) {
+    return false;
+  }
+  const auto trail = std::find_if(run->trails.begin(), run->trails.end(),
+                                  [&](const app::Trail& each) { return each.actor == actor; });
+  return trail == run->trails.end() || !trail->At(at);
 }
 
 }  // namespace
@@ -55,6 +69,9 @@ Json NewFields(const app::Workspace& workspace,
     }
     case LaneKind::kWalks:
       fields["to"] = {{"x", 0.0}, {"z", -1.0}};
+      if (IsYetToAppear(workspace.drama_run(), actor, at)) {
+        fields["from"] = {{"x", -1.0}, {"z", -1.0}, {"heading", -90.0}};  // facing where they go
+      }
       break;
     case LaneKind::kUses:
       fields["object"] = first(words.things, "object");

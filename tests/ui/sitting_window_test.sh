@@ -124,12 +124,11 @@ click 705 651
 type_into 1251 664 0.9
 type_into 1335 664 -1.95
 type_into 1310 696 180
-click 1231 727
 type_into 1251 727 -0.9
 type_into 1335 727 -1.95
 type_into 1310 759 -90
-saved 'to={heading=180,x=0.9,z=-1.95},from={heading=-90,x=-0.9,z=-1.95}' "$script" \
-  "the walk was not saved"
+saved 'to={heading=180,x=0.9,z=-1.95}' "$script" "where the walk goes was not saved"
+saved 'from={heading=-90,x=-0.9,z=-1.95}' "$script" "where it begins was not saved"
 wait_for 120 test -s "$project/cast/keeper.larhuman" || fail "the keeper was not baked"
 
 # A line, in a language that is named first; its voice is made.
