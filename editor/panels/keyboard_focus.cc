@@ -28,6 +28,11 @@ bool MouseIsUsed() {
   return any(io.MouseDown) || any(io.MouseClicked) || any(io.MouseReleased);
 }
 
+bool KeyIsUsed() {
+  const std::span<const bool> keys = ImGui::GetIO().KeysDown;
+  return std::find(keys.begin(), keys.end(), true) != keys.end();
+}
+
 // From now on the item that has the keyboard is seen, and the mouse hovers nothing until it moves.
 void ShowNavigation() {
   ImGuiContext& g = *ImGui::GetCurrentContext();
@@ -119,9 +124,10 @@ bool KeysBelongToMenus() {
 
 void Navigation::Prepare(bool walk) {
   ImGuiIO& io = ImGui::GetIO();
+  keys_last_ = !MouseIsUsed() && (keys_last_ || KeyIsUsed());
   const bool menus = KeysBelongToMenus();
-  if (menus && !menus_ && !MouseIsUsed()) {
-    ShowNavigation();  // a key opened it
+  if (menus && !menus_ && keys_last_) {
+    ShowNavigation();
   }
   menus_ = menus;
   if (walk || menus) {

@@ -60,7 +60,8 @@ class Navigation {
   void Prepare(bool walk);
 
  private:
-  bool menus_ = false;  // had the keyboard before the last frame
+  bool menus_ = false;      // had the keyboard before the last frame
+  bool keys_last_ = false;  // a key was used since the mouse was
 };
 
 // ImGui 1.86 looks at the state of keys once a frame and misses what is pressed and released in

@@ -4,6 +4,7 @@
 
 #include "editor/app/drama_run.h"
 #include "editor/app/line_edits.h"
+#include "editor/app/walk_paths.h"
 #include "shared/bundle/show_manifest.h"
 
 namespace lararium::panels {
@@ -26,11 +27,30 @@ std::string LineFor(const app::Workspace& workspace, const std::string& actor) {
   return app::FreeLineId(lines, actor.empty() ? "text" : actor);
 }
 
-// Whether somebody is not on the stage by then, as far as the drama was played: a walk has to say
-// where they appear.
-bool IsYetToAppear(const app::DramaRun* run, const std::string& actor, double at) {
-  if (run == nullptr) {
+// Whether a walk of the timeline places somebody by then.
+bool IsPlaced(const drama::TimelineText& text, const std::string& actor, double at) {
+  for (size_t lane = 0; lane < text.lanes().size(); ++lane) {
+    const drama::TimelineLane& walks = text.lanes()[lane];
+    for (size_t i = 0; walks.kind == LaneKind::kWalks && walks.actor == actor && i < walks.size();
+         ++i) {
+      if (walks.at[i] <= at && app::WalkPointOf(text, {lane, i}, app::kWalkFrom)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Whether somebody is not on the stage by then, as far as that is known: a walk has to say where
+// they appear.
+bool IsYetToAppear(const app::Workspace& workspace, const std::string& actor, double at) {
+  const drama::TimelineText* text = workspace.script().timeline();
+  if (text != nullptr && IsPlaced(*text, actor, at)) {
     return false;
+  }
+  const app::DramaRun* run = workspace.drama_run();
+  if (run == nullptr) {
+    return true;
   }
   const auto trail = std::find_if(run->trails.begin(), run->trails.end(),
                                   [&](const app::Trail& each) { return each.actor == actor; });
@@ -69,7 +89,7 @@ Json NewFields(const app::Workspace& workspace,
     }
     case LaneKind::kWalks:
       fields["to"] = {{"x", 0.0}, {"z", -1.0}};
-      if (IsYetToAppear(workspace.drama_run(), actor, at)) {
+      if (IsYetToAppear(workspace, actor, at)) {
         fields["from"] = {{"x", -1.0}, {"z", -1.0}, {"heading", -90.0}};  // facing where they go
       }
       break;

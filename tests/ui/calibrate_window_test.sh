@@ -14,7 +14,6 @@ need convert
 begin_test "$0" "$@"
 video=$out/board.mp4
 
-shot() { import -window root "$out/$1.png"; }
 # Red of a pixel, 0 to 255: the button "Use" has much of it.
 red() {
   import -window root "$out/now.png"

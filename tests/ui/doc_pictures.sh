@@ -1,6 +1,6 @@
 #!/bin/bash
-# Makes editor.jpg, timeline.jpg, light-panel.jpg, occluders.jpg, check-points.jpg and film.jpg of the
-# docs anew, by real input events under Xvfb, from the sample that ./demo leaves trained and baked:
+# Makes editor.jpg, timeline.jpg, light-panel.jpg, occluders.jpg, check-points.jpg, film.jpg, walks.jpg,
+# script.jpg, export.jpg and start.jpg of the docs anew, by real input events under Xvfb, from the sample that ./demo leaves trained and baked:
 #
 #   tests/ui/doc_pictures.sh build/release/bin/lararium-editor \
 #       build/demo/thermopolium/thermopolium.lararium [OUTPUT_FOLDER]     docs/images otherwise
@@ -23,8 +23,8 @@ trap 'rm -rf "$project"' EXIT
 rm -rf "$project"
 cp -r "$sample" "$project"
 
-# shot NAME CROP WIDTH: of the window, at most WIDTH pixels wide.
-shot() {
+# picture NAME CROP WIDTH: of the window, at most WIDTH pixels wide.
+picture() {
   import -window root "$out/$1.png"
   convert "$out/$1.png" -crop "$2" +repage -resize "$3x>" -strip -quality 82 "$images/$1.jpg" ||
     fail "cannot write $1.jpg"
@@ -51,11 +51,11 @@ sleep 45        # people are read, the drama is run dry
 click 581 574   # the ruler of the timeline
 xdotool mousemove 1250 700
 sleep 25
-shot editor 1440x866+0+0 1200  # without the line that names the folder
+picture editor 1440x866+0+0 1200  # without the line that names the folder
 click 510 640   # a line of the keeper
 xdotool mousemove 1250 800
 sleep 2
-shot timeline 1424x338+8+522 1424
+picture timeline 1424x338+8+522 1424
 
 # The light panel: the messages leave the most room above.
 press F8
@@ -63,14 +63,14 @@ click 344 690  # the first frame, in which nobody speaks
 press l
 xdotool mousemove 1250 870
 sleep 5
-shot light-panel 1204x656+236+62 1000
+picture light-panel 1204x656+236+62 1000
 
 # Occluders over the picture.
 click 48 210    # Stage
 press o
 xdotool mousemove 1250 870
 sleep 2
-shot occluders 860x656+236+62 800
+picture occluders 860x656+236+62 800
 press o
 
 # A check point, through the camera.
@@ -80,7 +80,7 @@ sleep 1
 click 66 633
 xdotool mousemove 1250 870
 sleep 2
-shot check-points 1204x656+236+62 1000
+picture check-points 1204x656+236+62 1000
 press F5
 
 # The recording, filmed as if it were a camera.
@@ -90,7 +90,30 @@ fill 720 463 "$root/scenes/maquette/maquette.lararium/places/maquette/training.m
 sleep 1
 click 912 551   # Film
 sleep 2.2
-shot film 1100x620+170+140 1000
+picture film 1100x620+170+140 1000
 click 1033 723  # Discard
+sleep 1
+
+# The ways of the keeper's walks, around the place.
+xdotool mousemove 110 300
+for ((n = 0; n < 60; ++n)); do xdotool click 4; sleep 0.05; done
+click 90 482    # the keeper
+press F8
+press 2
+xdotool mousemove 1250 870
+sleep 8
+picture walks 860x656+236+62 800
+press F6
+sleep 2
+picture script 1424x338+8+522 1424
+
+# What an export takes along, and the start page.
+click 368 44    # Export
+sleep 2
+picture export 524x450+458+224 524
+press Escape
+press ctrl+o
+sleep 3
+picture start 1060x520+110+20 1000
 quit
 ls -l "$images"

@@ -12,7 +12,6 @@ begin_test "$0" "$@"
 film=$project/places/tavern/film-1.mp4
 map=$project/places/tavern/scene.larscene
 
-shot() { import -window root "$out/$1.png"; }
 # Colours in the middle of the camera view, which is of one colour as long as there is no picture.
 colours() {
   import -window root "$out/now.png"

@@ -9,22 +9,8 @@ set -u
 need compare
 begin_test "$0" "$@"
 
-shot() { import -window root "$out/$1.png"; }
-# Pixels by which two screenshots differ.
-difference() {
-  compare -metric AE -fuzz 2% "$out/$1.png" "$out/$2.png" null: 2>&1 | awk '{printf "%d", $1}'
-}
 # times COUNT KEY
 times() { for ((n = 0; n < $1; ++n)); do press "$2"; done; }
-# saved REGEX WHAT: saves until the project holds it.
-saved() {
-  for ((n = 0; n < 6; ++n)); do
-    press ctrl+s
-    tr -d ' \n' < "$json" | grep -qE "$1" && return 0
-  done
-  cat "$json"
-  fail "$2"
-}
 # Opens the dialog that adds a check point, which is the last but one of the menu Place.
 open_dialog() {
   press "$1"
@@ -59,23 +45,23 @@ press Tab
 xdotool type --delay 80 1.9
 press Return
 shot field
-saved '"height":1.9' "the field was not changed"
+saved '"height":1.9' "$json" "the field was not changed"
 
 # A dialog from the menus, by Alt and by F10: Enter confirms, Escape cancels and keeps what was typed.
 open_dialog Alt_L
 xdotool type --delay 80 door
 shot dialog
 press Return
-saved '"check_points":\[\{"name":"door"' "Enter did not confirm the dialog"
+saved '"check_points":\[\{"name":"door"' "$json" "Enter did not confirm the dialog"
 open_dialog F10
 xdotool type --delay 80 window
 press Escape
 shot cancelled
-saved '"check_points":\[\{"name":"door"[^}]*\}\]' "Escape did not cancel the dialog"
+saved '"check_points":\[\{"name":"door"[^}]*\}\]' "$json" "Escape did not cancel the dialog"
 open_dialog F10
 shot again
 press Return
-saved '"name":"window"' "the dialog has not what was typed before Escape"
+saved '"name":"window"' "$json" "the dialog has not what was typed before Escape"
 
 # Back to the views, where Space plays.
 press Escape
@@ -90,7 +76,7 @@ press space
 
 # All of it is undone.
 times 3 ctrl+z
-saved '"height":1.7' "undo of the field"
+saved '"height":1.7' "$json" "undo of the field"
 grep -q door "$json" && fail "undo of the dialog"
 quit
 echo "passed; screenshots: $out/list.png $out/field.png $out/dialog.png"

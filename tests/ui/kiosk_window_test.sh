@@ -36,7 +36,6 @@ seconds() { grep -oE '"seconds": [0-9.e-]+' "$state" | cut -d' ' -f2; }
 beyond() { awk -v s="$(seconds)" -v least="$1" 'BEGIN {exit !(s > least)}'; }
 mean() { convert "$1" -colorspace gray -format '%[fx:mean]' info:; }
 is_dark() { mean "$1" | awk '{exit !($1 < 0.01)}'; }
-shot() { import -window root "$out/$1.png"; }
 now() { date +%s.%N; }
 # broken SIGNAL HOW: the show is, and goes on.
 broken() {

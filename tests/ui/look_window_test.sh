@@ -12,13 +12,8 @@ export HOME=$out/home XDG_DATA_HOME=$out/data
 mkdir -p "$HOME"
 settings=$XDG_CONFIG_HOME/lararium/editor.json
 
-shot() { import -window root "$out/$1.png"; }
 # What is written down, on one line.
 chosen() { tr -d ' \n' < "$settings" | grep -q "$1"; }
-# Pixels by which two screenshots differ.
-difference() {
-  compare -metric AE -fuzz 2% "$out/$1.png" "$out/$2.png" null: 2>&1 | awk '{printf "%d", $1}'
-}
 # The brightness of a screenshot, of 100.
 brightness() { identify -format '%[fx:int(100*mean)]' "$out/$1.png"; }
 # button NAME X Y HEIGHT: how many pixels below X, Y have the colour of the one in the middle.

@@ -9,9 +9,9 @@ make_room_map=$3
 . "$(dirname "$0")/window.sh"
 begin_test "$0" "$@"
 
-# saved REGEX: the project on disk has it, without blanks.
-saved() { tr -d ' \n' < "$json" | grep -q "$1"; }
-not_saved() { ! saved "$1"; }
+# has REGEX: the project on disk has it, without blanks.
+has() { tr -d ' \n' < "$json" | grep -q "$1"; }
+has_not() { ! has "$1"; }
 save() { press ctrl+s; }
 add_occluder() {
   click 107 14   # Place
@@ -29,8 +29,8 @@ add_occluder
 import -window root "$out/dialog.png"
 click 912 581  # Add
 save
-wait_for 10 saved '"name":"box"' || fail "no box was added"
-saved '"shape":{"depth":1.0,"height":1.0,"kind":"box","width":1.0}' || fail "not the usual box"
+wait_for 10 has '"name":"box"' || fail "no box was added"
+has '"shape":{"depth":1.0,"height":1.0,"kind":"box","width":1.0}' || fail "not the usual box"
 
 add_occluder
 click 760 401  # Arch
@@ -38,36 +38,36 @@ fill 769 370 "gate"
 import -window root "$out/arch.png"
 click 912 644  # Add
 save
-wait_for 10 saved '"kind":"arch","opening":1.2,"spring":1.8,"width":3.0' || fail "no arch was added"
-saved '"name":"gate"' || fail "it has another name"
+wait_for 10 has '"kind":"arch","opening":1.2,"spring":1.8,"width":3.0' || fail "no arch was added"
+has '"name":"gate"' || fail "it has another name"
 sleep 2
 import -window root "$out/added.png"
 
 # A height by the keyboard, within what the arch needs.
 type_into 1312 197 "3.5"
 save
-wait_for 10 saved '"height":3.5,"kind":"arch"' || fail "the height was not typed"
+wait_for 10 has '"height":3.5,"kind":"arch"' || fail "the height was not typed"
 type_into 1312 197 "1"
 save
-wait_for 10 saved '"height":2.401,"kind":"arch"' || fail "the height is less than the arch"
+wait_for 10 has '"height":2.401,"kind":"arch"' || fail "the height is less than the arch"
 press ctrl+z
 save
-wait_for 10 saved '"height":3.5,"kind":"arch"' || fail "undo of a height"
+wait_for 10 has '"height":3.5,"kind":"arch"' || fail "undo of a height"
 
 # Nothing is written of what an occluder does but where it does not.
-not_saved blocks_walking || fail "the usual is written"
+has_not blocks_walking || fail "the usual is written"
 click 1120 481  # Blocks walking
 save
-wait_for 10 saved '"blocks_walking":false' || fail "Blocks walking was not unticked"
+wait_for 10 has '"blocks_walking":false' || fail "Blocks walking was not unticked"
 click 1120 417  # Receives shadow
 save
-wait_for 10 saved '"receives_shadow":false' || fail "Receives shadow was not unticked"
+wait_for 10 has '"receives_shadow":false' || fail "Receives shadow was not unticked"
 sleep 2
 import -window root "$out/unticked.png"
 press ctrl+z
 save
-wait_for 10 not_saved receives_shadow || fail "undo of a flag"
-saved '"blocks_walking":false' || fail "undo took back two"
+wait_for 10 has_not receives_shadow || fail "undo of a flag"
+has '"blocks_walking":false' || fail "undo took back two"
 
 # The subcommand tells the same.
 quit

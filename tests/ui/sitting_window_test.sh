@@ -20,7 +20,6 @@ project=$out/tavern.lararium
 json=$project/project.json
 script=$project/drama.lua
 
-shot() { import -window root "$out/$1.png"; }
 # The training image of that number, and the place on the screen of one of its pixels.
 image() { type_into 620 690 "$1"; }
 pixel() {
@@ -38,15 +37,6 @@ face() {
   for corner in "$@"; do
     click $(pixel $corner)
   done
-}
-# saved REGEX FILE WHAT: saves until the file holds it.
-saved() {
-  for ((n = 0; n < 8; ++n)); do
-    press ctrl+s
-    tr -d ' \n' < "$2" | grep -qE "$1" && return 0
-  done
-  cat "$2"
-  fail "$3"
 }
 
 # New from a video; the place is trained at once.

@@ -17,7 +17,6 @@ project=$XDG_DATA_HOME/lararium/maquette.lararium
 json=$project/project.json
 scene=$project/places/maquette/scene.larscene
 
-shot() { import -window root "$out/$1.png"; }
 # How many of the twelve steps are done, by the card's bar.
 steps() {
   import -window root -crop 356x1+708+704 +repage "$out/bar.png"

@@ -11,10 +11,6 @@ need compare convert
 begin_test "$0" "$@"
 script=$project/drama.lua
 
-# Pixels by which two screenshots differ.
-difference() {
-  compare -metric AE -fuzz 2% "$out/$1.png" "$out/$2.png" null: 2>&1 | awk '{printf "%d", $1}'
-}
 # The saved end of the walk, x and z.
 saved_end() {
   press ctrl+s
@@ -25,7 +21,6 @@ end_is() {
   saved_end | awk -v x="$1" -v z="$2" -v most="$3" \
     '{dx = $1 - x; dz = $2 - z; exit !(dx * dx < most * most && dz * dz < most * most)}'
 }
-shot() { import -window root "$out/$1.png"; }
 
 new_project_with_place
 sed -i 's/"cast": \[\]/"cast": [{"name": "keeper", "height": 1.7, "tunic": [0.5, 0.3, 0.2]}]/' "$json"

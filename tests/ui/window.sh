@@ -91,6 +91,14 @@ open_window() {
   xdotool mousemove "$x" "$y"
 }
 
+# A screenshot, NAME.png in the output folder.
+shot() { import -window root "$out/$1.png"; }
+
+# difference A B: pixels by which two screenshots differ.
+difference() {
+  compare -metric AE -fuzz 2% "$out/$1.png" "$out/$2.png" null: 2>&1 | awk '{printf "%d", $1}'
+}
+
 press() { xdotool key --delay 60 "$1" && sleep 0.5; }
 click() { xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.6; }
 # drag X Y TO_X TO_Y
@@ -102,6 +110,16 @@ drag() {
 
 # titled REGEX: there is a window whose title begins so.
 titled() { xdotool search --name "^$1" > /dev/null; }
+
+# saved REGEX FILE WHAT: saves until the file holds it.
+saved() {
+  for ((n = 0; n < 8; ++n)); do
+    press ctrl+s
+    tr -d ' \n' < "$2" | grep -qE "$1" && return 0
+  done
+  cat "$2"
+  fail "$3"
+}
 
 # fill X Y TEXT: types into the field of a dialog instead of what is there.
 fill() {
