@@ -110,6 +110,9 @@ picture script 1424x338+8+522 1424
 # What an export takes along, and the start page.
 click 368 44    # Export
 sleep 2
+fill 720 315 thermopolium.larshow  # no folder of this machine
+xdotool mousemove 1250 870
+sleep 1
 picture export 524x450+458+224 524
 press Escape
 press ctrl+o
