@@ -105,7 +105,7 @@ sleep 8
 picture walks 860x656+236+62 800
 press F6
 sleep 2
-picture script 1424x338+8+522 1424
+picture script 1424x402+8+457 1424
 
 # What an export takes along, and the start page.
 click 368 44    # Export
