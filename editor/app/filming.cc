@@ -195,7 +195,14 @@ FilmTask::FilmTask(std::unique_ptr<capture::FrameSource> camera, std::filesystem
         outcome_ = last.status();
       }) {}
 
-FilmTask::~FilmTask() { discard_ = true; }
+FilmTask::~FilmTask() {
+  discard_ = true;
+  thread_.join();
+  if (!finish_ && outcome_->ok()) {  // the recording had ended by itself
+    std::error_code ignored;
+    std::filesystem::remove(file_, ignored);
+  }
+}
 
 FilmMoment FilmTask::moment() const {
   const std::lock_guard lock(mutex_);

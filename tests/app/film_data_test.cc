@@ -73,6 +73,20 @@ TEST(Film, ATaskTellsItsMomentsAndFinishesWhenAsked) {
   EXPECT_TRUE(std::filesystem::exists(folder / "film.mp4"));
 }
 
+TEST(Film, ATaskThatIsDiscardedAfterItsRecordingHasEndedLeavesNoFile) {
+  const test::TemporaryFolder folder;
+  auto camera = OpenFilmCamera(kRecording);
+  ASSERT_TRUE(camera.ok()) << camera.message();
+  {
+    FilmTask task(*std::move(camera), folder / "film.mp4");
+    while (!task.outcome()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder / "film.mp4"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4"));
+}
+
 TEST(Film, ACameraThatIsNotThereIsOneError) {
   EXPECT_THAT(OpenFilmCamera("0815").status().message(), HasSubstr("815"));
   EXPECT_THAT(OpenFilmCamera("no such file.mp4").status().message(), HasSubstr("no such file"));
