@@ -5,6 +5,11 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <array>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "shared/render/graphics_choice.h"
@@ -19,9 +24,43 @@ bool InitializeDisplay(EGLDisplay display) {
   return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
 }
 
+bool HasClientExtension(const char* name) { return epoxy_has_egl_extension(EGL_NO_DISPLAY, name); }
+
+// The first GPU that starts; EGL_NO_DISPLAY: there is none, or Mesa's variable asks for software.
+// Without asking for it, a machine with several drivers would draw with whichever comes first,
+// which may be Mesa's software.
+EGLDisplay OpenGpu() {
+  if (std::getenv("LIBGL_ALWAYS_SOFTWARE") != nullptr ||
+      !HasClientExtension("EGL_EXT_platform_device") ||
+      !HasClientExtension("EGL_EXT_device_enumeration") ||
+      !HasClientExtension("EGL_EXT_device_query")) {
+    return EGL_NO_DISPLAY;
+  }
+  std::array<EGLDeviceEXT, 16> devices = {};
+  EGLint count = 0;
+  if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) {
+    return EGL_NO_DISPLAY;
+  }
+  for (EGLDeviceEXT device : std::span(devices).first(static_cast<size_t>(count))) {
+    const char* extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+    if (extensions != nullptr &&
+        std::string_view(extensions).find("EGL_MESA_device_software") != std::string_view::npos) {
+      continue;
+    }
+    const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+    if (InitializeDisplay(display)) {
+      return display;
+    }
+  }
+  return EGL_NO_DISPLAY;
+}
+
 Result<EGLDisplay> OpenDisplay() {
-  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") &&
-      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
+  if (const EGLDisplay gpu = OpenGpu(); gpu != EGL_NO_DISPLAY) {
+    return gpu;
+  }
+  if (HasClientExtension("EGL_MESA_platform_surfaceless") &&
+      HasClientExtension("EGL_EXT_platform_base")) {
     const EGLDisplay display =
         eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (InitializeDisplay(display)) {
