@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -388,6 +389,7 @@ class Workspace {
   bool descriptions_ = false;
   bool sound_ = true;
   bool awaiting_picture_ = false;
+  std::set<std::string> told_of_preview_;  // its problems, since it showed a picture
   bool playing_ = false;
   double time_ = 0.0;                 // seconds
   double since_files_checked_ = 0.0;  // seconds
