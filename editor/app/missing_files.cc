@@ -144,6 +144,14 @@ void Relocate(const Relocation& relocation, ProjectDocument& document) {
   });
 }
 
+void RelocateFolder(const std::string& from, const std::string& to, ProjectDocument& document) {
+  ForEachFile(document, [&](std::string& path, FileKind, const Role&, const std::string&) {
+    if (path.starts_with(from + "/")) {
+      path.replace(0, from.size(), to);
+    }
+  });
+}
+
 std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDocument& document) {
   std::vector<Status> missing;
   const auto expect = [&](const fs::path& file, const std::string& remedy) {

@@ -46,4 +46,7 @@ std::vector<Relocation> SameMove(const ProjectPaths& paths,
 // Names the new path wherever the document has the old one.
 void Relocate(const Relocation& relocation, ProjectDocument& document);
 
+// The same of all that lies in a folder; both as documents have them.
+void RelocateFolder(const std::string& from, const std::string& to, ProjectDocument& document);
+
 }  // namespace lararium::app

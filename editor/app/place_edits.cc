@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "editor/app/missing_files.h"
 #include "editor/app/occluder_alignment.h"
@@ -12,9 +13,32 @@ namespace lararium::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::array<stage::Anchor stage::StagePicks::*, 5> kAnchors = {
     &stage::StagePicks::origin, &stage::StagePicks::forward, &stage::StagePicks::floor,
     &stage::StagePicks::length_from, &stage::StagePicks::length_to};
+
+// The files of a folder in another one as well: the same ones where the disk has them under two
+// names, else copies. All of them, or an error and none.
+Status GiveOtherName(const fs::path& folder, const fs::path& other) {
+  const fs::path unfinished = other.string() + ".unfinished";
+  std::error_code error;
+  const auto copy = [&](fs::copy_options how) {
+    fs::remove_all(unfinished, error);
+    fs::copy(folder, unfinished, fs::copy_options::recursive | how, error);
+    return !error;
+  };
+  if (copy(fs::copy_options::create_hard_links) || copy(fs::copy_options::none)) {
+    fs::rename(unfinished, other, error);
+  }
+  if (!error) {
+    return Status();
+  }
+  const std::string why = error.message();
+  fs::remove_all(unfinished, error);
+  return Status::Error(folder.string(), "cannot be renamed: " + why, "look who may write there");
+}
 
 }  // namespace
 
@@ -59,27 +83,28 @@ Status RenamePlace(const ProjectPaths& paths,
                    const std::string& from,
                    const std::string& to,
                    ProjectDocument& document) {
+  const fs::path before = paths.Place(from);
+  const fs::path after = paths.Place(to);
   std::error_code error;
-  if (std::filesystem::exists(paths.Place(to), error)) {
-    return Status::Error(paths.Place(to).string(), "is there already, of a place that was removed",
+  if (fs::exists(after, error)) {
+    return Status::Error(after.string(), "is there already, of a place that was removed",
                          "move it away, or choose another name");
   }
-  if (std::filesystem::exists(paths.Place(from), error)) {
-    std::filesystem::rename(paths.Place(from), paths.Place(to), error);
-    if (error) {
-      return Status::Error(paths.Place(from).string(), "cannot be renamed: " + error.message(),
-                           "look who may write there");
-    }
+  const bool has_folder = fs::exists(before, error);
+  if (has_folder) {
+    LARARIUM_RETURN_IF_ERROR(GiveOtherName(before, after));
   }
-  document.FindPlace(from)->name = to;
-  const std::string before = paths.Shorten(paths.Place(from)) + "/";
-  const std::string after = paths.Shorten(paths.Place(to)) + "/";
-  for (const MissingFile& file : MissingFiles(paths, document)) {
-    if (file.path.starts_with(before)) {
-      Relocate({file.path, after + file.path.substr(before.size())}, document);
-    }
+  ProjectDocument renamed = document;
+  renamed.FindPlace(from)->name = to;
+  RelocateFolder(paths.Shorten(before), paths.Shorten(after), renamed);
+  const Status saved = SaveProject(paths, renamed);
+  if (saved.ok()) {
+    document = std::move(renamed);
   }
-  return Status();
+  if (has_folder) {
+    fs::remove_all(saved.ok() ? before : after, error);
+  }
+  return saved;
 }
 
 }  // namespace lararium::app

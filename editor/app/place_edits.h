@@ -25,8 +25,10 @@ stage::Anchor* FindAnchor(stage::StagePicks& picks, std::string_view name);
 // How many that were.
 size_t TakeOverOccluders(const PlaceDocument& from, PlaceDocument& place);
 
-// Gives a place another name, and its folder too, with all that the document names in there.
-// Fails, and nothing has changed, where the folder cannot be renamed.
+// Gives a place another name, and its folder too, with all that the document names in there, and
+// saves the project. Whenever it is cut off, the project on the disk finds all its files: the
+// folder has both names until it is saved. Fails, and nothing has changed, where files cannot be
+// written.
 Status RenamePlace(const ProjectPaths& paths,
                    const std::string& from,
                    const std::string& to,

@@ -172,17 +172,10 @@ class PlaceWorker {
     return Status();
   }
 
-  // The folder has its old name again where the project could not be saved.
   Status Rename() {
     LARARIUM_RETURN_IF_ERROR(Find(options_.rename).status());
     LARARIUM_RETURN_IF_ERROR(CheckNewName(document_.places, "--to", options_.to));
-    LARARIUM_RETURN_IF_ERROR(RenamePlace(paths_, options_.rename, options_.to, document_));
-    const Status saved = SaveProject(paths_, document_);
-    if (!saved.ok()) {
-      std::error_code ignored;
-      std::filesystem::rename(paths_.Place(options_.to), paths_.Place(options_.rename), ignored);
-    }
-    return saved;
+    return RenamePlace(paths_, options_.rename, options_.to, document_);
   }
 
   Status List(const PlaceDocument& place, CommandResult& result) const {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "editor/app/place_edits.h"
 #include "shared/core/file.h"
 #include "tests/app/two_places.h"
 
@@ -91,6 +92,26 @@ TEST_F(ProjectCommands, APlaceIsRenamedWithItsFolderAndAllThatLiesInIt) {
   EXPECT_THAT(Place({.rename = "tavern", .to = "maquette"}).status().message(),
               HasSubstr("of a place that was removed"));
   EXPECT_THAT(Places(), ElementsAre("tavern"));
+}
+
+TEST_F(ProjectCommands, ARenamingThatIsNotSavedLeavesThePlaceAsItWas) {
+  ProjectDocument document = Saved();
+  const Json before = FormatProject(document);
+  std::filesystem::remove(paths_.Project());
+  std::filesystem::create_directories(paths_.Project() / "in the way");
+  EXPECT_FALSE(RenamePlace(paths_, "site", "tavern", document).ok());
+  EXPECT_EQ(FormatProject(document), before);
+  EXPECT_TRUE(std::filesystem::exists(paths_.Scene("site")));
+  EXPECT_FALSE(std::filesystem::exists(paths_.Place("tavern")));
+}
+
+TEST_F(ProjectCommands, WhatARenamingLeftThatWasCutOffIsNotTakenForThePlace) {
+  const std::filesystem::path unfinished = paths_.Place("tavern").string() + ".unfinished";
+  ASSERT_TRUE(WriteFileAtomically(unfinished / "part", std::string_view("?")).ok());
+  ASSERT_TRUE(Place({.rename = "site", .to = "tavern"}).ok());
+  EXPECT_TRUE(std::filesystem::exists(paths_.Scene("tavern")));
+  EXPECT_FALSE(std::filesystem::exists(paths_.Place("tavern") / "part"));
+  EXPECT_FALSE(std::filesystem::exists(unfinished));
 }
 
 TEST_F(ProjectCommands, APlaceTakesOverTheModelsOfAnother) {
