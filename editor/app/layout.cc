@@ -176,6 +176,7 @@ void Layout::ShowPanels(Workspace& workspace, PanelSizes& sizes) {
   // The tab may be changed within.
   double& bottom_size = sizes.bottom[static_cast<size_t>(state_.bottom)];
   const float bottom = Fitted(bottom_size, kMinBottom, tallest);
+  ResizeByKeys(outliner, inspector, bottom, sizes);
 
   const float upper = available.y - Px(bottom) - status - 2 * Px(kSplitter);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
@@ -220,6 +221,41 @@ void Layout::ShowPanels(Workspace& workspace, PanelSizes& sizes) {
   panels::ShowStatusBar(workspace);
 }
 
+void Layout::TakeResizing() {
+  constexpr float kStep = 24.0f;
+  std::erase_if(state_.keys, [&](const panels::KeyPress& press) {
+    const panels::KeyAction action = panels::ActionOf(panels::KeyScope::kAlways, press);
+    const bool larger = action == panels::KeyAction::kPanelLarger;
+    const bool resizes = larger || action == panels::KeyAction::kPanelSmaller;
+    grow_ += !resizes ? 0.0f : larger ? kStep : -kStep;
+    return resizes;
+  });
+}
+
+// outliner, inspector, bottom: their sizes as they are shown now.
+void Layout::ResizeByKeys(float outliner, float inspector, float bottom, PanelSizes& sizes) {
+  const float grow = std::exchange(grow_, 0.0f);
+  if (grow == 0.0f) {
+    return;
+  }
+  double& bottom_size = sizes.bottom[static_cast<size_t>(state_.bottom)];
+  switch (state_.keyboard.now()) {
+    case Region::kOutliner:
+      sizes.outliner = std::max(outliner + grow, kMinPanel);
+      break;
+    case Region::kInspector:
+      sizes.inspector = std::max(inspector + grow, kMinPanel);
+      break;
+    case Region::kBottom:
+    case Region::kItem:
+      bottom_size = std::max(bottom + grow, kMinBottom);
+      break;
+    default:  // the view, which has what the others leave
+      bottom_size = std::max(bottom - grow, kMinBottom);
+      break;
+  }
+}
+
 void Layout::HandleKeys(Workspace& workspace) {
   panels::KeyboardFocus& keyboard = state_.keyboard;
   keyboard.BeginFrame();
@@ -235,6 +271,9 @@ void Layout::HandleKeys(Workspace& workspace) {
       }
       return action != panels::KeyAction::kNone && idle;
     });
+  }
+  if (!dialog) {
+    TakeResizing();
   }
   timeline_.HandleKeys(workspace, state_);
   panels::HandleShortcuts(workspace, state_);

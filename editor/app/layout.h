@@ -41,6 +41,8 @@ class Layout {
   explicit Layout(std::unique_ptr<panels::AroundView> around) : around_(std::move(around)) {}
 
   void HandleKeys(Workspace& workspace);
+  void TakeResizing();
+  void ResizeByKeys(float outliner, float inspector, float bottom, PanelSizes& sizes);
   void ShowPanels(Workspace& workspace, PanelSizes& sizes);
   void ShowViewport(Workspace& workspace);
   void ShowBottom(Workspace& workspace);
@@ -57,6 +59,7 @@ class Layout {
   panels::Tour tour_;
   bool opened_ = false;  // a frame was shown
   bool menus_ = false;   // had the keyboard at its end
+  float grow_ = 0.0f;    // logical pixels, by keys, the panel that has the keyboard
 };
 
 }  // namespace lararium::app

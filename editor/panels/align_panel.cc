@@ -137,8 +137,8 @@ void AlignByPointsButton(app::Workspace& workspace,
     }
   }
   ImGui::EndDisabled();
-  if (!enough && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip("%s", Tr("Three points are needed, each clicked in two training images."));
+  if (!enough) {
+    Tooltip(Tr("Three points are needed, each clicked in two training images."));
   }
 }
 
@@ -156,10 +156,7 @@ void ShowRefining(app::Workspace& workspace,
     workspace.RefineOccluder(occluder.name, state.align.search_m);
   }
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip(
-        "%s", Tr("Moves the model so that its surface lies among the map's points near it"));
-  }
+  Tooltip(Tr("Moves the model so that its surface lies among the map's points near it"));
   if (const auto* refined = workspace.refinement(occluder)) {
     if (refined->report.ok()) {
       Hint(app::RefineText(*refined->report, true));
@@ -262,10 +259,7 @@ void ShowAlignment(app::Workspace& workspace,
     workspace.EditOccluder(Text(Tr("scale of %s"), model.name.c_str()), model.name,
                            [&](app::OccluderDocument& edited) { edited.keep_scale = keep; });
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s",
-                      Tr("As where the model is in metres: aligning only moves and turns it"));
-  }
+  Tooltip(Tr("As where the model is in metres: aligning only moves and turns it"));
   AlignByPointsButton(workspace, model, report, map_from_stage);
   ImGui::Dummy(ImVec2(0, Px(4)));
   ShowRefining(workspace, state, model);

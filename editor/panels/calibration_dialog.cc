@@ -179,6 +179,24 @@ void ShowCoverage(const Calibration& calibration, float width, int pointed) {
   ImGui::Dummy(size);
 }
 
+// What became of a view is told by its bar's shape too.
+void DrawErrorBar(
+    const CalibratedView& view, const ImVec2& a, const ImVec2& b, float opacity, ImDrawList& draw) {
+  const ImU32 colour = Packed(ErrorColour(view), opacity);
+  switch (view.part) {
+    case CalibratedView::Part::kFitted:
+      draw.AddRectFilled(a, b, colour);
+      return;
+    case CalibratedView::Part::kHeldOut:
+      draw.AddRect(a, b, colour, 0.0f, 0, Px(1.5f));
+      return;
+    case CalibratedView::Part::kRejected:
+      draw.AddLine(a, b, colour, Px(1.5f));
+      draw.AddLine(ImVec2(a.x, b.y), ImVec2(b.x, a.y), colour, Px(1.5f));
+      return;
+  }
+}
+
 // A bar for each view, as high as its error; the number of the one that is pointed at, or -1.
 int ShowErrors(const Calibration& calibration, const ImVec2& size) {
   double highest = 1e-9;
@@ -199,16 +217,17 @@ int ShowErrors(const Calibration& calibration, const ImVec2& size) {
     const auto share = static_cast<float>(std::min(1.0, view.rms_px / highest));
     const float mouse = ImGui::GetIO().MousePos.x;
     const bool here = hovered && mouse >= left && mouse < left + step;
-    draw.AddRectFilled(ImVec2(left, at.y + size.y * (1.0f - share)),
-                       ImVec2(left + std::max(1.0f, step - Px(2)), at.y + size.y),
-                       Packed(ErrorColour(view), here ? 1.0f : 0.8f));
+    DrawErrorBar(view, ImVec2(left, at.y + size.y * (1.0f - share)),
+                 ImVec2(left + std::max(1.0f, step - Px(2)), at.y + size.y), here ? 1.0f : 0.8f,
+                 draw);
     if (here) {
       pointed = static_cast<int>(i);
       ImGui::SetTooltip(Tr("%s: %.3f px, %s, tilted by %.0f degrees"), view.view.name.c_str(),
                         view.rms_px, PartText(view.part), view.tilt * 180.0 / std::numbers::pi);
     }
   }
-  DimText(Text(Tr("Error of each view, up to %.2f px; blue: held out, amber: rejected"), highest));
+  DimText(
+      Text(Tr("Error of each view, up to %.2f px; hollow: held out, crossed: rejected"), highest));
   return pointed;
 }
 
@@ -216,7 +235,7 @@ void ShowNumbers(const Calibration& calibration) {
   const geometry::CameraModel& c = calibration.camera;
   const train::CameraDeviation& d = calibration.deviation;
   if (BeginProperties("calibration", 110.0f)) {
-    PropertyText(Tr("Image"), Text("%d x %d", c.width, c.height));
+    PropertyText(Tr("Image"), Text("%d \xc3\x97 %d", c.width, c.height));
     PropertyText(Tr("Focal"), Text("%.1f \xc2\xb1 %.1f px (%.2f %%)", c.fx, d.fx,
                                    100.0 * calibration.FocalDeviation()));
     PropertyText("", Text("%.1f \xc2\xb1 %.1f px", c.fy, d.fy));
@@ -311,7 +330,7 @@ void CalibrationDialog::ShowStart(const app::ProjectPaths& paths) {
   if (static_cast<Source>(source_) == Source::kCamera) {
     Hint(Tr("The camera's number, 0 for the first; or a video, to try it without one."));
   }
-  Hint(Tr("Inner corners are where four squares meet: 10 x 7 squares have 9 x 6."));
+  Hint(Tr("Inner corners are where four squares meet: 10 \xc3\x97 7 squares have 9 \xc3\x97 6."));
   if (ImGui::Button(Tr("Write a board to print"), ImVec2(-FLT_MIN, 0))) {
     WriteBoard(paths);
   }

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "editor/app/filming.h"
 #include "editor/panels/align_panel.h"
@@ -250,17 +251,26 @@ void ShowSkinCount(const char* label, const ImVec4& colour, int& count) {
                    ImGuiSliderFlags_AlwaysClamp);
 }
 
-void ShowOnionMore(app::OnionSkin& onion) {
+void OnionMoreButton(EditorState& state) {
   ImGui::SameLine(0.0f, Px(kMoreGap));
   if (ImGui::Button(Label(kMore, "onion").c_str())) {
+    state.open_onion = true;
+  }
+  Tooltip(WithKey(Tr("How many skins, and how far apart"), KeyAction::kOnionMore));
+}
+
+// Once it is asked for: above the row at hand, at its end.
+void ShowOnionMore(EditorState& state) {
+  if (std::exchange(state.open_onion, false)) {
     ImGui::OpenPopup("onion skin");
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", Tr("How many skins, and how far apart"));
-  }
+  const ImVec2 row_end(ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x,
+                       ImGui::GetItemRectMin().y - Px(4));
+  ImGui::SetNextWindowPos(row_end, ImGuiCond_Appearing, ImVec2(1, 1));
   if (!ImGui::BeginPopup("onion skin")) {
     return;
   }
+  app::OnionSkin& onion = state.onion;
   if (BeginProperties("onion")) {
     ShowSkinCount(Tr("Moments before"), OverPicture().call, onion.before);
     ShowSkinCount(Tr("Moments after"), OverPicture().warning, onion.after);
@@ -336,9 +346,7 @@ void ShowLive(app::Workspace& workspace, float switches) {
   if (ImGui::Button(Tr("End"))) {
     workspace.SetViewSource(app::Workspace::ViewSource::kRecording);
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", Tr("Back to the place's recording"));
-  }
+  Tooltip(Tr("Back to the place's recording"));
 }
 
 void ShowTransport(app::Workspace& workspace, EditorState& state) {
@@ -362,10 +370,11 @@ void ShowTransport(app::Workspace& workspace, EditorState& state) {
     ImGui::SameLine(x);
     ShowSwitch(state, entry);
     if (entry.key == KeyAction::kOnion) {
-      ShowOnionMore(state.onion);
+      OnionMoreButton(state);
     }
     x += WidthOf(entry);
   }
+  ShowOnionMore(state);
 }
 
 void ShowEmpty(app::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {

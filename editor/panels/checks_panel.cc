@@ -128,10 +128,9 @@ void ShowChecksTools(app::Workspace& workspace) {
     workspace.Check();
   }
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip("%s", Tr("Looks at every file, and runs the drama in every language "
-                               "(lararium-editor check)."));
-  }
+  Tooltip(
+      Tr("Looks at every file, and runs the drama in every language "
+         "(lararium-editor check)."));
   if (workspace.commands().dirty()) {
     ImGui::SameLine(0.0f, Px(12));
     DimText(Tr("There are edits that are not saved."));

@@ -81,14 +81,14 @@ void CornerDrag::Update(app::Workspace& workspace,
                         ImDrawList& draw) {
   constexpr double kReach = 8.0;  // of the screen
   const Vector2d pixel = map.ToPixel(ToEigen(ImGui::GetMousePos()));
-  if (const std::optional<size_t> next = app::NextCorner(occluder, keyframe)) {
+  const std::optional<size_t> near = app::CornerNear(occluder, keyframe, pixel, kReach / map.scale);
+  const std::optional<size_t> next = app::NextCorner(occluder, keyframe);
+  if (next && !near) {
     LabelMark(ImGui::GetMousePos(), Text(Tr("corner %d"), static_cast<int>(*next) + 1),
               Packed(OverPicture().text), draw);
   }
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    const std::optional<size_t> near =
-        app::CornerNear(occluder, keyframe, pixel, kReach / map.scale);
-    dragged_corner_ = near ? near : app::NextCorner(occluder, keyframe);
+    dragged_corner_ = near ? near : next;
     if (near || !dragged_corner_) {
       return;  // nothing is moved by a click alone
     }

@@ -110,9 +110,11 @@ bool TrainDialog(app::Workspace& workspace, EditorState& state) {
     EndProperties();
   }
   if (app::IsPlainName(fields.place)) {
-    Hint(Text(workspace.document().FindPlace(fields.place) != nullptr
+    const app::ProjectDocument& document = workspace.document();
+    Hint(Text(document.FindPlace(fields.place) != nullptr
                   ? Tr("%s is trained anew; its picks keep the stage where it is.")
-                  : Tr("%s will be another place of the drama."),
+              : document.places.empty() ? Tr("%s will be the place of the drama.")
+                                        : Tr("%s will be another place of the drama."),
               fields.place.c_str()));
   }
   if (ImGui::Button(Tr("Film it with a camera instead\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
@@ -502,9 +504,7 @@ bool RecordingFields(const std::filesystem::path& folder,
   }
   ImGui::SameLine();
   const bool wanted = ImGui::Button(calibrate, ImVec2(button, 0));
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", Tr("Measures them, and their errors, with a printed chessboard."));
-  }
+  Tooltip(Tr("Measures them, and their errors, with a printed chessboard."));
   return wanted;
 }
 

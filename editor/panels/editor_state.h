@@ -198,6 +198,7 @@ struct EditorState {
   bool show_wipe = false;       // the camera's image alone to the left of wipe_at
   float wipe_at = 0.5f;         // of the picture's width
   bool show_onion = false;      // people at other moments over the camera's picture
+  bool open_onion = false;      // how many of them is asked for
   app::OnionSkin onion;         // how many, and how far apart
 
   // Picking: which anchor the next click sets, and in which keyframe.

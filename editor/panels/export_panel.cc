@@ -117,10 +117,9 @@ void ShowFields(app::Workspace& workspace, DialogFields& fields) {
   if (ImGui::Button(Tr("New keys"))) {
     MakeKeys(workspace, fields);
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", Tr("Players that are given the public key refuse what was not signed\n"
-                               "with the secret one, or was altered since."));
-  }
+  Tooltip(
+      Tr("Players that are given the public key refuse what was not signed\n"
+         "with the secret one, or was altered since."));
   EndProperties();
 }
 

@@ -75,7 +75,7 @@ void ShowMap(const app::Workspace& workspace, const vision::SceneDatabase& datab
   PropertyText(Tr("Keyframes"), std::to_string(database.keyframes.size()));
   PropertyText(Tr("Points"), std::to_string(database.points.size()));
   PropertyText(Tr("Error"), Text("%.3f px", database.mean_reprojection_error_px));
-  PropertyText(Tr("Image"), Text("%d x %d", camera.width, camera.height));
+  PropertyText(Tr("Image"), Text("%d \xc3\x97 %d", camera.width, camera.height));
   std::string focal = Text("%.1f, %.1f px", camera.fx, camera.fy);
   const bool estimated = training != nullptr && training->focal_deviation_px.has_value();
   if (estimated) {
@@ -229,13 +229,21 @@ void RemoveSessionButton(app::Workspace& workspace, uint32_t session, const std:
     ImGui::OpenPopup("remove");
   }
   ImGui::EndDisabled();
+  // Beside the button that asks, not over it.
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetItemRectMin().x - Px(8), ImGui::GetItemRectMin().y),
+                          ImGuiCond_Appearing, ImVec2(1, 0));
   ImGui::SetNextWindowSize(ImVec2(Px(320), 0));
   if (ImGui::BeginPopup("remove")) {
     Heading(Text(Tr("Remove %s from the map?"), name.c_str()).c_str());
     Hint(
         Tr("Its keyframes go, with the points that too few others see and what was picked in its "
            "images. Undo does not bring them back: adding the recording again does."));
-    if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+    if (ImGui::Button(Tr("Cancel"), ImVec2(half, 0))) {
+      ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button(Tr("Remove"), ImVec2(half, 0))) {
       workspace.RemoveSession(session);
       ImGui::CloseCurrentPopup();
     }
@@ -255,10 +263,9 @@ void ShowTraining(app::Workspace& workspace, EditorState& state) {
       workspace.PutFormerMapBack();
     }
     ImGui::EndDisabled();
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s", Tr("The map from before the last training. Doing so again changes "
-                                 "back to the one at hand."));
-    }
+    Tooltip(
+        Tr("The map from before the last training. Doing so again changes "
+           "back to the one at hand."));
   }
 }
 

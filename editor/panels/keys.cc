@@ -52,6 +52,9 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
      TrLater("To the panel before")},
     {Scope::kAlways, Action::kMenus, GLFW_KEY_F10, 0, 0,
      TrLater("Gives it to the menus, as does a tap of Alt")},
+    {Scope::kAlways, Action::kPanelSmaller, GLFW_KEY_F3, 0, 0,
+     TrLater("The panel that has the keyboard becomes smaller")},
+    {Scope::kAlways, Action::kPanelLarger, GLFW_KEY_F4, 0, 0, TrLater("Larger")},
 
     {Scope::kPanels, Action::kWalkOn, GLFW_KEY_LEFT, 0, 0,
      TrLater("Walks; changes the number that was pressed")},
@@ -86,6 +89,8 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
      TrLater("Shows the camera's image alone to the left of a line that you drag")},
     {Scope::kViews, Action::kOnion, GLFW_KEY_K, 0, 0,
      TrLater("Shows people at moments before and after, too")},
+    {Scope::kViews, Action::kOnionMore, GLFW_KEY_K, kShift, 0,
+     TrLater("At how many moments, and how far apart")},
     {Scope::kViews, Action::kSound, GLFW_KEY_M, 0, 0, TrLater("Switches sound on and off")},
     {Scope::kViews, Action::kPointColours, GLFW_KEY_C, 0, 0,
      TrLater("Colours the points by something else")},

@@ -47,6 +47,8 @@ enum class KeyAction {
   kPanelAfter,
   kPanelBefore,
   kMenus,
+  kPanelSmaller,
+  kPanelLarger,
   // walking through panels, menus and dialogs
   kWalkOn,
   kPress,
@@ -65,6 +67,7 @@ enum class KeyAction {
   kOccluders,
   kWipe,
   kOnion,
+  kOnionMore,
   kSound,
   kPointColours,
   kMeasure,

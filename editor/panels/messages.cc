@@ -81,16 +81,12 @@ void ShowMessagesTools(app::Workspace& workspace) {
   if (ImGui::Button(Tr("Take what is in the files"))) {
     workspace.TakeOutside();
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", Tr("An edit like any other: undo brings back what is here."));
-  }
+  Tooltip(Tr("An edit like any other: undo brings back what is here."));
   ImGui::SameLine();
   if (ImGui::Button(Tr("Keep what is here"))) {
     workspace.KeepOwn();
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", Tr("Saving will then overwrite the files."));
-  }
+  Tooltip(Tr("Saving will then overwrite the files."));
 }
 
 void ShowMessages(const app::Workspace& workspace) {
@@ -104,7 +100,8 @@ void ShowMessages(const app::Workspace& workspace) {
     ImGui::PopStyleColor();
   }
   if (at_end) {
-    ImGui::SetScrollHereY(1.0f);
+    constexpr float kEnd = 1e9f;  // clamped to what there is, with the window's border
+    ImGui::SetScrollY(kEnd);
   }
 }
 
@@ -127,9 +124,7 @@ void ShowStatusBar(app::Workspace& workspace) {
     const float room = 0.62f * ImGui::GetContentRegionAvail().x;
     const std::string shown = Elided(WithIcon(IconOf(newest.level), newest.text), room);
     ImGui::TextColored(ColourOf(newest.level), "%s", shown.c_str());
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s", newest.text.c_str());
-    }
+    Tooltip(newest.text);
     ImGui::SameLine();
   }
   std::string text = workspace.paths().folder.string();

@@ -104,6 +104,7 @@ void ShowCorners(app::Workspace& workspace,
             Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
             [&](app::OccluderDocument& edited) { edited.depth = depth; }, "occluder depth");
       }
+      Tooltip(Tr("How far it goes on behind the face that you drew; 0: the face alone."));
       if (drawn.ok()) {
         PropertyText(Tr("Error"), Text("%.2f px", drawn->error_px));
         PropertyText(Tr("Uneven by"), Text("%.1f cm", 100.0 * drawn->unevenness / units));
@@ -114,12 +115,9 @@ void ShowCorners(app::Workspace& workspace,
         workspace.EditOccluder(Text(Tr("flatten %s"), occluder.name.c_str()), occluder.name,
                                [&](app::OccluderDocument& edited) { edited.flat = flat; });
       }
-      if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("%s", Tr("Lays the corners onto the plane that fits them best"));
-      }
+      Tooltip(Tr("Lays the corners onto the plane that fits them best"));
       EndProperties();
     }
-    Hint(Tr("How far it goes on behind the face that you drew; 0: the face alone."));
     ShowCornerTable(occluder, drawn.ok() ? drawn->corners : std::vector<stage::AnchorReport>());
     if (!drawn.ok()) {
       ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
@@ -160,9 +158,7 @@ void ShowEffects(app::Workspace& workspace, const app::OccluderDocument& occlude
       workspace.EditOccluder(Text(Tr(effect.command), occluder.name.c_str()), occluder.name,
                              [&](app::OccluderDocument& edited) { edited.*effect.does = on; });
     }
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s", Tr(effect.tip));
-    }
+    Tooltip(Tr(effect.tip));
   }
 }
 

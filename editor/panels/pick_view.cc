@@ -16,6 +16,7 @@
 #include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/place_cards.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -167,8 +168,8 @@ void DimTextBeside(const std::string& text) {
   ImGui::AlignTextToFramePadding();
   const std::string shown = Elided(text, width);
   DimText(shown);
-  if (shown != text && ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", text.c_str());
+  if (shown != text) {
+    Tooltip(text);
   }
 }
 
@@ -330,7 +331,7 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
   ShowImage(workspace, state, keyframe);
   std::string name = keyframe.name;
   if (keyframe.session != 0) {
-    name += ", " + Text(Tr("session %d"), static_cast<int>(keyframe.session));
+    name += ", " + SessionName(*workspace.place(), keyframe.session);
   }
   const float name_width = ImGui::CalcTextSize(name.c_str()).x + Px(12);
   const float width = ImGui::GetContentRegionAvail().x - name_width;

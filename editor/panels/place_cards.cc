@@ -66,16 +66,6 @@ void ShowCard(EditorState& state,
   ImGui::PopStyleColor();
 }
 
-void Tooltip(const std::string& text) {
-  if (ImGui::IsItemHovered()) {
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(Px(340));
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-  }
-}
-
 // ------------------------------------------------------------ legends
 
 void ShowRamp(const std::array<std::string, 3>& labels) {

@@ -17,7 +17,9 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kWidest = 420.0f;  // logical pixels
-constexpr int kSizeStep = 16;      // pixels: not a new picture for each step of a splitter
+constexpr float kLowest = 150.0f;
+constexpr float kBelow = 270.0f;  // with the row of its switches
+constexpr int kSizeStep = 16;     // pixels: not a new picture for each step of a splitter
 constexpr app::StudioFrame kFrames[] = {app::StudioFrame::kBust, app::StudioFrame::kFace,
                                         app::StudioFrame::kFigure};
 constexpr int kFigure = 2;
@@ -32,10 +34,14 @@ struct Place {
   }
 };
 
+// So small that what changes the person has room below it.
 cv::Size PictureSize(int frame) {
-  const float width = std::min(ImGui::GetContentRegionAvail().x, Px(kWidest));
+  const float height_of_width = frame == kFigure ? 1.2f : 0.75f;
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float width =
+      std::min({room.x, Px(kWidest), std::max(room.y - Px(kBelow), Px(kLowest)) / height_of_width});
   const int columns = std::max(1, static_cast<int>(width) / kSizeStep) * kSizeStep;
-  return {columns, frame == kFigure ? columns * 6 / 5 : columns * 3 / 4};
+  return {columns, static_cast<int>(height_of_width * static_cast<float>(columns))};
 }
 
 // -1: none near.
@@ -145,7 +151,9 @@ void ShowPortrait(app::Workspace& workspace,
   state.portrait = workspace.cast_pictures().portrait();
   const bool known = state.portrait != nullptr && state.portrait->name == member.name;
   const app::CastPortrait* portrait = known ? state.portrait.get() : nullptr;
-  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const ImVec2 begin = ImGui::GetCursorScreenPos();
+  const float beside = ImGui::GetContentRegionAvail().x - static_cast<float>(size.width);
+  const ImVec2 from(begin.x + std::floor(std::max(0.0f, 0.5f * beside)), begin.y);
   const Place frame{
       from,
       {from.x + static_cast<float>(size.width), from.y + static_cast<float>(size.height)},
@@ -158,7 +166,7 @@ void ShowPortrait(app::Workspace& workspace,
     ImGui::PopClipRect();
   }
   Interact(state, portrait, picture, bones);
-  ImGui::SetCursorScreenPos(ImVec2(from.x, frame.to.y + ImGui::GetStyle().ItemSpacing.y));
+  ImGui::SetCursorScreenPos(ImVec2(begin.x, frame.to.y + ImGui::GetStyle().ItemSpacing.y));
   if (workspace.cast_pictures().Working(member.name)) {
     Caption(frame, Tr("Building\xe2\x80\xa6"));
   }

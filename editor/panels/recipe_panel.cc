@@ -175,9 +175,7 @@ class RecipePanel {
     float value = set ? known->second : 0.0f;
     const std::string what = LowerCase(Tr(group.title.c_str())) + ": " + slider.label;
     PropertyLabel(slider.label.c_str());
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s", slider.modifier.c_str());
-    }
+    Tooltip(slider.modifier);
     ImGui::PushID(slider.modifier.c_str());
     const float reset = ImGui::GetFrameHeight();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - reset -

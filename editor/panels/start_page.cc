@@ -160,12 +160,9 @@ void StartPage::ShowActions(const app::RecentProjects& recent,
     choice.kind = StartChoice::Kind::kSample;
   }
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip("%s", has_sample
-                                ? Tr("Your own copy of a small place with two people, and a tour "
-                                     "of it: change whatever you like.")
-                                : Tr("The sample was not installed with this program."));
-  }
+  Tooltip(has_sample ? Tr("Your own copy of a small place with two people, and a tour "
+                          "of it: change whatever you like.")
+                     : Tr("The sample was not installed with this program."));
   ImGui::Dummy(ImVec2(0, Px(20)));
   ShowLook(settings);
 }
@@ -208,9 +205,7 @@ void StartPage::ShowCard(app::RecentProjects& recent,
   ImGui::EndDisabled();
   ImGui::SetItemAllowOverlap();  // its buttons lie over it
   const bool hovered = face.exists && ImGui::IsItemHovered();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip("%s", project.folder.c_str());
-  }
+  Tooltip(project.folder);
   ImGui::GetWindowDrawList()->AddRectFilled(
       from, to, Packed(hovered ? Colours().hover : Colours().panel), Px(6));
   ImGui::SetCursorScreenPos(ImVec2(from.x + Px(kPad), from.y + Px(kPad)));
@@ -237,9 +232,7 @@ void StartPage::ShowCard(app::RecentProjects& recent,
     ImGui::TextColored(Colours().warning, "%s", Tr("not there"));
   } else if (hovered) {
     forget = ImGui::SmallButton(Tr("Forget"));
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s", Tr("Takes it off this list. The project itself stays."));
-    }
+    Tooltip(Tr("Takes it off this list. The project itself stays."));
   } else {
     ImGui::NewLine();
   }

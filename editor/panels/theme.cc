@@ -123,8 +123,8 @@ void SetColours(ImGuiStyle& style) {
   c[ImGuiCol_HeaderHovered] = Colours().hover;
   c[ImGuiCol_HeaderActive] = accent(kPressedTint);
   c[ImGuiCol_CheckMark] = accent(1.0f);
-  c[ImGuiCol_SliderGrab] = accent(0.9f);
-  c[ImGuiCol_SliderGrabActive] = accent(1.0f);
+  c[ImGuiCol_SliderGrab] = Colours().chosen;  // the number is written over it
+  c[ImGuiCol_SliderGrabActive] = Colours().chosen;
   c[ImGuiCol_PlotHistogram] = accent(1.0f);
   c[ImGuiCol_TextSelectedBg] = accent(kPressedTint);
   c[ImGuiCol_NavHighlight] = accent(0.8f);

@@ -210,9 +210,9 @@ void DrawRuler(ImDrawList& draw, const TimeScale& scale, float top, float height
     const bool major = i % step.parts == 0;
     draw.AddLine(ImVec2(x, top + height - Px(major ? 8 : 4)), ImVec2(x, top + height),
                  Packed(Colours().dim, major ? 0.9f : 0.45f));
-    if (major) {
-      draw.AddText(ImVec2(x + Px(4), top + Px(2)), Packed(Colours().dim),
-                   FormatTime(seconds, step.seconds).c_str());
+    const std::string time = FormatTime(seconds, step.seconds);
+    if (major && x + Px(4) + ImGui::CalcTextSize(time.c_str()).x <= scale.left + scale.width) {
+      draw.AddText(ImVec2(x + Px(4), top + Px(2)), Packed(Colours().dim), time.c_str());
     }
   }
 }

@@ -157,9 +157,7 @@ void PointField(Item& item, const char* label, const std::string& key) {
   if (ImGui::Button("\xc3\x97", ImVec2(ImGui::GetFrameHeight(), 0))) {
     item.Unset(key);
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", Tr("Without it"));
-  }
+  Tooltip(Tr("Without it"));
   double heading = point.value("heading", 0.0);
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::DragScalar("##heading", ImGuiDataType_Double, &heading, 1.0f, nullptr, nullptr,

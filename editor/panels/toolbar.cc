@@ -155,6 +155,13 @@ void ViewSourceMenu(app::Workspace& workspace, EditorState& state) {
   ImGui::EndMenu();
 }
 
+// How many moments are seen besides, which is seen while they are.
+void AskForOnionMore(EditorState& state) {
+  state.view = ViewKind::kCamera;
+  state.show_onion = true;
+  state.open_onion = true;
+}
+
 void ViewMenu(app::Workspace& workspace, EditorState& state) {
   const std::tuple<const char*, KeyAction, ViewKind> views[] = {
       {Tr("Through the camera"), KeyAction::kCameraView, ViewKind::kCamera},
@@ -217,6 +224,9 @@ void ViewMenu(app::Workspace& workspace, EditorState& state) {
   }
   if (MenuItem(Tr("Onion skin"), KeyAction::kOnion, state.show_onion)) {
     state.show_onion = !state.show_onion;
+  }
+  if (MenuItem(Tr("Onion skin's moments\xe2\x80\xa6"), KeyAction::kOnionMore)) {
+    AskForOnionMore(state);
   }
   ViewSourceMenu(workspace, state);
   ImGui::Separator();
@@ -408,6 +418,9 @@ void DoInViews(app::Workspace& workspace, EditorState& state, KeyAction action) 
       break;
     case KeyAction::kOnion:
       state.show_onion = !state.show_onion;
+      break;
+    case KeyAction::kOnionMore:
+      AskForOnionMore(state);
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());

@@ -366,9 +366,10 @@ void WalkView::Drag(app::Workspace& workspace, EditorState& state, const ViewCam
 void WalkView::DrawWay(const Shown& walk, const ViewCamera& view, ImDrawList& draw) const {
   const bool blocked = !walk.path.problem.empty();
   const ImU32 packed =
-      Packed(blocked ? OverPicture().error : walk.colour, walk.chosen ? 1.0f : 0.7f);
-  const ImU32 rim = Packed(OverPicture().window, 0.55f);
-  const float width = Px(walk.chosen ? 3.5f : 2.0f);
+      Packed(blocked ? OverPicture().error : walk.colour, walk.chosen ? 1.0f : 0.9f);
+  const ImU32 rim = Packed(OverPicture().window, 0.85f);  // from the points beneath
+  const float width = Px(walk.chosen ? 3.5f : 2.5f);
+  const float rim_width = width + Px(4);
   const Vector3d eye = view.camera_from_world.Center();
   std::optional<Vector2d> before;
   bool was_hidden = false;
@@ -378,9 +379,11 @@ void WalkView::DrawWay(const Shown& walk, const ViewCamera& view, ImDrawList& dr
     const std::optional<Vector2d> at = view.Project(point);
     const bool hidden = at && occluders_.Hide(eye, point);
     if (before && at && hidden && was_hidden) {
+      double rim_along = along;
+      DrawDashes(*before, *at, rim, rim_width, rim_along, draw);
       DrawDashes(*before, *at, packed, width, along, draw);
     } else if (before && at) {
-      draw.AddLine(ToImGui(*before), ToImGui(*at), rim, width + Px(2));
+      draw.AddLine(ToImGui(*before), ToImGui(*at), rim, rim_width);
       draw.AddLine(ToImGui(*before), ToImGui(*at), packed, width);
     }
     before = at;

@@ -151,9 +151,7 @@ Order Header(Json& garment, bool first, RecipeChange& change) {
   ImGui::BeginDisabled(first);
   const bool up = ImGui::Button("\xe2\x86\x91", ImVec2(button, 0));
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", Tr("Put on earlier: below what comes before"));
-  }
+  Tooltip(Tr("Put on earlier: below what comes before"));
   ImGui::SameLine(0, gap);
   const bool off = ImGui::Button("\xc3\x97", ImVec2(button, 0));
   return up ? Order::kUp : off ? Order::kTakeOff : Order::kStay;

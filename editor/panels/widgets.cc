@@ -98,6 +98,16 @@ void DimText(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void Tooltip(const std::string& text) {
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(Px(340));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+}
+
 void Hint(const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
   ImGui::TextWrapped("%s", text.c_str());
@@ -373,6 +383,19 @@ void PropertyText(const char* label, const std::string& value) {
   ImGui::TextWrapped("%s", value.c_str());
 }
 
+// A field of a number. What is shown as nothing but zeros has no sign: not "-0.000".
+bool DragNumber(
+    double& value, double speed, const double* min, const double* max, const char* format) {
+  const bool nothing = Text(format, value).find_first_of("123456789") == std::string::npos;
+  double shown = nothing ? 0.0 : value;
+  if (!ImGui::DragScalar("##value", ImGuiDataType_Double, &shown, static_cast<float>(speed), min,
+                         max, format, min != nullptr ? ImGuiSliderFlags_AlwaysClamp : 0)) {
+    return false;
+  }
+  value = shown;
+  return true;
+}
+
 bool NumberProperty(app::Workspace& workspace,
                     const char* label,
                     double& value,
@@ -382,9 +405,7 @@ bool NumberProperty(app::Workspace& workspace,
                     const char* format) {
   PropertyLabel(label);
   ImGui::PushID(label);
-  const bool changed =
-      ImGui::DragScalar("##value", ImGuiDataType_Double, &value, static_cast<float>(speed), &min,
-                        &max, format, ImGuiSliderFlags_AlwaysClamp);
+  const bool changed = DragNumber(value, speed, &min, &max, format);
   EndGestureWithItem(workspace);
   ImGui::PopID();
   return changed;
@@ -435,8 +456,7 @@ bool VectorProperty(app::Workspace& workspace,
     }
     ImGui::PushID(i);
     ImGui::SetNextItemWidth(row && i < 2 ? width : -FLT_MIN);
-    changed |= ImGui::DragScalar("##value", ImGuiDataType_Double, &value[i],
-                                 static_cast<float>(speed), nullptr, nullptr, format);
+    changed |= DragNumber(value[i], speed, nullptr, nullptr, format);
     ImGui::PopID();
   }
   ImGui::EndGroup();
@@ -447,9 +467,6 @@ bool VectorProperty(app::Workspace& workspace,
 
 bool RotationProperty(app::Workspace& workspace, const char* label, Eigen::Quaterniond& rotation) {
   Eigen::Vector3d degrees = app::HeadingTiltRoll(rotation) * kDegrees;
-  for (double& angle : degrees) {
-    angle = std::abs(angle) < 5e-3 ? 0.0 : angle;  // no "-0.00"
-  }
   if (!VectorProperty(workspace, label, degrees, 0.5, "%.2f\xc2\xb0")) {
     return false;
   }

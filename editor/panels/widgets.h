@@ -21,6 +21,8 @@ void Heading(const char* text);
 void DimText(const std::string& text);
 // Wrapped, dim.
 void Hint(const std::string& text);
+// What the item before it is for, while it is pointed at; also where it cannot be used now.
+void Tooltip(const std::string& text);
 
 // A dialog in the middle of the window, until open is false: Escape and its cross close it, but
 // Escape a list first that is open in it.

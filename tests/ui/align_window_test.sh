@@ -88,6 +88,7 @@ import -window root "$out/refined.png"
 press ctrl+z
 press ctrl+z
 press ctrl+s
-wait_for 10 has_pairs 4 && off 5 && fail "undo did not take both back"
+back() { has_pairs 4 && ! off 5; }
+wait_for 10 back || fail "undo did not take both back"
 quit
 echo "passed; screenshots: $out/adding.png $out/picking.png $out/aligned.png $out/refined.png"

@@ -1,6 +1,7 @@
 #!/bin/bash
-# Makes editor.jpg, timeline.jpg, light-panel.jpg, occluders.jpg, check-points.jpg, film.jpg, walks.jpg,
-# script.jpg, export.jpg and start.jpg of the docs anew, by real input events under Xvfb, from the sample that ./demo leaves trained and baked:
+# Makes editor.jpg, timeline.jpg, light-panel.jpg, occluders.jpg, check-points.jpg, film.jpg,
+# walks.jpg, script.jpg, export.jpg, start.jpg and light-theme.jpg of the docs anew, by real input
+# events under Xvfb, from the sample that ./demo leaves trained and baked:
 #
 #   tests/ui/doc_pictures.sh build/release/bin/lararium-editor \
 #       build/demo/thermopolium/thermopolium.lararium [OUTPUT_FOLDER]     docs/images otherwise
@@ -118,5 +119,12 @@ press Escape
 press ctrl+o
 sleep 3
 picture start 1060x520+110+20 1000
+click 207 443  # Light
+quit
+open_window 700 300 "$project"
+sleep 45
+xdotool mousemove 1250 700
+sleep 25
+picture light-theme 1440x866+0+0 1000
 quit
 ls -l "$images"
