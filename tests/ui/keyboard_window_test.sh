@@ -63,6 +63,19 @@ shot again
 press Return
 saved '"name":"window"' "$json" "the dialog has not what was typed before Escape"
 
+# A panel is resized; how many skins the onion has is asked for over the camera's view.
+press Escape
+press ctrl+Tab
+shot narrow
+times 4 F4
+shot wide
+[ "$(difference narrow wide)" -gt 200 ] || fail "F4 does not make the inspector wider"
+press Escape
+press shift+k
+shot onion
+[ "$(difference wide onion)" -gt 200 ] || fail "Shift+K does not ask for the onion skin"
+press Escape
+
 # Back to the views, where Space plays.
 press Escape
 press F5
@@ -79,4 +92,7 @@ times 3 ctrl+z
 saved '"height":1.7' "$json" "undo of the field"
 grep -q door "$json" && fail "undo of the dialog"
 quit
+# 96 more than it was; the state keeps it.
+grep -q '"inspector":432' <(tr -d ' \n' < "$(find "$out/state" -name 'window*.json')") ||
+  fail "the width of the inspector is not kept: $(cat "$(find "$out/state" -name 'window*.json')")"
 echo "passed; screenshots: $out/list.png $out/field.png $out/dialog.png"

@@ -1,0 +1,258 @@
+#include "player/performance.h"
+
+#include <algorithm>
+#include <csignal>
+#include <ctime>
+#include <optional>
+#include <utility>
+
+#include "player/heap.h"
+#include "shared/core/file.h"
+#include "shared/core/json.h"
+
+namespace lararium::player {
+namespace {
+
+// The drawing thread looks for input at least this often.
+constexpr std::chrono::milliseconds kInputInterval(10);
+// Without pictures it is still alive: the camera may take its time. Not while one image is
+// tracked, or staged, for longer than this: then a thread hangs.
+constexpr std::chrono::seconds kLongestSilence(8);
+constexpr double kLongestWork = 0.2;  // seconds
+// Pictures that take longer are those of a machine so slow, or so busy, that a long one is no
+// sign of a hang.
+constexpr double kSlowPicture = 250.0;  // milliseconds
+// After these all that a show needs has been compiled.
+constexpr int64_t kFirstFrames = 90;
+
+volatile std::sig_atomic_t g_end_requested = 0;
+
+// Of the day, where the player stands.
+float HourNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local = {};
+  localtime_r(&now, &local);
+  return static_cast<float>(local.tm_hour) + static_cast<float>(local.tm_min) / 60.0f +
+         static_cast<float>(local.tm_sec) / 3600.0f;
+}
+
+}  // namespace
+
+void RequestEnd() { g_end_requested = 1; }
+
+const render::Quality& QualityOf(size_t level) {
+  const std::span<const render::Quality> ladder = render::QualityLadder();
+  return ladder[std::min(level, ladder.size() - 1)];
+}
+
+Performance::Performance(const PlayOptions& options,
+                         SteadyClock::time_point started,
+                         Log& log,
+                         const ChildStart& start,
+                         Heartbeat heartbeat,
+                         int staff_link)
+    : options_(options),
+      started_(started),
+      log_(log),
+      faults_(log),
+      heartbeat_(heartbeat),
+      restarts_(start.number),
+      maker_(options, log) {
+  // First: it hears of all that the log is told.
+  if (staff_link >= 0) {
+    staff_.emplace(staff_link, log);
+  }
+  if (options.kiosk) {
+    kiosk_.emplace(options.state.empty() ? DefaultStateFolder() : options.state, start, log);
+    kiosk_->SetVisit({.longest = 60.0 * options.visit_minutes});
+    choices_ = kiosk_->state().choices;
+    house_ = kiosk_->state().house;
+  }
+  ApplyOptions(house_);
+  ApplyOptions(choices_);
+}
+
+bool Performance::KeepGoing(double longest_work) {
+  const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
+  const bool keep_going = g_end_requested == 0 && !enough && screen_->KeepGoing();
+  PressKeys();
+  ObeyStaff();
+  if (drawn_frames_ > 0 && SteadyClock::now() - last_shown_ < kLongestSilence &&
+      longest_work < kLongestWork) {
+    heartbeat_.Beat();
+  }
+  if (options_.pace == Pace::kRealtime) {
+    show_->SetHour(HourNow());
+  }
+  return keep_going;
+}
+
+size_t Performance::level() const {
+  return quality_ ? quality_->level() : static_cast<size_t>(options_.quality.value_or(0));
+}
+
+void Performance::SetLevel(size_t level) {
+  heartbeat_.BeatBeforeLongWork();  // drivers may have to compile for it
+  const render::Quality& quality = QualityOf(level);
+  renderer_->SetQuality(quality);
+  show_->SetQuality(quality);
+}
+
+void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
+  if (!quality_) {
+    return;
+  }
+  const double time = Seconds(now);
+  const size_t before = quality_->level();
+  quality_->AddFrame(time, work_ms);
+  if (const std::optional<show::PowerState> power = power_->Take()) {
+    quality_->SetPower(time, *power);
+  }
+  if (quality_->level() != before) {
+    const show::QualityStep& step = quality_->steps().back();
+    log_.info("quality {} instead of {}: {}", quality_->level(), before, show::Name(step.reason));
+    SetLevel(quality_->level());
+  }
+}
+
+void Performance::AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn) {
+  const SteadyClock::time_point now = SteadyClock::now();
+  const auto milliseconds = [](SteadyClock::duration duration) {
+    return std::chrono::duration<double, std::milli>(duration).count();
+  };
+  statistics_.located_age.Add(milliseconds(staged.located - staged.arrival));
+  statistics_.staged_age.Add(milliseconds(staged.staged - staged.arrival));
+  statistics_.drawn_age.Add(milliseconds(drawn - staged.arrival));
+  statistics_.shown_age.Add(milliseconds(now - staged.arrival));
+  statistics_.total.Add(milliseconds(now - staged.arrival));
+  if (drawn_frames_ == 0) {
+    statistics_.startup_seconds = Seconds(now);
+  } else {
+    statistics_.interval.Add(milliseconds(now - last_shown_));
+  }
+  last_shown_ = now;
+  ++drawn_frames_;
+}
+
+// Also between two images of the camera.
+Status Performance::ServeOpenXr() {
+  if (openxr_ != nullptr) {
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, openxr_->headset().Frame());
+    if (!more) {
+      log_.info("the headset's runtime ended the session");
+      RequestEnd();
+    }
+    for (const std::string& button : openxr_->headset().TakeButtons()) {
+      PressKey(button);
+    }
+  }
+  return Status();
+}
+
+Status Performance::DrawPicture(const show::StagedFrame& staged) {
+  if (openxr_ != nullptr) {
+    return openxr_->Draw(staged, *renderer_, *target_, Seconds(SteadyClock::now()), Shown(),
+                         [this](const geometry::CameraModel& eye) { ShowMenuTo(eye); });
+  }
+  return stereo_ ? stereo_->Draw(staged, *renderer_, *target_) : renderer_->Draw(staged, *target_);
+}
+
+Status Performance::DrawFrame(show::StagedFrame& staged) {
+  if (kiosk_) {
+    kiosk_->BeforeFrame(staged);
+  }
+  drama_time_ = staged.time;
+  if (options_.staff) {
+    ShowToStaff();
+  }
+  ShowMenu(staged);
+  if (draw_ms_ > kSlowPicture) {
+    heartbeat_.BeatBeforeLongWork();
+  }
+  const SteadyClock::time_point begin = SteadyClock::now();
+  SteadyClock::time_point drawn;
+  {
+    const ScopedStageTimer timer(statistics_.render);
+    LARARIUM_RETURN_IF_ERROR(DrawPicture(staged));
+    target_->Finish();
+    drawn = SteadyClock::now();
+    screen_->Present(shown());
+  }
+  if (sound_ != nullptr) {
+    sound_->Show(staged.sound);
+  }
+  AddTimes(staged, drawn);
+  faults_.AfterFrame(staged.tracked);
+  draw_ms_ = std::chrono::duration<double, std::milli>(drawn - begin).count();
+  ChooseQuality(last_shown_, std::max(draw_ms_, staged.stage_ms));
+  heartbeat_.Beat();
+  AfterFrame(staged);
+  TellStaff(staged);
+  if (drawn_frames_ == kFirstFrames) {
+    render::ReleaseShaderCompiler();
+    AfterFirstPictures();
+  }
+  return recorder_->Add(staged, shown());
+}
+
+Status Performance::RunLockStep() {
+  std::optional<show::LockStep> lock_step(std::in_place, stages());
+  show::StagedFrame staged;
+  while (KeepGoing()) {
+    if (OtherLanguagesAreReady()) {
+      lock_step.reset();
+      LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
+      lock_step.emplace(stages());
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, lock_step->Next(staged));
+    if (!more) {
+      break;
+    }
+    LARARIUM_RETURN_IF_ERROR(DrawFrame(staged));
+    LARARIUM_RETURN_IF_ERROR(ServeOpenXr());
+  }
+  return Status();
+}
+
+Status Performance::RunRealtime() {
+  std::optional<show::RealtimePipeline> pipeline(std::in_place, stages());
+  while (!pipeline->Finished() && KeepGoing(pipeline->LongestWork())) {
+    if (OtherLanguagesAreReady()) {
+      pipeline.reset();
+      LARARIUM_RETURN_IF_ERROR(ChangeLanguages());
+      pipeline.emplace(stages());
+    }
+    LARARIUM_RETURN_IF_ERROR(ServeOpenXr());
+    // A headset's own frames are waited for already.
+    const auto wait = openxr_ != nullptr ? std::chrono::milliseconds(0) : kInputInterval;
+    if (std::unique_ptr<show::StagedFrame> staged = pipeline->Take(wait)) {
+      LARARIUM_RETURN_IF_ERROR(DrawFrame(*staged));
+      pipeline->Recycle(std::move(staged));
+    }
+  }
+  pipeline->Stop();
+  return pipeline->status();
+}
+
+Status Performance::Run() {
+  LARARIUM_RETURN_IF_ERROR(options_.pace == Pace::kFast ? RunLockStep() : RunRealtime());
+  if (openxr_ != nullptr) {
+    LARARIUM_RETURN_IF_ERROR(openxr_->headset().End());
+  }
+  LARARIUM_RETURN_IF_ERROR(recorder_->Finish());
+  if (quality_) {
+    statistics_.quality = quality_->ToJson();
+  }
+  if (!options_.stats_out.empty()) {
+    LARARIUM_RETURN_IF_ERROR(SaveJson(options_.stats_out, statistics_.ToJson()));
+  }
+  if (!options_.visitor_log.empty()) {
+    LARARIUM_RETURN_IF_ERROR(
+        WriteFileAtomically(options_.visitor_log, show_->drama().visitor_log().Write()));
+  }
+  log_.info("{} frames shown, {:.1f} % tracked", drawn_frames_,
+            100.0 * statistics_.tracking.tracked_fraction());
+  return begin_again_ ? Status::Error("staff page", "the player is to begin again") : Status();
+}
+
+}  // namespace lararium::player
