@@ -31,6 +31,7 @@ Follower::Follower(std::shared_ptr<const FollowMap> map)
     fit->sights.reserve(kMostSlots);
     fit->matches.reserve(kMostSlots);
     fit->pose.squares.reserve(kMostSlots);
+    fit->pose.in_camera.reserve(kMostSlots);
   }
   seen_.reserve(kMostSlots);
   depths_.reserve(kMostSlots);

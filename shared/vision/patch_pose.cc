@@ -16,13 +16,19 @@ constexpr int kIterations = 10;
 constexpr double kTukey2 = 4.685 * 4.685;  // 95 % efficiency for normal noise
 constexpr size_t kSampleMost = 512;        // squares looked at for the median
 
-// Square of the whitened residual; infinite behind the camera.
-double Square(const Rigid3& pose, const PatchMatch& match) {
-  Eigen::Vector2d residual;
-  if (!PlaneResidual(pose, {match.point, match.plane}, residual, nullptr)) {
-    return std::numeric_limits<double>::infinity();
+// Where the matches' points are in the camera's frame, and the squares of their whitened residuals:
+// infinite behind the camera.
+void FindSquares(std::span<const PatchMatch> matches, PatchPose& pose) {
+  const Eigen::Matrix3d rotation = pose.camera_from_map.rotation.toRotationMatrix();
+  const Eigen::Vector3d& translation = pose.camera_from_map.translation;
+  for (size_t i = 0; i < matches.size(); ++i) {
+    pose.in_camera[i].noalias() = rotation * matches[i].point;
+    pose.in_camera[i] += translation;
+    Eigen::Vector2d residual;
+    const bool seen = PlaneResidual(pose.in_camera[i], matches[i].plane, residual, nullptr);
+    pose.squares[i] = seen ? (matches[i].whitening * residual).squaredNorm()
+                           : std::numeric_limits<double>::infinity();
   }
-  return (match.whitening * residual).squaredNorm();
 }
 
 // Standard deviation along one axis: the median square of a two-dimensional normal
@@ -47,6 +53,7 @@ bool EstimatePatchPose(std::span<const PatchMatch> matches,
                        PatchPose& pose) {
   pose.camera_from_map = start;
   pose.squares.resize(matches.size());
+  pose.in_camera.resize(matches.size());
   pose.inliers = 0;
   pose.covariance.setZero();
   if (matches.size() < 4) {
@@ -54,9 +61,7 @@ bool EstimatePatchPose(std::span<const PatchMatch> matches,
   }
   Matrix6d information;
   for (int iteration = 0;; ++iteration) {
-    for (size_t i = 0; i < matches.size(); ++i) {
-      pose.squares[i] = Square(pose.camera_from_map, matches[i]);
-    }
+    FindSquares(matches, pose);
     pose.scale = std::max(ScaleOf(pose.squares), least_scale);
     if (!std::isfinite(pose.scale)) {
       return false;
@@ -70,12 +75,12 @@ bool EstimatePatchPose(std::span<const PatchMatch> matches,
       }
       Eigen::Vector2d residual;
       Matrix26d jacobian;
-      PlaneResidual(pose.camera_from_map, {matches[i].point, matches[i].plane}, residual,
-                    &jacobian);
+      PlaneResidual(pose.in_camera[i], matches[i].plane, residual, &jacobian);
       const double root = 1.0 - pose.squares[i] / limit;
-      const Matrix26d whitened = root * matches[i].whitening * jacobian;
+      const Eigen::Matrix2d whitening = root * matches[i].whitening;
+      const Matrix26d whitened = whitening * jacobian;
       information.noalias() += whitened.transpose() * whitened;
-      right.noalias() -= whitened.transpose() * (root * matches[i].whitening * residual);
+      right.noalias() -= whitened.transpose() * (whitening * residual);
     }
     Matrix6d damped = information;
     damped.diagonal() *= 1.0 + 1e-9;

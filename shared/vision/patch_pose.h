@@ -25,6 +25,7 @@ struct PatchPose {
   int inliers = 0;              // squares below kInlierSquare
   double scale = 0.0;           // robust standard deviation of the whitened residuals, one axis
   Matrix6d covariance = Matrix6d::Zero();  // of (w, v); without the matches' common errors
+  std::vector<Eigen::Vector3d> in_camera;  // the matches' points, of the last iteration
 };
 
 // 99 % of a two-dimensional normal distribution.

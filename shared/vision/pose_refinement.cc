@@ -141,20 +141,7 @@ bool PlaneResidual(const Rigid3& camera_from_map,
                    const PoseMatch& match,
                    Eigen::Vector2d& residual,
                    Matrix26d* jacobian) {
-  const Eigen::Vector3d p = camera_from_map * match.point;
-  if (p.z() <= 1e-9) {
-    return false;
-  }
-  const double inverse = 1.0 / p.z();
-  const double x = p.x() * inverse;
-  const double y = p.y() * inverse;
-  residual = Eigen::Vector2d(x, y) - match.plane;
-  if (jacobian != nullptr) {
-    // d(x, y)/dp times [-[p]x | I].
-    *jacobian << -x * y, 1.0 + x * x, -y, inverse, 0.0, -x * inverse,  //
-        -(1.0 + y * y), x * y, x, 0.0, inverse, -y * inverse;
-  }
-  return true;
+  return PlaneResidual(camera_from_map * match.point, match.plane, residual, jacobian);
 }
 
 Rigid3 Moved(const Rigid3& camera_from_map, const Vector6d& step) {

@@ -31,6 +31,26 @@ bool PlaneResidual(const geometry::Rigid3& camera_from_map,
                    Eigen::Vector2d& residual,
                    Matrix26d* jacobian);
 
+// The same of a point in the camera's frame.
+inline bool PlaneResidual(const Eigen::Vector3d& in_camera,
+                          const Eigen::Vector2d& plane,
+                          Eigen::Vector2d& residual,
+                          Matrix26d* jacobian) {
+  if (in_camera.z() <= 1e-9) {
+    return false;
+  }
+  const double inverse = 1.0 / in_camera.z();
+  const double x = in_camera.x() * inverse;
+  const double y = in_camera.y() * inverse;
+  residual = Eigen::Vector2d(x, y) - plane;
+  if (jacobian != nullptr) {
+    // d(x, y)/dp times [-[p]x | I].
+    *jacobian << -x * y, 1.0 + x * x, -y, inverse, 0.0, -x * inverse,  //
+        -(1.0 + y * y), x * y, x, 0.0, inverse, -y * inverse;
+  }
+  return true;
+}
+
 geometry::Rigid3 Moved(const geometry::Rigid3& camera_from_map, const Vector6d& step);
 
 struct RefinementOptions {

@@ -107,6 +107,7 @@ TEST_F(ProjectCommands, ARenamingThatIsNotSavedLeavesThePlaceAsItWas) {
 
 TEST_F(ProjectCommands, WhatARenamingLeftThatWasCutOffIsNotTakenForThePlace) {
   const std::filesystem::path unfinished = paths_.Place("tavern").string() + ".unfinished";
+  std::filesystem::create_directories(unfinished);
   ASSERT_TRUE(WriteFileAtomically(unfinished / "part", std::string_view("?")).ok());
   ASSERT_TRUE(Place({.rename = "site", .to = "tavern"}).ok());
   EXPECT_TRUE(std::filesystem::exists(paths_.Scene("tavern")));
