@@ -150,37 +150,12 @@ class PropBaker {
       const size_t count = surfaces_[m].positions.size();
       for (const size_t first : {sites.first[m], sites.first_back[m]}) {
         if (first != TransferSites::kNone) {
-          SpreadOverBuried(surfaces_[m].indices, std::span(solved.vectors).subspan(first, count),
-                           std::span(solved.inside).subspan(first, count));
-        }
-      }
-    }
-  }
-
-  static void SpreadOverBuried(std::span<const uint32_t> indices,
-                               std::span<TransferVector> vectors,
-                               std::span<float> inside) {
-    for (int pass = 0; pass < kSpreading; ++pass) {
-      std::vector<TransferVector> sums(vectors.size());
-      std::vector<float> weights(vectors.size(), 0.0f);
-      for (size_t i = 0; i < indices.size(); ++i) {
-        const uint32_t to = indices[i];
-        const uint32_t from = indices[i % 3 == 2 ? i - 2 : i + 1];
-        for (const auto& [a, b] : {std::pair(from, to), std::pair(to, from)}) {
-          if (inside[a] < kBuried && inside[b] >= kBuried) {
-            for (size_t k = 0; k < sums[b].size(); ++k) {
-              sums[b][k] += vectors[a][k];
-            }
-            weights[b] += 1.0f;
+          std::vector<bool> buried;
+          for (size_t v = 0; v < count; ++v) {
+            buried.push_back(solved.inside[first + v] >= kBuried);
           }
-        }
-      }
-      for (size_t v = 0; v < vectors.size(); ++v) {
-        if (weights[v] > 0.0f) {
-          for (size_t k = 0; k < sums[v].size(); ++k) {
-            vectors[v][k] = sums[v][k] / weights[v];
-          }
-          inside[v] = 0.0f;
+          SpreadTransfer(surfaces_[m].indices, kSpreading, std::move(buried),
+                         std::span(solved.vectors).subspan(first, count));
         }
       }
     }

@@ -23,6 +23,9 @@ namespace lararium::bake {
 namespace {
 
 constexpr size_t kVerticesPerJob = 256;
+// A share of an even sky's light: where less arrives cloth touches cloth, or the body.
+constexpr float kClosed = 0.01f;
+constexpr int kOpening = 3;  // rings of vertices
 
 glm::mat3 Orthonormal(const glm::mat3& m) {
   const glm::vec3 x = glm::normalize(m[0]);
@@ -42,6 +45,27 @@ std::vector<glm::mat3> VertexRotations(const human::Human& human, std::span<cons
     }
   }
   return rotations;
+}
+
+// Cloth moves otherwise than in the key poses: a pocket that is closed in one of them may be open
+// when it is seen, and its black would lie over the triangles around it. Its rim takes the light of
+// what is around it.
+void OpenPockets(const TransferSites& sites, SolvedTransfer& solved) {
+  for (size_t m = 0; m < sites.meshes.size(); ++m) {
+    for (const size_t first : {sites.first[m], sites.first_back[m]}) {
+      if (first == TransferSites::kNone) {
+        continue;
+      }
+      const std::span<TransferVector> vectors =
+          std::span(solved.vectors).subspan(first, sites.meshes[m].positions.size());
+      std::vector<bool> closed;
+      for (const TransferVector& vector : vectors) {
+        const glm::vec3 share = ShareOfEvenLight(vector);
+        closed.push_back(std::max({share.r, share.g, share.b}) < kClosed);
+      }
+      SpreadTransfer(sites.meshes[m].indices, kOpening, std::move(closed), vectors);
+    }
+  }
 }
 
 // Turns the vectors of all fronts from the axes of the pose to those of the bind pose.
@@ -84,6 +108,7 @@ Result<human::LightTransfer> BakeTransfer(const human::Human& human,
     LARARIUM_ASSIGN_OR_RETURN(const RayScene rays, RaysAt(sites.meshes));
     SolvedTransfer solved =
         SolveTransfer(sites, rays, {options.count, options.rays, options.bounces});
+    OpenPockets(sites, solved);
     TurnToBindPose(VertexRotations(human, skin), options.count, solved);
     packer.AddKeyPose(sites, solved);
   }

@@ -169,6 +169,36 @@ SolvedTransfer SolveTransfer(const TransferSites& sites,
   return Solver(sites, rays, solving).Run();
 }
 
+void SpreadTransfer(std::span<const uint32_t> indices,
+                    int passes,
+                    std::vector<bool> marks,
+                    std::span<TransferVector> vectors) {
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<TransferVector> sums(vectors.size());
+    std::vector<float> weights(vectors.size(), 0.0f);
+    for (size_t i = 0; i < indices.size(); ++i) {
+      const uint32_t to = indices[i];
+      const uint32_t from = indices[i % 3 == 2 ? i - 2 : i + 1];
+      for (const auto& [a, b] : {std::pair(from, to), std::pair(to, from)}) {
+        if (!marks[a] && marks[b]) {
+          for (size_t k = 0; k < sums[b].size(); ++k) {
+            sums[b][k] += vectors[a][k];
+          }
+          weights[b] += 1.0f;
+        }
+      }
+    }
+    for (size_t v = 0; v < vectors.size(); ++v) {
+      if (weights[v] > 0.0f) {
+        for (size_t k = 0; k < sums[v].size(); ++k) {
+          vectors[v][k] = sums[v][k] / weights[v];
+        }
+        marks[v] = false;
+      }
+    }
+  }
+}
+
 glm::vec3 ShareOfEvenLight(const TransferVector& vector) {
   // The first harmonic is a constant: of radiance 1 / that, pi / that arrives unshadowed.
   const float first = light::EvaluateShBasis(glm::vec3(0.0f, 1.0f, 0.0f))[0];

@@ -56,6 +56,14 @@ SolvedTransfer SolveTransfer(const TransferSites& sites,
                              const RayScene& rays,
                              const TransferSolving& solving);
 
+// Marked vertices of a mesh take the mean of what their neighbours have that are not, and are not
+// marked any more; then their neighbours, in as many passes. Marks and vectors: one for each
+// vertex.
+void SpreadTransfer(std::span<const uint32_t> indices,
+                    int passes,
+                    std::vector<bool> marks,
+                    std::span<TransferVector> vectors);
+
 // The share of an even sky's light, for each channel, that arrives by a vector; from 0 to 1.
 glm::vec3 ShareOfEvenLight(const TransferVector& vector);
 

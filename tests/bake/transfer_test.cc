@@ -136,6 +136,24 @@ TEST(Transfer, BouncesInABowlAddUpAsInAnIntegratingSphere) {
   }
 }
 
+// A bell stands over the middle of a disc and keeps all light off it; farther in than three rings a
+// closed place stays dark.
+TEST(Transfer, OfAClosedPocketIsThatOfItsRim) {
+  const SurfaceMesh disc = MakeDisc({0, 1, 0}, {0, 1, 0}, 1.0f, glm::vec3(0.0f));
+  const SurfaceMesh bell = MakeSphere({0, 1, 0}, 0.05f, glm::vec3(0.0f));
+  const human::Human small = MakeRigidHuman({glm::vec3(0.0f)}, {{disc, 0}, {bell, 0}});
+  const LightTransfer opened = Bake(small, {.rays = 256, .bounces = 0});
+  EXPECT_NEAR(UnderUniformSky(Vector(opened, 0, 0, 0)), 1.0f, 0.02f) << "the middle";
+  EXPECT_NEAR(UnderUniformSky(Vector(opened, 0, 0, 1)), 1.0f, 0.02f) << "the rim";
+
+  // Ring k of the bowl lies at k / 10 of its depth; the lid is a wide sphere about its lower half.
+  const SurfaceMesh bowl = MakeCap({0, 1, 0}, 0.5f, 0.5f * kPi, true, glm::vec3(0.0f), 10, 20);
+  const SurfaceMesh lid = MakeSphere({0, 0.5f, 0}, 0.4f, glm::vec3(0.0f));
+  const human::Human deep = MakeRigidHuman({glm::vec3(0.0f)}, {{bowl, 0}, {lid, 0}});
+  const LightTransfer closed = Bake(deep, {.rays = 256, .bounces = 0});
+  EXPECT_LT(UnderUniformSky(Vector(closed, 0, 0, 0)), 0.01f) << "its lowest point";
+}
+
 // Two boxes side by side that turn together, far from a third that is the root.
 human::Human MakeTurningPair() {
   human::Human human = MakeRigidHuman(
