@@ -72,7 +72,7 @@ with=$(part $walker)
 click 972 690  # ...
 sleep 1
 import -window root "$out/onion.png"
-xdotool mousemove 1075 746 sleep 0.3 mousedown 1 sleep 0.3 mousemove 1150 746 sleep 0.3 mouseup 1
+xdotool mousemove 955 524 sleep 0.3 mousedown 1 sleep 0.3 mousemove 1010 524 sleep 0.3 mouseup 1
 sleep 2
 import -window root "$out/onions.png"
 press Escape
@@ -94,9 +94,9 @@ sleep 1
 import -window root "$out/other_recording.png"
 before=$(sha256sum < "$project/places/maquette/scene.larscene")
 click 154 14  # View
-click 185 549  # The camera is
+click 185 571  # The camera is
 shown=$(part $picture)
-click 460 571  # The training's recording
+click 460 593  # The training's recording
 xdotool mousemove 700 780
 wait_for 60 is_other $picture "$shown" || fail "the training's recording is not shown"
 sleep 10
@@ -134,8 +134,8 @@ wait_for 10 taken_back || fail "undo of the drag"
 
 # A live camera, for which a recording stands in, and back.
 click 154 14   # View
-click 185 549  # The camera is
-click 460 593  # A live camera
+click 185 571  # The camera is
+click 460 615  # A live camera
 import -window root "$out/live_dialog.png"
 fill 720 448 "$project/places/maquette/handheld.mp4"
 shown=$(part $picture)
