@@ -7,13 +7,14 @@
 namespace lararium::player {
 namespace {
 
+constexpr int kArenas = 2;
 constexpr size_t kLargeInLoading = 128 << 10;
 constexpr size_t kLargeInPlaying = 32 << 20;
 
 }  // namespace
 
 void BeginLoading() {
-  ShareArenas();
+  ShareArenas(kArenas);
   ReturnBlocksFrom(kLargeInLoading);
 }
 

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "editor/app/frame_painter.h"
@@ -203,6 +204,8 @@ Status MainLoop(render::Window& window,
 }  // namespace
 
 Status RunWindow(const WindowOptions& options, Log& log) {
+  // As many as can allocate at the same time.
+  ShareArenas(static_cast<int>(std::max(2u, std::thread::hardware_concurrency())));
   ReturnBlocksFrom(kLargeBlock);
   const Settings settings = RestoreSettings(log);
   std::unique_ptr<Workspace> workspace;

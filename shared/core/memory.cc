@@ -4,7 +4,7 @@
 
 namespace lararium {
 
-void ShareArenas() { ::mallopt(M_ARENA_MAX, 2); }
+void ShareArenas(int arenas) { ::mallopt(M_ARENA_MAX, arenas); }
 
 void ReturnBlocksFrom(size_t bytes) {
   ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(bytes));

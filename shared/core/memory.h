@@ -6,10 +6,10 @@
 
 namespace lararium {
 
-// All threads share two arenas, instead of one for each up to eight a core, which all grow in time
-// to the most that a thread ever wanted in it. For programs that run for long and do not allocate
-// where it is urgent; before threads begin.
-void ShareArenas();
+// All threads share so many arenas, instead of one for each up to eight a core, which all grow in
+// time to the most that a thread ever wanted in it. For programs that run for long and do not
+// allocate where it is urgent; before threads begin.
+void ShareArenas(int arenas);
 
 // Blocks of at least so many bytes go back to the system as soon as they are dropped: for work
 // that takes much, once. Smaller limits cost time where blocks come and go again and again.
