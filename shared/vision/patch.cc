@@ -56,7 +56,7 @@ int32_t PixelPair(const uint8_t* p) {
 }
 
 // Adds what the source is at the places, shifted by shift, to out. In loops that the compiler turns
-// into vector instructions: this is most of what a followed frame costs.
+// into vector instructions: one by one, samples are most of what a followed frame costs.
 void AddSamples(const cv::Mat& source,
                 const SamplePlaces& places,
                 const Eigen::Vector2f& shift,
