@@ -1,8 +1,10 @@
 #include "player/heap.h"
 
+#include <chrono>
 #include <cstddef>
 
 #include "shared/core/memory.h"
+#include "shared/core/sleep.h"
 
 namespace lararium::player {
 namespace {
@@ -10,10 +12,12 @@ namespace {
 constexpr int kArenas = 2;
 constexpr size_t kLargeInLoading = 128 << 10;
 constexpr size_t kLargeInPlaying = 32 << 20;
+constexpr std::chrono::seconds kKeepInterval(10);
 
 }  // namespace
 
 void BeginLoading() {
+  KeepPagesSmall();
   ShareArenas(kArenas);
   ReturnBlocksFrom(kLargeInLoading);
 }
@@ -23,6 +27,12 @@ void BeginPlaying() {
   ReturnBlocksFrom(kLargeInPlaying);
 }
 
-void AfterFirstPictures() { TrimHeap(); }
+HeapKeeper::HeapKeeper()
+    : thread_([](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+          TrimHeap();
+          SleepUntil(std::chrono::steady_clock::now() + kKeepInterval, stop);
+        }
+      }) {}
 
 }  // namespace lararium::player

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "player/heap.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 
@@ -98,13 +97,17 @@ void Performance::SetLevel(size_t level) {
   show_->SetQuality(quality);
 }
 
-void Performance::ChooseQuality(SteadyClock::time_point now, double work_ms) {
+void Performance::ChooseQuality(SteadyClock::time_point now,
+                                const show::StagedFrame& staged,
+                                double work_ms) {
   if (!quality_) {
     return;
   }
   const double time = Seconds(now);
   const size_t before = quality_->level();
-  quality_->AddFrame(time, work_ms);
+  if (staged.camera_from_stage) {
+    quality_->AddFrame(time, work_ms);
+  }
   if (const std::optional<show::PowerState> power = power_->Take()) {
     quality_->SetPower(time, *power);
   }
@@ -184,13 +187,13 @@ Status Performance::DrawFrame(show::StagedFrame& staged) {
   AddTimes(staged, drawn);
   faults_.AfterFrame(staged.tracked);
   draw_ms_ = std::chrono::duration<double, std::milli>(drawn - begin).count();
-  ChooseQuality(last_shown_, std::max(draw_ms_, staged.stage_ms));
+  ChooseQuality(last_shown_, staged, std::max(draw_ms_, staged.stage_ms));
   heartbeat_.Beat();
   AfterFrame(staged);
   TellStaff(staged);
   if (drawn_frames_ == kFirstFrames) {
     render::ReleaseShaderCompiler();
-    AfterFirstPictures();
+    heap_keeper_.emplace();
   }
   return recorder_->Add(staged, shown());
 }

@@ -16,6 +16,7 @@
 #include "player/fault_log.h"
 #include "player/gaze_menu.h"
 #include "player/headset.h"
+#include "player/heap.h"
 #include "player/kiosk.h"
 #include "player/openxr_display.h"
 #include "player/options.h"
@@ -116,7 +117,7 @@ class Performance {
   Status DrawFrame(show::StagedFrame& staged);
   void AfterFrame(const show::StagedFrame& staged);
   void AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn);
-  void ChooseQuality(SteadyClock::time_point now, double work_ms);
+  void ChooseQuality(SteadyClock::time_point now, const show::StagedFrame& staged, double work_ms);
   void SetLevel(size_t level);
   void ShowToStaff();
 
@@ -151,6 +152,7 @@ class Performance {
   std::unique_ptr<OpenXrDisplay> openxr_;  // nullptr: there is no such headset
   std::optional<StaffReporter> staff_;     // none: there is no page for staff
   std::optional<Recorder> recorder_;
+  std::optional<HeapKeeper> heap_keeper_;      // from when the first pictures were shown
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: nothing is heard
   std::unique_ptr<OscListener> osc_;           // nullptr: nobody listens
   std::optional<show::QualityController> quality_;

@@ -210,7 +210,8 @@ Result<import::BmlStage> StageForBml(const ImportBmlOptions& options,
     LARARIUM_ASSIGN_OR_RETURN(const human::Human human, LoadBakedHuman(paths, member));
     for (const human::Clip& clip : human.clips) {
       constexpr double kFade = 0.3;  // as gestures come and go
-      world.clips[member.name][clip.name] = drama::GestureTimes(human.skeleton, clip, kFade);
+      world.clips[member.name][clip.name] =
+          drama::GestureTimes(clip, human::TurnedFromFirst(clip, human.skeleton.size()), kFade);
     }
   }
   for (const ObjectDocument& object : document.objects) {

@@ -204,6 +204,7 @@ Status MainLoop(render::Window& window,
 }  // namespace
 
 Status RunWindow(const WindowOptions& options, Log& log) {
+  KeepPagesSmall();
   // As many as can allocate at the same time.
   ShareArenas(static_cast<int>(std::max(2u, std::thread::hardware_concurrency())));
   ReturnBlocksFrom(kLargeBlock);

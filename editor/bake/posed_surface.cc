@@ -158,14 +158,16 @@ SurfaceMesh Moved(const glm::mat4& target_from_mesh, const SurfaceMesh& mesh) {
   return moved;
 }
 
-Result<MaterialImages> MaterialImages::Create(std::span<const human::Texture> textures,
-                                              std::span<const human::Material> materials,
-                                              const std::string& place) {
+Result<MaterialImages> MaterialImages::Create(
+    std::span<const std::shared_ptr<const human::Texture>> textures,
+    std::span<const human::Material> materials,
+    const std::string& place) {
   MaterialImages images;
   images.materials_ = materials;
-  for (const human::Texture& texture : textures) {
-    LARARIUM_ASSIGN_OR_RETURN(const cv::Mat decoded,
-                              render::DecodeTexture(texture.encoded, place + ": " + texture.name));
+  for (const std::shared_ptr<const human::Texture>& texture : textures) {
+    LARARIUM_ASSIGN_OR_RETURN(
+        const cv::Mat decoded,
+        render::DecodeTexture(texture->encoded, place + ": " + texture->name));
     const cv::Mat small = Shrink(decoded);
     images.colours_.push_back(LinearColour(small));
     cv::extractChannel(small, images.alphas_.emplace_back(), 3);

@@ -56,9 +56,10 @@ struct SurfaceLook {
 class MaterialImages {
  public:
   // materials must be valid and outlive this. Fails where a texture cannot be decoded.
-  static Result<MaterialImages> Create(std::span<const human::Texture> textures,
-                                       std::span<const human::Material> materials,
-                                       const std::string& place);
+  static Result<MaterialImages> Create(
+      std::span<const std::shared_ptr<const human::Texture>> textures,
+      std::span<const human::Material> materials,
+      const std::string& place);
 
   SurfaceLook LookOf(int16_t material,
                      bool has_uvs,

@@ -178,7 +178,7 @@ class CastBuilder {
   }
 
   int16_t AddTexture(human::Texture texture) {
-    human_.textures.push_back(std::move(texture));
+    human_.textures.push_back(std::make_shared<const human::Texture>(std::move(texture)));
     return static_cast<int16_t>(human_.textures.size() - 1);
   }
 

@@ -44,11 +44,12 @@ void AddTextures(const std::string& place, BuiltModel& model, ImportedHuman& imp
     auto texture = PrepareTexture(model.images[i].encoded, model.images[i].name, place);
     if (texture.ok()) {
       texture_of[i] = static_cast<int16_t>(imported.human.textures.size());
-      imported.human.textures.push_back(std::move(*texture));
+      imported.human.textures.push_back(
+          std::make_shared<const human::Texture>(*std::move(texture)));
     } else {
       imported.notes.push_back(texture.message());
     }
-    model.images[i].encoded = {};
+    std::vector<std::byte>().swap(model.images[i].encoded);  // "= {}" would keep the memory
   }
   const auto texture = [&](int image) {
     return image < 0 ? human::Material::kNone : texture_of[static_cast<size_t>(image)];

@@ -181,7 +181,7 @@ Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& 
     model->extension = model->gltf->is_binary ? ".glb" : ".gltf";
     gltf = SerializeWithIndexNames(*model->gltf);
   }
-  bytes = {};
+  std::vector<std::byte>().swap(bytes);  // "= {}" would keep the memory
   try {
     Configure(*model);
     model->scene = Read(*model, gltf);

@@ -68,6 +68,13 @@ Status OpenFormat(const std::filesystem::path& file, Decoder& decoder) {
   return Status();
 }
 
+// Threads that decode a frame each hold images of their own and answer later: for what one of them
+// does in a few milliseconds there is one. 0: one for each core.
+int ThreadCount(const AVCodecContext& codec) {
+  constexpr int64_t kLargePixels = 1280 * 720;
+  return int64_t{codec.width} * codec.height <= kLargePixels ? 1 : 0;
+}
+
 Status OpenCodec(const std::filesystem::path& file, Decoder& decoder) {
   AVFormatContext* format = decoder.format.get();
   const AVCodec* codec = nullptr;
@@ -87,7 +94,7 @@ Status OpenCodec(const std::filesystem::path& file, Decoder& decoder) {
     return VideoError(file, "has broken video parameters");
   }
   decoder.codec->pkt_timebase = decoder.stream->time_base;
-  decoder.codec->thread_count = 0;  // one for each core
+  decoder.codec->thread_count = ThreadCount(*decoder.codec);
   if (const int error = avcodec_open2(decoder.codec.get(), codec, nullptr); error < 0) {
     return VideoError(file, "cannot be decoded (" + LibavMessage(error) + ")");
   }

@@ -1,10 +1,13 @@
 #include "shared/core/memory.h"
 
 #include <malloc.h>
+#include <sys/prctl.h>
 
 namespace lararium {
 
 void ShareArenas(int arenas) { ::mallopt(M_ARENA_MAX, arenas); }
+
+void KeepPagesSmall() { ::prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0); }
 
 void ReturnBlocksFrom(size_t bytes) {
   ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(bytes));

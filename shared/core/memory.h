@@ -11,6 +11,10 @@ namespace lararium {
 // allocate where it is urgent; before threads begin.
 void ShareArenas(int arenas);
 
+// Memory is taken in small pages, where the system would round up to huge ones of 2 MiB that are
+// never full. Of this process and those that it begins, from now on.
+void KeepPagesSmall();
+
 // Blocks of at least so many bytes go back to the system as soon as they are dropped: for work
 // that takes much, once. Smaller limits cost time where blocks come and go again and again.
 void ReturnBlocksFrom(size_t bytes);

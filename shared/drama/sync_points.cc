@@ -2,41 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <vector>
 
 namespace lararium::drama {
 namespace {
 
-constexpr double kStrokeShare = 0.8;  // of the furthest: from there on it is the stroke
-
-// How far each key's joints have turned from those of the first: the sum of their
-// angles, radians.
-std::vector<double> TurnedFromFirst(const human::Skeleton& skeleton, const human::Clip& clip) {
-  const size_t joints = skeleton.size();
-  std::vector<double> turned(clip.KeyCount(joints), 0.0);
-  for (size_t key = 1; key < turned.size(); ++key) {
-    for (size_t joint = 0; joint < joints; ++joint) {
-      const float cosine =
-          std::abs(glm::dot(clip.keys[joint].rotation, clip.keys[key * joints + joint].rotation));
-      turned[key] += 2.0 * std::acos(std::min(cosine, 1.0f));
-    }
-  }
-  return turned;
-}
+constexpr float kStrokeShare = 0.8f;  // of the furthest: from there on it is the stroke
 
 }  // namespace
 
-SyncTimes GestureTimes(const human::Skeleton& skeleton, const human::Clip& clip, double fade) {
+SyncTimes GestureTimes(const human::Clip& clip, std::span<const float> turned, double fade) {
   const double end = clip.duration;
   const double relax = std::max(0.0, end - fade);
-  const std::vector<double> turned = TurnedFromFirst(skeleton, clip);
   const auto height = std::max_element(turned.begin(), turned.end());
-  if (height == turned.end() || *height <= 0.0) {
+  if (height == turned.end() || *height <= 0.0f) {
     return {0.0, std::min(fade, relax), std::min(fade, relax), 0.5 * end, relax, relax, end};
   }
-  const auto in_stroke = [&](double value) { return value >= kStrokeShare * *height; };
-  const auto time_of = [&](std::vector<double>::const_iterator key) {
+  const auto in_stroke = [&](float value) { return value >= kStrokeShare * *height; };
+  const auto time_of = [&](std::span<const float>::iterator key) {
     return std::clamp(static_cast<double>(key - turned.begin()) / clip.keys_per_second, 0.0, relax);
   };
   const double begin = time_of(std::find_if(turned.begin(), turned.end(), in_stroke));

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "shared/human/face.h"
@@ -22,8 +23,8 @@ using SyncTimes = std::array<double, stage::kSyncPoints>;
 
 // Of a clip: the stroke is while its joints are furthest from where they were at first,
 // within a share of the largest distance; its height is the moment of the largest.
-// fade: seconds that it takes to come and go.
-SyncTimes GestureTimes(const human::Skeleton& skeleton, const human::Clip& clip, double fade);
+// turned: human::TurnedFromFirst of the clip. fade: seconds that it takes to come and go.
+SyncTimes GestureTimes(const human::Clip& clip, std::span<const float> turned, double fade);
 
 // Of speech: the stroke lasts from the first sound to the last; its height is the middle
 // of the longest open sound.

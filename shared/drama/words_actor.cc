@@ -99,7 +99,8 @@ int Run::Gesture(lua_State* lua) {
   const int part = luaL_checkoption(lua, 3, nullptr, kParts);
   stage_.Gesture(CheckActorId(lua, 1), clip, static_cast<human::BodyPart>(part));
   const human::Clip& played = actor.human().clips[static_cast<size_t>(clip)];
-  NoteSync(GestureTimes(actor.human().skeleton, played, stage::Stage::kClipFade));
+  NoteSync(GestureTimes(played, actor.model->turned[static_cast<size_t>(clip)],
+                        stage::Stage::kClipFade));
   NoteBlock(lua, actor, "gesture " + played.name, played.duration);
   lua_pushnumber(lua, played.duration);
   return 1;
@@ -209,9 +210,9 @@ int Run::Foretell(lua_State* lua) {
   constexpr const char* kWhat[] = {"gesture", "say", nullptr};
   SyncTimes times = {};
   if (luaL_checkoption(lua, 2, nullptr, kWhat) == 0) {
-    const int clip = CheckClip(lua, actor, 3);
-    times = GestureTimes(actor.human().skeleton, actor.human().clips[static_cast<size_t>(clip)],
-                         stage::Stage::kClipFade);
+    const auto clip = static_cast<size_t>(CheckClip(lua, actor, 3));
+    times =
+        GestureTimes(actor.human().clips[clip], actor.model->turned[clip], stage::Stage::kClipFade);
   } else {
     const auto speech = stage_.FindSpeech(CheckText(lua, 3));
     if (!speech) {

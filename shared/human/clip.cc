@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "shared/human/finite.h"
 
@@ -15,6 +16,20 @@ JointTransform Interpolate(const JointTransform& a, const JointTransform& b, flo
 }
 
 }  // namespace
+
+std::vector<float> TurnedFromFirst(const Clip& clip, size_t joint_count) {
+  std::vector<float> turned(clip.KeyCount(joint_count), 0.0f);
+  for (size_t key = 1; key < turned.size(); ++key) {
+    double sum = 0.0;
+    for (size_t joint = 0; joint < joint_count; ++joint) {
+      const float cosine = std::abs(
+          glm::dot(clip.keys[joint].rotation, clip.keys[key * joint_count + joint].rotation));
+      sum += 2.0 * std::acos(std::min(cosine, 1.0f));
+    }
+    turned[key] = static_cast<float>(sum);
+  }
+  return turned;
+}
 
 double ClipTime(double time, float duration, bool loops) {
   const auto end = static_cast<double>(duration);

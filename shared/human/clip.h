@@ -26,6 +26,10 @@ struct Clip {
   Status Validate(size_t joint_count, const std::string& place) const;
 };
 
+// How far the joints of each key have turned from those of the first: the sum of their angles,
+// radians.
+std::vector<float> TurnedFromFirst(const Clip& clip, size_t joint_count);
+
 // A time within a clip: wraps where it loops, stays at the ends otherwise; seconds.
 double ClipTime(double time, float duration, bool loops);
 

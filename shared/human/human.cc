@@ -82,8 +82,8 @@ Status Human::Validate(const std::string& place) const {
   if (skinning != Skinning::kLinear && skinning != Skinning::kDualQuaternion) {
     return Status::Error(place, "its kind of skinning is not known");
   }
-  for (const Texture& texture : textures) {
-    LARARIUM_RETURN_IF_ERROR(texture.Validate(place));
+  for (const std::shared_ptr<const Texture>& texture : textures) {
+    LARARIUM_RETURN_IF_ERROR(texture->Validate(place));
   }
   for (const Material& material : materials) {
     LARARIUM_RETURN_IF_ERROR(material.Validate(textures.size(), place));

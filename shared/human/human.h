@@ -50,7 +50,7 @@ struct Human {
   std::string name;
   Skeleton skeleton;
   Skinning skinning = Skinning::kLinear;
-  std::vector<Texture> textures;
+  std::vector<std::shared_ptr<const Texture>> textures;  // none is nullptr; people share them
   std::vector<Material> materials;
   std::vector<SkinnedMesh> meshes;
   std::vector<MorphTarget> morphs;

@@ -21,6 +21,8 @@ struct Texture {
   std::vector<std::byte> encoded;
 
   Status Validate(const std::string& place) const;
+
+  friend bool operator==(const Texture&, const Texture&) = default;
 };
 
 // Which model of reflection fits.

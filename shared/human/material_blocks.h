@@ -5,6 +5,9 @@
 // readers and writers of such files.
 
 #include <glm/vec3.hpp>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "shared/core/flatbuffer_blocks.h"
 #include "shared/human/material.h"
@@ -17,9 +20,11 @@ glm::vec3 ReadVec3(const Vec3* from) {
 }
 
 template <typename From>
-void ReadTexture(const From& from, BlockReader& reader, Texture& to) {
-  reader.Read(from.name(), to.name);
-  reader.Read(from.encoded(), to.encoded);
+void ReadTexture(const From& from, BlockReader& reader, std::shared_ptr<const Texture>& to) {
+  auto texture = std::make_shared<Texture>();
+  reader.Read(from.name(), texture->name);
+  reader.Read(from.encoded(), texture->encoded);
+  to = std::move(texture);
 }
 
 template <typename From>
@@ -37,14 +42,15 @@ void ReadMaterial(const From& from, BlockReader& reader, Material& to) {
 // create: the schema's own CreateTexture.
 template <typename Create>
 auto WriteTextures(flatbuffers::FlatBufferBuilder& builder,
-                   const std::vector<Texture>& textures,
+                   const std::vector<std::shared_ptr<const Texture>>& textures,
                    Create create) {
-  return WriteTables(builder, textures, [create](auto& to, const Texture& texture) {
-    const auto name = to.CreateString(texture.name);
-    const auto encoded = to.CreateVector(reinterpret_cast<const uint8_t*>(texture.encoded.data()),
-                                         texture.encoded.size());
-    return create(to, name, encoded);
-  });
+  return WriteTables(
+      builder, textures, [create](auto& to, const std::shared_ptr<const Texture>& texture) {
+        const auto name = to.CreateString(texture->name);
+        const auto encoded = to.CreateVector(
+            reinterpret_cast<const uint8_t*>(texture->encoded.data()), texture->encoded.size());
+        return create(to, name, encoded);
+      });
 }
 
 // create: the schema's own CreateMaterial.

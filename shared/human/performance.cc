@@ -19,8 +19,19 @@ std::shared_ptr<const PerformanceModel> MakePerformanceModel(std::shared_ptr<con
   model->masks = MakeJointMasks(human->skeleton, body);
   for (const Clip& clip : human->clips) {
     model->clips.emplace_back(clip, human->skeleton.size());
+    model->turned.push_back(TurnedFromFirst(clip, human->skeleton.size()));
   }
   model->human = std::move(human);
+  return model;
+}
+
+std::shared_ptr<const PerformanceModel> MakePerformanceModel(Human human) {
+  const auto shared = std::make_shared<Human>(std::move(human));
+  std::shared_ptr<const PerformanceModel> model =
+      MakePerformanceModel(std::shared_ptr<const Human>(shared));
+  for (Clip& clip : shared->clips) {
+    std::vector<JointTransform>().swap(clip.keys);
+  }
   return model;
 }
 

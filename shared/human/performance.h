@@ -46,7 +46,9 @@ struct Performance {
 // What performing knows of one human; build once, share between actors and threads.
 struct PerformanceModel {
   std::shared_ptr<const Human> human;
-  std::vector<CompressedClip> clips;  // parallel to Human::clips
+  // Parallel to Human::clips.
+  std::vector<CompressedClip> clips;
+  std::vector<std::vector<float>> turned;  // TurnedFromFirst
   LocomotionModel locomotion;
   SittingModel sitting;
   GazeModel gaze;
@@ -56,6 +58,9 @@ struct PerformanceModel {
   JointMasks masks;
 };
 std::shared_ptr<const PerformanceModel> MakePerformanceModel(std::shared_ptr<const Human> human);
+// The same of a human that nobody else needs: its clips lose their keys, which are here as they are
+// played, in a fraction of the memory.
+std::shared_ptr<const PerformanceModel> MakePerformanceModel(Human human);
 
 // One tick: the root has come to position and heading (stage frame). Allocates nothing.
 // Set gaze.kind and gaze.target, face.visemes, and move grips before it.

@@ -232,13 +232,9 @@ void SetBacks(std::span<const human::LightTransfer::Mesh> light, std::span<PartS
 // What the materials of a model use: each of its textures once for each use.
 class TextureList {
  public:
-  // owner: of the textures, a human or a prop.
+  // owner: of the textures, a human or a prop, which outlives this.
   template <typename Owner>
-  explicit TextureList(const std::shared_ptr<const Owner>& owner) : place_(owner->name) {
-    for (const human::Texture& texture : owner->textures) {
-      textures_.emplace_back(owner, &texture);
-    }
-  }
+  explicit TextureList(const Owner& owner) : place_(owner.name), textures_(owner.textures) {}
 
   // Its number in sources().
   int Want(int16_t texture, TextureUse use) {
@@ -260,7 +256,7 @@ class TextureList {
 
  private:
   std::string place_;
-  std::vector<std::shared_ptr<const human::Texture>> textures_;
+  std::span<const std::shared_ptr<const human::Texture>> textures_;
   std::vector<TextureSource> sources_;
 };
 
@@ -338,7 +334,8 @@ Result<GpuModel> GpuModel::Create(const std::shared_ptr<const human::Human>& add
     sources.push_back(Source(human, i));
   }
   SetBacks(human.light.meshes, sources);
-  LARARIUM_RETURN_IF_ERROR(AddParts(sources, human.materials, TextureList(added), textures, model));
+  LARARIUM_RETURN_IF_ERROR(
+      AddParts(sources, human.materials, TextureList(*added), textures, model));
   model.joint_boxes.resize(human.skeleton.size());
   const auto reach = MorphReach(human);
   for (size_t i = 0; i < human.meshes.size(); ++i) {
@@ -370,7 +367,7 @@ Result<GpuModel> GpuModel::Create(const std::shared_ptr<const stage::Prop>& adde
     }
   }
   SetBacks(prop.light.meshes, sources);
-  LARARIUM_RETURN_IF_ERROR(AddParts(sources, prop.materials, TextureList(added), textures, model));
+  LARARIUM_RETURN_IF_ERROR(AddParts(sources, prop.materials, TextureList(*added), textures, model));
   for (size_t i = 0; i < emissions.size(); ++i) {
     model.parts[i].emission = emissions[i];
     model.parts[i].prop_part = prop_parts[i];

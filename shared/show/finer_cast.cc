@@ -4,8 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "shared/core/memory.h"
-
 namespace lararium::show {
 namespace {
 
@@ -19,14 +17,13 @@ bool IsWhole(const human::Human& human) {
 Result<FinerCast::Person> ReadFiner(const ReadPerson& read, size_t cast, float finest) {
   LARARIUM_ASSIGN_OR_RETURN(CastMember member, read(cast, finest));
   FinerCast::Person person{cast, Figure(std::move(member.human)), std::move(member.light)};
-  TrimHeap();  // the file's bytes are many times what stays of them
   return person;
 }
 
 }  // namespace
 
 float FinestDetail(const render::Quality& quality, int width) {
-  constexpr float kNear = 1.5f;          // metres
+  constexpr float kNear = 1.15f;         // metres
   constexpr float kFocalOfWidth = 0.8f;  // of most cameras
   return quality.detail_px * kNear / (kFocalOfWidth * static_cast<float>(width));
 }

@@ -131,6 +131,7 @@ std::unique_ptr<StagedFrame> RealtimePipeline::Take(std::chrono::milliseconds ti
 }
 
 void RealtimePipeline::Recycle(std::unique_ptr<StagedFrame> staged) {
+  staged->tracked.frame = {};  // its image serves again at once
   const std::lock_guard lock(spare_mutex_);
   spare_.push_back(std::move(staged));
 }

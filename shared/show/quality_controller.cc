@@ -19,6 +19,8 @@ constexpr double kNewest = 0.15;  // weight of a frame in the mean
 constexpr double kInVainSeconds = 10.0;
 // After a step has settled, until its cost is known.
 constexpr double kLearningSeconds = 0.5;
+// There was no time to spare in a pause.
+constexpr double kPauseSeconds = 0.5;
 // What cooled or was charged by less changes nothing.
 constexpr double kCelsiusSlack = 3.0;
 constexpr double kBatterySlack = 0.05;
@@ -117,6 +119,9 @@ bool QualityController::StepTo(double time, size_t level, QualityReason reason) 
 
 bool QualityController::AddFrame(double time, double work_ms) {
   ++frames_[level_];
+  if (time - std::exchange(last_frame_, time) > kPauseSeconds) {
+    fits_since_.reset();
+  }
   if (time < settled_at_ || !std::isfinite(work_ms)) {
     return false;
   }

@@ -61,8 +61,9 @@ class QualityController {
   size_t level() const { return level_; }  // 0 is the finest
   size_t level_count() const { return options_.expected_cost.size(); }
 
-  // A frame was drawn at level(): when, and what its slowest stage took. Says whether the level is
-  // another one now.
+  // A frame with the show in it was drawn at level(): when, and what its slowest stage took. Frames
+  // without, while the place is not found, tell nothing of what a level costs, and are not to be
+  // told. Says whether the level is another one now.
   bool AddFrame(double time, double work_ms);
   // Heat and battery, whenever they are read.
   bool SetPower(double time, const PowerState& power);
@@ -93,6 +94,7 @@ class QualityController {
   std::vector<double> cost_;  // of each level in proportion, as far as it is known
   std::optional<Left> left_;  // before the last step
   double settled_at_ = 0.0;   // when frames count again
+  double last_frame_ = 0.0;   // when there was one
   std::optional<double> slow_since_;
   std::optional<double> fits_since_;
   double patience_ = 0.0;

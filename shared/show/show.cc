@@ -47,7 +47,9 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
 
 Status Show::FillStage() {
   for (const CastMember& member : content_.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(const stage::ActorId id, stage_.Add(member.name, member.human));
+    LARARIUM_ASSIGN_OR_RETURN(const stage::ActorId id, member.model != nullptr
+                                                           ? stage_.Add(member.name, member.model)
+                                                           : stage_.Add(member.name, member.human));
     actor_ids_.push_back(id);
     bodies_.emplace_back(stage_.Find(id)->model);
   }
@@ -88,7 +90,7 @@ Status Show::FillStage() {
 // The library has what of them is heard.
 void Show::DropSounds() {
   for (Speech& line : content_.speech) {
-    line.sound = {};
+    std::vector<std::byte>().swap(line.sound);  // "= {}" would keep the memory
   }
   for (audio::SoundData& sound : content_.sounds) {
     sound = {sound.name, {}, nullptr};
@@ -409,6 +411,9 @@ void Show::LayOutActors(StagedFrame& staged) {
       vertices += count;
     }
   }
+  // No more than that: they are megabytes.
+  staged.positions.reserve(vertices);
+  staged.normals.reserve(vertices);
   staged.positions.resize(vertices);
   staged.normals.resize(vertices);
 }
@@ -493,6 +498,7 @@ void Show::LayOutLight(StagedFrame& staged) {
   for (StagedObject& object : staged.objects) {
     lay_out(object, content_.cast.size() + object.object, true);
   }
+  staged.irradiance.reserve(vertices);  // likewise
   staged.irradiance.resize(vertices);
 }
 

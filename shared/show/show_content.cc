@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <span>
 #include <utility>
 
 #include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/human/texture_pool.h"
 #include "shared/show/guide_texts.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/viseme_file.h"
@@ -104,60 +106,75 @@ Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
 
 namespace {
 
-CastMember MakeMember(const std::string& name, human::Human human, float finest) {
+CastMember MakeMember(const std::string& name,
+                      human::Human human,
+                      float finest,
+                      human::TexturePool& textures) {
   CastMember person;
   person.name = name;
+  textures.Share(human.textures);
   person.light = TakeLight(human.light);
-  person.human = std::make_shared<const human::Human>(std::move(human));
   person.finest = finest;
+  person.model = human::MakePerformanceModel(std::move(human));
+  person.human = person.model->human;
   return person;
 }
 
 Status LoadPerson(const bundle::Bundle& bundle,
                   const bundle::CastEntry& entry,
                   float finest,
+                  human::TexturePool& textures,
                   CastMember& person) {
   LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.human));
   LARARIUM_ASSIGN_OR_RETURN(human::Human human,
                             human::ParseHuman(bytes, bundle.place() + ": " + entry.human, finest));
-  person = MakeMember(entry.name, std::move(human), finest);
+  person = MakeMember(entry.name, std::move(human), finest, textures);
   return Status();
 }
 
 // Several at once: people are most of what is loaded.
-Status LoadCast(const bundle::Bundle& bundle, float finest, std::vector<CastMember>& cast) {
+Status LoadCast(const bundle::Bundle& bundle,
+                float finest,
+                human::TexturePool& textures,
+                std::vector<CastMember>& cast) {
   const std::span<const bundle::CastEntry> entries = bundle.manifest().cast;
   cast.resize(entries.size());
   std::vector<Status> loaded(entries.size());
-  ParallelFor(entries.size(),
-              [&](size_t i) { loaded[i] = LoadPerson(bundle, entries[i], finest, cast[i]); });
+  ParallelFor(entries.size(), [&](size_t i) {
+    loaded[i] = LoadPerson(bundle, entries[i], finest, textures, cast[i]);
+  });
   for (const Status& status : loaded) {
     LARARIUM_RETURN_IF_ERROR(status);
   }
   return Status();
 }
 
+// The file's bytes are many times what stays of them, and do not stay.
+Result<human::Human> ReadHuman(const bundle::StoredMember& member, float finest) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, member.Read());
+  return human::ParseHuman(bytes, member.file.string() + ": " + member.name, finest);
+}
+
 // When the bundle is closed.
-Result<ReadPerson> ReadsAgain(const bundle::Bundle& bundle) {
+Result<ReadPerson> ReadsAgain(const bundle::Bundle& bundle,
+                              std::shared_ptr<human::TexturePool> textures) {
   std::vector<bundle::StoredMember> members;
   std::vector<std::string> names;
   for (const bundle::CastEntry& entry : bundle.manifest().cast) {
     LARARIUM_ASSIGN_OR_RETURN(members.emplace_back(), bundle.stored(entry.human));
     names.push_back(entry.name);
   }
-  return ReadPerson([members, names](size_t cast, float finest) -> Result<CastMember> {
-    const bundle::StoredMember& member = members[cast];
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, member.Read());
-    LARARIUM_ASSIGN_OR_RETURN(
-        human::Human human,
-        human::ParseHuman(bytes, member.file.string() + ": " + member.name, finest));
+  return ReadPerson([members, names, textures](size_t cast, float finest) -> Result<CastMember> {
+    LARARIUM_ASSIGN_OR_RETURN(human::Human human, ReadHuman(members[cast], finest));
     human.clips.clear();
-    return MakeMember(names[cast], std::move(human), finest);
+    return MakeMember(names[cast], std::move(human), finest, *textures);
   });
 }
 
 // Objects of one member share its model.
-Status LoadObjects(const bundle::Bundle& bundle, std::vector<StageObject>& objects) {
+Status LoadObjects(const bundle::Bundle& bundle,
+                   human::TexturePool& textures,
+                   std::vector<StageObject>& objects) {
   std::map<std::string, StageObject> known;  // by its prop
   for (const bundle::ObjectEntry& entry : bundle.manifest().objects) {
     StageObject& object = known[entry.prop];
@@ -165,6 +182,7 @@ Status LoadObjects(const bundle::Bundle& bundle, std::vector<StageObject>& objec
       const std::string place = bundle.place() + ": " + entry.prop;
       LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.prop));
       LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(bytes, place));
+      textures.Share(prop.textures);
       LARARIUM_ASSIGN_OR_RETURN(const auto model,
                                 stage::ObjectModel::Create(std::move(prop), place));
       object.light = TakeLight(model->light());
@@ -395,11 +413,12 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
     }
   }
 
-  LARARIUM_RETURN_IF_ERROR(LoadCast(bundle, finest, content.cast));
+  const auto textures = std::make_shared<human::TexturePool>();
+  LARARIUM_RETURN_IF_ERROR(LoadCast(bundle, finest, *textures, content.cast));
   if (finest > 0.0f) {
-    LARARIUM_ASSIGN_OR_RETURN(content.finer, ReadsAgain(bundle));
+    LARARIUM_ASSIGN_OR_RETURN(content.finer, ReadsAgain(bundle, textures));
   }
-  LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, content.objects));
+  LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, *textures, content.objects));
   LARARIUM_RETURN_IF_ERROR(LoadLines(bundle, languages, content));
   LARARIUM_RETURN_IF_ERROR(LoadSounds(bundle, content.sounds));
   LARARIUM_ASSIGN_OR_RETURN(content.drama, LoadText(bundle, manifest.drama));

@@ -16,6 +16,7 @@
 #include "shared/core/status.h"
 #include "shared/human/face.h"
 #include "shared/human/human.h"
+#include "shared/human/performance.h"
 #include "shared/light/glossy_map.h"
 #include "shared/render/caption_font.h"
 #include "shared/show/person_light.h"
@@ -36,6 +37,8 @@ struct CastMember {
   std::shared_ptr<const UnpackedLight> light = nullptr;
   // In what detail the human was read (human::ParseHuman).
   float finest = 0.0f;
+  // What moves the human, where it is known already; nullptr: it is made of the human.
+  std::shared_ptr<const human::PerformanceModel> model = nullptr;
 };
 
 // Reads one of the cast again, in other detail: for what is drawn of them, so without clips. From

@@ -94,8 +94,8 @@ Status Prop::Validate(const std::string& place) const {
   if (parts.empty() || parts.size() > kMaxParts) {
     return Status::Error(place, "it must have from 1 to " + std::to_string(kMaxParts) + " parts");
   }
-  for (const human::Texture& texture : textures) {
-    LARARIUM_RETURN_IF_ERROR(texture.Validate(place));
+  for (const std::shared_ptr<const human::Texture>& texture : textures) {
+    LARARIUM_RETURN_IF_ERROR(texture->Validate(place));
   }
   for (const human::Material& material : materials) {
     LARARIUM_RETURN_IF_ERROR(material.Validate(textures.size(), place));

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -68,7 +69,7 @@ struct Prop {
   static constexpr size_t kMaxParts = 32;
 
   std::string name;
-  std::vector<human::Texture> textures;
+  std::vector<std::shared_ptr<const human::Texture>> textures;  // none is nullptr
   std::vector<human::Material> materials;
   std::vector<PropPart> parts;  // parents come before children
   // Text of NAME.object.json; empty: scenery that nobody uses. Checked by

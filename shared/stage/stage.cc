@@ -81,13 +81,18 @@ bool Stage::IsNameTaken(std::string_view name) const {
 
 Result<ActorId> Stage::Add(std::string name, std::shared_ptr<const human::Human> human) {
   CHECK(human != nullptr);
+  return Add(std::move(name), human::MakePerformanceModel(std::move(human)));
+}
+
+Result<ActorId> Stage::Add(std::string name, std::shared_ptr<const human::PerformanceModel> model) {
+  CHECK(model != nullptr);
   if (IsNameTaken(name)) {
     return Status::Error("stage", "two actors or objects are called '" + name + "'",
                          "rename one of them");
   }
   Actor actor;
   actor.name = std::move(name);
-  actor.model = human::MakePerformanceModel(std::move(human));
+  actor.model = std::move(model);
   ResetActor(actor);
   const ActorId id = world_->actors.Add(std::move(actor));
   world_->actor_ids = world_->actors.ids();

@@ -95,6 +95,7 @@ class Stage {
   // Names are unique among actors and objects: an error says which is taken. A new
   // actor is hidden and stands at the origin.
   Result<ActorId> Add(std::string name, std::shared_ptr<const human::Human> human);
+  Result<ActorId> Add(std::string name, std::shared_ptr<const human::PerformanceModel> model);
   Result<ObjectId> AddObject(std::string name,
                              std::shared_ptr<const ObjectModel> model,
                              const Pose& stage_from_object);

@@ -94,7 +94,7 @@ TEST(PosedSurface, AlbedoIsVertexTimesMaterialTimesTexture) {
   // Blue, green, red, alpha; 188 is 0.5 in linear light.
   cv::Mat image(2, 2, CV_8UC4, cv::Scalar(255, 255, 188, 255));
   image.col(1) = cv::Scalar(0, 255, 255, 0);
-  human.textures = {Encode(image)};
+  human.textures = {std::make_shared<const human::Texture>(Encode(image))};
   human::Material material;
   material.name = "skin";
   material.colour = {1.0f, 0.5f, 1.0f};
@@ -121,9 +121,8 @@ TEST(PosedSurface, AlbedoIsVertexTimesMaterialTimesTexture) {
 TEST(PosedSurface, ATextureThatIsNoImageIsRefusedByName) {
   human::Human human = MakeRigidHuman({glm::vec3(0.0f)},
                                       {{MakeDisc({0, 0, 0}, {0, 1, 0}, 1.0f, glm::vec3(0.5f)), 0}});
-  human.textures.resize(1);
-  human.textures[0].name = "wool";
-  human.textures[0].encoded.assign(64, std::byte{0x89});
+  human.textures = {std::make_shared<const human::Texture>(
+      human::Texture{"wool", std::vector<std::byte>(64, std::byte{0x89})})};
   const auto surface = PosableSurface::Create(human);
   ASSERT_FALSE(surface.ok());
   EXPECT_THAT(surface.message(), HasSubstr("wool"));

@@ -267,7 +267,7 @@ TEST(SyncTimes, TheStrokeOfAGestureIsWhereItIsFurthestFromItsBeginning) {
                                    : 3.0f - t;
     clip.keys.push_back({glm::angleAxis(angle, glm::vec3(1.0f, 0.0f, 0.0f))});
   }
-  const SyncTimes times = GestureTimes(skeleton, clip, 0.3);
+  const SyncTimes times = GestureTimes(clip, human::TurnedFromFirst(clip, skeleton.size()), 0.3);
   const double expected[] = {0.0, 0.3, 0.9, 1.5, 2.1, 2.7, 3.0};
   for (size_t i = 0; i < times.size(); ++i) {
     EXPECT_NEAR(times[i], expected[i], 0.101) << i;
@@ -357,7 +357,7 @@ TEST_F(VisitorTest, PointsOfSeveralPeopleMeet) {
   };
   PlayTo(*drama, 5.0);
   const stage::Actor& keeper = *stage_.Find(*stage_.Find("keeper"));
-  const SyncTimes bow = GestureTimes(keeper.human().skeleton, keeper.human().clips[2], 0.3);
+  const SyncTimes bow = GestureTimes(keeper.human().clips[2], keeper.model->turned[2], 0.3);
   EXPECT_NEAR(tasks_of("gesture").began + bow[3], tasks_of("say").began + 1.0, 0.02);
   EXPECT_EQ(FirstError(*drama), "");
   EXPECT_LT(State("keeper").position.y, 5.0f);

@@ -49,8 +49,8 @@ TEST(HumanFile, RoundTripKeepsSurfacesAndTheirDetail) {
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   EXPECT_EQ(parsed->skinning, Skinning::kDualQuaternion);
   ASSERT_EQ(parsed->textures.size(), 1u);
-  EXPECT_EQ(parsed->textures[0].name, "wool");
-  EXPECT_EQ(parsed->textures[0].encoded, human.textures[0].encoded);
+  EXPECT_EQ(parsed->textures[0]->name, "wool");
+  EXPECT_EQ(parsed->textures[0]->encoded, human.textures[0]->encoded);
   ASSERT_EQ(parsed->materials.size(), 1u);
   EXPECT_EQ(parsed->materials[0].name, "wool");
   EXPECT_EQ(parsed->materials[0].surface, Surface::kCloth);
@@ -264,8 +264,15 @@ TEST(HumanFile, RefusesSurfacesThatCannotBe) {
     change(human);
     return !ParseHuman(SerializeHuman(human), "here").ok();
   };
-  EXPECT_TRUE(refuses([](Human& h) { h.textures[0].encoded[0] = std::byte{'G'}; }));
-  EXPECT_TRUE(refuses([](Human& h) { h.textures[0].encoded.clear(); }));
+  const auto refuses_texture = [&](auto&& change) {
+    return refuses([&](Human& h) {
+      Texture texture = *h.textures[0];
+      change(texture);
+      h.textures[0] = std::make_shared<const Texture>(std::move(texture));
+    });
+  };
+  EXPECT_TRUE(refuses_texture([](Texture& t) { t.encoded[0] = std::byte{'G'}; }));
+  EXPECT_TRUE(refuses_texture([](Texture& t) { t.encoded.clear(); }));
   EXPECT_TRUE(refuses([](Human& h) { h.materials[0].colour_texture = 1; }));
   EXPECT_TRUE(refuses([](Human& h) { h.materials[0].normal_texture = -2; }));
   EXPECT_TRUE(refuses([](Human& h) { h.materials[0].surface = static_cast<Surface>(9); }));

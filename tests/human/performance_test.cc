@@ -101,6 +101,21 @@ TEST(Performer, LeavesWhatIsNoBodyAtRest) {
   EXPECT_LT(glm::distance(shown.At(1), glm::vec3(1.0f, 1.0f, 0.0f)), 1e-6f);
 }
 
+TEST(PerformanceModel, OfItsOwnHumanPlaysClipsWhoseKeysItLetGo) {
+  Human human = FullBody(0.5f, 0);
+  human.clips = {Gesture(human.skeleton)};
+  const auto whole = ModelOf(human);
+  const auto lean = MakePerformanceModel(std::move(human));
+  EXPECT_TRUE(lean->human->clips[0].keys.empty());
+  EXPECT_EQ(lean->human->clips[0].duration, 0.5f);
+  EXPECT_EQ(lean->turned, whole->turned);
+  EXPECT_EQ(lean->turned[0].size(), 16u);
+  Performance performance;
+  StartClip(performance.animation, 0, 1.0, 0.0f, BodyPart::kWhole);
+  performance.animation.clip_time = 0.2;
+  EXPECT_EQ(Show(lean, performance).actor_from_joint, Show(whole, performance).actor_from_joint);
+}
+
 TEST(Performer, PosesBodiesThatLackAnyOneJoint) {
   const Human whole = FullBody(0.5f, 3);
   for (size_t missing = 0; missing < whole.skeleton.size(); ++missing) {

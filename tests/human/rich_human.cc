@@ -8,11 +8,11 @@ Human RichHuman() {
   Human human = TwoJointHuman();
   human.skinning = Skinning::kDualQuaternion;
   const std::string png = "\x89PNG and so on";
-  human.textures.resize(1);
-  human.textures[0].name = "wool";
+  Texture texture{.name = "wool", .encoded = {}};
   for (const char c : png) {
-    human.textures[0].encoded.push_back(static_cast<std::byte>(c));
+    texture.encoded.push_back(static_cast<std::byte>(c));
   }
+  human.textures = {std::make_shared<const Texture>(std::move(texture))};
   human.materials = {
       {"wool", Surface::kCloth, 0, Material::kNone, {0.5f, 0.25f, 1.0f}, 0.75f, 0.5f, true}};
   SkinnedMesh& mesh = human.meshes[0];

@@ -195,7 +195,7 @@ TEST_F(ModelImport, ReadsTexturesAndMakesThemSmall) {
   EXPECT_EQ(human->materials[0].colour_texture, 0);
   EXPECT_EQ(human->materials[0].surface, human::Surface::kSkin);
   EXPECT_NEAR(human->materials[0].alpha_cutoff, 0.5f, 1e-6f);
-  const std::vector<std::byte>& bytes = human->textures[0].encoded;
+  const std::vector<std::byte>& bytes = human->textures[0]->encoded;
   const cv::Mat decoded = cv::imdecode(
       cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<std::byte*>(bytes.data())),
       cv::IMREAD_UNCHANGED);

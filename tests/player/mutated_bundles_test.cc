@@ -84,7 +84,8 @@ vision::SceneDatabase Map() {
 
 human::Human Person() {
   human::Human human = human::RichHuman();
-  human.textures[0].encoded = test::Png(Speckled(16, 16, CV_8UC3));
+  human.textures[0] = std::make_shared<const human::Texture>(
+      human::Texture{"wool", test::Png(Speckled(16, 16, CV_8UC3))});
   return human;
 }
 

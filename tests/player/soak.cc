@@ -458,6 +458,7 @@ class Judge {
     ended_ = Clock::now();
     end_told_until_ = *ended_ + kToTell;
     images_since_end_ = 0;
+    tracked_since_end_ = 0;
     ended_on_disk_ = fs::file_time_type::clock::now();
     end_text_ = "soak: the end of fault " + std::to_string(++ends_);
   }
@@ -477,6 +478,8 @@ class Judge {
       ++ghosts_;
     }
     FollowTime(truth, staged.time);
+    tracked_since_end_ += tracked ? 1 : 0;
+    opacity_ = staged.opacity;
     const bool shows = tracked && staged.opacity > 0.99f && truth.fault == Fault::kNone;
     if (fault_ != Fault::kNone && ended_ && !recovered_ && shows && WorksAgain(staged)) {
       recovered_ = Seconds(Clock::now() - *ended_);
@@ -498,6 +501,13 @@ class Judge {
     outcome.noticed += begin_told && !posed_blind_ ? 1 : 0;
     outcome.logged += begin_told && end_told && lines <= kMostLines ? 1 : 0;
     outcome.recovered += recovered_ && recovered_in_time_ ? 1 : 0;
+    if (!recovered_ || !recovered_in_time_) {
+      std::printf(
+          "not recovered from in time: %s, after %.2f s; %d images since, %d of them with a "
+          "pose; people are seen by a share of %.2f now\n",
+          kind.name, recovered_.value_or(INFINITY), images_since_end_, tracked_since_end_,
+          opacity_);
+    }
     outcome.longest = std::max(outcome.longest, recovered_.value_or(INFINITY));
     outcome.most_lines = std::max(outcome.most_lines, lines);
     fault_ = Fault::kNone;
@@ -562,6 +572,8 @@ class Judge {
   std::optional<Clock::time_point> ended_;
   Clock::time_point end_told_until_;
   int images_since_end_ = 0;
+  int tracked_since_end_ = 0;
+  float opacity_ = 0.0f;
   fs::file_time_type ended_on_disk_;
   std::string end_text_;
   int ends_ = 0;
@@ -703,6 +715,7 @@ Result<bool> Soak(const Options& options) {
                             render::RenderTarget::Create(kWidth, kHeight));
 
   player::BeginPlaying();
+  const player::HeapKeeper heap_keeper;
 
   Schedule schedule;
   player::FaultLog faults(*log);
@@ -778,7 +791,8 @@ Result<bool> Soak(const Options& options) {
       target.Finish();
       const double draw_ms =
           std::chrono::duration<double, std::milli>(Clock::now() - drawing).count();
-      if (quality.AddFrame(elapsed, std::max(draw_ms, staged->stage_ms))) {
+      if (staged->camera_from_stage &&
+          quality.AddFrame(elapsed, std::max(draw_ms, staged->stage_ms))) {
         renderer->SetQuality(ladder[quality.level()]);
         show->SetQuality(ladder[quality.level()]);
       }

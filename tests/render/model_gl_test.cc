@@ -47,7 +47,7 @@ human::SkinnedMesh Square() {
 
 human::Human Textured(const cv::Mat& image, const human::Material& material) {
   human::Human human = MakeHuman(Square(), 1);
-  human.textures = {Encode(image)};
+  human.textures = {std::make_shared<const human::Texture>(Encode(image))};
   human.materials = {material};
   human.meshes[0].material = 0;
   return human;
@@ -413,7 +413,9 @@ TEST_F(ModelTest, WhoLeavesWhileTexturesBecomeFinerLeavesNothingBehind) {
 TEST_F(ModelTest, ABrokenTextureIsOneClearError) {
   human::Human human =
       Textured(cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(9)), {.name = "", .colour_texture = 0});
-  human.textures[0].encoded.resize(40);
+  human::Texture broken = *human.textures[0];
+  broken.encoded.resize(40);
+  human.textures[0] = std::make_shared<const human::Texture>(std::move(broken));
   EXPECT_THAT(renderer_->AddHuman(Shared(human)).message(), HasSubstr("test: texture 'texture'"));
 }
 

@@ -61,6 +61,16 @@ TEST(QualityController, ClimbsFromTheCoarsestWithoutDelayWhereAllFit) {
   EXPECT_EQ(controller.step_count(), 4);
 }
 
+TEST(QualityController, APauseIsNoTimeToSpare) {
+  QualityController controller({}, 4);
+  Device device;
+  Play(controller, device, 0.0, 0.3, [](double) { return 20.0; });
+  controller.AddFrame(10.0, 4.0);
+  EXPECT_EQ(controller.level(), 4u);
+  Play(controller, device, 10.1, 1.0, [](double) { return 20.0; });
+  EXPECT_LT(controller.level(), 4u);
+}
+
 TEST(QualityController, StaysAtTheCoarsestWhereNothingElseFits) {
   QualityController controller({}, 4);
   Device device;

@@ -101,6 +101,7 @@ TEST_F(ShowContentTest, ThePeopleOfAClosedBundleAreReadInMoreDetail) {
   EXPECT_EQ(finer->name, "keeper");
   EXPECT_EQ(finer->human->meshes[0].positions, human.meshes[0].positions);
   EXPECT_EQ(finer->light->at(0).vertices(), 4u);
+  EXPECT_EQ(finer->human->textures, content->cast[0].human->textures);  // the same in memory
 
   // What lies there now was not opened.
   human.meshes[0].positions[0].y += 1.0f;

@@ -35,8 +35,8 @@ void AddLight(Prop& prop) {
 Prop MakeRich() {
   Prop prop = test::MakeChest();
   prop.credits = "by us";
-  prop.textures.push_back(
-      {"wood", {std::byte{0x89}, std::byte{'P'}, std::byte{'N'}, std::byte{'G'}}});
+  prop.textures.push_back(std::make_shared<const human::Texture>(
+      human::Texture{"wood", {std::byte{0x89}, std::byte{'P'}, std::byte{'N'}, std::byte{'G'}}}));
   human::Material material;
   material.name = "wood";
   material.colour_texture = 0;
@@ -66,7 +66,7 @@ TEST(Prop, RoundTrips) {
   EXPECT_EQ(parsed->parts[0].meshes[0].uvs, prop.parts[0].meshes[0].uvs);
   EXPECT_EQ(parsed->parts[1].meshes[0].emission, prop.parts[1].meshes[0].emission);
   EXPECT_EQ(parsed->materials[0].roughness, 0.4f);
-  EXPECT_EQ(parsed->textures[0].encoded, prop.textures[0].encoded);
+  EXPECT_EQ(*parsed->textures[0], *prop.textures[0]);
 }
 
 TEST(Prop, RoundTripKeepsTheLightTransfer) {

@@ -28,7 +28,7 @@ stage::PropMesh Board(const glm::vec3& low_cm, const glm::vec3& high_cm, int gra
 // What is made of boards and legs; they share the picture of wood.
 stage::Prop Wooden(std::string name, stage::PropMesh mesh) {
   stage::Prop prop = OnePiece(std::move(name), std::move(mesh));
-  prop.textures.push_back(WoodGrain());
+  prop.textures.push_back(std::make_shared<const human::Texture>(WoodGrain()));
   prop.materials.push_back({.name = "wood", .colour_texture = 0, .roughness = 0.7f});
   prop.parts[0].meshes[0].material = 0;
   return prop;
@@ -184,7 +184,7 @@ stage::Prop Basket() {
   }
   WeaveOfWicker(mesh);
   stage::Prop prop = OnePiece("basket", std::move(mesh));
-  prop.textures.push_back(WickerWeave());
+  prop.textures.push_back(std::make_shared<const human::Texture>(WickerWeave()));
   prop.materials.push_back({.name = "wicker", .colour_texture = 0, .roughness = 0.9f});
   prop.parts[0].meshes[0].material = 0;
   return prop;
