@@ -3,7 +3,7 @@
 // How a player takes memory: loading makes and drops much that is large, playing little of it again
 // and again. Over hours nothing may creep.
 
-#include <thread>
+#include <chrono>
 
 namespace lararium::player {
 
@@ -14,14 +14,8 @@ void BeginLoading();
 // What loading left goes back, and what images need is kept for the next.
 void BeginPlaying();
 
-// While it lives, what is no longer used goes back now and then: what drivers compiled the first
-// pictures' shaders with, people and textures that finer ones took the place of.
-class HeapKeeper {
- public:
-  HeapKeeper();
-
- private:
-  std::jthread thread_;
-};
+// How often what is no longer used goes back while a show is played (HeapKeeper): what drivers
+// compiled the first pictures' shaders with, people and textures that finer ones took the place of.
+inline constexpr std::chrono::seconds kKeepInterval(10);
 
 }  // namespace lararium::player

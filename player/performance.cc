@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "player/heap.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 
@@ -193,7 +194,7 @@ Status Performance::DrawFrame(show::StagedFrame& staged) {
   TellStaff(staged);
   if (drawn_frames_ == kFirstFrames) {
     render::ReleaseShaderCompiler();
-    heap_keeper_.emplace();
+    heap_keeper_.emplace(kKeepInterval);
   }
   return recorder_->Add(staged, shown());
 }

@@ -324,6 +324,8 @@ void Preview::Run(std::stop_token stop) {
   }
   TrimHeap();  // of what the one before left, too
   const bool live = (*worker)->source().live;
+  constexpr int kFirstPictures = 3;
+  int pictures = 0;
   std::optional<PreviewRequest> request;
   while ((request = NextRequest(request, live, stop))) {
     Result<std::shared_ptr<const PreviewPicture>> picture = (*worker)->Draw(*request);
@@ -337,6 +339,10 @@ void Preview::Run(std::stop_token stop) {
       AddProblem(picture.status());
     } else if (*picture != nullptr) {
       pictures_.Put(std::move(*picture));
+      if (++pictures == kFirstPictures) {  // shaders are compiled for them
+        render::ReleaseShaderCompiler();
+        TrimHeap();
+      }
       for (Status& problem : (*worker)->TakeErrors()) {
         AddProblem(std::move(problem));
       }

@@ -8,7 +8,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <list>
+#include <shared_mutex>
 
+#include "shared/core/fork.h"
 #include "shared/core/program.h"
 
 namespace lararium::app {
@@ -49,6 +51,7 @@ std::filesystem::path TextFolder() { return ProgramFolder().parent_path() / "sha
 
 void LoadTexts(const std::filesystem::path& folder, const std::string& language) {
   static const std::string of_environment = LanguagesOfEnvironment();
+  const std::shared_lock gate(ForkGate());
   SetLanguages(language.empty() ? of_environment : language);
   std::setlocale(LC_MESSAGES, "C");  // by a change of locale gettext forgets what it looked up
   std::setlocale(LC_MESSAGES, "C.UTF-8");
@@ -56,16 +59,21 @@ void LoadTexts(const std::filesystem::path& folder, const std::string& language)
   bind_textdomain_codeset(kDomain, "UTF-8");
 }
 
-const char* Tr(const char* text) { return *text == '\0' ? text : dgettext(kDomain, text); }
+const char* Tr(const char* text) {
+  const std::shared_lock gate(ForkGate());
+  return *text == '\0' ? text : dgettext(kDomain, text);
+}
 
 const char* TrIn(const char* context, const char* text) {
   const std::string key = std::string(context) + '\004' + text;  // as msgfmt joins them
+  const std::shared_lock gate(ForkGate());
   const char* translated = dgettext(kDomain, key.c_str());
   return translated == key.c_str() ? text : translated;
 }
 
 std::string TrCount(const char* one, const char* many, int count) {
   char text[256];
+  const std::shared_lock gate(ForkGate());
   std::snprintf(text, sizeof(text),
                 dngettext(kDomain, one, many, static_cast<unsigned long>(count)), count);
   return text;

@@ -31,6 +31,8 @@ namespace {
 // Bytes. Baking and opening take and drop hundreds of megabytes on threads that live on, whose
 // heaps would keep them. Pictures of the window are larger, and drawn seldom.
 constexpr size_t kLargeBlock = 1 << 20;
+// What opening, compiling shaders and running the drama ahead left is not kept until the next task.
+constexpr std::chrono::seconds kKeepInterval(2);
 
 // ImGui with its back ends, for the life of the window.
 class Interface {
@@ -219,6 +221,7 @@ Status RunWindow(const WindowOptions& options, Log& log) {
   window_options.height = sizes.height;
   LARARIUM_ASSIGN_OR_RETURN(render::Window window, render::Window::Create(window_options));
   FitOnMonitor(window, sizes);
+  const HeapKeeper heap_keeper(kKeepInterval);
   return MainLoop(window, std::move(workspace), settings, sizes, log);
 }
 

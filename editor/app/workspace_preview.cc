@@ -282,8 +282,8 @@ void Workspace::Update(double seconds) {
   since_files_checked_ += seconds;
   if (since_files_checked_ > kFilesInterval) {
     since_files_checked_ = 0.0;
-    preview_stale_ = true;
     AskForPictures();
+    preview_stale_ = true;
     LookOutside();
     // Trained by somebody else.
     map_stale_ |= loaded_.database != nullptr && !tasks_.Running(kTraining) &&

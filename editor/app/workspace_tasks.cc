@@ -105,9 +105,15 @@ bool Workspace::BringInSound(const std::string& name, const std::filesystem::pat
   return true;
 }
 
+// Objects wait for the preview's first picture and for whoever runs the drama ahead: each takes
+// tens of megabytes, and both cores while shaders are compiled.
 void Workspace::AskForPictures() {
   cast_pictures_.SetCast(document().cast);
-  cast_pictures_.SetObjects(document().objects);
+  const bool opens = map_stale_ || tasks_.Running(kOpening) || tasks_.Running(kDryRun);
+  const bool has_picture = picture_ != nullptr || !(preview_stale_ || awaiting_picture_);
+  if (!opens && has_picture) {
+    cast_pictures_.SetObjects(document().objects);
+  }
 }
 
 void Workspace::TellOfPictures() {

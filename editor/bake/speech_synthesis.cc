@@ -2,19 +2,26 @@
 
 #include <espeak-ng/speak_lib.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <utility>
+
+#include "shared/core/fork.h"
 
 namespace lararium::bake {
 namespace {
 
-constexpr size_t kMaxText = 4000;      // bytes
-constexpr double kMaxSeconds = 300.0;  // longer ones are no line
+constexpr size_t kMaxText = 4000;              // bytes
+constexpr double kMaxSeconds = 300.0;          // longer ones are no line
+constexpr std::chrono::seconds kPatience(60);  // with the engine, which takes one or two
 
 // What the engine's callback collects.
 struct Collected {
@@ -98,7 +105,7 @@ Outcome Speak(const std::string& text,
 
 class Pipe {
  public:
-  explicit Pipe(int file) : file_(file) {}
+  explicit Pipe(int file) : file_(file), until_(std::chrono::steady_clock::now() + kPatience) {}
 
   template <typename T>
   void Put(const T& value) {
@@ -126,6 +133,10 @@ class Pipe {
   void TakeBytes(void* data, size_t size) {
     char* at = static_cast<char*>(data);
     while (size > 0 && good_) {
+      if (!Await()) {
+        good_ = false;
+        return;
+      }
       const ssize_t taken = read(file_, at, size);
       if (taken < 0 && errno == EINTR) {
         continue;
@@ -138,7 +149,20 @@ class Pipe {
   bool good() const { return good_; }
 
  private:
+  // For something to take, or its end.
+  bool Await() const {
+    int found = -1;
+    do {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+          until_ - std::chrono::steady_clock::now());
+      pollfd waited = {file_, POLLIN, 0};
+      found = poll(&waited, 1, static_cast<int>(std::max<int64_t>(left.count(), 0)));
+    } while (found < 0 && errno == EINTR);
+    return found > 0;
+  }
+
   int file_;
+  std::chrono::steady_clock::time_point until_;
   bool good_ = true;
 };
 
@@ -185,8 +209,9 @@ Result<Collected> SpeakApart(const std::string& text,
   if (pipe2(ends, O_CLOEXEC) != 0) {
     return Status::Error("espeak-ng", "cannot be started: no pipe is to be had");
   }
-  const pid_t child = fork();
+  const pid_t child = ForkApart();
   if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     close(ends[0]);
     Collected collected;
     Send(Speak(text, language, voice, collected), collected, Pipe(ends[1]));
@@ -198,9 +223,13 @@ Result<Collected> SpeakApart(const std::string& text,
   const bool told = child > 0 && Receive(Pipe(ends[0]), outcome, collected);
   close(ends[0]);
   if (child > 0) {
+    kill(child, SIGKILL);  // it has told all that it had to, or never will
     waitpid(child, nullptr, 0);
   }
-  if (!told || outcome == Outcome::kNoEngine) {
+  if (!told) {
+    return Status::Error("espeak-ng", "gives no answer for '" + text + "'", "try again");
+  }
+  if (outcome == Outcome::kNoEngine) {
     return Status::Error("espeak-ng", "cannot be started", "install espeak-ng-data");
   }
   if (outcome == Outcome::kNoLanguage) {

@@ -15,6 +15,8 @@
 #include <fstream>
 #include <thread>
 
+#include "shared/core/fork.h"
+
 namespace lararium::import {
 namespace {
 
@@ -167,7 +169,7 @@ Result<std::vector<std::byte>> RunInChild(
   if (message.get() < 0) {
     return Status::Error(place, std::string("no memory to read it: ") + std::strerror(errno));
   }
-  const pid_t child = fork();
+  const pid_t child = ForkApart();
   if (child < 0) {
     return Status::Error(place, std::string("cannot start its reader: ") + std::strerror(errno));
   }

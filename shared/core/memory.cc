@@ -3,6 +3,8 @@
 #include <malloc.h>
 #include <sys/prctl.h>
 
+#include "shared/core/sleep.h"
+
 namespace lararium {
 
 void ShareArenas(int arenas) { ::mallopt(M_ARENA_MAX, arenas); }
@@ -15,5 +17,13 @@ void ReturnBlocksFrom(size_t bytes) {
 }
 
 void TrimHeap() { ::malloc_trim(0); }
+
+HeapKeeper::HeapKeeper(std::chrono::steady_clock::duration interval)
+    : thread_([interval](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+          TrimHeap();
+          SleepUntil(std::chrono::steady_clock::now() + interval, stop);
+        }
+      }) {}
 
 }  // namespace lararium

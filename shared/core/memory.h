@@ -2,7 +2,9 @@
 
 // How the heap of the GNU C library treats memory that is no longer used.
 
+#include <chrono>
 #include <cstddef>
+#include <thread>
 
 namespace lararium {
 
@@ -21,5 +23,14 @@ void ReturnBlocksFrom(size_t bytes);
 
 // Whatever is free goes back to the system. Takes milliseconds.
 void TrimHeap();
+
+// While it lives, what is free goes back at once and then now and then.
+class HeapKeeper {
+ public:
+  explicit HeapKeeper(std::chrono::steady_clock::duration interval);
+
+ private:
+  std::jthread thread_;
+};
 
 }  // namespace lararium

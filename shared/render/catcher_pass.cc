@@ -89,17 +89,6 @@ void SetCones(const ShaderProgram& shaders) {
 
 Result<CatcherPass> CatcherPass::Create() {
   CatcherPass pass;
-  LARARIUM_ASSIGN_OR_RETURN(pass.surface_shaders_,
-                            ShaderProgram::Create("catcher_surface.vert", "catcher_surface.frag"));
-  LARARIUM_ASSIGN_OR_RETURN(pass.ratio_shaders_,
-                            ShaderProgram::Create("full_screen.vert", "sky_ratio.frag"));
-  pass.ratio_shaders_.BindUniformBlock("Blockers", kBlockerBinding);
-  pass.ratio_shaders_.Use();
-  SetCones(pass.ratio_shaders_);
-  pass.ratio_shaders_.Set("cone_axis", SkyConeAxis());
-  pass.ratio_shaders_.Set("least_share", kLeastBlockedShare);
-  LARARIUM_ASSIGN_OR_RETURN(pass.caught_shaders_,
-                            ShaderProgram::Create("full_screen.vert", "caught.frag"));
   pass.no_vertices_ = GlVertexArray::Generate();
   pass.blockers_ = GlBuffer::Generate();
   glBindBuffer(GL_UNIFORM_BUFFER, pass.blockers_.id());
@@ -110,6 +99,25 @@ Result<CatcherPass> CatcherPass::Create() {
   pass.lamp_walls_.Create();
   pass.UploadSky({}, {});
   return pass;
+}
+
+Status CatcherPass::Compile() {
+  if (compiled_) {
+    return Status();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(surface_shaders_,
+                            ShaderProgram::Create("catcher_surface.vert", "catcher_surface.frag"));
+  LARARIUM_ASSIGN_OR_RETURN(ratio_shaders_,
+                            ShaderProgram::Create("full_screen.vert", "sky_ratio.frag"));
+  ratio_shaders_.BindUniformBlock("Blockers", kBlockerBinding);
+  ratio_shaders_.Use();
+  SetCones(ratio_shaders_);
+  ratio_shaders_.Set("cone_axis", SkyConeAxis());
+  ratio_shaders_.Set("least_share", kLeastBlockedShare);
+  LARARIUM_ASSIGN_OR_RETURN(caught_shaders_,
+                            ShaderProgram::Create("full_screen.vert", "caught.frag"));
+  compiled_ = true;
+  return Status();
 }
 
 Status CatcherPass::Prepare(const ImageSize& size) {
@@ -264,6 +272,7 @@ Status CatcherPass::DrawKept(const RenderScene& scene,
   }
   cell_ = quality.shadow_cell;
   step_ = cell_ < kHalvingCell ? 1 : 2;
+  LARARIUM_RETURN_IF_ERROR(Compile());
   LARARIUM_RETURN_IF_ERROR(Prepare(view.size));
   UploadSky(scene.light, PictureLight(scene));
   UploadBlockers();

@@ -31,6 +31,9 @@ namespace lararium::render {
 class CatcherPass {
  public:
   static Result<CatcherPass> Create();
+  // The shaders, where they are not there yet; otherwise drawing does it when the first surface is
+  // seen.
+  Status Compile();
 
   // The picture's blockers; first.
   void SetBlockers(std::span<const glm::vec4> blockers) { clusters_.Build(blockers); }
@@ -80,6 +83,7 @@ class CatcherPass {
                     const PictureView& view,
                     uint32_t first_unit) const;
 
+  bool compiled_ = false;
   ShaderProgram surface_shaders_;
   ShaderProgram ratio_shaders_;
   ShaderProgram caught_shaders_;

@@ -140,6 +140,7 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
   return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
 
+Status Renderer::PrepareCaughtShadows() { return state_->catcher_pass.Compile(); }
 MeshHandle Renderer::AddMesh(const geometry::TriangleMesh& mesh) {
   return state_->meshes.Add(GpuMesh::Create(mesh));
 }

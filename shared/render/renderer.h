@@ -36,6 +36,10 @@ class Renderer {
   void RemoveMesh(MeshHandle mesh);
   void RemoveModel(ModelHandle model);
 
+  // Compiles now what shadows on real surfaces are drawn with, for whoever has such and can wait:
+  // otherwise that is done in the picture that shows the first, which takes as much longer.
+  Status PrepareCaughtShadows();
+
   // Of the pictures from now on.
   void SetQuality(const Quality& quality);
 

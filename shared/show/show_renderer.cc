@@ -17,6 +17,10 @@ constexpr float kWeightSteps = 32.0f;
 // A layer drawn by halves is seen in the next picture and in the one after it.
 constexpr double kPicturesUntilSeen = 1.5;
 
+bool CatchesShadows(const ShowPlace& place) {
+  return std::ranges::any_of(place.stage.occluders, &stage::Occluder::receives_shadow);
+}
+
 // As the camera will see it so many frames later.
 void LookAhead(double frames, StagedFrame& staged) {
   if (staged.motion && staged.camera_from_stage) {
@@ -46,6 +50,9 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
   for (size_t i = 0; i < content.places.size(); ++i) {
     show->places_[i].glossy = content.places[i].glossy;
     show->SetPlace(i, content.places[i].stage);
+  }
+  if (std::ranges::any_of(content.places, CatchesShadows)) {
+    LARARIUM_RETURN_IF_ERROR(show->renderer_->PrepareCaughtShadows());
   }
   return show;
 }

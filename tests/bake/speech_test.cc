@@ -1,11 +1,15 @@
 #include "editor/bake/speech.h"
 
 #include <gmock/gmock.h>
+#include <libintl.h>
 
 #include <cmath>
+#include <shared_mutex>
+#include <thread>
 
 #include "editor/bake/speech_sound.h"
 #include "editor/bake/speech_visemes.h"
+#include "shared/core/fork.h"
 
 namespace lararium::bake {
 namespace {
@@ -20,6 +24,20 @@ std::vector<Viseme> Shown(const human::VisemeTrack& track) {
     visemes.push_back(key.viseme);
   }
   return visemes;
+}
+
+// Whoever translates holds locks of the C library that the engine's process wants.
+TEST(Synthesis, AnswersWhileTextsAreTranslated) {
+  std::jthread translates([](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      const std::shared_lock gate(ForkGate());
+      dgettext("lararium", "a text");
+    }
+  });
+  for (int i = 0; i < 20; ++i) {
+    const auto spoken = Synthesize("ave", "la", {});
+    ASSERT_TRUE(spoken.ok()) << spoken.message();
+  }
 }
 
 TEST(Synthesis, PhonemesFillTheSoundWithoutGapsInEachLanguage) {

@@ -41,6 +41,7 @@
 #include "shared/capture/steady_camera.h"
 #include "shared/core/json.h"
 #include "shared/core/median.h"
+#include "shared/core/memory.h"
 #include "shared/core/random.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/quality.h"
@@ -715,7 +716,7 @@ Result<bool> Soak(const Options& options) {
                             render::RenderTarget::Create(kWidth, kHeight));
 
   player::BeginPlaying();
-  const player::HeapKeeper heap_keeper;
+  const HeapKeeper heap_keeper(player::kKeepInterval);
 
   Schedule schedule;
   player::FaultLog faults(*log);
