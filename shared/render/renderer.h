@@ -28,8 +28,8 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   // What is added must be valid (TriangleMesh::Validate, Human::Validate,
-  // Prop::Validate). A person or prop fails where a texture cannot be decoded; it is kept, since
-  // finer textures may be wanted of it later.
+  // Prop::Validate). A person or prop fails where a texture cannot be decoded; those are kept,
+  // since finer ones may be wanted later.
   MeshHandle AddMesh(const geometry::TriangleMesh& mesh);
   Result<ModelHandle> AddHuman(const std::shared_ptr<const human::Human>& human);
   Result<ModelHandle> AddProp(const std::shared_ptr<const stage::Prop>& prop);
