@@ -16,6 +16,8 @@ std::filesystem::path CastLibraryDir() {
   return chosen != nullptr ? chosen : SourceDir() / "build/cast-library";
 }
 
+std::filesystem::path BoardPhotographsDir() { return SourceDir() / "build/board-photographs"; }
+
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "lararium_test.XXXXXX").string();
   CHECK(mkdtemp(name.data()) != nullptr);

@@ -21,6 +21,8 @@ std::filesystem::path SourceDir();
 std::filesystem::path DataDir();
 // Where the cast library is (scripts/fetch_cast_library.sh), unless LARARIUM_CAST_LIBRARY says so.
 std::filesystem::path CastLibraryDir();
+// Where the photographs of a board are (scripts/fetch_board_photographs.sh).
+std::filesystem::path BoardPhotographsDir();
 
 // A fresh folder, removed with everything in it at the end of its life.
 class TemporaryFolder {

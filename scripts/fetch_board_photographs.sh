@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Fetches photographs of a real chessboard, which two cameras on a common bar took at the same
+# moments, from the Debian package opencv-doc; tests of calibration measure those cameras.
+#
+#   scripts/fetch_board_photographs.sh [FOLDER]      default: build/board-photographs
+#
+# FOLDER then has left/*.jpg and right/*.jpg and left_intrinsics.yml, what others found for the
+# left camera. Does nothing where they are there already. Exit status: 0 they are there, 1 they
+# could not be fetched (tests skip without them), 2 wrong usage.
+set -euo pipefail
+
+package=opencv-doc
+sha256=4b12681df35878207ac7097dc66184b2ae552e4bf4ddd2af04a0f03ed0b8682a
+
+if [ $# -gt 1 ]; then
+  echo "usage: $0 [FOLDER]" >&2
+  exit 2
+fi
+root=$(cd "$(dirname "$0")/.." && pwd)
+folder=${1:-$root/build/board-photographs}
+stamp=$folder/.complete
+
+if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$sha256" ]; then
+  echo "the photographs of a board are in $folder"
+  exit 0
+fi
+for program in apt-get dpkg-deb sha256sum tar; do
+  if ! command -v $program > /dev/null; then
+    echo "$0: the photographs need the program $program; install it and run this again" >&2
+    exit 1
+  fi
+done
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT INT TERM
+echo "fetching $package"
+if ! (cd "$work" && apt-get download -qq "$package" 2> errors); then
+  cat "$work/errors" >&2
+  echo "$0: apt-get cannot fetch $package; is there a network? Run this again when there is" >&2
+  exit 1
+fi
+archive=$(echo "$work"/*.deb)
+found=$(sha256sum "$archive" | cut -d ' ' -f 1)
+if [ "$found" != "$sha256" ]; then
+  echo "$0: $package is not what it was (sha256 $found); it is not unpacked" >&2
+  exit 1
+fi
+
+mkdir -p "$folder/left" "$folder/right"
+rm -f "$stamp"
+data=./usr/share/doc/opencv-doc/examples/data
+dpkg-deb --fsys-tarfile "$archive" | tar -x -C "$work" --no-same-owner --wildcards \
+  "$data/left[0-9][0-9].jpg" "$data/right[0-9][0-9].jpg" "$data/left_intrinsics.yml"
+cp "$work/$data"/left[0-9][0-9].jpg "$folder/left"
+cp "$work/$data"/right[0-9][0-9].jpg "$folder/right"
+cp "$work/$data/left_intrinsics.yml" "$folder"
+echo "$sha256" > "$stamp"
+echo "the photographs of a board are in $folder"
