@@ -28,6 +28,26 @@ std::string FormatDuration(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
+void StepCount::Report(std::string_view step, double fraction) {
+  for (size_t i = now_; i < steps_.size(); ++i) {
+    if (steps_[i].name == step) {
+      now_ = i;
+      of_step_ = std::clamp(fraction, 0.0, 1.0);
+      return;
+    }
+  }
+}
+
+double StepCount::fraction() const {
+  double done = 0.0;
+  double all = 0.0;
+  for (size_t i = 0; i < steps_.size(); ++i) {
+    all += steps_[i].share;
+    done += i < now_ ? steps_[i].share : i == now_ ? of_step_ * steps_[i].share : 0.0;
+  }
+  return all > 0.0 ? done / all : 0.0;
+}
+
 class BackgroundTask::Reporter : public Progress {
  public:
   explicit Reporter(BackgroundTask& task) : task_(task) {}
@@ -39,6 +59,7 @@ class BackgroundTask::Reporter : public Progress {
       task_.step_start_ = std::chrono::steady_clock::now();
     }
     task_.fraction_ = std::clamp(fraction, 0.0, 1.0);
+    task_.steps_.Report(step, fraction);
   }
   bool Cancelled() const override { return task_.cancelled_; }
 
@@ -46,7 +67,8 @@ class BackgroundTask::Reporter : public Progress {
   BackgroundTask& task_;
 };
 
-BackgroundTask::BackgroundTask(std::string name, Work work) : name_(std::move(name)) {
+BackgroundTask::BackgroundTask(std::string name, Work work, std::vector<TaskStep> steps)
+    : name_(std::move(name)), steps_(std::move(steps)) {
   thread_ = std::jthread([this, work = std::move(work)] {
     Reporter reporter(*this);
     Status status = work(reporter);
@@ -58,8 +80,11 @@ BackgroundTask::BackgroundTask(std::string name, Work work) : name_(std::move(na
 
 BackgroundTask::State BackgroundTask::state() const {
   const std::lock_guard lock(mutex_);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - step_start_;
-  return {step_, fraction_, elapsed.count(), cancelled_};
+  const bool known = steps_.count() > 0;
+  const std::chrono::duration<double> elapsed =
+      std::chrono::steady_clock::now() - (known ? start_ : step_start_);
+  return {step_,           steps_.number(), steps_.count(), known ? steps_.fraction() : fraction_,
+          elapsed.count(), cancelled_};
 }
 
 std::optional<Status> BackgroundTask::outcome() const {
@@ -67,11 +92,15 @@ std::optional<Status> BackgroundTask::outcome() const {
   return outcome_;
 }
 
-bool TaskList::Start(const std::string& name, BackgroundTask::Work work, Done done) {
+bool TaskList::Start(const std::string& name,
+                     BackgroundTask::Work work,
+                     Done done,
+                     std::vector<TaskStep> steps) {
   if (Running(name)) {
     return false;
   }
-  entries_.push_back({std::make_unique<BackgroundTask>(name, std::move(work)), std::move(done)});
+  entries_.push_back(
+      {std::make_unique<BackgroundTask>(name, std::move(work), std::move(steps)), std::move(done)});
   return true;
 }
 

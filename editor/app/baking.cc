@@ -713,12 +713,16 @@ Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocumen
   return human::LoadHuman(file);
 }
 
-Result<SharedPerson> ShareBakedHuman(const ProjectPaths& paths, const CastDocument& member) {
+Result<show::CastMember> ShareBakedHuman(const ProjectPaths& paths,
+                                         const CastDocument& member,
+                                         float finest) {
   const std::filesystem::path file = BakedHumanFile(paths, member);
   if (!Exists(file)) {
     return NotBaked(file);
   }
-  return SharePerson(file);
+  LARARIUM_ASSIGN_OR_RETURN(show::CastMember person, SharePerson(file, finest));
+  person.name = member.name;
+  return person;
 }
 
 Result<human::Human> MakeStandIn(const ProjectPaths& paths, const CastDocument& member) {

@@ -66,8 +66,10 @@ Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const OccluderDocument& occluder);
 // With its light transfer, where that is up to date.
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member);
-// The same, with all others who show them now.
-Result<SharedPerson> ShareBakedHuman(const ProjectPaths& paths, const CastDocument& member);
+// The same in some detail, with all others who show them now (SharePerson).
+Result<show::CastMember> ShareBakedHuman(const ProjectPaths& paths,
+                                         const CastDocument& member,
+                                         float finest);
 // The plain figure, for who was not baked.
 Result<human::Human> MakeStandIn(const ProjectPaths& paths, const CastDocument& member);
 // The file that it is loaded from.

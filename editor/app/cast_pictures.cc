@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "editor/app/baking.h"
-#include "editor/app/shared_people.h"
 #include "editor/app/thumbnail.h"
 #include "editor/import/cast_presets.h"
 #include "shared/core/file.h"
@@ -126,8 +125,8 @@ class CastPictures::Painter {
     }
     LARARIUM_RETURN_IF_ERROR(OpenStudio());
     seated_.clear();
-    LARARIUM_ASSIGN_OR_RETURN(const SharedPerson person, SharePerson(file));
-    const std::shared_ptr<const human::Human>& human = person.human;
+    LARARIUM_ASSIGN_OR_RETURN(human::Human loaded, human::LoadHuman(file));
+    const auto human = std::make_shared<const human::Human>(std::move(loaded));
     LARARIUM_RETURN_IF_ERROR(studio_->Seat(human, CalmPose(*human)));
     joints_ = human->skeleton.names;
     parents_ = human->skeleton.parents;

@@ -142,6 +142,11 @@ void Layout::ShowBottom(Workspace& workspace) {
   if (panels::Segmented("tabs", labels, tab)) {
     state_.bottom = static_cast<BottomTab>(tab);
   }
+  if (state_.bottom == BottomTab::kMessages) {
+    state_.messages_read = workspace.messages_told();
+  } else {
+    panels::MarkUnread(workspace, state_.messages_read);
+  }
   ImGui::SameLine(0.0f, Px(20));
   switch (state_.bottom) {
     case BottomTab::kTimeline:
@@ -158,7 +163,7 @@ void Layout::ShowBottom(Workspace& workspace) {
       panels::ShowChecks(workspace, state_);
       break;
     case BottomTab::kMessages:
-      panels::ShowMessagesTools(workspace);
+      ImGui::NewLine();
       ImGui::BeginChild("messages", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
       panels::ShowMessages(workspace);
       ImGui::EndChild();
@@ -279,6 +284,24 @@ void Layout::HandleKeys(Workspace& workspace) {
   panels::HandleShortcuts(workspace, state_);
 }
 
+// Whoever closed the question stays.
+void Layout::AskBeforeLeaving(const Workspace& workspace) {
+  may_leave_ = !workspace.AtLongWork() || state_.stops_work;
+  if (!(state_.quit || state_.leave) || may_leave_) {
+    return;
+  }
+  if (std::exchange(asked_, true)) {
+    if (state_.dialog != panels::Dialog::kLeave) {
+      state_.quit = state_.leave = asked_ = false;
+    }
+    return;
+  }
+  if (state_.dialog != panels::Dialog::kNone) {
+    state_.left[state_.dialog] = state_.fields;
+  }
+  state_.dialog = panels::Dialog::kLeave;
+}
+
 void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
   state_.settings = settings;
   missing_.Look(workspace);
@@ -311,6 +334,7 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
     calibration_.Open();
   }
   film_.Show(workspace, state_);
+  AskBeforeLeaving(workspace);
   if (std::exchange(state_.begin_tour, false)) {
     tour_.Begin(panels::FactsOf(workspace, state_));
   }

@@ -34,13 +34,16 @@ class Layout {
   void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
   // Whether arrows, Enter and Space walk through the panel that has the keyboard.
   bool keys_walk() const { return state_.keyboard.walks(); }
-  bool quit_requested() const { return state_.quit; }
-  bool leave_requested() const { return state_.leave; }
+  void RequestQuit() { state_.quit = true; }
+  // Asked for, and granted where something takes long.
+  bool quit_requested() const { return state_.quit && may_leave_; }
+  bool leave_requested() const { return state_.leave && may_leave_; }
 
  private:
   explicit Layout(std::unique_ptr<panels::AroundView> around) : around_(std::move(around)) {}
 
   void HandleKeys(Workspace& workspace);
+  void AskBeforeLeaving(const Workspace& workspace);
   void TakeResizing();
   void ResizeByKeys(float outliner, float inspector, float bottom, PanelSizes& sizes);
   void ShowPanels(Workspace& workspace, PanelSizes& sizes);
@@ -59,7 +62,9 @@ class Layout {
   panels::Tour tour_;
   bool opened_ = false;  // a frame was shown
   bool menus_ = false;   // had the keyboard at its end
-  float grow_ = 0.0f;    // logical pixels, by keys, the panel that has the keyboard
+  bool may_leave_ = true;
+  bool asked_ = false;  // whether to stop what takes long
+  float grow_ = 0.0f;   // logical pixels, by keys, the panel that has the keyboard
 };
 
 }  // namespace lararium::app

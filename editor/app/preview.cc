@@ -1,6 +1,7 @@
 #include "editor/app/preview.h"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "shared/core/memory.h"
 #include "shared/render/graphics_context.h"
 #include "shared/render/render_target.h"
+#include "shared/show/finer_cast.h"
 #include "shared/show/show.h"
 #include "shared/show/show_renderer.h"
 #include "shared/vision/photometry.h"
@@ -24,9 +26,9 @@ namespace {
 constexpr float kOnionTint = 0.7f;  // share of the colour in skins
 
 // In small pictures nobody sees more than half of the textures' detail, unless half a metre away.
-render::Quality QualityFor(const capture::FrameSource& source) {
+render::Quality QualityFor(int width) {
   constexpr int kSmall = 800;  // pixels
-  return {.texture_halvings = source.width() <= kSmall ? 1 : 0};
+  return {.texture_halvings = width <= kSmall ? 1 : 0};
 }
 
 }  // namespace
@@ -42,6 +44,8 @@ class Preview::Worker {
     return {end_.value_or(source_->estimated_frame_count()), source_->frames_per_second(),
             source_->live()};
   }
+
+  show::FinerCast::Reading reading_finer() const { return show_->reading_finer(); }
 
   // nullptr for a frame beyond the end.
   Result<std::shared_ptr<const PreviewPicture>> Draw(const PreviewRequest& request);
@@ -109,7 +113,7 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const Opener& o
   LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(
       worker->renderer_,
-      show::ShowRenderer::Create(worker->show_->content(), QualityFor(*worker->source_)));
+      show::ShowRenderer::Create(worker->show_->content(), QualityFor(worker->source_->width())));
   LARARIUM_ASSIGN_OR_RETURN(
       worker->target_,
       render::RenderTarget::Create(worker->source_->width(), worker->source_->height()));
@@ -300,6 +304,10 @@ std::vector<Status> Preview::Worker::TakeErrors() {
   return errors;
 }
 
+float Preview::FinestDetail(const vision::SceneDatabase& map) {
+  return show::FinestDetail(QualityFor(map.camera.width), map.camera.width);
+}
+
 Preview::Preview(Opener open, show::ShowContent content, Log& log)
     : open_(std::move(open)),
       content_(std::move(content)),
@@ -326,9 +334,10 @@ void Preview::Run(std::stop_token stop) {
   const bool live = (*worker)->source().live;
   constexpr int kFirstPictures = 3;
   int pictures = 0;
-  std::optional<PreviewRequest> request;
-  while ((request = NextRequest(request, live, stop))) {
+  std::optional<PreviewRequest> drawn;
+  while (std::optional<PreviewRequest> request = NextRequest(drawn, **worker, stop)) {
     Result<std::shared_ptr<const PreviewPicture>> picture = (*worker)->Draw(*request);
+    drawn.reset();
     if (live && (!picture.ok() || *picture == nullptr)) {
       AddProblem(picture.ok() ? Status::Error("the camera", "gives no more images")
                               : picture.status());
@@ -338,6 +347,7 @@ void Preview::Run(std::stop_token stop) {
     if (!picture.ok()) {
       AddProblem(picture.status());
     } else if (*picture != nullptr) {
+      drawn = std::move(request);
       pictures_.Put(std::move(*picture));
       if (++pictures == kFirstPictures) {  // shaders are compiled for them
         render::ReleaseShaderCompiler();
@@ -353,17 +363,27 @@ void Preview::Run(std::stop_token stop) {
   }
 }
 
-std::optional<PreviewRequest> Preview::NextRequest(const std::optional<PreviewRequest>& last,
-                                                   bool live,
+// Live images follow one another; a picture that stands is drawn again once somebody was read in
+// more detail for it.
+std::optional<PreviewRequest> Preview::NextRequest(const std::optional<PreviewRequest>& drawn,
+                                                   const Worker& worker,
                                                    std::stop_token stop) {
-  if (!live || !last) {
+  using Reading = show::FinerCast::Reading;
+  constexpr std::chrono::milliseconds kGlance(20);
+  const bool live = worker.source().live;
+  while (drawn && !live && worker.reading_finer() == Reading::kSomebody && !stop.stop_requested()) {
+    if (std::optional<PreviewRequest> next = requests_.TakeFor(kGlance)) {
+      return next;
+    }
+  }
+  if (!drawn || !(live || worker.reading_finer() == Reading::kDone)) {
     return requests_.Take(stop);
   }
   if (stop.stop_requested()) {
     return std::nullopt;
   }
   std::optional<PreviewRequest> newest = requests_.TryTake();
-  return newest ? std::move(newest) : last;
+  return newest ? std::move(newest) : drawn;
 }
 
 void Preview::AddProblem(Status problem) {

@@ -25,6 +25,7 @@
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
 #include "shared/show/show_content.h"
+#include "shared/vision/scene_database.h"
 #include "shared/vision/tracked_frame.h"
 
 namespace lararium::app {
@@ -94,6 +95,10 @@ class Preview {
   // Of what the pictures are; called once, on the preview's thread.
   using Opener = std::function<Result<std::unique_ptr<capture::FrameSource>>()>;
 
+  // What to read of people for pictures as wide as those that the map was trained on
+  // (AssembleOptions): who is seen nearer is read again.
+  static float FinestDetail(const vision::SceneDatabase& map);
+
   // Starts opening everything. Borrows log.
   Preview(Opener open, show::ShowContent content, Log& log);
   // Stops the thread and waits.
@@ -117,9 +122,9 @@ class Preview {
   class Worker;
 
   void Run(std::stop_token stop);
-  // What is to be drawn next; nullopt: nothing any more.
-  std::optional<PreviewRequest> NextRequest(const std::optional<PreviewRequest>& last,
-                                            bool live,
+  // What is to be drawn next, after drawn; nullopt: nothing any more.
+  std::optional<PreviewRequest> NextRequest(const std::optional<PreviewRequest>& drawn,
+                                            const Worker& worker,
                                             std::stop_token stop);
   void AddProblem(Status problem);
 

@@ -5,9 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
-#include <string>
 #include <utility>
+
+#include "shared/core/file.h"
+#include "shared/human/human.h"
+#include "shared/human/texture_pool.h"
 
 namespace lararium::app {
 namespace {
@@ -24,21 +28,16 @@ Stamp StampOf(const std::filesystem::path& file) {
           found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
 }
 
-// Whoever holds the human holds its light, so that nobody has to read it again for that.
-struct Person {
-  human::Human human;
-  std::shared_ptr<const show::UnpackedLight> light;
-};
-
 struct Held {
   Stamp stamp = {};
-  std::weak_ptr<const Person> person;
+  std::weak_ptr<const show::CastMember> person;
 };
 
 // Whoever wants the same person waits until they are read.
 struct People {
   std::mutex mutex;
-  std::map<std::filesystem::path, Held> held;
+  std::multimap<std::filesystem::path, Held> held;
+  human::TexturePool textures;
 };
 
 People& AllPeople() {
@@ -46,29 +45,53 @@ People& AllPeople() {
   return people;
 }
 
-SharedPerson Shared(const std::shared_ptr<const Person>& person) {
-  return {{person, &person->human}, {person, person->light.get()}};
+// Whoever holds a part of a person holds all of them, so that nobody has to read the rest again.
+show::CastMember Shared(const std::shared_ptr<const show::CastMember>& person) {
+  show::CastMember shared = *person;
+  shared.human = {person, person->human.get()};
+  shared.light = {person, person->light.get()};
+  shared.model = {person, person->model.get()};
+  return shared;
+}
+
+Result<human::Human> Read(const std::filesystem::path& file, float finest) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+  return human::ParseHuman(bytes, file.string(), finest);
 }
 
 }  // namespace
 
-Result<SharedPerson> SharePerson(const std::filesystem::path& file) {
+Result<show::CastMember> SharePerson(const std::filesystem::path& file, float finest) {
   People& people = AllPeople();
   const std::lock_guard lock(people.mutex);
   std::erase_if(people.held, [](const auto& entry) { return entry.second.person.expired(); });
   const Stamp stamp = StampOf(file);
-  if (const auto held = people.held.find(file);
-      held != people.held.end() && held->second.stamp == stamp) {
-    if (const auto person = held->second.person.lock()) {
+  const auto [begin, end] = people.held.equal_range(file);
+  for (auto held = begin; held != end; ++held) {
+    const std::shared_ptr<const show::CastMember> person = held->second.person.lock();
+    if (person != nullptr && held->second.stamp == stamp && person->finest <= finest) {
       return Shared(person);
     }
   }
-  LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::LoadHuman(file));
-  auto person = std::make_shared<Person>();
-  person->light = show::TakeLight(human.light);
-  person->human = std::move(human);
-  people.held[file] = {stamp, person};
+  LARARIUM_ASSIGN_OR_RETURN(human::Human human, Read(file, finest));
+  const auto person = std::make_shared<const show::CastMember>(
+      show::MakeCastMember(std::move(human), finest, people.textures));
+  people.held.emplace(file, Held{stamp, person});
   return Shared(person);
+}
+
+show::ReadPerson ReadsAgain(const std::vector<std::filesystem::path>& files) {
+  std::vector<Stamp> stamps;
+  for (const std::filesystem::path& file : files) {
+    stamps.push_back(StampOf(file));
+  }
+  return [files, stamps](size_t cast, float finest) -> Result<show::DrawnPerson> {
+    LARARIUM_ASSIGN_OR_RETURN(human::Human human, Read(files[cast], finest));
+    if (StampOf(files[cast]) != stamps[cast]) {
+      return Status::Error(files[cast].string(), "has changed since it was read");
+    }
+    return show::MakeDrawnPerson(std::move(human), AllPeople().textures);
+  };
 }
 
 }  // namespace lararium::app

@@ -261,26 +261,45 @@ Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
   return objects;
 }
 
+namespace {
+
 // With the plain figure where nobody was baked, unless that fails.
 Result<show::CastMember> LoadMember(const ProjectPaths& paths,
                                     const CastDocument& member,
-                                    Unbuilt unbuilt) {
-  Result<SharedPerson> baked = ShareBakedHuman(paths, member);
-  if (!baked.ok() && unbuilt == Unbuilt::kStandsIn) {
-    LARARIUM_ASSIGN_OR_RETURN(human::Human figure, MakeStandIn(paths, member));
-    return show::CastMember{member.name, std::make_shared<const human::Human>(std::move(figure))};
+                                    const AssembleOptions& options) {
+  Result<show::CastMember> baked = ShareBakedHuman(paths, member, options.finest);
+  if (baked.ok() || options.unbuilt == Unbuilt::kFails) {
+    return baked;
   }
-  LARARIUM_RETURN_IF_ERROR(baked.status());
-  return show::CastMember{member.name, std::move(baked->human), {}, std::move(baked->light)};
+  LARARIUM_ASSIGN_OR_RETURN(human::Human figure, MakeStandIn(paths, member));
+  return show::CastMember{member.name, std::make_shared<const human::Human>(std::move(figure))};
 }
+
+Status LoadCast(const ProjectPaths& paths,
+                const ProjectDocument& document,
+                const AssembleOptions& options,
+                show::ShowContent& content) {
+  if (options.finest > 0.0f) {
+    std::vector<std::filesystem::path> files;
+    for (const CastDocument& member : document.cast) {
+      files.push_back(BakedHumanFile(paths, member));
+    }
+    content.finer = ReadsAgain(files);  // before they are read: none may change between
+  }
+  for (const CastDocument& member : document.cast) {
+    LARARIUM_ASSIGN_OR_RETURN(content.cast.emplace_back(), LoadMember(paths, member, options));
+  }
+  return Status();
+}
+
+}  // namespace
 
 Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const ProjectDocument& document,
                                        const PlaceDocument& place,
                                        std::shared_ptr<const vision::SceneDatabase> database,
                                        const Similarity3& map_from_picked,
-                                       const show::LanguageChoice& languages,
-                                       Unbuilt unbuilt) {
+                                       const AssembleOptions& options) {
   show::ShowContent content;
   content.title = document.title;
   LARARIUM_ASSIGN_OR_RETURN(stage::Place staged,
@@ -293,12 +312,10 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
       LARARIUM_ASSIGN_OR_RETURN(content.elsewhere.emplace_back(), StageObstacles(paths, other));
     }
   }
-  for (const CastDocument& member : document.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(content.cast.emplace_back(), LoadMember(paths, member, unbuilt));
-  }
+  LARARIUM_RETURN_IF_ERROR(LoadCast(paths, document, options, content));
   LARARIUM_ASSIGN_OR_RETURN(content.objects, LoadObjects(paths, document));
   LARARIUM_ASSIGN_OR_RETURN(content.paradata, LoadParadata(paths));
-  LARARIUM_RETURN_IF_ERROR(AddLines(paths, document, languages, content));
+  LARARIUM_RETURN_IF_ERROR(AddLines(paths, document, options.languages, content));
   LARARIUM_ASSIGN_OR_RETURN(content.sounds, LoadSounds(paths));
   LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
   content.drama_file = paths.Drama().filename().string();
@@ -315,7 +332,8 @@ Result<show::ShowContent> LoadShowContent(const ProjectPaths& paths,
   }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, *place));
   LARARIUM_RETURN_IF_ERROR(map.picks.problem);
-  return AssembleShow(paths, document, *place, map.database, map.picks.map_from_picked, languages);
+  return AssembleShow(paths, document, *place, map.database, map.picks.map_from_picked,
+                      {.languages = languages});
 }
 
 Result<StagedMap> LoadStagedMap(const ProjectPaths& paths, const PlaceDocument& place) {

@@ -120,6 +120,12 @@ Result<std::vector<show::StageObject>> LoadObjects(const ProjectPaths& paths,
 // What becomes of people who were never baked.
 enum class Unbuilt { kFails, kStandsIn };
 
+struct AssembleOptions {
+  show::LanguageChoice languages = {};
+  Unbuilt unbuilt = Unbuilt::kFails;
+  float finest = 0.0f;  // of the cast, as show::LoadShowContent takes it
+};
+
 // Everything that a show needs at one place, whose map is at hand and whose picks
 // are resolved. Fails where something was not baked.
 Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
@@ -127,8 +133,7 @@ Result<show::ShowContent> AssembleShow(const ProjectPaths& paths,
                                        const PlaceDocument& place,
                                        std::shared_ptr<const vision::SceneDatabase> database,
                                        const geometry::Similarity3& map_from_picked,
-                                       const show::LanguageChoice& languages = {},
-                                       Unbuilt unbuilt = Unbuilt::kFails);
+                                       const AssembleOptions& options = {});
 
 // The same with the map read from the project. Picks that do not resolve are an
 // error here; a place without any is staged by the guess.

@@ -32,8 +32,9 @@ Status FillStage(const ProjectPaths& paths,
                  stage::Stage& stage,
                  show::ShowContent& content) {
   for (const CastDocument& member : document.cast) {
-    LARARIUM_ASSIGN_OR_RETURN(const SharedPerson person, ShareBakedHuman(paths, member));
-    LARARIUM_RETURN_IF_ERROR(stage.Add(member.name, person.human).status());
+    LARARIUM_ASSIGN_OR_RETURN(const show::CastMember person,
+                              ShareBakedHuman(paths, member, kAnyDetail));
+    LARARIUM_RETURN_IF_ERROR(stage.Add(member.name, person.model).status());
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto objects, LoadObjects(paths, document));
   for (const show::StageObject& object : objects) {

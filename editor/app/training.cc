@@ -105,7 +105,38 @@ Result<train::TrainReport> Finish(const ProjectPaths& paths,
   return std::move(result.report);
 }
 
+// As train::Train reports them, with their shares of the time in the maquette's training.
+void AddTrainingSteps(std::vector<TaskStep>& steps) {
+  steps.insert(steps.end(), {{"reading", 0.02},
+                             {"features", 0.14},
+                             {"matching", 0.27},
+                             {"mapping", 0.36},
+                             {"refining", 0.12},
+                             {"database", 0.03},
+                             {"locating", 0.06}});
+}
+
+void AddSessionSteps(std::vector<TaskStep>& steps) {
+  AddTrainingSteps(steps);
+  steps.push_back({"merging", 0.15});
+}
+
 }  // namespace
+
+std::vector<TaskStep> TrainingSteps(size_t sessions) {
+  std::vector<TaskStep> steps;
+  AddTrainingSteps(steps);
+  for (size_t session = 0; session < sessions; ++session) {
+    AddSessionSteps(steps);
+  }
+  return steps;
+}
+
+std::vector<TaskStep> SessionSteps() {
+  std::vector<TaskStep> steps;
+  AddSessionSteps(steps);
+  return steps;
+}
 
 Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
                                       const PlaceDocument& place,

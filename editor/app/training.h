@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/app/background_task.h"
 #include "editor/app/place_recordings.h"
 #include "editor/app/project.h"
 #include "editor/train/session_removal.h"
@@ -22,6 +23,11 @@ struct TrainingOptions {
   std::optional<int> max_points;  // of the map; none: training's own limit
   std::filesystem::path report;   // where the capture report goes; empty: none
 };
+
+// What TrainPlace() does one after the other where a place has so many added sessions.
+std::vector<TaskStep> TrainingSteps(size_t sessions);
+// The same of TrainSession().
+std::vector<TaskStep> SessionSteps();
 
 // Trains from place.training, merges the sessions of place.added into it and
 // writes the scene database, atomically, with a report for people (training_report.h). A failed,

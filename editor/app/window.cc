@@ -178,8 +178,11 @@ Status MainLoop(render::Window& window,
   auto last = std::chrono::steady_clock::now();
   std::string title;
   Status status;
-  while (status.ok() && !window.ShouldClose() && !content.quit_requested()) {
+  while (status.ok() && !content.quit_requested()) {
     WaitForInput(window, content);
+    if (window.TakeClose()) {
+      content.RequestQuit();
+    }
     const auto now = std::chrono::steady_clock::now();
     content.Update(std::chrono::duration<double>(now - last).count());
     last = now;

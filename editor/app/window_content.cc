@@ -99,6 +99,14 @@ void WindowContent::Leave() {
   }
 }
 
+void WindowContent::RequestQuit() {
+  if (layout_ != nullptr && workspace_->AtLongWork()) {
+    layout_->RequestQuit();
+  } else {
+    quit_ = true;
+  }
+}
+
 void WindowContent::KeepPicture() {
   if (workspace_ != nullptr && workspace_->picture() != nullptr) {
     pictured_ = true;

@@ -45,7 +45,9 @@ class WindowContent {
   // Whether arrows, Enter and Space walk through what is shown, instead of doing what they do
   // there.
   bool keys_walk() const { return layout_ == nullptr || layout_->keys_walk(); }
-  // Somebody asked for the end.
+  // The window was asked to close: what takes long is asked about first.
+  void RequestQuit();
+  // Somebody asked for the end, and may have it.
   bool quit_requested() const { return quit_; }
 
   // seconds: since the last call.

@@ -128,6 +128,7 @@ void Workspace::Tell(Message::Level level, std::string text) {
     return;  // said already
   }
   messages_.push_back({level, std::move(text)});
+  ++told_;
   if (messages_.size() > kMaxMessages) {
     messages_.pop_front();
   }
@@ -307,8 +308,8 @@ void Workspace::Save() {
   WriteLines();
   if (changed_outside()) {
     Tell(Message::Level::kWarning,
-         Tr("Nothing was saved: the project was also changed outside of this window. Choose above "
-            "the messages which one to keep."));
+         Tr("Nothing was saved: the project was also changed outside of this window. Choose below "
+            "which one to keep."));
     return;
   }
   std::error_code ignored;
@@ -370,30 +371,75 @@ void Workspace::OnDocumentChanged() {
   preview_stale_ = true;
 }
 
+namespace {
+
+bool IsThere(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
+}  // namespace
+
+void Workspace::LookAtScript() {
+  std::string stamp = FileStamp(paths_.Drama());
+  if (stamp == script_stamp_) {
+    return;
+  }
+  script_stamp_ = std::move(stamp);
+  script_damage_.clear();
+  outside_script_.reset();
+  const Result<std::string> text = ReadText(paths_.Drama(), drama::TimelineText::kMaxBytes);
+  if (!text.ok()) {
+    MeetDamage(paths_.Drama(), text.message(), script_damage_);
+  } else if (*text != script_.text()) {
+    outside_script_ = *text;
+  } else {
+    saved_script_ = script_.snapshot();
+  }
+}
+
+void Workspace::LookAtProject() {
+  std::string stamp = FileStamp(paths_.Project());
+  if (stamp == project_stamp_) {
+    return;
+  }
+  project_stamp_ = std::move(stamp);
+  project_damage_.clear();
+  outside_project_ = nullptr;
+  Result<ProjectDocument> project = LoadProject(paths_);
+  if (!project.ok()) {
+    MeetDamage(paths_.Project(), project.message(), project_damage_);
+  } else if (FormatProject(*project) != FormatProject(document())) {
+    outside_project_ = std::make_shared<const ProjectDocument>(*std::move(project));
+  }
+}
+
+// What is gone can be written anew; what somebody has just written, with a mistake in it, cannot.
+void Workspace::MeetDamage(const std::filesystem::path& file,
+                           const std::string& problem,
+                           std::string& damage) {
+  if (IsThere(file)) {
+    damage = problem;
+  } else {
+    Tell(Message::Level::kWarning, Text(Tr("%s; saving writes it anew"), problem.c_str()));
+  }
+}
+
 void Workspace::LookOutside() {
-  if (std::string stamp = FileStamp(paths_.Drama()); stamp != script_stamp_) {
-    script_stamp_ = std::move(stamp);
-    const Result<std::string> text = ReadText(paths_.Drama(), drama::TimelineText::kMaxBytes);
-    if (!text.ok()) {
-      Tell(Message::Level::kWarning, Text(Tr("%s; saving writes it anew"), text.message().c_str()));
-    } else if (*text != script_.text()) {
-      outside_script_ = *text;
-    } else {
-      saved_script_ = script_.snapshot();
-    }
-  }
-  if (std::string stamp = FileStamp(paths_.Project()); stamp != project_stamp_) {
-    project_stamp_ = std::move(stamp);
-    Result<ProjectDocument> project = LoadProject(paths_);
-    if (!project.ok()) {
-      Tell(Message::Level::kWarning,
-           Text(Tr("%s; saving writes it anew"), project.message().c_str()));
-    } else if (FormatProject(*project) != FormatProject(document())) {
-      outside_project_ = std::make_shared<const ProjectDocument>(*std::move(project));
-    }
-  }
-  if (changed_outside() && !commands_.dirty()) {
+  const bool known = changed_outside();
+  LookAtScript();
+  LookAtProject();
+  if (changed_outside() && outside_damage().empty() && !commands_.dirty()) {
     TakeOutside();
+  }
+  if (!known && changed_outside()) {
+    Tell(Message::Level::kWarning,
+         outside_damage().empty()
+             ? Tr("The project was changed outside of this window as well. Choose below which one "
+                  "to keep.")
+             : Text(Tr("%s: it was changed outside of this window. Mend it there, or keep what is "
+                       "here."),
+                    outside_damage().c_str()));
   }
   // What somebody else writes into the table is an edit like any other.
   if (LinesStamp() != lines_stamp_) {
@@ -436,9 +482,29 @@ void Workspace::TakeOutside() {
 }
 
 void Workspace::KeepOwn() {
+  if (!script_damage_.empty()) {
+    KeepDamaged(paths_.Drama());
+  }
+  if (!project_damage_.empty()) {
+    KeepDamaged(paths_.Project());
+  }
+  script_damage_.clear();
+  project_damage_.clear();
   outside_script_.reset();
   outside_project_ = nullptr;
   saved_script_ = std::make_shared<const std::string>();  // whatever is there is not this
+  commands_.MarkUnsaved();
+}
+
+// As somebody wrote it: they may mend it.
+void Workspace::KeepDamaged(const std::filesystem::path& file) {
+  std::filesystem::path kept = file;
+  kept += ".damaged";
+  std::error_code error;
+  std::filesystem::copy_file(file, kept, std::filesystem::copy_options::overwrite_existing, error);
+  Tell(Message::Level::kInfo,
+       error ? Text(Tr("%s could not be kept: %s"), file.c_str(), error.message().c_str())
+             : Text(Tr("What was written outside is kept as %s."), kept.c_str()));
 }
 
 }  // namespace lararium::app

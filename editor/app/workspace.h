@@ -24,6 +24,7 @@
 #include "editor/app/journal.h"
 #include "editor/app/live_camera.h"
 #include "editor/app/picked_frames.h"
+#include "editor/app/place_recordings.h"
 #include "editor/app/preview.h"
 #include "editor/app/probe_picture.h"
 #include "editor/app/project.h"
@@ -137,17 +138,28 @@ class Workspace {
   void Save();
 
   // Files of the project that were changed by others while there are edits that were not
-  // saved. Until somebody has chosen, nothing is saved.
-  bool changed_outside() const { return outside_script_.has_value() || outside_project_; }
-  // What is in the files, as an edit.
+  // saved, or so that they cannot be read. Until somebody has chosen, nothing is saved.
+  bool changed_outside() const {
+    return outside_script_.has_value() || outside_project_ || !outside_damage().empty();
+  }
+  // Why what is in the files cannot be taken, until they are mended; else "".
+  const std::string& outside_damage() const {
+    return script_damage_.empty() ? project_damage_ : script_damage_;
+  }
+  // What is in the files, as an edit. Only where they can be read.
   void TakeOutside();
-  // What is here; saving will overwrite the files.
+  // What is here; saving will overwrite the files. A file that cannot be read is kept beside as
+  // NAME.damaged.
   void KeepOwn();
 
   // Long work; progress in tasks(), outcome in messages().
   void Train();  // the place at hand, from its recordings
+  // The place of that name, which is made where there is none, from another first recording. A
+  // place that has a map names that recording once this has worked, in all that undo and redo
+  // could bring back: until then, and where it fails, it goes on as it was.
+  void TrainFrom(const std::string& place, const SessionDocument& recording);
   // Merges a further recording of the place at hand into its map; the document
-  // names it once that has worked.
+  // names it once that has worked, likewise.
   void AddSession(const SessionDocument& session);
   // Takes a further recording, from 1 on, out of the map of the place at hand. Once that has
   // worked the document forgets it too, in all that undo and redo could bring back, for the map
@@ -279,6 +291,9 @@ class Workspace {
   const std::shared_ptr<const PreviewPicture>& picture() const { return picture_; }
 
   const std::deque<Message>& messages() const { return messages_; }
+  uint64_t messages_told() const { return told_; }  // so far, with those that went since
+  // What takes long is at work, and lost to whoever leaves.
+  bool AtLongWork() const { return tasks_.Running(kTraining) || tasks_.Running(kExporting); }
   void Tell(Message::Level level, std::string text);
 
   // Brings everything up to date, once for each frame of the interface. seconds:
@@ -334,9 +349,21 @@ class Workspace {
   void AdvancePlayback(double seconds);
   // False, and a message, while the map is at work otherwise.
   bool MapIsFree();
-  // The work of Train and AddSession. done: edits the document after success.
+  // Reads what others changed since; a file that is gone is written anew.
+  void LookAtScript();
+  void LookAtProject();
+  // A file that cannot be read, which its damage then says.
+  void MeetDamage(const std::filesystem::path& file,
+                  const std::string& problem,
+                  std::string& damage);
+  void KeepDamaged(const std::filesystem::path& file);
+  // The work of training the place at hand. recordings: of its map after success.
   void StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
-                     std::function<void()> done);
+                     std::vector<TaskStep> steps,
+                     const PlaceRecordings& recordings);
+  void TrainWith(const PlaceRecordings& recordings);
+  // What is true of the place's map now, and cannot be undone.
+  void NameRecordings(const std::string& place, const PlaceRecordings& recordings);
   void Report(const Status& status, bool cancelled, const std::string& success);
 
   ProjectPaths paths_;
@@ -354,6 +381,8 @@ class Workspace {
   double since_edit_ = 0.0;   // likewise anything of the project
   std::optional<std::string> outside_script_;
   std::shared_ptr<const ProjectDocument> outside_project_;
+  std::string script_damage_;   // why drama.lua cannot be read, as it was changed by others
+  std::string project_damage_;  // likewise project.json
   std::string place_name_;
   LoadedPlace loaded_;
   std::string picks_key_;
@@ -394,6 +423,7 @@ class Workspace {
   double time_ = 0.0;                 // seconds
   double since_files_checked_ = 0.0;  // seconds
   std::deque<Message> messages_;
+  uint64_t told_ = 0;
   std::shared_ptr<std::mutex> baking_ = std::make_shared<std::mutex>();  // one at a time
   std::shared_ptr<const DramaRun> drama_run_;
   int64_t drama_run_number_ = 0;

@@ -289,8 +289,23 @@ const Workspace::Refinement* Workspace::refinement(const OccluderDocument& occlu
   return applies ? &*refinement_ : nullptr;
 }
 
+void Workspace::NameRecordings(const std::string& name, const PlaceRecordings& recordings) {
+  map_stale_ |= name == place_name_;
+  const PlaceDocument* now = document().FindPlace(name);
+  if (now != nullptr && FormatRecordings(RecordingsOf(*now)) == FormatRecordings(recordings)) {
+    return;
+  }
+  commands_.Rewrite([&](ProjectDocument& document) {
+    if (PlaceDocument* place = document.FindPlace(name)) {
+      SetRecordings(recordings, *place);
+    }
+  });
+  OnDocumentChanged();
+}
+
 void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&)> work,
-                              std::function<void()> done) {
+                              std::vector<TaskStep> steps,
+                              const PlaceRecordings& recordings) {
   const auto report = std::make_shared<train::TrainReport>();
   const bool started = tasks_.Start(
       kTraining,
@@ -298,47 +313,72 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
         LARARIUM_ASSIGN_OR_RETURN(*report, work(progress));
         return Status();
       },
-      [this, report, name = place_name_, done = std::move(done)](const Status& status,
-                                                                 bool cancelled) {
-        Report(status, cancelled,
+      [this, report, name = place_name_, recordings](const Status& status, bool cancelled) {
+        // Whoever cancelled after the map had been written was too late.
+        Report(status, cancelled && !status.ok(),
                Text(Tr("%s: %d of %d images located, %d points."), name.c_str(),
                     static_cast<int>(report->located.size()), report->frames,
                     static_cast<int>(report->points)));
-        if (status.ok() && !cancelled) {
+        if (status.ok()) {
           trained_place_ = name;
-          done();
+          NameRecordings(name, recordings);
         }
-        map_stale_ |= status.ok() && name == place_name_;
-      });
+      },
+      std::move(steps));
   if (!started) {
     Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
   }
 }
 
+void Workspace::TrainWith(const PlaceRecordings& recordings) {
+  PlaceDocument trained = *place();
+  SetRecordings(recordings, trained);
+  StartTraining([paths = paths_, trained, &log = log_](
+                    Progress& progress) { return TrainPlace(paths, trained, {}, progress, log); },
+                TrainingSteps(trained.added.size()), recordings);
+}
+
 void Workspace::Train() {
-  if (place() == nullptr) {
-    return;
+  if (place() != nullptr) {
+    TrainWith(RecordingsOf(*place()));
   }
-  StartTraining([paths = paths_, place = *place(), &log = log_](
-                    Progress& progress) { return TrainPlace(paths, place, {}, progress, log); },
-                [] {});
+}
+
+void Workspace::TrainFrom(const std::string& name, const SessionDocument& recording) {
+  std::error_code ignored;
+  const bool has_map =
+      document().FindPlace(name) != nullptr && std::filesystem::exists(paths_.Scene(name), ignored);
+  if (!has_map) {
+    Edit(Text(Tr("train %s"), name.c_str()), [&](ProjectDocument& document) {
+      PlaceDocument* place = document.FindPlace(name);
+      if (place == nullptr) {
+        place = &document.places.emplace_back();
+        place->name = name;
+      }
+      place->training = recording.source;
+      place->intrinsics = recording.intrinsics;
+    });
+  }
+  if (place() == nullptr || place()->name != name) {
+    ShowPlace(name);
+  }
+  PlaceRecordings recordings = RecordingsOf(*place());
+  recordings.training = recording.source;
+  recordings.intrinsics = recording.intrinsics;
+  TrainWith(recordings);
 }
 
 void Workspace::AddSession(const SessionDocument& session) {
   if (place() == nullptr) {
     return;
   }
+  PlaceRecordings recordings = RecordingsOf(*place());
+  recordings.added.push_back(session);
   StartTraining(
       [paths = paths_, place = *place(), session, &log = log_](Progress& progress) {
         return TrainSession(paths, place, session, {}, progress, log);
       },
-      [this, session, name = place_name_] {
-        Edit(Tr("add a session"), [&](ProjectDocument& document) {
-          if (PlaceDocument* place = document.FindPlace(name)) {
-            place->added.push_back(session);
-          }
-        });
-      });
+      SessionSteps(), recordings);
 }
 
 void Workspace::RemoveSession(uint32_t session) {
@@ -393,13 +433,7 @@ void Workspace::PutFormerMapBack() {
     Tell(Message::Level::kError, recordings.message());
     return;
   }
-  commands_.Rewrite([&](ProjectDocument& document) {
-    if (PlaceDocument* place = document.FindPlace(place_name_)) {
-      SetRecordings(*recordings, *place);
-    }
-  });
-  map_stale_ = true;
-  OnDocumentChanged();
+  NameRecordings(place_name_, *recordings);
   Tell(Message::Level::kInfo,
        Text(Tr("%s: the other map is in use. Doing so again changes back."), place_name_.c_str()));
 }

@@ -82,9 +82,10 @@ void Workspace::ReloadPreview() {
                                 app::Bake(paths, *document, progress, BakeWhat::kAllButPeople));
     }
     const PlaceDocument place = WithoutDrafts(*document->FindPlace(name), *database);
-    LARARIUM_ASSIGN_OR_RETURN(*content,
-                              AssembleShow(paths, *document, place, database, map_from_picked, {},
-                                           *missing > 0 ? Unbuilt::kStandsIn : Unbuilt::kFails));
+    LARARIUM_ASSIGN_OR_RETURN(
+        *content, AssembleShow(paths, *document, place, database, map_from_picked,
+                               {.unbuilt = *missing > 0 ? Unbuilt::kStandsIn : Unbuilt::kFails,
+                                .finest = Preview::FinestDetail(*database)}));
     content->drama = *script;  // as it is written now, saved or not
     return Status();
   };

@@ -10,6 +10,7 @@
 #include "editor/import/model_scene.h"
 #include "editor/import/model_textures.h"
 #include "editor/import/root_motion.h"
+#include "shared/core/memory.h"
 
 namespace lararium::import {
 namespace {
@@ -49,7 +50,7 @@ void AddTextures(const std::string& place, BuiltModel& model, ImportedHuman& imp
     } else {
       imported.notes.push_back(texture.message());
     }
-    std::vector<std::byte>().swap(model.images[i].encoded);  // "= {}" would keep the memory
+    Release(model.images[i].encoded);
   }
   const auto texture = [&](int image) {
     return image < 0 ? human::Material::kNone : texture_of[static_cast<size_t>(image)];

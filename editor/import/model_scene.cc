@@ -14,6 +14,7 @@
 
 #include "shared/core/file.h"
 #include "shared/core/lower_case.h"
+#include "shared/core/memory.h"
 
 namespace lararium::import {
 namespace {
@@ -181,7 +182,7 @@ Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& 
     model->extension = model->gltf->is_binary ? ".glb" : ".gltf";
     gltf = SerializeWithIndexNames(*model->gltf);
   }
-  std::vector<std::byte>().swap(bytes);  // "= {}" would keep the memory
+  Release(bytes);
   try {
     Configure(*model);
     model->scene = Read(*model, gltf);

@@ -125,7 +125,7 @@ void ShowPicture(PictureTextures& pictures,
 // A bar with the time left beside it.
 void ShowProgress(const app::BackgroundTask::State& state) {
   std::string text = Tr(state.step.c_str());
-  if (const auto left = app::EstimateSecondsLeft(state.fraction, state.step_seconds)) {
+  if (const auto left = app::EstimateSecondsLeft(state.fraction, state.seconds)) {
     text += ", " + Text(Tr("%s left"), app::FormatDuration(*left).c_str());
   }
   DimText(text);

@@ -426,6 +426,24 @@ bool Plain(app::Workspace& workspace, EditorState& state) {
   return false;
 }
 
+// What takes long is not stopped without a question.
+void LeaveDialog(app::Workspace& workspace, EditorState& state) {
+  Hint(workspace.tasks().Running(app::Workspace::kTraining)
+           ? Tr("The place is being trained. Leaving stops that: the place keeps the map that it "
+                "has.")
+           : Tr("The show is being exported. Leaving stops that: nothing is written."));
+  switch (DialogButtons(Tr("Stay"), "", Tr("Stop it and leave"))) {
+    case DialogAnswer::kNone:
+      break;
+    case DialogAnswer::kAct:
+      state.dialog = Dialog::kNone;
+      break;
+    case DialogAnswer::kCancel:
+      state.stops_work = true;
+      break;
+  }
+}
+
 struct DialogEntry {
   Dialog dialog;
   const char* title;
@@ -442,7 +460,8 @@ constexpr DialogEntry kDialogs[] = {
     {Dialog::kCast, TrLater("Add a person"), Plain<CastDialog>},
     {Dialog::kObject, TrLater("Add an object"), Plain<ObjectDialog>},
     {Dialog::kCheckPoint, TrLater("Add a check point"), Plain<CheckPointDialog>},
-    {Dialog::kLiveCamera, TrLater("Live camera"), Plain<LiveCameraDialog>}};
+    {Dialog::kLiveCamera, TrLater("Live camera"), Plain<LiveCameraDialog>},
+    {Dialog::kLeave, TrLater("Work is not done"), Plain<LeaveDialog>}};
 
 }  // namespace
 
@@ -514,24 +533,7 @@ void TrainRecording(app::Workspace& workspace, const DialogFields& fields) {
     workspace.Tell(app::Message::Level::kError, recording.message());
     return;
   }
-  app::PlaceDocument trained;
-  trained.name = fields.place;
-  if (const app::PlaceDocument* known = workspace.document().FindPlace(fields.place)) {
-    trained = *known;
-  }
-  trained.training = recording->source;
-  trained.intrinsics = recording->intrinsics;
-  workspace.Edit(Text(Tr("train %s"), fields.place.c_str()), [&](app::ProjectDocument& document) {
-    if (app::PlaceDocument* known = document.FindPlace(trained.name)) {
-      *known = trained;
-    } else {
-      document.places.push_back(trained);
-    }
-  });
-  if (workspace.place() == nullptr || workspace.place()->name != fields.place) {
-    workspace.ShowPlace(fields.place);
-  }
-  workspace.Train();
+  workspace.TrainFrom(fields.place, *recording);
 }
 
 bool OpenDialog(EditorState& state, Dialog dialog) {

@@ -63,6 +63,7 @@ enum class Dialog {
   kCheckPoint,
   kFilm,
   kLiveCamera,
+  kLeave,
   kKeys
 };
 
@@ -222,6 +223,8 @@ struct EditorState {
   bool begin_tour = false;              // asked for
   bool quit = false;                    // asked for; the window decides
   bool leave = false;                   // the project, for the start page; likewise
+  bool stops_work = false;              // leaving may stop what takes long
+  uint64_t messages_read = 0;           // of Workspace::messages_told()
 };
 
 // With empty fields, or as it was when Escape closed it; true then.

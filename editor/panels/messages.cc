@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -46,7 +48,10 @@ void ShowTask(app::BackgroundTask& task) {
   if (!state.step.empty() && state.step != LowerCase(task.name())) {
     text += std::string(": ") + Tr(state.step.c_str());
   }
-  if (const auto left = app::EstimateSecondsLeft(state.fraction, state.step_seconds)) {
+  if (state.count > 0) {
+    text += " " + Text(Tr("(%d of %d)"), state.number, state.count);
+  }
+  if (const auto left = app::EstimateSecondsLeft(state.fraction, state.seconds)) {
     text += ", " + Text(Tr("%s left"), app::FormatDuration(*left).c_str());
   }
   ImGui::AlignTextToFramePadding();
@@ -67,27 +72,32 @@ void ShowTask(app::BackgroundTask& task) {
   ImGui::SameLine(0.0f, Px(20));
 }
 
-}  // namespace
-
-void ShowMessagesTools(app::Workspace& workspace) {
-  if (!workspace.changed_outside()) {
-    ImGui::NewLine();
-    return;
-  }
+// Which of two states of the project is to stay; nothing is saved before that is known.
+void ShowOutsideChoice(app::Workspace& workspace) {
+  const std::string& damage = workspace.outside_damage();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(Colours().warning, "%s",
-                     Tr("The project was changed outside of this window as well."));
+  ImGui::TextColored(
+      Colours().warning, "%s",
+      WithIcon(Icon::kWarning, damage.empty() ? Tr("Changed outside of this window as well:")
+                                              : Tr("Changed outside, and cannot be read:"))
+          .c_str());
+  Tooltip(damage.empty() ? Tr("Nothing is saved until one of the two is chosen.") : damage);
   ImGui::SameLine();
+  ImGui::BeginDisabled(!damage.empty());
   if (ImGui::Button(Tr("Take what is in the files"))) {
     workspace.TakeOutside();
   }
-  Tooltip(Tr("An edit like any other: undo brings back what is here."));
+  ImGui::EndDisabled();
+  Tooltip(damage.empty() ? Tr("An edit like any other: undo brings back what is here.") : damage);
   ImGui::SameLine();
   if (ImGui::Button(Tr("Keep what is here"))) {
     workspace.KeepOwn();
   }
   Tooltip(Tr("Saving will then overwrite the files."));
+  ImGui::SameLine();
 }
+
+}  // namespace
 
 void ShowMessages(const app::Workspace& workspace) {
   const bool at_end = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1.0f;
@@ -105,9 +115,32 @@ void ShowMessages(const app::Workspace& workspace) {
   }
 }
 
+void MarkUnread(const app::Workspace& workspace, uint64_t read) {
+  using Level = app::Message::Level;
+  const std::deque<app::Message>& messages = workspace.messages();
+  const auto unread =
+      static_cast<size_t>(std::min<uint64_t>(workspace.messages_told() - read, messages.size()));
+  Level level = Level::kInfo;
+  for (size_t i = messages.size() - unread; i < messages.size(); ++i) {
+    level = std::max(level, messages[i].level);
+  }
+  if (level == Level::kInfo) {
+    return;
+  }
+  const ImVec2 corner(ImGui::GetItemRectMax().x, ImGui::GetItemRectMin().y);
+  const std::string sign = WithIcon(IconOf(level), "");
+  const ImVec2 size = ImGui::CalcTextSize(sign.c_str());
+  ImGui::GetWindowDrawList()->AddText(ImVec2(corner.x - size.x + Px(2), corner.y - 0.35f * size.y),
+                                      ImGui::ColorConvertFloat4ToU32(ColourOf(level)),
+                                      sign.c_str());
+}
+
 void ShowStatusBar(app::Workspace& workspace) {
   for (const app::TaskList::Entry& entry : workspace.tasks().entries()) {
     ShowTask(*entry.task);
+  }
+  if (workspace.changed_outside()) {
+    ShowOutsideChoice(workspace);
   }
   const size_t unbuilt = workspace.PeopleLeft();
   if (unbuilt > 0) {
@@ -117,8 +150,11 @@ void ShowStatusBar(app::Workspace& workspace) {
     DimText(Text(text, static_cast<int>(unbuilt)));
     ImGui::SameLine();
   }
-  if (!workspace.messages().empty() && workspace.tasks_empty()) {
-    // The newest message, wherever the messages are.
+  // The newest message, wherever the messages are; beside work only what must not be missed.
+  const bool tells =
+      !workspace.messages().empty() && !workspace.changed_outside() &&
+      (workspace.tasks_empty() || workspace.messages().back().level != app::Message::Level::kInfo);
+  if (tells) {
     const app::Message& newest = workspace.messages().back();
     ImGui::AlignTextToFramePadding();
     const float room = 0.62f * ImGui::GetContentRegionAvail().x;

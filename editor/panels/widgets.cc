@@ -158,12 +158,18 @@ bool EnterConfirms() {
          (io.WantTextInput || !io.NavVisible);
 }
 
-// A dialog without a field, which asked for the focus of its first, gives the ring to none of its
-// buttons: so Enter confirms it too, and never what happens to be the first.
-void KeepRingOffButtons() {
+// A dialog without a field gives the ring to none of its buttons: so Enter confirms it too, and
+// never what happens to be the first. It may have asked for the focus of its first field; where
+// it did not, the first button has the ring in the frame after, if keys were used last.
+void KeepRingOffButtons(const char* first, const char* second) {
   ImGuiContext& g = *ImGui::GetCurrentContext();
-  if (ImGui::IsWindowAppearing() && g.NavTabbingCounter > 0) {
+  int& frames = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("frames"));
+  frames = ImGui::IsWindowAppearing() ? 0 : frames + 1;
+  if (frames == 0 && g.NavTabbingCounter > 0) {
     ImGui::NavMoveRequestCancel();
+    g.NavDisableHighlight = true;
+  } else if (frames == 1 &&
+             (g.NavId == ImGui::GetID(first) || g.NavId == ImGui::GetID(second))) {
     g.NavDisableHighlight = true;
   }
 }
@@ -179,7 +185,7 @@ DialogAnswer DialogButtons(const char* action, const std::string& problem, const
   const float width = WidestButton(std::array{other, action}, 110.0f);
   const float spacing = ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - 2 * width - spacing);
-  KeepRingOffButtons();
+  KeepRingOffButtons(other, action);
   DialogAnswer answer = DialogAnswer::kNone;
   if (ImGui::Button(other, ImVec2(width, 0))) {
     answer = DialogAnswer::kCancel;

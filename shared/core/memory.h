@@ -5,8 +5,15 @@
 #include <chrono>
 #include <cstddef>
 #include <thread>
+#include <vector>
 
 namespace lararium {
+
+// Empties items and gives their memory back, which an assignment of {} would keep.
+template <typename T>
+void Release(std::vector<T>& items) {
+  std::vector<T>().swap(items);
+}
 
 // All threads share so many arenas, instead of one for each up to eight a core, which all grow in
 // time to the most that a thread ever wanted in it. For programs that run for long and do not

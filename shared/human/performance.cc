@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shared/core/memory.h"
 #include "shared/human/human.h"
 
 namespace lararium::human {
@@ -30,7 +31,7 @@ std::shared_ptr<const PerformanceModel> MakePerformanceModel(Human human) {
   std::shared_ptr<const PerformanceModel> model =
       MakePerformanceModel(std::shared_ptr<const Human>(shared));
   for (Clip& clip : shared->clips) {
-    std::vector<JointTransform>().swap(clip.keys);
+    Release(clip.keys);
   }
   return model;
 }

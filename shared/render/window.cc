@@ -247,6 +247,11 @@ std::vector<std::string> Window::TakePadButtons() {
 bool Window::ShouldClose() const {
   return glfwWindowShouldClose(state_->window.get()) == GLFW_TRUE;
 }
+bool Window::TakeClose() {
+  const bool asked = ShouldClose();
+  glfwSetWindowShouldClose(state_->window.get(), GLFW_FALSE);
+  return asked;
+}
 void Window::RequestClose() { glfwSetWindowShouldClose(state_->window.get(), GLFW_TRUE); }
 
 Window::Size Window::framebuffer_size() const {

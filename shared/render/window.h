@@ -69,6 +69,8 @@ class Window {
   std::vector<std::string> TakePadButtons();
 
   bool ShouldClose() const;
+  // Whether it was asked to close since this was last asked.
+  bool TakeClose();
   void RequestClose();
 
   struct Size {

@@ -15,9 +15,8 @@ bool IsWhole(const human::Human& human) {
 }
 
 Result<FinerCast::Person> ReadFiner(const ReadPerson& read, size_t cast, float finest) {
-  LARARIUM_ASSIGN_OR_RETURN(CastMember member, read(cast, finest));
-  FinerCast::Person person{cast, Figure(std::move(member.human)), std::move(member.light)};
-  return person;
+  LARARIUM_ASSIGN_OR_RETURN(DrawnPerson drawn, read(cast, finest));
+  return FinerCast::Person{cast, Figure(std::move(drawn.human)), std::move(drawn.light)};
 }
 
 }  // namespace
@@ -44,9 +43,16 @@ void FinerCast::Want(size_t cast, float detail) {
   reading_ = std::async(std::launch::async, ReadFiner, std::cref(read_), cast, reading_finest_);
 }
 
+FinerCast::Reading FinerCast::reading() const {
+  if (!reading_.valid()) {
+    return Reading::kNobody;
+  }
+  const bool done = reading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  return done ? Reading::kDone : Reading::kSomebody;
+}
+
 std::optional<FinerCast::Person> FinerCast::Take() {
-  if (!reading_.valid() ||
-      reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+  if (reading() != Reading::kDone) {
     return std::nullopt;
   }
   Result<Person> person = reading_.get();

@@ -41,6 +41,10 @@ class FinerCast {
   // Somebody who has been read since.
   std::optional<Person> Take();
 
+  // kDone: Take() has what came of it.
+  enum class Reading { kNobody, kSomebody, kDone };
+  Reading reading() const;
+
  private:
   ReadPerson read_;
   std::vector<float> finest_;  // of each of the cast: metres; 0: all there is, or can be had

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shared/core/check.h"
+#include "shared/core/memory.h"
 #include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/light/probe_weights.h"
@@ -90,7 +91,7 @@ Status Show::FillStage() {
 // The library has what of them is heard.
 void Show::DropSounds() {
   for (Speech& line : content_.speech) {
-    std::vector<std::byte>().swap(line.sound);  // "= {}" would keep the memory
+    Release(line.sound);
   }
   for (audio::SoundData& sound : content_.sounds) {
     sound = {sound.name, {}, nullptr};

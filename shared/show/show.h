@@ -222,6 +222,9 @@ class Show {
   // and its time is then behind.
   void StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged);
 
+  // Whether somebody is being read in more detail: the next frame shows who has been.
+  FinerCast::Reading reading_finer() const { return finer_->reading(); }
+
   // People and things as they are at another time of the drama (at least 0, to the nearest tick),
   // seen as in the frame that StageFrame() has filled last, without lines and sounds; hair and
   // cloth at rest. The show stays at its moment: frames after it are what they would have been.

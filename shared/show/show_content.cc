@@ -8,7 +8,6 @@
 
 #include "shared/core/parallel.h"
 #include "shared/geometry/glm_convert.h"
-#include "shared/human/texture_pool.h"
 #include "shared/show/guide_texts.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/viseme_file.h"
@@ -104,14 +103,8 @@ Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
   return places;
 }
 
-namespace {
-
-CastMember MakeMember(const std::string& name,
-                      human::Human human,
-                      float finest,
-                      human::TexturePool& textures) {
+CastMember MakeCastMember(human::Human human, float finest, human::TexturePool& textures) {
   CastMember person;
-  person.name = name;
   textures.Share(human.textures);
   person.light = TakeLight(human.light);
   person.finest = finest;
@@ -119,6 +112,17 @@ CastMember MakeMember(const std::string& name,
   person.human = person.model->human;
   return person;
 }
+
+DrawnPerson MakeDrawnPerson(human::Human human, human::TexturePool& textures) {
+  DrawnPerson person;
+  human.clips.clear();
+  textures.Share(human.textures);
+  person.light = TakeLight(human.light);
+  person.human = std::make_shared<const human::Human>(std::move(human));
+  return person;
+}
+
+namespace {
 
 Status LoadPerson(const bundle::Bundle& bundle,
                   const bundle::CastEntry& entry,
@@ -128,7 +132,8 @@ Status LoadPerson(const bundle::Bundle& bundle,
   LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.human));
   LARARIUM_ASSIGN_OR_RETURN(human::Human human,
                             human::ParseHuman(bytes, bundle.place() + ": " + entry.human, finest));
-  person = MakeMember(entry.name, std::move(human), finest, textures);
+  person = MakeCastMember(std::move(human), finest, textures);
+  person.name = entry.name;
   return Status();
 }
 
@@ -159,15 +164,12 @@ Result<human::Human> ReadHuman(const bundle::StoredMember& member, float finest)
 Result<ReadPerson> ReadsAgain(const bundle::Bundle& bundle,
                               std::shared_ptr<human::TexturePool> textures) {
   std::vector<bundle::StoredMember> members;
-  std::vector<std::string> names;
   for (const bundle::CastEntry& entry : bundle.manifest().cast) {
     LARARIUM_ASSIGN_OR_RETURN(members.emplace_back(), bundle.stored(entry.human));
-    names.push_back(entry.name);
   }
-  return ReadPerson([members, names, textures](size_t cast, float finest) -> Result<CastMember> {
+  return ReadPerson([members, textures](size_t cast, float finest) -> Result<DrawnPerson> {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, ReadHuman(members[cast], finest));
-    human.clips.clear();
-    return MakeMember(names[cast], std::move(human), finest, *textures);
+    return MakeDrawnPerson(std::move(human), *textures);
   });
 }
 

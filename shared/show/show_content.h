@@ -17,6 +17,7 @@
 #include "shared/human/face.h"
 #include "shared/human/human.h"
 #include "shared/human/performance.h"
+#include "shared/human/texture_pool.h"
 #include "shared/light/glossy_map.h"
 #include "shared/render/caption_font.h"
 #include "shared/show/person_light.h"
@@ -41,9 +42,18 @@ struct CastMember {
   std::shared_ptr<const human::PerformanceModel> model = nullptr;
 };
 
-// Reads one of the cast again, in other detail: for what is drawn of them, so without clips. From
-// any thread.
-using ReadPerson = std::function<Result<CastMember>(size_t cast, float finest)>;
+// The member, still without a name, who is such a human, read in that detail.
+CastMember MakeCastMember(human::Human human, float finest, human::TexturePool& textures);
+
+// Somebody as they are drawn, whatever moves them.
+struct DrawnPerson {
+  std::shared_ptr<const human::Human> human;   // without clips
+  std::shared_ptr<const UnpackedLight> light;  // as CastMember's
+};
+DrawnPerson MakeDrawnPerson(human::Human human, human::TexturePool& textures);
+
+// Reads one of the cast again, in other detail. From any thread.
+using ReadPerson = std::function<Result<DrawnPerson>(size_t cast, float finest)>;
 
 // A thing that people use, or scenery.
 struct StageObject {

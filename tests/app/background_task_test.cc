@@ -15,6 +15,38 @@ void PollUntilEmpty(TaskList& tasks) {
   }
 }
 
+TEST(StepCount, TellsHowFarAllOfTheWorkIs) {
+  StepCount steps({{"read", 1.0}, {"think", 2.0}, {"write", 1.0}});
+  EXPECT_EQ(steps.count(), 3);
+  EXPECT_EQ(steps.number(), 1);
+  EXPECT_EQ(steps.fraction(), 0.0);
+  steps.Report("read", 0.5);
+  EXPECT_DOUBLE_EQ(steps.fraction(), 0.125);
+  steps.Report("think", 0.5);
+  EXPECT_EQ(steps.number(), 2);
+  EXPECT_DOUBLE_EQ(steps.fraction(), 0.5);
+}
+
+TEST(StepCount, NeverGoesBack) {
+  StepCount steps({{"read"}, {"merge"}, {"read"}, {"merge"}});
+  steps.Report("merge", 0.5);
+  steps.Report("aside", 0.0);  // what nobody had told of is part of the step at hand
+  EXPECT_EQ(steps.number(), 2);
+  EXPECT_DOUBLE_EQ(steps.fraction(), 0.375);
+  steps.Report("read", 0.0);  // of the next round
+  EXPECT_EQ(steps.number(), 3);
+  EXPECT_DOUBLE_EQ(steps.fraction(), 0.5);
+  steps.Report("merge", 1.0);
+  EXPECT_DOUBLE_EQ(steps.fraction(), 1.0);
+}
+
+TEST(StepCount, KnowsNothingOfWorkWithoutSteps) {
+  StepCount steps;
+  steps.Report("read", 0.5);
+  EXPECT_EQ(steps.count(), 0);
+  EXPECT_EQ(steps.fraction(), 0.0);
+}
+
 TEST(TaskList, HandsTheStatusToTheCallerOfPoll) {
   TaskList tasks;
   std::string message;

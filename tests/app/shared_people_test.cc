@@ -26,39 +26,71 @@ class SharedPeopleTest : public testing::Test {
 };
 
 TEST_F(SharedPeopleTest, AreReadOnceForAllWhoHoldThem) {
-  const Result<SharedPerson> one = SharePerson(File());
+  const Result<show::CastMember> one = SharePerson(File(), 0.0f);
   ASSERT_TRUE(one.ok()) << one.message();
-  const Result<SharedPerson> other = SharePerson(File());
+  const Result<show::CastMember> other = SharePerson(File(), 0.0f);
   ASSERT_TRUE(other.ok()) << other.message();
   EXPECT_EQ(one->human, other->human);
   EXPECT_EQ(one->light, other->light);
 }
 
 TEST_F(SharedPeopleTest, AreReadAnewOnceTheirFileHasChanged) {
-  const Result<SharedPerson> before = SharePerson(File());
+  const Result<show::CastMember> before = SharePerson(File(), 0.0f);
   ASSERT_TRUE(before.ok()) << before.message();
   ada_.height = 1.8;
   ASSERT_TRUE(BakeHuman(paths_, ada_).ok());
-  const Result<SharedPerson> after = SharePerson(File());
+  const Result<show::CastMember> after = SharePerson(File(), 0.0f);
   ASSERT_TRUE(after.ok()) << after.message();
   EXPECT_NE(before->human, after->human);
   EXPECT_NE(before->human->meshes.front().positions, after->human->meshes.front().positions);
 }
 
+TEST_F(SharedPeopleTest, WhoeverIsContentWithLessDetailGetsWhoIsThere) {
+  const Result<show::CastMember> whole = SharePerson(File(), 0.0f);
+  ASSERT_TRUE(whole.ok()) << whole.message();
+  const Result<show::CastMember> any = SharePerson(File(), kAnyDetail);
+  ASSERT_TRUE(any.ok()) << any.message();
+  EXPECT_EQ(any->human, whole->human);
+  EXPECT_EQ(any->model, whole->model);
+}
+
+TEST_F(SharedPeopleTest, WhoeverWantsMoreDetailReadsTheFile) {
+  const Result<show::CastMember> any = SharePerson(File(), kAnyDetail);
+  ASSERT_TRUE(any.ok()) << any.message();
+  const Result<show::CastMember> whole = SharePerson(File(), 0.0f);
+  ASSERT_TRUE(whole.ok()) << whole.message();
+  EXPECT_NE(any->human, whole->human);
+  EXPECT_EQ(whole->finest, 0.0f);
+}
+
+TEST_F(SharedPeopleTest, AreReadAgainAsLongAsTheirFileIsWhatItWas) {
+  const show::ReadPerson read = ReadsAgain({File()});
+  const Result<show::DrawnPerson> again = read(0, 0.0f);
+  ASSERT_TRUE(again.ok()) << again.message();
+  EXPECT_FALSE(again->human->meshes.empty());
+  EXPECT_TRUE(again->human->clips.empty());
+  ada_.height = 1.8;
+  ASSERT_TRUE(BakeHuman(paths_, ada_).ok());
+  const Result<show::DrawnPerson> changed = read(0, 0.0f);
+  ASSERT_FALSE(changed.ok());
+  EXPECT_NE(changed.message().find("ada"), std::string::npos);
+  EXPECT_NE(changed.message().find("has changed"), std::string::npos);
+}
+
 TEST_F(SharedPeopleTest, AreNotKeptWhenNobodyHoldsThem) {
-  Result<SharedPerson> held = SharePerson(File());
+  Result<show::CastMember> held = SharePerson(File(), 0.0f);
   ASSERT_TRUE(held.ok()) << held.message();
   const std::weak_ptr<const human::Human> human = held->human;
   *held = {};
   EXPECT_TRUE(human.expired());
-  EXPECT_TRUE(SharePerson(File()).ok());
+  EXPECT_TRUE(SharePerson(File(), 0.0f).ok());
 }
 
 TEST_F(SharedPeopleTest, WhoIsNotThereIsAnErrorThatNamesTheFile) {
-  const Result<SharedPerson> nobody = SharePerson(paths_.Human("ben"));
+  const Result<show::CastMember> nobody = SharePerson(paths_.Human("ben"), 0.0f);
   ASSERT_FALSE(nobody.ok());
   EXPECT_NE(nobody.message().find("ben"), std::string::npos);
-  EXPECT_TRUE(SharePerson(File()).ok());
+  EXPECT_TRUE(SharePerson(File(), 0.0f).ok());
 }
 
 }  // namespace

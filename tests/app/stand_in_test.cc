@@ -42,7 +42,7 @@ class StandInTest : public testing::Test {
 };
 
 TEST_F(StandInTest, WhoWasNeverBakedIsThePlainFigureInTheirSize) {
-  EXPECT_FALSE(ShareBakedHuman(paths_, document_.cast[0]).ok());
+  EXPECT_FALSE(ShareBakedHuman(paths_, document_.cast[0], 0.0f).ok());
   const auto ada = MakeStandIn(paths_, document_.cast[0]);
   ASSERT_TRUE(ada.ok()) << ada.message();
   EXPECT_NEAR(HeightOf(*ada), 1.5f, 0.05f);
@@ -52,7 +52,7 @@ TEST_F(StandInTest, WhoWasBakedBeforeStaysAsTheyWere) {
   ASSERT_TRUE(BakeHuman(paths_, document_.cast[0]).ok());
   CastDocument taller = document_.cast[0];
   taller.height = 1.9;
-  const auto ada = ShareBakedHuman(paths_, taller);
+  const auto ada = ShareBakedHuman(paths_, taller, 0.0f);
   ASSERT_TRUE(ada.ok()) << ada.message();
   EXPECT_NEAR(HeightOf(*ada->human), 1.5f, 0.05f);
 }

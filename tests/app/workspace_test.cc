@@ -183,6 +183,109 @@ TEST_F(WorkspaceTest, AProjectThatOthersSavedIsTakenOver) {
   EXPECT_FALSE(workspace->commands().dirty());
 }
 
+TEST_F(WorkspaceTest, WhatOthersBrokeIsNotWrittenOverUntilSomebodyChooses) {
+  const auto workspace = Open();
+  const std::string good = *ReadText(paths_.Project());
+  const std::string broken = good.substr(0, good.size() / 2);
+  ASSERT_TRUE(WriteFileAtomically(paths_.Project(), broken).ok());
+  workspace->Update(2.0);
+  EXPECT_TRUE(workspace->changed_outside());
+  EXPECT_THAT(workspace->outside_damage(), HasSubstr("project.json"));
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("Mend it there"));
+  SetTitle(*workspace, "Mine");
+  workspace->Save();
+  EXPECT_EQ(*ReadText(paths_.Project()), broken);
+
+  workspace->KeepOwn();
+  EXPECT_FALSE(workspace->changed_outside());
+  EXPECT_EQ(*ReadText(paths_.folder / "project.json.damaged"), broken);
+  workspace->Save();
+  EXPECT_EQ(SavedTitle(), "Mine");
+}
+
+TEST_F(WorkspaceTest, WhatOthersBrokeAndMendedIsTakenOver) {
+  const auto workspace = Open();
+  ASSERT_TRUE(WriteFileAtomically(paths_.Project(), std::string_view("{")).ok());
+  workspace->Update(2.0);
+  EXPECT_FALSE(workspace->outside_damage().empty());
+  ProjectDocument other = workspace->document();
+  other.title = "Theirs";
+  ASSERT_TRUE(SaveProject(paths_, other).ok());
+  workspace->Update(2.0);
+  EXPECT_FALSE(workspace->changed_outside());
+  EXPECT_EQ(workspace->document().title, "Theirs");
+}
+
+TEST_F(WorkspaceTest, AFileThatOthersRemovedIsSavedAnew) {
+  const auto workspace = Open();
+  std::filesystem::remove(paths_.Drama());
+  workspace->Update(2.0);
+  EXPECT_FALSE(workspace->changed_outside());
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("saving writes it anew"));
+  workspace->Save();
+  EXPECT_TRUE(std::filesystem::exists(paths_.Drama()));
+}
+
+TEST_F(WorkspaceTest, AConflictWithOthersIsToldAtOnceAndOnce) {
+  const auto workspace = Open();
+  workspace->EditScript("type", "-- mine\n");
+  ASSERT_TRUE(WriteFileAtomically(paths_.Drama(), std::string_view("-- theirs\n")).ok());
+  workspace->Update(2.0);
+  EXPECT_THAT(workspace->messages().back().text, HasSubstr("Choose below"));
+  const uint64_t told = workspace->messages_told();
+  workspace->Update(2.0);
+  EXPECT_EQ(workspace->messages_told(), told);
+}
+
+// A place that is trained from another recording, which cannot be read.
+class TrainFromTest : public WorkspaceTest {
+ protected:
+  static SessionDocument Recording(const char* file) {
+    return {{SourceDocument::Kind::kVideo, file}, std::nullopt};
+  }
+
+  void AddPlace() {
+    ProjectDocument document = *LoadProject(paths_);
+    document.places.emplace_back().name = "site";
+    document.places[0].training = Recording("first.mp4").source;
+    ASSERT_TRUE(SaveProject(paths_, document).ok());
+  }
+
+  static void WaitForTasks(Workspace& workspace) {
+    do {
+      workspace.Update(0.01);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (!workspace.tasks_empty());
+  }
+};
+
+TEST_F(TrainFromTest, APlaceWithAMapGoesOnAsItWasWhereTrainingFails) {
+  AddPlace();
+  ASSERT_TRUE(SaveMap(paths_, LoadProject(paths_)->places[0],
+                      test::MakeSceneDatabase(test::MakeSyntheticWorld({})))
+                  .ok());
+  const auto workspace = Open();
+  workspace->TrainFrom("site", Recording("second.mp4"));
+  EXPECT_TRUE(workspace->AtLongWork());
+  WaitForTasks(*workspace);
+  EXPECT_FALSE(workspace->AtLongWork());
+  EXPECT_EQ(workspace->place()->training.path, "first.mp4");
+  EXPECT_FALSE(workspace->commands().dirty());
+}
+
+TEST_F(TrainFromTest, APlaceWithoutAMapNamesItsRecordingAtOnce) {
+  const auto workspace = Open();
+  workspace->TrainFrom("site", Recording("first.mp4"));
+  ASSERT_NE(workspace->place(), nullptr);
+  EXPECT_EQ(workspace->place()->training.path, "first.mp4");
+  WaitForTasks(*workspace);
+  workspace->TrainFrom("site", Recording("second.mp4"));
+  EXPECT_EQ(workspace->place()->training.path, "second.mp4");
+  WaitForTasks(*workspace);
+  workspace->Undo();
+  EXPECT_EQ(workspace->place()->training.path, "first.mp4");
+}
+
 TEST_F(WorkspaceTest, PlaysTheDramaInALoopWithoutARecording) {
   const auto workspace = Open();
   ASSERT_TRUE(workspace->EditTimeline("add", [](drama::TimelineText& text) {

@@ -18,13 +18,17 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 // What a file with levels of 0, 10 and 40 mm would give.
-CastMember Person(float finest) {
+DrawnPerson Person(float finest) {
   human::Human human = *test::SmallContent().cast[0].human;
   human::SkinnedMesh& mesh = human.meshes.emplace_back();
   mesh.error = finest >= 0.04f ? 0.04f : finest >= 0.01f ? 0.01f : 0.0f;
+  return {std::make_shared<const human::Human>(std::move(human)), nullptr};
+}
+
+CastMember Member(float finest) {
   CastMember member;
   member.name = "one";
-  member.human = std::make_shared<const human::Human>(std::move(human));
+  member.human = Person(finest).human;
   member.finest = finest;
   return member;
 }
@@ -32,9 +36,9 @@ CastMember Person(float finest) {
 class FinerCastTest : public ::testing::Test {
  protected:
   void Create(float first, float second = 0.04f) {
-    const std::vector<CastMember> cast = {Person(first), Person(second)};
+    const std::vector<CastMember> cast = {Member(first), Member(second)};
     finer_.emplace(
-        [this](size_t who, float finest) -> Result<CastMember> {
+        [this](size_t who, float finest) -> Result<DrawnPerson> {
           asked_.emplace_back(who, finest);
           if (broken_) {
             return Status::Error("one.larhuman", "was changed");
@@ -74,8 +78,14 @@ TEST_F(FinerCastTest, WhoComesNearerIsReadFinerThanWantedUntilThereIsNoMore) {
   Create(0.04f);
   finer_->Want(0, 0.02f);
   finer_->Want(1, 0.02f);  // one after the other
+  EXPECT_NE(finer_->reading(), FinerCast::Reading::kNobody);
+  while (finer_->reading() == FinerCast::Reading::kSomebody) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(finer_->reading(), FinerCast::Reading::kDone);
   std::optional<FinerCast::Person> person = Wait();
   ASSERT_TRUE(person);
+  EXPECT_EQ(finer_->reading(), FinerCast::Reading::kNobody);
   EXPECT_EQ(person->cast, 0u);
   EXPECT_EQ(person->figure.human->meshes.back().error, 0.01f);
   ASSERT_EQ(asked_.size(), 1u);
@@ -111,7 +121,7 @@ TEST_F(FinerCastTest, WhoCannotBeReadStaysAndTheLogSaysWhyOnce) {
 }
 
 TEST_F(FinerCastTest, AWholeCastHasNoMore) {
-  FinerCast whole({}, std::vector<CastMember>{Person(0.04f)}, log_);
+  FinerCast whole({}, std::vector<CastMember>{Member(0.04f)}, log_);
   whole.Want(0, 0.001f);
   EXPECT_FALSE(whole.Take());
 }
@@ -144,20 +154,17 @@ TEST(ShowWithFinerCast, IsThenAsIfAllHadBeenReadAtOnce) {
     light.meshes[0].scale.assign(4, 0.01f);
     return human::SerializeHuman(human);
   }();
-  const ReadPerson read = [&](size_t, float finest) -> Result<CastMember> {
+  human::TexturePool textures;
+  const ReadPerson read = [&](size_t, float finest) -> Result<DrawnPerson> {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::ParseHuman(whole, "here", finest));
-    CastMember member;
-    member.name = "one";
-    member.light = TakeLight(human.light);
-    member.human = std::make_shared<const human::Human>(std::move(human));
-    member.finest = finest;
-    return member;
+    return MakeDrawnPerson(std::move(human), textures);
   };
   Log log("test");
   const auto create = [&](float finest) {
     ShowContent content = test::SmallContent();
     content.places[0].stage.probes.emplace_back().light.sky[0] = glm::vec3(1.0f);
-    content.cast = {*read(0, finest)};
+    content.cast = {MakeCastMember(*human::ParseHuman(whole, "here", finest), finest, textures)};
+    content.cast[0].name = "one";
     content.finer = finest > 0.0f ? read : ReadPerson();
     return Show::Create(std::move(content), {}, log);
   };

@@ -98,7 +98,6 @@ TEST_F(ShowContentTest, ThePeopleOfAClosedBundleAreReadInMoreDetail) {
   ASSERT_TRUE(content->finer);
   const auto finer = content->finer(0, 0.001f);
   ASSERT_TRUE(finer.ok()) << finer.message();
-  EXPECT_EQ(finer->name, "keeper");
   EXPECT_EQ(finer->human->meshes[0].positions, human.meshes[0].positions);
   EXPECT_EQ(finer->light->at(0).vertices(), 4u);
   EXPECT_EQ(finer->human->textures, content->cast[0].human->textures);  // the same in memory

@@ -73,7 +73,20 @@ grep -q training "$out/tavern.lararium/project.json" || fail "the project was no
 lists "tavern.lararium third.lararium moved.lararium" || fail "not in the list: $(listed)"
 sleep 1
 import -window root "$out/training.png"
+
+# Leaving would stop the training: it is asked about. Enter and Escape stay.
+for way in "press ctrl+o" "press ctrl+q"; do
+  for stay in Return Escape; do
+    $way
+    shot asked
+    press $stay
+    sleep 0.5
+    titled tavern || fail "$way, then $stay: the project was left"
+  done
+done
+kill -0 $pid || fail "the training was stopped without a question"
 press ctrl+o
+click 780 498  # stop it and leave
 wait_for 60 titled "Lararium$" || fail "not back on the start page"
 
 # The sample: a copy of one's own.
