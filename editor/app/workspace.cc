@@ -427,10 +427,14 @@ void Workspace::MeetDamage(const std::filesystem::path& file,
 
 void Workspace::LookOutside() {
   const bool known = changed_outside();
+  const bool damaged = !outside_damage().empty();
   LookAtScript();
   LookAtProject();
   if (changed_outside() && outside_damage().empty() && !commands_.dirty()) {
     TakeOutside();
+  }
+  if (damaged && !changed_outside()) {
+    Tell(Message::Level::kInfo, Tr("What was changed outside can be read again."));
   }
   if (!known && changed_outside()) {
     Tell(Message::Level::kWarning,

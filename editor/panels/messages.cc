@@ -130,7 +130,7 @@ void MarkUnread(const app::Workspace& workspace, uint64_t read) {
   const ImVec2 corner(ImGui::GetItemRectMax().x, ImGui::GetItemRectMin().y);
   const std::string sign = WithIcon(IconOf(level), "");
   const ImVec2 size = ImGui::CalcTextSize(sign.c_str());
-  ImGui::GetWindowDrawList()->AddText(ImVec2(corner.x - size.x + Px(2), corner.y - 0.35f * size.y),
+  ImGui::GetWindowDrawList()->AddText(ImVec2(corner.x - 0.5f * size.x, corner.y - 0.35f * size.y),
                                       ImGui::ColorConvertFloat4ToU32(ColourOf(level)),
                                       sign.c_str());
 }
