@@ -1,0 +1,20 @@
+#include "editor/app/task_text.h"
+
+#include "editor/app/text.h"
+#include "shared/core/lower_case.h"
+
+namespace lararium::app {
+
+std::string TaskText(const std::string& name, const BackgroundTask::State& state) {
+  std::string text = Tr(name.c_str());
+  // What is one step is called alike.
+  if (!state.step.empty() && state.step != LowerCase(name)) {
+    text += std::string(": ") + Tr(state.step.c_str());
+  }
+  if (const auto left = EstimateSecondsLeft(state.fraction, state.step_seconds)) {
+    text += ", " + Text(Tr("%s left"), FormatDuration(*left).c_str());
+  }
+  return text;
+}
+
+}  // namespace lararium::app
