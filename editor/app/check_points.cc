@@ -259,50 +259,56 @@ CheckReport CheckStaging(const ProjectDocument& document,
   return report;
 }
 
-std::string CheckAdvice(const CheckReport& report, bool translated) {
-  const auto say = [translated](const char* text) { return translated ? Tr(text) : text; };
+Sentence CheckSentence(const CheckReport& report) {
   for (const CheckPointReport& point : report.points) {
     if (point.verdict == Verdict::kPicksDisagree && !point.odd_frame.empty()) {
-      return Text(say(TrLater("%s was picked wrongly in %s: without that pick the others agree.")),
-                  point.name.c_str(), point.odd_frame.c_str());
+      return Sentence("%s was picked wrongly in %s: without that pick the others agree.",
+                      {point.name, point.odd_frame});
     }
     if (point.verdict == Verdict::kPicksDisagree) {
-      return Text(say(TrLater("The picks of %s disagree by %.1f px: look at them again.")),
-                  point.name.c_str(), point.anchor.error_px);
+      return Sentence("The picks of %s disagree by %s px: look at them again.",
+                      {point.name, Text("%.1f", point.anchor.error_px)});
     }
     if (point.verdict == Verdict::kNotLocated) {
       return point.problem.message();
     }
     if (point.verdict == Verdict::kWeak) {
-      return Text(say(TrLater("%s was picked from almost one direction, where a pixel moves it by "
-                              "%.0f cm: pick it in images taken farther apart.")),
-                  point.name.c_str(), kCentimetres * point.deviation_m);
+      return Sentence(
+          "%s was picked from almost one direction, where a pixel moves it by %s cm: pick it in "
+          "images taken farther apart.",
+          {point.name, Text("%.0f", kCentimetres * point.deviation_m)});
     }
   }
   if (report.verdict == CheckReport::Verdict::kUnknown) {
-    return say(report.compared < static_cast<int>(kFewestCheckPoints)
-                   ? TrLater("Pick at least three points here, each in two images.")
-                   : TrLater("The points lie on a line: pick another one beside it."));
+    return report.compared < static_cast<int>(kFewestCheckPoints)
+               ? Sentence("Pick at least three points here, each in two images.")
+               : Sentence("The points lie on a line: pick another one beside it.");
   }
   if (report.verdict == CheckReport::Verdict::kGood) {
-    return Text(say(TrLater("The stage lies as it should, to %.1f cm (%.1f px).")),
-                kCentimetres * report.rms_m, report.rms_px);
+    return Sentence("The stage lies as it should, to %s cm (%s px).",
+                    {Text("%.1f", kCentimetres * report.rms_m), Text("%.1f", report.rms_px)});
   }
   if (!report.doubtful.empty()) {
-    return Text(say(TrLater("Look at %s again: it was picked wrongly here, or its position on the "
-                            "stage is wrong. The other points agree.")),
-                report.doubtful.c_str());
+    return Sentence(
+        "Look at %s again: it was picked wrongly here, or its position on the stage is wrong. The "
+        "other points agree.",
+        {report.doubtful});
   }
   if (report.fit_good) {
-    return Text(say(TrLater("The points agree with one another to %.1f cm, but the stage lies "
-                            "elsewhere. Laying it by them moves it by %.1f cm, turns it by "
-                            "%.1f\xc2\xb0 and makes it %.3f times as large.")),
-                kCentimetres * report.fit_rms_m, kCentimetres * report.shift_m,
-                kDegrees * report.turn, report.scale);
+    return Sentence(
+        "The points agree with one another to %s cm, but the stage lies elsewhere. Laying it by "
+        "them moves it by %s cm, turns it by %s\xc2\xb0 and makes it %s times as large.",
+        {Text("%.1f", kCentimetres * report.fit_rms_m), Text("%.1f", kCentimetres * report.shift_m),
+         Text("%.1f", kDegrees * report.turn), Text("%.3f", report.scale)});
   }
-  return say(
-      TrLater("The points agree neither with the stage nor with one another: look at their picks "
-              "and positions again."));
+  return Sentence(
+      "The points agree neither with the stage nor with one another: look at their picks and "
+      "positions again.");
+}
+
+std::string CheckAdvice(const CheckReport& report, bool translated) {
+  const Sentence advice = CheckSentence(report);
+  return translated ? advice.Translated(Tr) : advice.English();
 }
 
 Json CheckJson(const CheckReport& report) {

@@ -11,6 +11,7 @@
 
 #include "editor/app/project.h"
 #include "shared/core/json.h"
+#include "shared/core/sentence.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
 #include "shared/stage/picks.h"
@@ -78,8 +79,9 @@ CheckReport CheckStaging(const ProjectDocument& document,
                          const vision::SceneDatabase& map,
                          const geometry::Similarity3& map_from_picked);
 
-// What came of it and what to do, in a sentence or two; in the language of the interface, or
-// untranslated.
+// What came of it and what to do, in a sentence or two.
+Sentence CheckSentence(const CheckReport& report);
+// The same in the language of the interface, or untranslated.
 std::string CheckAdvice(const CheckReport& report, bool translated);
 
 // {"verdict", "points": [...], ...}; docs/file-formats.md.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <string_view>
 
+#include "editor/app/check_sentences.h"
 #include "shared/drama/lua_tokens.h"
 #include "shared/drama/timeline_text.h"
 #include "shared/geometry/glm_convert.h"
@@ -31,12 +31,6 @@ constexpr double kLook = 1.0;          // seconds between two looks at the groun
 constexpr float kSole = 0.1f;          // metres that a foot may be in the ground,
 constexpr float kLift = 0.3f;          // or above it
 constexpr double kMostFloating = 0.5;  // share of looks: some wait where nobody sees them
-
-std::string AtTime(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f s", seconds);
-  return text;
-}
 
 std::string Named(const TaskRecord& task) {
   return "'" + task.action + (task.object.empty() ? "" : " " + task.object) + "'";
@@ -229,16 +223,17 @@ void PlaceItems(const std::string& script,
   }
 }
 
-std::vector<std::string> CheckTogether(std::span<const TaskRecord> tasks) {
-  std::vector<std::string> problems;
+std::vector<Sentence> CheckTogether(std::span<const TaskRecord> tasks) {
+  std::vector<Sentence> problems;
   std::map<std::string, const TaskRecord*> doing;  // what lasts longest so far
   for (const TaskRecord* task : BodilyTasks(tasks)) {
     const TaskRecord*& before = doing[task->actor];
     if (before != nullptr && task->began < before->ended - kMoment) {
-      problems.push_back(task->where + ": " + task->actor +
-                         " is to be in two places at once: " + Named(*task) + " begins at " +
-                         AtTime(task->began) + ", " + Named(*before) + " (" + before->where +
-                         ") ends at " + AtTime(before->ended));
+      problems.push_back(
+          AtPlace(task->where,
+                  Sentence("%s is to be in two places at once: %s begins at %s, %s (%s) ends at %s",
+                           {task->actor, Named(*task), SecondsText(task->began), Named(*before),
+                            before->where, SecondsText(before->ended)})));
     }
     if (before == nullptr || task->ended > before->ended) {
       before = task;
@@ -247,8 +242,8 @@ std::vector<std::string> CheckTogether(std::span<const TaskRecord> tasks) {
   return problems;
 }
 
-std::vector<std::string> CheckTurns(std::span<const TaskRecord> tasks) {
-  std::vector<std::string> problems;
+std::vector<Sentence> CheckTurns(std::span<const TaskRecord> tasks) {
+  std::vector<Sentence> problems;
   const std::vector<const TaskRecord*> sorted = BodilyTasks(tasks);
   for (const TaskRecord* task : sorted) {
     if (task->waited < kTurn || task->object.empty()) {
@@ -259,21 +254,21 @@ std::vector<std::string> CheckTurns(std::span<const TaskRecord> tasks) {
              o->began < task->began + task->waited && o->ended > task->began;
     });
     if (other != sorted.end()) {
-      problems.push_back(task->where + ": " + task->actor + " waits " + AtTime(task->waited) +
-                         " for '" + task->object + "', which " + (*other)->actor +
-                         " has: " + Named(**other) + " (" + (*other)->where + ") (at " +
-                         AtTime(task->began) + ")");
+      Sentence waits = Sentence("%s waits %s for '%s', which %s has: %s (%s)",
+                                {task->actor, SecondsText(task->waited), task->object,
+                                 (*other)->actor, Named(**other), (*other)->where});
+      problems.push_back(AtPlace(task->where, AtTime(std::move(waits), task->began)));
     }
   }
   return problems;
 }
 
-std::vector<std::string> CheckCues(const std::string& script,
-                                   const std::string& file,
-                                   const CuesSeen& seen) {
-  std::vector<std::string> problems;
-  const auto tell = [&](size_t line, const std::string& problem) {
-    problems.push_back(file + ":" + std::to_string(line) + ": " + problem);
+std::vector<Sentence> CheckCues(const std::string& script,
+                                const std::string& file,
+                                const CuesSeen& seen) {
+  std::vector<Sentence> problems;
+  const auto tell = [&](size_t line, Sentence problem) {
+    problems.push_back(AtPlace(file + ":" + std::to_string(line), std::move(problem)));
   };
   const WrittenCues written = FindCues(script);
   const Result<drama::TimelineText> timeline = drama::TimelineText::Read(script, file);
@@ -288,16 +283,16 @@ std::vector<std::string> CheckCues(const std::string& script,
           return cue.kind == "marker" && cue.name == marker.name;
         });
     if (!listened) {
-      tell(marker.line, "the marker '" + marker.name + "' begins nothing");
+      tell(marker.line, Sentence("the marker '%s' begins nothing", {marker.name}));
     }
   }
   for (const Word& word : written.listened) {
     if (std::none_of(markers.begin(), markers.end(),
                      [&](const WrittenMarker& marker) { return marker.name == word.text; })) {
-      tell(word.line, "no track has a marker '" + word.text + "'");
+      tell(word.line, Sentence("no track has a marker '%s'", {word.text}));
     }
   }
-  const std::string in_time = " (in " + std::to_string(std::lround(seen.seconds)) + " s)";
+  const std::string seconds = std::to_string(std::lround(seen.seconds));
   std::map<std::string, std::vector<const CueRecord*>> by_place;
   for (const CueRecord& cue : seen.cues) {
     const bool judged = seen.visited || !IsVisitors(cue.kind);
@@ -305,19 +300,20 @@ std::vector<std::string> CheckCues(const std::string& script,
                          std::none_of(markers.begin(), markers.end(),
                                       [&](const WrittenMarker& m) { return m.name == cue.name; });
     if (!cue.fired && judged && !is_told) {
-      problems.push_back(cue.where + ": no run reaches the trigger '" + cue.kind +
-                         (cue.name.empty() ? "" : " " + cue.name) + "'" + in_time);
+      const std::string trigger = cue.kind + (cue.name.empty() ? "" : " " + cue.name);
+      problems.push_back(AtPlace(
+          cue.where, Sentence("no run reaches the trigger '%s' (in %s s)", {trigger, seconds})));
     }
     by_place[cue.where].push_back(&cue);
   }
   for (const Word& word : written.armed) {
     if (!by_place.contains(file + ":" + std::to_string(word.line))) {
-      tell(word.line, "no run comes to this '" + word.text + "'" + in_time);
+      tell(word.line, Sentence("no run comes to this '%s' (in %s s)", {word.text, seconds}));
     }
   }
   for (const Word& word : written.said) {
     if (!seen.lines.contains(word.text)) {
-      tell(word.line, "no run says the line '" + word.text + "'" + in_time);
+      tell(word.line, Sentence("no run says the line '%s' (in %s s)", {word.text, seconds}));
     }
   }
   return problems;
@@ -335,19 +331,20 @@ StepListener::StepListener(const stage::Stage& stage, std::span<const stage::Pla
   for (const stage::Place& place : places) {
     for (const stage::Occluder& occluder : place.occluders) {
       if (occluder.blocks_walking) {
+        const std::string name = "'" + occluder.name + "'";
         AddOccluder(occluder,
-                    "'" + occluder.name + "'" + (places.size() > 1 ? " of " + place.name : ""));
+                    places.size() > 1 ? Sentence("%s of %s", {name, place.name}) : Sentence(name));
       }
     }
   }
 }
 
-void StepListener::AddOccluder(const stage::Occluder& occluder, std::string name) {
+void StepListener::AddOccluder(const stage::Occluder& occluder, Sentence name) {
   names_.push_back(std::move(name));
   const geometry::TriangleMesh& mesh = occluder.mesh;
   for (size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
     Triangle triangle;
-    triangle.occluder = names_.back();
+    triangle.occluder = &names_.back();
     triangle.corners = TriangleOf(occluder, first);
     glm::vec3 lower(1e9f), upper(-1e9f);
     for (const glm::vec3& corner : triangle.corners) {
@@ -367,7 +364,7 @@ void StepListener::AddOccluder(const stage::Occluder& occluder, std::string name
   }
 }
 
-std::string_view StepListener::Crossed(const glm::vec3& from, const glm::vec3& to) const {
+const Sentence* StepListener::Crossed(const glm::vec3& from, const glm::vec3& to) const {
   const glm::vec3 way = to - from;
   for (int x = CellOf(std::min(from.x, to.x)); x <= CellOf(std::max(from.x, to.x)); ++x) {
     for (int z = CellOf(std::min(from.z, to.z)); z <= CellOf(std::max(from.z, to.z)); ++z) {
@@ -385,13 +382,13 @@ std::string_view StepListener::Crossed(const glm::vec3& from, const glm::vec3& t
       }
     }
   }
-  return "";
+  return nullptr;
 }
 
 // What is left and entered as often from there to the right lies elsewhere.
-std::string_view StepListener::Around(const glm::vec3& point) const {
+const Sentence* StepListener::Around(const glm::vec3& point) const {
   constexpr float kFar = 1000.0f;
-  std::map<std::string_view, int> met;
+  std::map<const Sentence*, int> met;
   for (const Triangle& triangle : triangles_) {
     const glm::vec3 from = point + glm::vec3(0.0f, kHeights[0] + 0.013f, 0.007f);
     met[triangle.occluder] +=
@@ -402,10 +399,10 @@ std::string_view StepListener::Around(const glm::vec3& point) const {
       return occluder;
     }
   }
-  return "";
+  return nullptr;
 }
 
-void StepListener::Tell(const std::string& actor, double time, std::string what) {
+void StepListener::Tell(Sentence what, const std::string& actor, double time) {
   if (steps_.size() < kMostSteps) {
     steps_.push_back({actor, time, std::move(what)});
   }
@@ -423,8 +420,8 @@ void StepListener::Listen(double time) {
       continue;
     }
     if (before == last_.end()) {
-      if (const std::string_view inside = Around(state.position); !inside.empty()) {
-        Tell(name, time, "stands in " + std::string(inside));
+      if (const Sentence* inside = Around(state.position)) {
+        Tell(Sentence("%s stands in %s", {name, *inside}), name, time);
       }
       last_[name] = state.position;
       continue;
@@ -434,16 +431,16 @@ void StepListener::Listen(double time) {
       continue;
     }
     if (glm::distance(from, state.position) > kLeap) {
-      Tell(name, time, "leaps while it is seen");
-    } else if (const std::string_view crossed = Crossed(from, state.position); !crossed.empty()) {
-      Tell(name, time, "walks through " + std::string(crossed));
+      Tell(Sentence("%s leaps while it is seen", {name}), name, time);
+    } else if (const Sentence* crossed = Crossed(from, state.position)) {
+      Tell(Sentence("%s walks through %s", {name, *crossed}), name, time);
     }
   }
 }
 
-std::vector<std::string> StepListener::Problems(const std::string& script,
-                                                const std::string& file,
-                                                std::span<const TaskRecord> tasks) const {
+std::vector<Sentence> StepListener::Problems(const std::string& script,
+                                             const std::string& file,
+                                             std::span<const TaskRecord> tasks) const {
   const Result<drama::TimelineText> timeline = drama::TimelineText::Read(script, file);
   // The last that they were told before.
   const auto where = [&](const Step& step) {
@@ -467,10 +464,9 @@ std::vector<std::string> StepListener::Problems(const std::string& script,
     }
     return place;
   };
-  std::vector<std::string> problems;
+  std::vector<Sentence> problems;
   for (const Step& step : steps_) {
-    problems.push_back(where(step) + ": " + step.actor + " " + step.what + " (at " +
-                       AtTime(step.time) + ")");
+    problems.push_back(AtPlace(where(step), AtTime(step.what, step.time)));
   }
   return problems;
 }
@@ -518,15 +514,15 @@ void GroundListener::Listen(double time) {
   }
 }
 
-std::vector<std::string> GroundListener::Problems() const {
-  std::vector<std::string> problems;
+std::vector<Sentence> GroundListener::Problems() const {
+  std::vector<Sentence> problems;
   for (const Ground& ground : grounds_) {
     if (ground.missing > kMostFloating * ground.looked) {
-      problems.push_back(ground.place + ": people seem to float: nothing below " +
-                         ground.first_actor +
-                         " catches a shadow; add an occluder of the shape 'floor', or let what is "
-                         "there receive shadow (at " +
-                         AtTime(ground.first_time) + ")");
+      Sentence floats = Sentence(
+          "people seem to float: nothing below %s catches a shadow; add an occluder of the shape "
+          "'floor', or let what is there receive shadow",
+          {ground.first_actor});
+      problems.push_back(AtPlace(ground.place, AtTime(std::move(floats), ground.first_time)));
     }
   }
   return problems;

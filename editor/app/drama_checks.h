@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "shared/core/sentence.h"
 #include "shared/drama/drama.h"
 #include "shared/stage/place.h"
 #include "shared/stage/stage.h"
@@ -27,11 +28,11 @@ void PlaceItems(const std::string& script,
                 std::vector<drama::TaskRecord>& tasks);
 
 // Somebody is to begin something with the body while they still do something else.
-std::vector<std::string> CheckTogether(std::span<const drama::TaskRecord> tasks);
+std::vector<Sentence> CheckTogether(std::span<const drama::TaskRecord> tasks);
 
 // Somebody has to wait for a thing that somebody else uses. Taking what another holds fails,
 // and is told as every failure.
-std::vector<std::string> CheckTurns(std::span<const drama::TaskRecord> tasks);
+std::vector<Sentence> CheckTurns(std::span<const drama::TaskRecord> tasks);
 
 // Cues of all dry runs together. visited: one of them had a visitor; without, what waits for
 // a visitor is not judged.
@@ -43,9 +44,9 @@ struct CuesSeen {
 };
 // Markers that begin nothing or are nowhere, triggers that no run fires or arms, lines that
 // are written out in the script and that no run says.
-std::vector<std::string> CheckCues(const std::string& script,
-                                   const std::string& file,
-                                   const CuesSeen& seen);
+std::vector<Sentence> CheckCues(const std::string& script,
+                                const std::string& file,
+                                const CuesSeen& seen);
 
 // Follows people tick by tick: ways through occluders, standing in them, leaps while seen.
 class StepListener {
@@ -56,30 +57,30 @@ class StepListener {
   // After a tick; time: of the drama.
   void Listen(double time);
   // Each with the place in the script of what they were told then.
-  std::vector<std::string> Problems(const std::string& script,
-                                    const std::string& file,
-                                    std::span<const drama::TaskRecord> tasks) const;
+  std::vector<Sentence> Problems(const std::string& script,
+                                 const std::string& file,
+                                 std::span<const drama::TaskRecord> tasks) const;
 
  private:
   struct Triangle {
-    std::string_view occluder;
+    const Sentence* occluder = nullptr;
     std::array<glm::vec3, 3> corners;
   };
   struct Step {
     std::string actor;
     double time = 0.0;
-    std::string what;
+    Sentence what;
   };
   using Cell = std::pair<int, int>;  // of a grid on the floor
 
-  void AddOccluder(const stage::Occluder& occluder, std::string name);
-  // The occluder that a way on the floor goes through; "": none.
-  std::string_view Crossed(const glm::vec3& from, const glm::vec3& to) const;
-  std::string_view Around(const glm::vec3& point) const;
-  void Tell(const std::string& actor, double time, std::string what);
+  void AddOccluder(const stage::Occluder& occluder, Sentence name);
+  // The occluder that a way on the floor goes through; nullptr: none.
+  const Sentence* Crossed(const glm::vec3& from, const glm::vec3& to) const;
+  const Sentence* Around(const glm::vec3& point) const;
+  void Tell(Sentence what, const std::string& actor, double time);
 
   const stage::Stage& stage_;
-  std::vector<std::string> names_;  // of occluders, with their places where there are several
+  std::vector<Sentence> names_;  // of occluders, with their places where there are several
   std::vector<Triangle> triangles_;
   std::map<Cell, std::vector<uint32_t>> cells_;
   stage::StageSnapshot snapshot_;
@@ -97,7 +98,7 @@ class GroundListener {
   void Listen(double time);
   // One at most for each place: who has no ground first. None where people have some half of the
   // time.
-  std::vector<std::string> Problems() const;
+  std::vector<Sentence> Problems() const;
 
  private:
   using Triangle = std::array<glm::vec3, 3>;

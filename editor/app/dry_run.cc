@@ -1,7 +1,6 @@
 #include "editor/app/dry_run.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "editor/app/check_sentences.h"
 #include "editor/app/drama_checks.h"
 #include "editor/app/line_checks.h"
 #include "editor/app/staging.h"
@@ -26,26 +26,19 @@ namespace {
 
 constexpr int kTicksPerFrame = 4;  // of 30 frames a second
 
-std::string AtTime(std::string problem, double seconds) {
-  char time[32];
-  std::snprintf(time, sizeof(time), " (at %.2f s)", seconds);
-  return std::move(problem) + time;
-}
-
 // What people were told to do and could not, unless the drama says that it may fail; then
 // errors that are not the ends of such tasks. tasks: placed, in the order of the drama's.
-std::vector<std::string> DramaProblems(const drama::Drama& drama,
-                                       std::span<const drama::TaskRecord> tasks) {
-  std::vector<std::string> problems;
+std::vector<Sentence> DramaProblems(const drama::Drama& drama,
+                                    std::span<const drama::TaskRecord> tasks) {
+  std::vector<Sentence> problems;
   std::vector<const drama::TaskRecord*> failed;
   for (size_t i = 0; i < tasks.size(); ++i) {
     const drama::TaskRecord& task = tasks[i];
     if (task.failed && !task.expected) {
       failed.push_back(&drama.tasks()[i]);
-      problems.push_back(AtTime(task.where + ": " + task.actor + ": " + task.action +
-                                    (task.object.empty() ? "" : " " + task.object) + ": " +
-                                    task.message,
-                                task.ended));
+      const std::string what = task.actor + ": " + task.action +
+                               (task.object.empty() ? "" : " " + task.object) + ": " + task.message;
+      problems.push_back(AtTime(AtPlace(task.where, what), task.ended));
     }
   }
   for (const drama::ScriptError& error : drama.errors()) {
@@ -87,7 +80,7 @@ struct Guest {
 // Nobody first, then those of the project by name, then those of the options.
 std::vector<Guest> GuestsOf(const ProjectPaths& paths,
                             const CheckOptions& options,
-                            std::vector<std::string>& problems) {
+                            std::vector<Sentence>& problems) {
   std::vector<std::filesystem::path> files;
   std::error_code ignored;
   for (const auto& entry :
@@ -148,7 +141,8 @@ class SeekCheck {
       stage.Capture(now);
       if (!status.ok() || now != seen_[tick]) {
         ++differ;
-        report.problems.push_back(AtTime("the stage is not as it was when it is sought", time));
+        report.problems.push_back(
+            AtTime(Sentence("the stage is not as it was when it is sought"), time));
       }
     }
     report.seeks = {{"differ", differ}, {"milliseconds", times.ToJson()}};
@@ -159,7 +153,7 @@ class SeekCheck {
   std::map<int64_t, stage::StageSnapshot> seen_;
 };
 
-void Append(std::vector<std::string> more, std::vector<std::string>& problems) {
+void Append(std::vector<Sentence> more, std::vector<Sentence>& problems) {
   std::move(more.begin(), more.end(), std::back_inserter(problems));
 }
 
@@ -228,8 +222,9 @@ class DryRunner {
     show::ShowContent content;
     if (const Status filled = FillStage(paths_, document_, language, stage, content);
         !filled.ok()) {
-      seen.report.problems = {filled.message(),
-                              paths_.Drama().string() + ": was not run: the stage is not complete"};
+      seen.report.problems = {
+          filled.message(),
+          AtPlace(paths_.Drama().string(), Sentence("was not run: the stage is not complete"))};
       return seen;
     }
     const std::shared_ptr<Log> silent = MakeSilentLog();
@@ -277,8 +272,8 @@ class DryRunner {
     seen.cues.lines.insert(descriptions.described().begin(), descriptions.described().end());
     seen.cues.cues.assign((*drama)->cues().begin(), (*drama)->cues().end());
     Judge(**drama, steps, ground, seen);
-    for (const std::string& problem : descriptions.problems()) {
-      seen.report.problems.push_back(file_ + ": " + problem);
+    for (const Sentence& problem : descriptions.problems()) {
+      seen.report.problems.push_back(AtPlace(file_, problem));
     }
     seen.report.runs.push_back({{"language", language},
                                 {"visitor", guest.name},
@@ -297,7 +292,7 @@ class DryRunner {
              Seen& seen) const {
     std::vector<drama::TaskRecord> tasks(drama.tasks().begin(), drama.tasks().end());
     PlaceItems(script_, file_, tasks);
-    std::vector<std::string>& problems = seen.report.problems;
+    std::vector<Sentence>& problems = seen.report.problems;
     problems = DramaProblems(drama, tasks);
     Append(CheckTogether(tasks), problems);
     Append(CheckTurns(tasks), problems);
@@ -313,11 +308,10 @@ class DryRunner {
            const Guest& guest,
            DryRunReport& all,
            CuesSeen& cues) {
-    std::string run = lines_.spoken.size() > 1 ? "in '" + language + "'" : "";
-    run += guest.name.empty() ? "" : (run.empty() ? "" : ", ") + ("visitor '" + guest.name + "'");
-    for (const std::string& problem : seen.report.problems) {
-      if (told_.insert(problem.substr(0, problem.rfind(" (at "))).second) {
-        all.problems.push_back(problem + (done_ == 0 || run.empty() ? "" : " [" + run + "]"));
+    for (const Sentence& problem : seen.report.problems) {
+      const std::string english = problem.English();
+      if (told_.insert(english.substr(0, english.rfind(" (at "))).second) {
+        all.problems.push_back(done_ == 0 ? problem : OfRun(problem, language, guest.name));
       }
     }
     if (done_ == 0) {
@@ -340,6 +334,20 @@ class DryRunner {
         known->fired = known->fired || cue.fired;
       }
     }
+  }
+
+  // With what tells the run from others.
+  Sentence OfRun(const Sentence& problem,
+                 const std::string& language,
+                 const std::string& visitor) const {
+    const bool tells_language = lines_.spoken.size() > 1;
+    if (tells_language && !visitor.empty()) {
+      return Sentence("%s [in '%s', visitor '%s']", {problem, language, visitor});
+    }
+    if (tells_language) {
+      return Sentence("%s [in '%s']", {problem, language});
+    }
+    return visitor.empty() ? problem : Sentence("%s [visitor '%s']", {problem, visitor});
   }
 
   int64_t Ticks() const {

@@ -3,7 +3,6 @@
 // The drama run without pictures, to find what is wrong with it: in each of its languages,
 // for nobody and for each visitor that was recorded.
 
-#include <string>
 #include <vector>
 
 #include "editor/app/lines.h"
@@ -11,12 +10,13 @@
 #include "editor/app/project.h"
 #include "shared/core/json.h"
 #include "shared/core/progress.h"
+#include "shared/core/sentence.h"
 
 namespace lararium::app {
 
 struct DryRunReport {
-  std::vector<std::string> problems;  // each with its place in the script, where it has one
-  Json tasks = Json::array();         // of the first run: what everybody did when
+  std::vector<Sentence> problems;  // each with its place in the script, where it has one
+  Json tasks = Json::array();      // of the first run: what everybody did when
   Json seeks = Json::object();
   Json runs = Json::array();  // each run's language and visitor
 };

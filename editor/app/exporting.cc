@@ -71,7 +71,7 @@ Status PackTexts(const ProjectPaths& paths,
     content.paradata = stage::FormatParadata(paradata);
   }
   if (!lines.captions.empty() || !paradata.empty()) {
-    std::vector<std::string> ignored;  // check tells them
+    std::vector<Sentence> ignored;  // check tells them
     LARARIUM_ASSIGN_OR_RETURN(const render::CaptionFont font,
                               MakeCaptionFont(lines, paradata, ignored));
     LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFontFiles files, bake::FormatCaptionFont(font));

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
+#include <utility>
 
+#include "editor/app/check_sentences.h"
+#include "editor/app/text.h"
 #include "editor/bake/caption_layout.h"
 #include "shared/core/file.h"
 #include "shared/drama/lua_tokens.h"
@@ -17,12 +19,6 @@ namespace {
 
 // Captions are laid out for 17 letters a second; above this nobody keeps up.
 constexpr double kFastestReading = 24.0;
-
-std::string Seconds(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f s", seconds);
-  return text;
-}
 
 bool Has(const std::vector<std::string>& list, std::string_view item) {
   return std::find(list.begin(), list.end(), item) != list.end();
@@ -56,19 +52,19 @@ std::vector<WrittenLine> FindSayings(const std::string& script) {
   return found;
 }
 
-// What is wrong with naming a line in the script; "": nothing.
-std::string ProblemOf(const ProjectDocument& document,
-                      const ProjectLines& lines,
-                      const std::string& id,
-                      bool described) {
+// What is wrong with naming a line in the script; none: nothing.
+std::optional<Sentence> ProblemOf(const ProjectDocument& document,
+                                  const ProjectLines& lines,
+                                  const std::string& id,
+                                  bool described) {
   const bake::Line* line = lines.table.Find(id);
   if (line == nullptr) {
-    return "there is no line '" + id + "'; add it to lines.csv";
+    return Sentence("there is no line '%s'; add it to lines.csv", {id});
   }
   if (described && !ProjectLines::Describes(*line, document)) {
-    return "the line '" + id + "' is described, so its speaker must be 'description'";
+    return Sentence("the line '%s' is described, so its speaker must be 'description'", {id});
   }
-  return "";
+  return std::nullopt;
 }
 
 // The longest that a line takes in any of the spoken languages.
@@ -88,7 +84,7 @@ std::optional<double> SecondsOf(const std::vector<SpokenLine>& spoken, std::stri
   return longest;
 }
 
-// Where lines stand in their file: "lines.csv:12".
+// Where lines stand in their file: "lines.csv:12: line 'salvete'".
 class LinePlaces {
  public:
   explicit LinePlaces(const std::filesystem::path& folder) {
@@ -100,16 +96,16 @@ class LinePlaces {
     }
   }
 
-  std::string Of(const std::string& id) const {
+  Sentence Of(const std::string& id) const {
     size_t row = 1;
     for (size_t begin = 0; begin < text_.size(); ++row) {
       const size_t end = std::min(text_.find('\n', begin), text_.size());
       if (IsRowOf(std::string_view(text_).substr(begin, end - begin), id)) {
-        return file_ + ":" + std::to_string(row) + ": line '" + id + "'";
+        return Sentence("%s: line '%s'", {file_ + ":" + std::to_string(row), id});
       }
       begin = end + 1;
     }
-    return file_ + ": line '" + id + "'";
+    return Sentence("%s: line '%s'", {file_, id});
   }
 
  private:
@@ -132,26 +128,30 @@ class LinePlaces {
 void CheckTexts(const LinePlaces& places,
                 const ProjectDocument& document,
                 const ProjectLines& lines,
-                std::vector<std::string>& problems) {
+                std::vector<Sentence>& problems) {
   std::set<std::string> cast;
   for (const CastDocument& member : document.cast) {
     cast.insert(member.name);
   }
   for (const bake::Line& line : lines.table.lines) {
-    const std::string where = places.Of(line.id);
+    const Sentence where = places.Of(line.id);
     const bool name = ProjectLines::IsName(line, document);
     const bool describes = ProjectLines::Describes(line, document);
     if (!name && line.speaker.empty()) {
-      problems.push_back(where + ": it has no speaker; whoever says it has the plain voice");
+      problems.push_back(
+          AtPlace(where, Sentence("it has no speaker; whoever says it has the plain voice")));
     } else if (!name && !describes && !cast.contains(line.speaker)) {
-      problems.push_back(where + ": nobody of the cast is called '" + line.speaker + "'");
+      problems.push_back(
+          AtPlace(where, Sentence("nobody of the cast is called '%s'", {line.speaker})));
     }
     for (const std::string& language : lines.table.languages) {
       const bool spoken = !name && !describes && Has(lines.spoken, language);
       const bool read = Has(lines.captions, language);
       if ((spoken || read) && !line.text.contains(language)) {
-        problems.push_back(where + ": it has no text in '" + language + "', which is " +
-                           (spoken ? "spoken" : "a language of captions"));
+        problems.push_back(AtPlace(
+            where, spoken ? Sentence("it has no text in '%s', which is spoken", {language})
+                          : Sentence("it has no text in '%s', which is a language of captions",
+                                     {language})));
       }
     }
   }
@@ -197,8 +197,8 @@ const std::string& DescriptionListener::NameOf(int line) const {
   return content_.speech[static_cast<size_t>(line)].name;
 }
 
-void DescriptionListener::Tell(const std::string& problem, double time) {
-  problems_.push_back(problem + " (at " + Seconds(time) + ")");
+void DescriptionListener::Tell(Sentence problem, double time) {
+  problems_.push_back(AtTime(std::move(problem), time));
 }
 
 void DescriptionListener::Listen(double time) {
@@ -213,15 +213,18 @@ void DescriptionListener::Listen(double time) {
         time + (longest != longest_.end() ? longest->second : stage_.SpeechSeconds(now.heard.line));
   }
   if (waiting_ >= 0 && now.waiting != waiting_ && !(begins && now.heard.line == waiting_)) {
-    Tell("the description '" + NameOf(waiting_) + "' finds no pause in which nobody speaks", time);
+    Tell(Sentence("the description '%s' finds no pause in which nobody speaks", {NameOf(waiting_)}),
+         time);
   }
   waiting_ = now.waiting;
   for (const stage::ActorId id : stage_.actors()) {
     const stage::Actor& actor = *stage_.Find(id);
     const stage::Utterance& said = actor.state.utterance;
     if (said.speaking && said.ticks == 0 && time < ends_) {
-      Tell("'" + actor.name + "' says '" + NameOf(said.line) + "' over the description '" + last_ +
-               "', which in the longest of its languages goes on for " + Seconds(ends_ - time),
+      Tell(Sentence(
+               "'%s' says '%s' over the description '%s', which in the longest of its languages "
+               "goes on for %s",
+               {actor.name, NameOf(said.line), last_, SecondsText(ends_ - time)}),
            time);
     }
   }
@@ -242,17 +245,16 @@ std::map<std::string, double> LongestDescriptions(const ProjectPaths& paths,
   return longest;
 }
 
-std::vector<std::string> CheckScriptLines(const ProjectPaths& paths,
-                                          const ProjectDocument& document,
-                                          const ProjectLines& lines,
-                                          const std::string& script) {
-  std::vector<std::string> problems;
+std::vector<Sentence> CheckScriptLines(const ProjectPaths& paths,
+                                       const ProjectDocument& document,
+                                       const ProjectLines& lines,
+                                       const std::string& script) {
+  std::vector<Sentence> problems;
   const std::string file = paths.Drama().filename().string();
   for (const WrittenLine& written : FindSayings(script)) {
-    const std::string problem = ProblemOf(document, lines, written.id, written.described);
-    if (!problem.empty()) {
+    if (auto problem = ProblemOf(document, lines, written.id, written.described)) {
       const drama::LuaPosition position = drama::PositionOf(script, written.offset);
-      problems.push_back(file + ":" + std::to_string(position.line) + ": " + problem);
+      problems.push_back(AtPlace(file + ":" + std::to_string(position.line), *std::move(problem)));
     }
   }
   const auto timeline = drama::TimelineText::Read(script, file);
@@ -269,26 +271,25 @@ std::vector<std::string> CheckScriptLines(const ProjectPaths& paths,
       if (!id || !id->is_string()) {
         continue;
       }
-      const std::string where = file + ":" + std::to_string(timeline->LineOf({l, i})) + ": ";
-      const std::string problem = ProblemOf(document, lines, id->get<std::string>(), described);
-      if (!problem.empty()) {
-        problems.push_back(where + problem);
+      const std::string where = file + ":" + std::to_string(timeline->LineOf({l, i}));
+      if (auto problem = ProblemOf(document, lines, id->get<std::string>(), described)) {
+        problems.push_back(AtPlace(where, *std::move(problem)));
       }
       const std::optional<double> seconds = SecondsOf(*spoken, id->get<std::string>());
       if (seconds && lane.length[i] > 0.0 && *seconds > lane.length[i] + 0.01) {
-        problems.push_back(where + "the line '" + id->get<std::string>() + "' lasts " +
-                           Seconds(*seconds) + ", its place " + Seconds(lane.length[i]));
+        problems.push_back(AtPlace(where, Sentence("the line '%s' lasts %s, its place %s",
+                                                   {id->get<std::string>(), SecondsText(*seconds),
+                                                    SecondsText(lane.length[i])})));
       }
     }
   }
   return problems;
 }
 
-std::vector<std::string> CheckTable(const ProjectPaths& paths,
-                                    const ProjectDocument& document,
-                                    const ProjectLines& lines) {
-  std::vector<std::string> problems;
-  const std::string place = "lines";
+std::vector<Sentence> CheckTable(const ProjectPaths& paths,
+                                 const ProjectDocument& document,
+                                 const ProjectLines& lines) {
+  std::vector<Sentence> problems;
   CheckTexts(LinePlaces(paths.folder), document, lines, problems);
   for (const std::string& language : lines.spoken) {
     const Result<stage::CaptionBook> book = MakeCaptions(paths, document, lines, language);
@@ -300,12 +301,11 @@ std::vector<std::string> CheckTable(const ProjectPaths& paths,
       for (const auto& [captions, cues] : languages) {
         const double speed = bake::ReadingSpeed(cues);
         if (speed > kFastestReading) {
-          char text[160];
-          std::snprintf(text, sizeof(text),
-                        ": its captions in '%s' leave time for %.0f letters a second where it is "
-                        "said in '%s'; shorten them",
-                        captions.c_str(), speed, language.c_str());
-          problems.push_back(place + ": line '" + id + "'" + text);
+          problems.push_back(AtPlace(
+              Sentence("%s: line '%s'", {std::string("lines"), id}),
+              Sentence("its captions in '%s' leave time for %s letters a second where it is said "
+                       "in '%s'; shorten them",
+                       {captions, Text("%.0f", speed), language})));
         }
       }
     }
@@ -323,11 +323,11 @@ std::vector<std::string> CheckTable(const ProjectPaths& paths,
   return problems;
 }
 
-std::vector<std::string> CheckSaid(const ProjectPaths& paths,
-                                   const ProjectLines& lines,
-                                   const std::vector<SaidLine>& said,
-                                   std::span<const drama::TaskRecord> tasks) {
-  std::vector<std::string> problems;
+std::vector<Sentence> CheckSaid(const ProjectPaths& paths,
+                                const ProjectLines& lines,
+                                const std::vector<SaidLine>& said,
+                                std::span<const drama::TaskRecord> tasks) {
+  std::vector<Sentence> problems;
   const auto where = [&](const SaidLine& line) {
     const auto told = std::find_if(tasks.begin(), tasks.end(), [&](const drama::TaskRecord& task) {
       return task.actor == line.actor && task.action == "say " + line.line &&
@@ -339,13 +339,13 @@ std::vector<std::string> CheckSaid(const ProjectPaths& paths,
     const std::string file = where(line);
     const bake::Line* known = lines.table.Find(line.line);
     if (known != nullptr && !known->speaker.empty() && known->speaker != line.actor) {
-      problems.push_back(file + ": '" + line.actor + "' says '" + line.line +
-                         "', which has the voice of '" + known->speaker + "' (at " +
-                         Seconds(line.begin) + ")");
+      Sentence other = Sentence("'%s' says '%s', which has the voice of '%s'",
+                                {line.actor, line.line, known->speaker});
+      problems.push_back(AtPlace(file, AtTime(std::move(other), line.begin)));
     }
     if (line.cut) {
-      problems.push_back(file + ": '" + line.actor + "' does not finish '" + line.line + "' (at " +
-                         Seconds(line.begin + line.seconds) + ")");
+      Sentence cut = Sentence("'%s' does not finish '%s'", {line.actor, line.line});
+      problems.push_back(AtPlace(file, AtTime(std::move(cut), line.begin + line.seconds)));
     }
   }
   return problems;

@@ -11,6 +11,7 @@
 
 #include "editor/app/lines.h"
 #include "editor/app/project.h"
+#include "shared/core/sentence.h"
 #include "shared/drama/drama.h"
 #include "shared/stage/stage.h"
 
@@ -63,11 +64,11 @@ class DescriptionListener {
   // That were heard.
   const std::set<std::string>& described() const { return described_; }
   // Descriptions that found no pause, lines that were begun before one had ended.
-  const std::vector<std::string>& problems() const { return problems_; }
+  const std::vector<Sentence>& problems() const { return problems_; }
 
  private:
   const std::string& NameOf(int line) const;
-  void Tell(const std::string& problem, double time);
+  void Tell(Sentence problem, double time);
 
   const stage::Stage& stage_;
   const show::ShowContent& content_;
@@ -76,7 +77,7 @@ class DescriptionListener {
   std::string last_;    // that was heard
   double ends_ = -1.0;  // when, in its longest language
   std::set<std::string> described_;
-  std::vector<std::string> problems_;
+  std::vector<Sentence> problems_;
 };
 
 // How long each description takes in the language in which it is longest, seconds. Those that
@@ -88,22 +89,22 @@ std::map<std::string, double> LongestDescriptions(const ProjectPaths& paths,
 // Lines of the script that are written out, in `a:say("line")`, in `describe("line")` and in their
 // lanes of tracks: ids that the table lacks, described lines that are none, and lanes whose items
 // are shorter than what is said in them.
-std::vector<std::string> CheckScriptLines(const ProjectPaths& paths,
-                                          const ProjectDocument& document,
-                                          const ProjectLines& lines,
-                                          const std::string& script);
+std::vector<Sentence> CheckScriptLines(const ProjectPaths& paths,
+                                       const ProjectDocument& document,
+                                       const ProjectLines& lines,
+                                       const std::string& script);
 
 // Texts that lack a language, speakers that are nobody, captions that leave too little time to
 // read, characters that the font lacks. Lines must be baked for the times.
-std::vector<std::string> CheckTable(const ProjectPaths& paths,
-                                    const ProjectDocument& document,
-                                    const ProjectLines& lines);
+std::vector<Sentence> CheckTable(const ProjectPaths& paths,
+                                 const ProjectDocument& document,
+                                 const ProjectLines& lines);
 
 // Lines that were said by somebody else than their speaker, or broken off by the next. tasks:
 // of the same run, which know where that was told.
-std::vector<std::string> CheckSaid(const ProjectPaths& paths,
-                                   const ProjectLines& lines,
-                                   const std::vector<SaidLine>& said,
-                                   std::span<const drama::TaskRecord> tasks);
+std::vector<Sentence> CheckSaid(const ProjectPaths& paths,
+                                const ProjectLines& lines,
+                                const std::vector<SaidLine>& said,
+                                std::span<const drama::TaskRecord> tasks);
 
 }  // namespace lararium::app

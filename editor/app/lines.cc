@@ -204,7 +204,7 @@ Result<stage::CaptionBook> MakeDescriptions(const ProjectPaths& paths,
 
 Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
                                             const stage::Paradata& paradata,
-                                            std::vector<std::string>& warnings) {
+                                            std::vector<Sentence>& warnings) {
   std::set<uint32_t> characters = bake::CommonCharacters();
   for (const bake::Line& line : lines.table.lines) {
     for (const std::string& language : lines.captions) {
@@ -232,7 +232,7 @@ Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
   for (const uint32_t character : made.missing) {
     char code[16];
     std::snprintf(code, sizeof(code), "U+%04X", character);
-    warnings.push_back(std::string("captions: the font has no character ") + code);
+    warnings.push_back(Sentence("captions: the font has no character %s", {std::string(code)}));
   }
   return std::move(made.font);
 }
@@ -273,7 +273,7 @@ Status AddLines(const ProjectPaths& paths,
   }
   content.language = captions.empty() ? language : captions;
   if (!captions.empty() || !content.paradata.empty()) {
-    std::vector<std::string> ignored;
+    std::vector<Sentence> ignored;
     LARARIUM_ASSIGN_OR_RETURN(content.caption_font,
                               MakeCaptionFont(lines, content.paradata, ignored));
   }

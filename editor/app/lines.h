@@ -9,6 +9,7 @@
 #include "editor/app/project.h"
 #include "editor/bake/line_table.h"
 #include "editor/bake/speech.h"
+#include "shared/core/sentence.h"
 #include "shared/core/status.h"
 #include "shared/render/caption_font.h"
 #include "shared/show/show_content.h"
@@ -61,7 +62,7 @@ Result<stage::CaptionBook> MakeDescriptions(const ProjectPaths& paths,
 // paradata: which the evidence view writes.
 Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
                                             const stage::Paradata& paradata,
-                                            std::vector<std::string>& warnings);
+                                            std::vector<Sentence>& warnings);
 
 // Adds lines, letters and speakers' names to content, whose cast is there. Fails where a line was
 // not baked, or a language is none of the project's.

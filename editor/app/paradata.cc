@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "editor/app/check_sentences.h"
 #include "editor/app/lines.h"
 #include "editor/app/sounds.h"
 #include "editor/bake/caption_font.h"
@@ -114,8 +115,9 @@ void CheckClaims(const std::string& place,
     const auto subject = static_cast<Subject>(kind);
     for (const auto& [name, claim] : paradata.claims[kind]) {
       if (!known.contains({subject, name})) {
-        report.problems.push_back(place + ": claims." + std::string(NameOf(subject)) + ": '" +
-                                  name + "' is not in the project; correct its name");
+        report.problems.push_back(
+            AtPlace(place + ": claims." + std::string(NameOf(subject)),
+                    Sentence("'%s' is not in the project; correct its name", {name})));
       }
     }
   }
@@ -132,7 +134,7 @@ void CheckSources(const std::string& place,
   }
   for (const auto& [key, reference] : paradata.sources) {
     if (!named.contains(key)) {
-      report.warnings.push_back(place + ": no claim names the source '" + key + "'");
+      report.warnings.push_back(AtPlace(place, Sentence("no claim names the source '%s'", {key})));
     }
   }
 }
@@ -157,7 +159,8 @@ void CheckLetters(const std::string& place,
   for (const uint32_t character : *missing) {
     char code[16];
     std::snprintf(code, sizeof(code), "U+%04X", character);
-    report.problems.push_back(place + ": the captions' font has no character " + code);
+    report.problems.push_back(
+        AtPlace(place, Sentence("the captions' font has no character %s", {std::string(code)})));
   }
 }
 
@@ -176,8 +179,9 @@ void CheckTexts(const std::string& place,
       }
     }
     if (!names.empty()) {
-      report.warnings.push_back(place + ": has no text in '" + language +
-                                "', and visitors read another language, of: " + Joined(names));
+      report.warnings.push_back(
+          AtPlace(place, Sentence("has no text in '%s', and visitors read another language, of: %s",
+                                  {language, Joined(names)})));
     }
   }
 }
@@ -236,8 +240,8 @@ ParadataReport CheckParadata(const ProjectPaths& paths, const ProjectDocument& d
   for (const auto& [subject, names] : without) {
     const std::string kind(NameOf(subject));
     report.json["without"][kind] = names;
-    report.warnings.push_back(place + ": says of these " + kind +
-                              " not how certain they are: " + Joined(names));
+    report.warnings.push_back(AtPlace(
+        place, Sentence("says of these %s not how certain they are: %s", {kind, Joined(names)})));
   }
   for (size_t i = 1; i < counts.size(); ++i) {
     report.json[std::string(NameOf(static_cast<stage::Certainty>(i)))] = counts[i];

@@ -8,6 +8,7 @@
 
 #include "editor/app/project.h"
 #include "shared/core/json.h"
+#include "shared/core/sentence.h"
 #include "shared/core/status.h"
 #include "shared/stage/paradata.h"
 
@@ -30,9 +31,9 @@ std::vector<ProjectSubject> ListSubjects(const ProjectPaths& paths,
                                          const ProjectDocument& document);
 
 struct ParadataReport {
-  std::vector<std::string> problems;  // claims about what is not there, letters that lack
-  std::vector<std::string> warnings;  // what is without certainty, sources that nothing names
-  Json json;                          // "attested": count, ..., "without": {kind: [names]}
+  std::vector<Sentence> problems;  // claims about what is not there, letters that lack
+  std::vector<Sentence> warnings;  // what is without certainty, sources that nothing names
+  Json json;                       // "attested": count, ..., "without": {kind: [names]}
 };
 ParadataReport CheckParadata(const ProjectPaths& paths, const ProjectDocument& document);
 

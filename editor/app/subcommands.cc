@@ -1,25 +1,17 @@
 #include "editor/app/subcommands.h"
 
-#include <algorithm>
-#include <cstdio>
-#include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "editor/app/baking.h"
 #include "editor/app/credits.h"
-#include "editor/app/dry_run.h"
 #include "editor/app/exporting.h"
-#include "editor/app/line_checks.h"
 #include "editor/app/lines.h"
-#include "editor/app/paradata.h"
 #include "editor/app/project.h"
+#include "editor/app/project_check.h"
 #include "editor/app/rendering.h"
 #include "editor/app/sounds.h"
-#include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
-#include "editor/bake/probe.h"
 #include "shared/bundle/bundle_writer.h"
 #include "shared/core/file.h"
 #include "shared/stage/stage.h"
@@ -58,82 +50,6 @@ Status FillStage(const ProjectPaths& paths,
   }
   return stage.SetFloor({}, places);
 }
-
-namespace {
-
-// Lines that cannot be read are a problem, and none.
-ProjectLines CheckLines(const ProjectPaths& paths,
-                        const ProjectDocument& document,
-                        std::vector<std::string>& problems) {
-  Result<ProjectLines> lines = LoadProjectLines(paths, document);
-  if (!lines.ok()) {
-    problems.push_back(lines.message());
-    return {};
-  }
-  for (std::string& problem : CheckTable(paths, document, *lines)) {
-    problems.push_back(std::move(problem));
-  }
-  if (const Result<std::string> script = ReadText(paths.Drama()); script.ok()) {
-    for (std::string& problem : CheckScriptLines(paths, document, *lines, *script)) {
-      problems.push_back(std::move(problem));
-    }
-  }
-  return *std::move(lines);
-}
-
-// What is wrong with a place's probes, each with its file; adds to warnings what was mended.
-std::vector<std::string> CheckProbes(const ProjectPaths& paths,
-                                     const PlaceDocument& place,
-                                     std::vector<std::string>& warnings) {
-  std::vector<std::string> problems;
-  for (const ProbeDocument& probe : place.probes) {
-    const std::filesystem::path file = paths.Resolve(probe.file);
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-      continue;  // FindMissingFiles() says so
-    }
-    const Result<bake::ProbeImage> image = bake::ReadProbeImage(file);
-    if (!image.ok()) {
-      problems.push_back(image.message());
-      continue;
-    }
-    for (const std::string& warning : image->warnings) {
-      warnings.push_back(file.string() + ": " + warning);
-    }
-  }
-  return problems;
-}
-
-// What CheckPlace() gathers of all places.
-struct PlacesChecked {
-  std::string text;  // how well their stages are known
-  Json stages = Json::object();
-  std::vector<std::string> problems;
-  std::vector<std::string> warnings;
-};
-
-// What keeps a place from being shown, and whether the stage lies there as it should.
-Status CheckPlace(const ProjectPaths& paths,
-                  const ProjectDocument& document,
-                  const PlaceDocument& place,
-                  PlacesChecked& checked) {
-  for (std::string& problem : CheckProbes(paths, place, checked.warnings)) {
-    checked.problems.push_back(std::move(problem));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
-  const StageReport stage = ReportStage(document, place, map);
-  checked.text += place.name + ":\n" + stage.text;
-  checked.stages[place.name] = stage.json;
-  LARARIUM_RETURN_IF_ERROR(map.picks.problem);
-  if (!document.check_points.empty() && stage.points.verdict != CheckReport::Verdict::kGood) {
-    const bool poor = stage.points.verdict == CheckReport::Verdict::kPoor;
-    (poor ? checked.problems : checked.warnings)
-        .push_back("check points of " + place.name + ": " + CheckAdvice(stage.points, false));
-  }
-  return AssembleShow(paths, document, place, map.database, map.picks.map_from_picked).status();
-}
-
-}  // namespace
 
 Result<std::string> ChoosePlace(const ProjectPaths& paths,
                                 const ProjectDocument& document,
@@ -179,58 +95,8 @@ Result<CommandResult> RunBake(const BakeOptions& options, Progress& progress) {
 }
 
 Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress) {
-  const ProjectPaths paths{options.project};
-  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
-  std::vector<std::string> problems;
-  for (const Status& missing : FindMissingFiles(paths, document)) {
-    problems.push_back(missing.message());
-  }
-  if (document.places.empty()) {
-    problems.push_back(paths.Project().string() + ": has no place; train one");
-  }
-  PlacesChecked places;
-  for (const PlaceDocument& place : document.places) {
-    const Status problem = CheckPlace(paths, document, place, places);
-    if (!problem.ok()) {
-      problems.push_back(problem.message());
-    }
-  }
-  problems.insert(problems.end(), places.problems.begin(), places.problems.end());
-  std::vector<std::string>& warnings = places.warnings;
-  for (const Status& problem : FindSilences(paths, document)) {
-    problems.push_back(problem.message());
-  }
-  const ParadataReport paradata = CheckParadata(paths, document);
-  problems.insert(problems.end(), paradata.problems.begin(), paradata.problems.end());
-  warnings.insert(warnings.end(), paradata.warnings.begin(), paradata.warnings.end());
-  const ProjectLines lines = CheckLines(paths, document, problems);
-  const DryRunReport run = DryRunAll(paths, document, lines, options, progress);
-  problems.insert(problems.end(), run.problems.begin(), run.problems.end());
-  if (progress.Cancelled()) {
-    return Status::Error("check", "cancelled");
-  }
-  // What several parts need is reported by each of them.
-  std::sort(problems.begin(), problems.end());
-  problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
-  CommandResult result;
-  result.text = places.text;
-  for (const std::string& warning : warnings) {
-    result.text += "warning: " + warning + "\n";
-  }
-  for (const std::string& problem : problems) {
-    result.text += problem + "\n";
-  }
-  if (problems.empty()) {
-    result.text += "no problems\n";
-  }
-  result.json = {{"problems", problems},      {"warnings", warnings}, {"stages", places.stages},
-                 {"paradata", paradata.json}, {"tasks", run.tasks},   {"seeks", run.seeks},
-                 {"runs", run.runs}};
-  if (options.seeks > 0) {
-    result.text += "seeks: " + run.seeks.dump() + "\n";
-  }
-  result.failed = !problems.empty();
-  return result;
+  LARARIUM_ASSIGN_OR_RETURN(CheckedProject checked, CheckProject(options, progress));
+  return std::move(checked.result);
 }
 
 Result<CommandResult> RunCredits(const CreditsOptions& options) {

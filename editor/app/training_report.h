@@ -10,6 +10,7 @@
 
 #include "editor/app/place_recordings.h"
 #include "editor/app/project.h"
+#include "editor/train/capture_advice.h"
 #include "editor/train/trainer.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
@@ -27,7 +28,7 @@ struct TrainingReport {
   int64_t ended = 0;                         // seconds since 1970
   double seconds = 0.0;                      // that it took
   std::optional<double> focal_deviation_px;  // standard deviation; none: the focal length was given
-  std::vector<std::string> advice;           // what to film next, the most urgent first; English
+  std::vector<train::CaptureAdvice> advice;  // what to film next, the most urgent first
 
   // Of the whole map.
   int keyframes = 0;
@@ -44,9 +45,11 @@ TrainingReport DescribeTraining(const PlaceRecordings& recordings,
 
 // For terminals, English, several lines.
 std::string TrainingText(const std::string& place, const TrainingReport& report);
-// {"error_95_px", "total_seconds", "advice"}: what only a report has.
+// {"error_95_px", "total_seconds", "advice"}: what only a report has; advice in English sentences.
 Json TrainingJson(const TrainingReport& report);
 
+// Advice that earlier versions wrote, as sentences, or later ones, of kinds that are not known
+// here, is said as it was written.
 Result<TrainingReport> LoadTrainingReport(const std::filesystem::path& file);
 Status SaveTrainingReport(const std::filesystem::path& file, const TrainingReport& report);
 

@@ -37,6 +37,7 @@
 #include "editor/train/mesh_alignment.h"
 #include "editor/train/trainer.h"
 #include "shared/core/log.h"
+#include "shared/core/sentence.h"
 #include "shared/core/status.h"
 #include "shared/stage/place.h"
 #include "shared/vision/scene_database.h"
@@ -187,9 +188,9 @@ class Workspace {
   // All that is wrong with the project as it is saved, as the subcommand check tells it.
   void Check();
   bool checked() const { return checked_; }
-  const std::vector<std::string>& problems() const { return problems_; }
+  const std::vector<Sentence>& problems() const { return problems_; }
   // What it found that is right, but perhaps not meant.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<Sentence>& warnings() const { return warnings_; }
   // Saves first.
   void Export(const ExportRequest& request);
   // What was exported last in this window; nullptr before that. And why the last export failed;
@@ -435,8 +436,8 @@ class Workspace {
   std::optional<Refinement> refinement_;
   std::shared_ptr<const ExportedShow> exported_;
   std::string export_problem_;
-  std::vector<std::string> problems_;
-  std::vector<std::string> warnings_;
+  std::vector<Sentence> problems_;
+  std::vector<Sentence> warnings_;
   CastPictures cast_pictures_;
   std::shared_ptr<const CastCatalogue> catalogue_;
   std::string catalogue_problem_;

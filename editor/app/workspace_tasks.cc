@@ -5,8 +5,8 @@
 #include "editor/app/exporting.h"
 #include "editor/app/file_stamp.h"
 #include "editor/app/player_trial.h"
+#include "editor/app/project_check.h"
 #include "editor/app/sounds.h"
-#include "editor/app/subcommands.h"
 #include "editor/app/workspace.h"
 
 namespace lararium::app {
@@ -63,13 +63,13 @@ void Workspace::RunDramaAgain() {
 }
 
 void Workspace::Check() {
-  const auto result = std::make_shared<CommandResult>();
+  const auto result = std::make_shared<CheckedProject>();
   tasks_.Start(
       kChecking,
       [result, project = paths_.folder](Progress& progress) {
         CheckOptions options;
         options.project = project;
-        LARARIUM_ASSIGN_OR_RETURN(*result, RunCheck(options, progress));
+        LARARIUM_ASSIGN_OR_RETURN(*result, CheckProject(options, progress));
         return Status();
       },
       [this, result](const Status& status, bool cancelled) {
@@ -77,19 +77,11 @@ void Workspace::Check() {
           return;
         }
         checked_ = true;
-        problems_.clear();
-        warnings_.clear();
+        problems_ = std::move(result->problems);
+        warnings_ = std::move(result->warnings);
         if (!status.ok()) {
-          problems_.push_back(status.message());
-          return;
+          problems_ = {status.message()};
         }
-        const auto take = [&](const char* kind, std::vector<std::string>& texts) {
-          for (const Json& text : result->json.value(kind, Json::array())) {
-            texts.push_back(text.get<std::string>());
-          }
-        };
-        take("problems", problems_);
-        take("warnings", warnings_);
       });
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +19,7 @@ namespace lararium::panels {
 namespace {
 
 struct Problem {
-  std::string text;
+  Sentence text;
   bool warning = false;  // it may be meant so
 };
 
@@ -29,11 +28,13 @@ struct Problem {
 std::vector<Problem> Problems(const app::Workspace& workspace) {
   std::vector<Problem> problems;
   std::set<std::string> known;
-  const auto add = [&](std::span<const std::string> texts, bool warning) {
-    for (const std::string& text : texts) {
+  const auto add = [&](const auto& texts, bool warning) {
+    for (const auto& text : texts) {
+      const Sentence sentence = text;
       // The same error with and without its time is one.
-      if (known.insert(text.substr(0, text.rfind(" (at "))).second) {
-        problems.push_back({text, warning});
+      const std::string english = sentence.English();
+      if (known.insert(english.substr(0, english.rfind(" (at "))).second) {
+        problems.push_back({sentence, warning});
       }
     }
   };
@@ -100,10 +101,10 @@ void GoTo(app::Workspace& workspace, EditorState& state, const std::string& prob
 void ShowProblem(app::Workspace& workspace, EditorState& state, const Problem& problem) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  const char* text = problem.text.c_str();
-  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, width - Px(30));
+  const std::string text = problem.text.Translated(Tr);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - Px(30));
   if (ImGui::Selectable("##problem", false, ImGuiSelectableFlags_None, ImVec2(0, size.y + Px(4)))) {
-    GoTo(workspace, state, problem.text);
+    GoTo(workspace, state, problem.text.English());
   }
   Tip(Tr("Goes to its place: the item of the timeline, the line of the script, or the thing."));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -112,7 +113,7 @@ void ShowProblem(app::Workspace& workspace, EditorState& state, const Problem& p
                Packed(problem.warning ? Colours().warning : Colours().error),
                IconText(problem.warning ? Icon::kWarning : Icon::kError).c_str());
   draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), ImVec2(at.x + Px(26), y),
-               Packed(Colours().text), text, nullptr, width - Px(30));
+               Packed(Colours().text), text.c_str(), nullptr, width - Px(30));
 }
 
 }  // namespace

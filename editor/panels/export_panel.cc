@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "editor/app/task_text.h"
 #include "editor/panels/checks_panel.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -181,7 +182,9 @@ void ShowDuring(app::BackgroundTask& task, EditorState& state) {
   const app::BackgroundTask::State now = task.state();
   Hint(Tr("The window can be used meanwhile: the export goes on when this is closed."));
   ImGui::Dummy(ImVec2(0, Px(6)));
-  ImGui::TextUnformatted(now.cancelling ? Tr("Stopping\xe2\x80\xa6") : (now.step + " ").c_str());
+  const std::string text =
+      now.cancelling ? Tr("Stopping\xe2\x80\xa6") : app::TaskText(task.name(), now);
+  ImGui::TextUnformatted(text.c_str());
   ImGui::ProgressBar(static_cast<float>(now.fraction), ImVec2(-FLT_MIN, Px(8)), "");
   switch (DialogButtons(Tr("Close"), "", Tr("Stop"))) {
     case DialogAnswer::kAct:

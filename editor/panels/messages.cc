@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "editor/app/task_text.h"
 #include "editor/panels/icons.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
-#include "shared/core/lower_case.h"
 
 namespace lararium::panels {
 
@@ -43,19 +43,8 @@ Icon IconOf(app::Message::Level level) {
 
 void ShowTask(app::BackgroundTask& task) {
   const app::BackgroundTask::State state = task.state();
-  std::string text = Tr(task.name().c_str());
-  // What is one step is called alike.
-  if (!state.step.empty() && state.step != LowerCase(task.name())) {
-    text += std::string(": ") + Tr(state.step.c_str());
-  }
-  if (state.count > 0) {
-    text += " " + Text(Tr("(%d of %d)"), state.number, state.count);
-  }
-  if (const auto left = app::EstimateSecondsLeft(state.fraction, state.seconds)) {
-    text += ", " + Text(Tr("%s left"), app::FormatDuration(*left).c_str());
-  }
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(app::TaskText(task.name(), state).c_str());
   ImGui::SameLine(0.0f, Px(12));
   const float height = Px(6);
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (ImGui::GetFrameHeight() - height));

@@ -101,12 +101,16 @@ void ScriptPanel::CollectProblems(const app::Workspace& workspace) {
   problem_count_ = found;
   problems_.clear();
   const std::string file = workspace.paths().Drama().filename().string();
-  const auto add = [&](const std::string& message) {
+  const auto add = [&](const Sentence& problem) {
+    const std::string message = problem.English();
     const int line = LineOfPlace(message, file);
     if (line > 0) {
-      std::string& at = problems_[line];
-      if (at.find(message) == std::string::npos) {
-        at += (at.empty() ? "" : "\n") + message;
+      std::vector<Sentence>& at = problems_[line];
+      const bool told = std::any_of(at.begin(), at.end(), [&](const Sentence& other) {
+        return other.English().find(message) != std::string::npos;
+      });
+      if (!told) {
+        at.push_back(problem);
       }
     }
   };
@@ -185,7 +189,9 @@ void ScriptPanel::DrawGutter(const FieldView& view) {
                                      ImVec2(view.at.x + view.gutter, y + view.line))) {
         ImGui::BeginTooltip();
         ImGui::PushTextWrapPos(Px(560));
-        ImGui::TextUnformatted(problem->second.c_str());
+        for (const Sentence& sentence : problem->second) {
+          ImGui::TextUnformatted(sentence.Translated(Tr).c_str());
+        }
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();
       }

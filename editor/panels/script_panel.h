@@ -12,6 +12,7 @@
 #include "editor/app/workspace.h"
 #include "editor/panels/editor_state.h"
 #include "editor/panels/lua_colours.h"
+#include "shared/core/sentence.h"
 
 namespace lararium::panels {
 
@@ -34,10 +35,10 @@ class ScriptPanel {
   std::optional<drama::TextEdit> outside_;  // what made it of the text before, not by typing
   int64_t problems_of_ = -1;                // run and revision that problems_ are of
   size_t problem_count_ = 0;
-  std::vector<size_t> lines_;            // where each begins
-  std::vector<ColouredWord> words_;      // of buffer_
-  std::map<int, std::string> problems_;  // by line, from 1
-  size_t cursor_ = 0;                    // bytes
+  std::vector<size_t> lines_;                      // where each begins
+  std::vector<ColouredWord> words_;                // of buffer_
+  std::map<int, std::vector<Sentence>> problems_;  // by line, from 1
+  size_t cursor_ = 0;                              // bytes
   size_t typed_line_ = 0;
   double since_typed_ = 0.0;  // seconds
   bool typing_ = false;

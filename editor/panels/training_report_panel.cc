@@ -44,7 +44,7 @@ void ShowAdvice(const app::TrainingReport& report) {
     ImGui::Bullet();
     ImGui::SameLine(0.0f, Px(14));
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(report.advice[i].c_str());
+    ImGui::TextUnformatted(train::AdviceSentence(report.advice[i]).Translated(Tr).c_str());
     ImGui::PopTextWrapPos();
   }
   if (shown < report.advice.size()) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -15,16 +14,10 @@ namespace {
 
 using geometry::Rigid3;
 using vision::Observation;
+using Kind = CaptureAdvice::Kind;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kGlance = 30.0 * kDegree;  // to either side, as visitors do
-
-std::string Fixed(double value, int decimals) {
-  std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::fixed, decimals);
-  return {text.data(), end.ptr};
-}
 
 // ------------------------------------------------------------ histograms
 
@@ -306,36 +299,27 @@ class Adviser {
     }
   }
 
-  std::vector<std::string> Advise() {
+  std::vector<CaptureAdvice> Advise() {
     AdviseOnGaps();
     AdviseOnParallax();
     AdviseOnSteps();
     AdviseOnCamera();
     AdviseOnExposure();
     if (advice_.empty()) {
-      advice_.push_back(
-          "Nothing is missing: every stretch was located, and visitors near the path will be "
-          "located well.");
+      advice_.push_back({.kind = Kind::kEnough});
     }
     return std::move(advice_);
   }
 
  private:
-  std::string Distance(double units) const {
-    if (metres_per_unit_) {
-      return "about " + Fixed(units * *metres_per_unit_, 1) + " m";
-    }
-    const double share = units / predictor_.median_depth();
-    return share < 0.95 ? "about " + Fixed(100.0 * share, 0) + " % of the distance to what is seen"
-                        : "about as far as what is seen is away";
+  WalkDistance Distance(double units) const {
+    return metres_per_unit_ ? WalkDistance{units * *metres_per_unit_, true}
+                            : WalkDistance{units / predictor_.median_depth(), false};
   }
 
-  static std::string Frames(const std::string& first, const std::string& last) {
-    return first == last ? "frame " + first : "frames " + first + " to " + last;
-  }
-
-  // " (at the left end)" where a stretch lies at an end of the walk.
-  std::string Where(size_t first, size_t last) const {
+  // Where a stretch lies at an end of the walk.
+  CaptureAdvice::End Where(size_t first, size_t last) const {
+    using End = CaptureAdvice::End;
     Eigen::Vector2d low = stops_.front().place;
     Eigen::Vector2d high = low;
     for (const Stop& stop : stops_) {
@@ -349,15 +333,15 @@ class Adviser {
     const Eigen::Vector2d extent = high - low;
     const int axis = extent.x() >= extent.y() ? 0 : 1;
     if (!(extent[axis] > 0.0) || last - first + 1 == stops_.size()) {
-      return "";
+      return End::kNone;
     }
     const double share = (middle[axis] - low[axis]) / extent[axis];
     if (share > 0.25 && share < 0.75) {
-      return "";
+      return End::kNone;
     }
-    static constexpr std::array<std::array<const char*, 2>, 2> kEnds = {
-        {{"left", "right"}, {"near", "far"}}};
-    return std::string(" (at the ") + kEnds[axis][share > 0.5 ? 1 : 0] + " end of the plan)";
+    static constexpr std::array<std::array<End, 2>, 2> kEnds = {
+        {{End::kLeft, End::kRight}, {End::kNear, End::kFar}}};
+    return kEnds[static_cast<size_t>(axis)][share > 0.5 ? 1 : 0];
   }
 
   // Calls say(first, last) for runs of at least min_run stops that are bad.
@@ -388,15 +372,13 @@ class Adviser {
         continue;
       }
       const auto& frames = report_.frame_reports;
-      advice_.push_back("The " + Frames(frames[weak.first].name, frames[weak.last].name) +
-                        " could not be located (" + std::string(Title(weak.reason)) +
-                        "): " + std::string(Remedy(weak.reason)) + ".");
+      advice_.push_back({.kind = Kind::kNotLocated,
+                         .first = frames[weak.first].name,
+                         .last = frames[weak.last].name,
+                         .reason = weak.reason});
     }
     if (shorter > 0) {
-      advice_.push_back(std::to_string(shorter) +
-                        (shorter == 1 ? " short stretch" : " short stretches") +
-                        " of one or two frames could not be located; the frames around make up "
-                        "for them. Move more slowly there if you film again.");
+      advice_.push_back({.kind = Kind::kShortGaps, .value = static_cast<double>(shorter)});
     }
   }
 
@@ -418,10 +400,13 @@ class Adviser {
       const double angle =
           Median(std::vector<double>(medians.begin() + static_cast<ptrdiff_t>(first),
                                      medians.begin() + static_cast<ptrdiff_t>(last) + 1));
-      advice_.push_back("What " + Frames(stops_[first].name, stops_[last].name) + " show" +
-                        Where(first, last) + " was seen from one side only (directions differ by " +
-                        Fixed(angle / kDegree, 1) + " degrees): walk past it sideways by " +
-                        Distance(2.0 * std::tan(0.5 * kWanted) * predictor_.median_depth()) + ".");
+      advice_.push_back(
+          {.kind = Kind::kOneSide,
+           .first = stops_[first].name,
+           .last = stops_[last].name,
+           .end = Where(first, last),
+           .value = angle / kDegree,
+           .walk = Distance(2.0 * std::tan(0.5 * kWanted) * predictor_.median_depth())});
     });
   }
 
@@ -432,24 +417,17 @@ class Adviser {
       return;
     }
     struct Way {
-      const char* words;
-      const char* remedy;
+      Kind kind;
       Eigen::Vector3d offset;  // plan axes: right, ahead
       double turn;             // radians, to the right
     };
     const std::array<Way, 6> ways = {{
-        {"steps to the left", "walk the same way again further left", {-step, 0, 0}, 0.0},
-        {"steps to the right", "walk the same way again further right", {step, 0, 0}, 0.0},
-        {"goes nearer", "walk the same way again from nearer", {0, step, 0}, 0.0},
-        {"steps back", "walk the same way again from further back", {0, -step, 0}, 0.0},
-        {"turns to the left",
-         "film what lies to the left too, walking past it",
-         {0, 0, 0},
-         -kGlance},
-        {"turns to the right",
-         "film what lies to the right too, walking past it",
-         {0, 0, 0},
-         kGlance},
+        {Kind::kStepLeft, {-step, 0, 0}, 0.0},
+        {Kind::kStepRight, {step, 0, 0}, 0.0},
+        {Kind::kStepNearer, {0, step, 0}, 0.0},
+        {Kind::kStepBack, {0, -step, 0}, 0.0},
+        {Kind::kTurnLeft, {0, 0, 0}, -kGlance},
+        {Kind::kTurnRight, {0, 0, 0}, kGlance},
     }};
     constexpr size_t kMaxStops = 60;
     const size_t stride = (stops_.size() + kMaxStops - 1) / kMaxStops;
@@ -473,11 +451,12 @@ class Adviser {
         }
         const size_t from = looked_at[first];
         const size_t to = looked_at[last];
-        advice_.push_back("A visitor at " + Frames(stops_[from].name, stops_[to].name) +
-                          Where(from, to) + " who " + way.words +
-                          (way.turn == 0.0 ? " by " + Distance(step) : " by 30 degrees") +
-                          " will be located poorly (about " + Fixed(Median(matches), 0) +
-                          " points found again): " + way.remedy + ".");
+        advice_.push_back({.kind = way.kind,
+                           .first = stops_[from].name,
+                           .last = stops_[to].name,
+                           .end = Where(from, to),
+                           .value = Median(matches),
+                           .walk = way.turn == 0.0 ? Distance(step) : WalkDistance()});
       });
     }
   }
@@ -496,16 +475,13 @@ class Adviser {
     constexpr double kUncertain = 0.01;
     const double focal = report_.camera.Focal();
     if (report_.intrinsics_estimated && report_.focal_deviation_px > kUncertain * focal) {
-      advice_.push_back("The focal length is known to " +
-                        Fixed(100.0 * report_.focal_deviation_px / focal, 1) +
-                        " % only: film the place from nearer and farther as well, or give the "
-                        "intrinsics.");
+      advice_.push_back(
+          {.kind = Kind::kFocal, .value = 100.0 * report_.focal_deviation_px / focal});
     }
     constexpr size_t kFewKeyframes = 10;
     if (database_.keyframes.size() < kFewKeyframes) {
-      advice_.push_back("Only " + std::to_string(database_.keyframes.size()) +
-                        " images shape the map: film a longer walk, so that visitors find it from "
-                        "more places.");
+      advice_.push_back(
+          {.kind = Kind::kFewKeyframes, .value = static_cast<double>(database_.keyframes.size())});
     }
   }
 
@@ -524,9 +500,8 @@ class Adviser {
     for (size_t session = 0; session < range.size(); ++session) {
       const float spread = range[session][1] - range[session][0];
       if (spread > kMuch) {
-        advice_.push_back("Exposure changed by " + Fixed(spread, 1) +
-                          " stops while filming session " + std::to_string(session) +
-                          ": lock it, and keep bright windows out of the image.");
+        advice_.push_back(
+            {.kind = Kind::kExposure, .value = spread, .session = static_cast<int>(session)});
       }
     }
   }
@@ -537,43 +512,10 @@ class Adviser {
   std::optional<double> metres_per_unit_;
   const CaptureAnalysis& analysis_;
   std::vector<Stop> stops_;
-  std::vector<std::string> advice_;
+  std::vector<CaptureAdvice> advice_;
 };
 
 }  // namespace
-
-std::string_view Title(WeakReason reason) {
-  switch (reason) {
-    case WeakReason::kFewFeatures:
-      return "few features";
-    case WeakReason::kBlur:
-      return "blurred";
-    case WeakReason::kFastMotion:
-      return "fast motion";
-    case WeakReason::kNotLocated:
-      return "does not fit the map";
-    case WeakReason::kFewPoints:
-      return "few points of the map in view";
-  }
-  return "";
-}
-
-std::string_view Remedy(WeakReason reason) {
-  switch (reason) {
-    case WeakReason::kFewFeatures:
-      return "turn on more light, and keep things with texture in view";
-    case WeakReason::kBlur:
-      return "film this part again, more slowly or in better light, with the focus fixed";
-    case WeakReason::kFastMotion:
-      return "film this part again, more slowly";
-    case WeakReason::kNotLocated:
-      return "film this part again so that it overlaps with the rest by two thirds, and keep "
-             "people out of the way";
-    case WeakReason::kFewPoints:
-      return "stay longer here, and walk past what is seen";
-  }
-  return "";
-}
 
 CaptureAnalysis AnalyseCapture(const TrainReport& report,
                                const vision::SceneDatabase& database,

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "editor/train/capture_advice.h"
 #include "editor/train/trainer.h"
 #include "editor/train/viewpoint_predictor.h"
 #include "shared/vision/scene_database.h"
@@ -32,16 +32,6 @@ struct Histogram {
   std::vector<std::string> labels;
   std::vector<size_t> counts;  // of the same index
 };
-
-enum class WeakReason {
-  kFewFeatures,
-  kBlur,
-  kFastMotion,
-  kNotLocated,  // for none of the reasons above
-  kFewPoints,   // located, but hardly
-};
-std::string_view Title(WeakReason reason);
-std::string_view Remedy(WeakReason reason);
 
 // A stretch of frames of one weakness.
 struct WeakFrames {
@@ -70,7 +60,7 @@ struct CaptureAnalysis {
   double noise_px = 0.0;
   double median_depth = 0.0;
   std::vector<WeakFrames> weak;
-  std::vector<std::string> advice;  // plain sentences, the most urgent first; never empty
+  std::vector<CaptureAdvice> advice;  // the most urgent first; never empty
 };
 
 // metres_per_unit: of the map, where the stage has fixed it; advice gives

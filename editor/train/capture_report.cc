@@ -258,7 +258,7 @@ class Page {
     html_ += "<section><h2>What to film next</h2>\n<ol class=\"advice\">\n";
     constexpr size_t kMost = 12;
     for (size_t i = 0; i < std::min(kMost, analysis_.advice.size()); ++i) {
-      html_ += "<li>" + Escape(analysis_.advice[i]) + "</li>\n";
+      html_ += "<li>" + Escape(AdviceSentence(analysis_.advice[i]).English()) + "</li>\n";
     }
     html_ += "</ol>\n";
     if (analysis_.advice.size() > kMost) {
@@ -631,11 +631,10 @@ class Page {
              (weak.first == weak.last ? "" : " to " + Escape(last.name)) +
              "</strong><br><span class=\"tag\" style=\"color:" +
              std::string(kQualityColours[weak.located ? 2 : 3]) + "\">" +
-             (weak.located ? "" : "not located: ") + std::string(Title(weak.reason)) +
-             "</span><br>" + std::to_string(middle.features) + " features, " +
-             std::to_string(middle.observations) + " points of the map, moved " +
-             Fixed(100.0 * middle.motion.shift, 1) + " % of the image.<br>" +
-             std::string(Remedy(weak.reason)) + ".</figcaption></figure>\n";
+             (weak.located ? "" : "not located: ") + Title(weak.reason).English() + "</span><br>" +
+             std::to_string(middle.features) + " features, " + std::to_string(middle.observations) +
+             " points of the map, moved " + Fixed(100.0 * middle.motion.shift, 1) +
+             " % of the image.<br>" + Remedy(weak.reason).English() + ".</figcaption></figure>\n";
   }
 
   // ---------------------------------------------------------- charts

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "editor/app/text.h"
 #include "tests/drama/drama_fixture.h"
 #include "tests/stage/test_props.h"
 
@@ -44,15 +45,19 @@ class DramaChecksTest : public drama::DramaTest {
     tasks_.assign(drama_->tasks().begin(), drama_->tasks().end());
     PlaceItems(script_, "drama.lua", tasks_);
   }
+  std::vector<std::string> Together() const { return EnglishOf(CheckTogether(tasks_)); }
+  std::vector<std::string> Turns() const { return EnglishOf(CheckTurns(tasks_)); }
   std::vector<std::string> Cues(bool visited) {
     CuesSeen seen;
     seen.cues.assign(drama_->cues().begin(), drama_->cues().end());
     seen.lines = lines_;
     seen.visited = visited;
     seen.seconds = 20.0;
-    return CheckCues(script_, "drama.lua", seen);
+    return EnglishOf(CheckCues(script_, "drama.lua", seen));
   }
-  std::vector<std::string> Steps() { return steps_->Problems(script_, "drama.lua", tasks_); }
+  std::vector<std::string> Steps() {
+    return EnglishOf(steps_->Problems(script_, "drama.lua", tasks_));
+  }
 
   // A wall across the stage, at z from -1 to -1.2.
   std::vector<stage::Place> Places() const {
@@ -95,8 +100,8 @@ TEST_F(DramaChecksTest, ADramaThatIsInOrderHasNoProblems) {
     end)");
   lines_ = {"salvete"};
   EXPECT_EQ(drama::FirstError(*drama_), "");
-  EXPECT_THAT(CheckTogether(tasks_), IsEmpty());
-  EXPECT_THAT(CheckTurns(tasks_), IsEmpty());
+  EXPECT_THAT(Together(), IsEmpty());
+  EXPECT_THAT(Turns(), IsEmpty());
   EXPECT_THAT(Steps(), IsEmpty());
   // timeout(15) does not fire, because the marker comes before it.
   EXPECT_THAT(Cues(false), ElementsAre(HasSubstr("no run reaches the trigger 'timeout'")));
@@ -113,8 +118,13 @@ TEST_F(DramaChecksTest, NobodyIsInTwoPlacesAtOnce) {
         {at = 2, object = "chest", action = "open"},
       },
     })");
-  const auto problems = CheckTogether(tasks_);
+  const auto problems = Together();
   ASSERT_EQ(problems.size(), 1u);
+  LoadTexts(LARARIUM_LOCALE_DIR, "it");
+  const std::string italian = CheckTogether(tasks_)[0].Translated(Tr);
+  LoadTexts(LARARIUM_LOCALE_DIR, "en");
+  EXPECT_THAT(italian, StartsWith("drama.lua:8: keeper dovrebbe essere in due posti insieme: "
+                                  "'use open chest' comincia a 2.00 s, 'walk_to' (drama.lua:5)"));
   EXPECT_THAT(problems[0], AllOf(StartsWith("drama.lua:8: keeper is to be in two places at once"),
                                  HasSubstr("'walk_to' (drama.lua:5)")));
 }
@@ -128,7 +138,7 @@ TEST_F(DramaChecksTest, WhatMayFailMayOverlap) {
       wait(0.5)
       attempt(keeper.turn_to, keeper, 90)
     end)");
-  EXPECT_THAT(CheckTogether(tasks_), IsEmpty());
+  EXPECT_THAT(Together(), IsEmpty());
 }
 
 TEST_F(DramaChecksTest, WhoWaitsForAThingIsToldWhoHasIt) {
@@ -141,7 +151,7 @@ TEST_F(DramaChecksTest, WhoWaitsForAThingIsToldWhoHasIt) {
       wait(0.5)
       guest:use("chest", "shut")
     end)");
-  EXPECT_THAT(CheckTurns(tasks_),
+  EXPECT_THAT(Turns(),
               ElementsAre(AllOf(StartsWith("drama.lua:8: guest waits"),
                                 HasSubstr("for 'chest', which keeper has: 'use open chest'"),
                                 HasSubstr("drama.lua:6"))));
@@ -268,7 +278,7 @@ std::vector<std::string> GroundProblems(const stage::Stage& stage,
     drama.Tick();
     ground.Listen(drama.time());
   }
-  return ground.Problems();
+  return EnglishOf(ground.Problems());
 }
 
 TEST_F(DramaChecksTest, PeopleWithoutAnythingThatCatchesTheirShadowsSeemToFloat) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "editor/app/text.h"
 #include "editor/bake/speech.h"
 #include "shared/core/file.h"
 #include "shared/stage/viseme_file.h"
@@ -66,7 +67,7 @@ TEST_F(LineChecksTest, MissingTextsSpeakersAndTimeToReadAreTold) {
       "It takes far longer to read all of these words than it took to say that one word aloud "
       "just now in the bar of Placidus and then there are even more of them for the visitor\n"
       "vale,,Valē!,\n");
-  const auto problems = CheckTable(paths_, document_, lines_);
+  const auto problems = EnglishOf(CheckTable(paths_, document_, lines_));
   EXPECT_THAT(problems, Contains(HasSubstr("line 'salvete': it has no text in 'la', which is")));
   EXPECT_THAT(problems, Contains(HasSubstr("nobody of the cast is called 'nobody'")));
   EXPECT_THAT(problems, Contains(HasSubstr("line 'vale': it has no text in 'en'")));
@@ -75,18 +76,39 @@ TEST_F(LineChecksTest, MissingTextsSpeakersAndTimeToReadAreTold) {
 }
 
 TEST_F(LineChecksTest, UnknownLinesOfTheScriptAreToldWithTheirPlace) {
-  const auto problems = CheckScriptLines(paths_, document_, lines_,
-                                         "function main()\n"
-                                         "  keeper:say(\"salve\")\n"
-                                         "end\n"
-                                         "track{actor = \"girl\", speech = {\n"
-                                         "  {at = 1, length = 0.5, line = \"salvete\"},\n"
-                                         "  {at = 3, length = 2, line = \"ave\"},\n"
-                                         "}}\n");
+  const auto problems = EnglishOf(CheckScriptLines(paths_, document_, lines_,
+                                                   "function main()\n"
+                                                   "  keeper:say(\"salve\")\n"
+                                                   "end\n"
+                                                   "track{actor = \"girl\", speech = {\n"
+                                                   "  {at = 1, length = 0.5, line = \"salvete\"},\n"
+                                                   "  {at = 3, length = 2, line = \"ave\"},\n"
+                                                   "}}\n"));
   EXPECT_THAT(problems, Contains("drama.lua:2: there is no line 'salve'; add it to lines.csv"));
   EXPECT_THAT(problems,
               Contains(HasSubstr("drama.lua:5: the line 'salvete' lasts 1.00 s, its place 0.50")));
   EXPECT_THAT(problems, Contains(HasSubstr("drama.lua:6: there is no line 'ave'")));
+}
+
+TEST_F(LineChecksTest, ProblemsAreSaidInTheLanguageOfTheInterfaceAndAsBeforeInEnglish) {
+  SetTable(
+      "id,speaker,la,en\n"
+      "salvete,nobody,,Greetings!\n");
+  LoadTexts(LARARIUM_LOCALE_DIR, "it");
+  std::vector<std::string> italian;
+  for (const Sentence& problem : CheckTable(paths_, document_, lines_)) {
+    italian.push_back(problem.Translated(Tr));
+  }
+  const auto english = EnglishOf(CheckTable(paths_, document_, lines_));
+  LoadTexts(LARARIUM_LOCALE_DIR, "en");
+  EXPECT_THAT(
+      italian,
+      ::testing::ElementsAre(
+          "lines.csv:2: battuta 'salvete': nessuno del cast si chiama 'nobody'",
+          "lines.csv:2: battuta 'salvete': non ha testo in 'la', che è una lingua parlata"));
+  EXPECT_THAT(english, ::testing::ElementsAre(
+                           "lines.csv:2: line 'salvete': nobody of the cast is called 'nobody'",
+                           "lines.csv:2: line 'salvete': it has no text in 'la', which is spoken"));
 }
 
 TEST_F(LineChecksTest, WhoSaysWhatIsHeardAndWhatIsBrokenOff) {
@@ -122,7 +144,7 @@ TEST_F(LineChecksTest, WhoSaysWhatIsHeardAndWhatIsBrokenOff) {
   EXPECT_TRUE(said[1].cut);
   EXPECT_NEAR(said[1].seconds, 0.5, 0.02);
   EXPECT_FALSE(said[2].cut);
-  const auto problems = CheckSaid(paths_, lines_, said, {});
+  const auto problems = EnglishOf(CheckSaid(paths_, lines_, said, {}));
   EXPECT_THAT(problems, Contains(HasSubstr("'girl' says 'vale', which has the voice of 'keeper'")));
   EXPECT_THAT(problems, Contains(HasSubstr("'girl' does not finish 'vale'")));
   EXPECT_THAT(problems, Not(Contains(HasSubstr("'keeper' says"))));
@@ -145,7 +167,7 @@ TEST_F(LineChecksTest, DescriptionsAreHeardInTheLanguagesOfCaptions) {
   }
   EXPECT_THAT(said, ::testing::ElementsAre("salvete la", "d_bar en described", "d_bar la described",
                                            "d_cup la described"));
-  EXPECT_THAT(CheckTable(paths_, document_, lines_),
+  EXPECT_THAT(EnglishOf(CheckTable(paths_, document_, lines_)),
               ::testing::ElementsAre(HasSubstr("line 'd_cup': it has no text in 'en'")));
   EXPECT_FALSE(MakeCaptions(paths_, document_, lines_, "la")->lines.contains("d_bar"));
   const auto book = MakeDescriptions(paths_, document_, lines_, "en");
@@ -159,15 +181,15 @@ TEST_F(LineChecksTest, WhatIsDescribedMustBeADescription) {
       "id,speaker,la,en\n"
       "salvete,keeper,Salvēte!,Greetings!\n"
       "d_bar,description,Taberna.,A bar.\n");
-  const auto problems = CheckScriptLines(paths_, document_, lines_,
-                                         "track{descriptions = {\n"
-                                         "  {at = 1, line = \"d_bar\"},\n"
-                                         "  {at = 3, line = \"salvete\"},\n"
-                                         "}}\n"
-                                         "function main()\n"
-                                         "  describe(\"d_bar\")\n"
-                                         "  describe \"nothing\"\n"
-                                         "end\n");
+  const auto problems = EnglishOf(CheckScriptLines(paths_, document_, lines_,
+                                                   "track{descriptions = {\n"
+                                                   "  {at = 1, line = \"d_bar\"},\n"
+                                                   "  {at = 3, line = \"salvete\"},\n"
+                                                   "}}\n"
+                                                   "function main()\n"
+                                                   "  describe(\"d_bar\")\n"
+                                                   "  describe \"nothing\"\n"
+                                                   "end\n"));
   EXPECT_THAT(problems, ::testing::UnorderedElementsAre(
                             HasSubstr("drama.lua:3: the line 'salvete' is described, so its "
                                       "speaker must be 'description'"),
@@ -198,7 +220,7 @@ TEST_F(LineChecksTest, DescriptionsWithoutAPauseAndLinesOverThemAreTold) {
     listener.Listen(tick * stage::Stage::kTickSeconds);
   }
   EXPECT_THAT(listener.described(), ::testing::ElementsAre("d_bar"));
-  EXPECT_THAT(listener.problems(),
+  EXPECT_THAT(EnglishOf(listener.problems()),
               ::testing::ElementsAre(HasSubstr("'keeper' says 'salvete' over the description"),
                                      HasSubstr("the description 'd_bar' finds no pause")));
 }

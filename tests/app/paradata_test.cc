@@ -60,16 +60,16 @@ TEST_F(ParadataTest, ListsEverythingThatClaimsAreAbout) {
 TEST_F(ParadataTest, WhatHasNoneIsListed) {
   EXPECT_TRUE(LoadParadata(paths_)->empty());
   ParadataReport report = CheckParadata(paths_, document_);
-  EXPECT_THAT(report.problems, IsEmpty());
-  EXPECT_THAT(report.warnings,
+  EXPECT_THAT(EnglishOf(report.problems), IsEmpty());
+  EXPECT_THAT(EnglishOf(report.warnings),
               Contains(HasSubstr("these lines not how certain they are: salvete")));
   Write("paradata.json",
         R"({"schema": 1, "claims": {"lines": {"salvete": {"certainty": "imagined"}},
             "objects": {"cup": {"author": "B"}}}})");
   report = CheckParadata(paths_, document_);
-  EXPECT_THAT(report.problems, IsEmpty());
-  EXPECT_THAT(report.warnings, Not(Contains(HasSubstr("these lines"))));
-  EXPECT_THAT(report.warnings, Contains(HasSubstr("these objects")));
+  EXPECT_THAT(EnglishOf(report.problems), IsEmpty());
+  EXPECT_THAT(EnglishOf(report.warnings), Not(Contains(HasSubstr("these lines"))));
+  EXPECT_THAT(EnglishOf(report.warnings), Contains(HasSubstr("these objects")));
   EXPECT_EQ(report.json["imagined"], 1);
   EXPECT_EQ(report.json["without"]["objects"], Json::array({"cup"}));
 }
@@ -80,9 +80,10 @@ TEST_F(ParadataTest, LanguagesOfCaptionsThatATextLacksAreTold) {
         R"({"schema": 1, "claims": {"people": {"keeper": {"text": {"en": "He"}}},
             "objects": {"cup": {}}}})");
   const ParadataReport report = CheckParadata(paths_, document_);
-  EXPECT_THAT(report.warnings, Contains(HasSubstr("no text in 'la', and visitors read another "
-                                                  "language, of: keeper")));
-  EXPECT_THAT(report.warnings, Not(Contains(HasSubstr("no text in 'en'"))));
+  EXPECT_THAT(EnglishOf(report.warnings),
+              Contains(HasSubstr("no text in 'la', and visitors read another "
+                                 "language, of: keeper")));
+  EXPECT_THAT(EnglishOf(report.warnings), Not(Contains(HasSubstr("no text in 'en'"))));
 }
 
 TEST_F(ParadataTest, ClaimsAboutNothingAndSourcesOfNothingAreTold) {
@@ -90,12 +91,14 @@ TEST_F(ParadataTest, ClaimsAboutNothingAndSourcesOfNothingAreTold) {
         R"({"schema": 1, "sources": {"cil": "CIL"},
             "claims": {"objects": {"cop": {}}, "sounds": {"street": {}}}})");
   const ParadataReport report = CheckParadata(paths_, document_);
-  EXPECT_THAT(report.problems,
+  EXPECT_THAT(EnglishOf(report.problems),
               ElementsAre("paradata.json: claims.objects: 'cop' is not in the project; correct "
                           "its name"));
-  EXPECT_THAT(report.warnings, Contains("paradata.json: no claim names the source 'cil'"));
+  EXPECT_THAT(EnglishOf(report.warnings),
+              Contains("paradata.json: no claim names the source 'cil'"));
   Write("paradata.json", "{");
-  EXPECT_THAT(CheckParadata(paths_, document_).problems, Contains(HasSubstr("not valid JSON")));
+  EXPECT_THAT(EnglishOf(CheckParadata(paths_, document_).problems),
+              Contains(HasSubstr("not valid JSON")));
 }
 
 TEST_F(ParadataTest, CreditsNameAuthorsLicencesLettersVoicesAndSources) {

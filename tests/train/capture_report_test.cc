@@ -5,6 +5,7 @@
 
 #include <numeric>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <regex>
 #include <set>
 
@@ -68,6 +69,20 @@ void Unlocate(TrainReport& report, size_t first, size_t last) {
       return frame.frame_index == report.frame_reports[i].frame_index;
     });
   }
+}
+
+std::vector<std::string> Said(const std::vector<CaptureAdvice>& advice) {
+  std::vector<std::string> sentences;
+  for (const CaptureAdvice& one : advice) {
+    sentences.push_back(AdviceSentence(one).English());
+  }
+  return sentences;
+}
+
+std::vector<std::string> AdviceOf(const TrainReport& report,
+                                  const vision::SceneDatabase& database,
+                                  std::optional<double> metres_per_unit) {
+  return Said(AnalyseCapture(report, database, metres_per_unit).advice);
 }
 
 std::string ValueOf(const std::string& html, const std::string& name) {
@@ -260,23 +275,21 @@ TEST(CaptureAnalysis, TellsWhyFramesAreWeak) {
     const WeakFrames& weak = analysis.weak[i];
     EXPECT_EQ(std::tuple(weak.first, weak.last, weak.reason, weak.located), expected[i]) << i;
   }
-  EXPECT_THAT(analysis.advice,
+  EXPECT_THAT(Said(analysis.advice),
               Contains(HasSubstr("frames 4.png to 5.png could not be located (blurred)")));
 }
 
 TEST(CaptureAnalysis, AsksForAWalkWhereThingsWereSeenFromOneSideOnly) {
   vision::SceneDatabase db = MakeDatabase();
-  EXPECT_THAT(AnalyseCapture({}, db, std::nullopt).advice,
-              Not(Contains(HasSubstr("from one side only"))));
+  EXPECT_THAT(AdviceOf({}, db, std::nullopt), Not(Contains(HasSubstr("from one side only"))));
   const Eigen::Vector3d from = db.keyframes[0].camera_from_map.Center();
   for (size_t k = 0; k < db.keyframes.size(); ++k) {
     const Eigen::Vector3d step(0.01 * static_cast<double>(k), 0.0, 0.0);
     db.keyframes[k].camera_from_map = LookAt(from + step, Eigen::Vector3d::Zero());
   }
-  EXPECT_THAT(AnalyseCapture({}, db, std::nullopt).advice,
-              Contains(HasSubstr("from one side only")));
+  EXPECT_THAT(AdviceOf({}, db, std::nullopt), Contains(HasSubstr("from one side only")));
   // Where the scale is known, in metres: 15 degrees at 4 map units of 0.5 m each.
-  EXPECT_THAT(AnalyseCapture({}, db, 0.5).advice, Contains(HasSubstr("by about 0.5 m")));
+  EXPECT_THAT(AdviceOf({}, db, 0.5), Contains(HasSubstr("by about 0.5 m")));
 }
 
 TEST(CaptureAnalysis, WarnsOfAFocalLengthThatIsNotCertain) {
@@ -284,20 +297,18 @@ TEST(CaptureAnalysis, WarnsOfAFocalLengthThatIsNotCertain) {
   TrainReport report = MakeReport(db);
   report.intrinsics_estimated = true;
   report.focal_deviation_px = 0.001 * db.camera.Focal();
-  EXPECT_THAT(AnalyseCapture(report, db, std::nullopt).advice,
-              Not(Contains(HasSubstr("focal length"))));
+  EXPECT_THAT(AdviceOf(report, db, std::nullopt), Not(Contains(HasSubstr("focal length"))));
   report.focal_deviation_px = 0.02 * db.camera.Focal();
-  EXPECT_THAT(AnalyseCapture(report, db, std::nullopt).advice,
+  EXPECT_THAT(AdviceOf(report, db, std::nullopt),
               Contains(HasSubstr("focal length is known to 2.0 %")));
 }
 
 TEST(CaptureAnalysis, WarnsOfExposureThatChangedWhileFilming) {
   vision::SceneDatabase db = MakeDatabase();
   db.keyframes[3].gain = {8.0f, 8.0f, 8.0f};
-  EXPECT_THAT(AnalyseCapture({}, db, std::nullopt).advice,
-              Contains(HasSubstr("Exposure changed by 3.0 stops")));
+  EXPECT_THAT(AdviceOf({}, db, std::nullopt), Contains(HasSubstr("Exposure changed by 3.0 stops")));
   db.keyframes[3].session = 1;  // another session may be brighter
-  EXPECT_THAT(AnalyseCapture({}, db, std::nullopt).advice, Not(Contains(HasSubstr("Exposure"))));
+  EXPECT_THAT(AdviceOf({}, db, std::nullopt), Not(Contains(HasSubstr("Exposure"))));
 }
 
 TEST(CaptureAnalysis, ThePlanHasTheViewAheadAtItsTop) {

@@ -1,0 +1,19 @@
+#include "editor/app/check_sentences.h"
+
+#include <utility>
+
+#include "editor/app/text.h"
+
+namespace lararium::app {
+
+std::string SecondsText(double seconds) { return Text("%.2f s", seconds); }
+
+Sentence AtPlace(Sentence where, Sentence what) {
+  return Sentence("%s: %s", {std::move(where), std::move(what)});
+}
+
+Sentence AtTime(Sentence what, double seconds) {
+  return Sentence("%s (at %s)", {std::move(what), SecondsText(seconds)});
+}
+
+}  // namespace lararium::app
