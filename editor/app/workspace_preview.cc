@@ -24,8 +24,9 @@ std::string Workspace::PreviewKey() const {
   Json key = {{"place", at.name},
               {"map", map_loads_},
               {"training", at.training.path},
-              {"preview", at.preview.path},
-              {"view", {static_cast<int>(view_source_), live_camera_}}};
+              {"preview", {static_cast<int>(at.preview.kind), at.preview.path}},
+              {"view", {static_cast<int>(view_source_), live_camera_}},
+              {"languages", {document().speech.spoken, document().speech.captions}}};
   for (const char* file : {"lines.csv", "lines.json", "paradata.json"}) {
     key["texts"].push_back(FileStamp(paths_.folder / file));
   }
