@@ -237,6 +237,7 @@ void Workspace::RequestPicture() {
     const PlaceDocument& at = *place();
     staged->map_from_stage = loaded_.picks.map_from_picked * at.picked_from_stage;
     staged->camera_nudge = at.camera_nudge;
+    staged->acoustics = at.acoustics;
     staged->camera = camera_look_ ? at.camera : std::nullopt;
     staged->probes = RelitProbes(loaded_.baked_light, loaded_.baked_probes, at.probes);
     for (stage::Occluder& occluder : staged->occluders) {

@@ -92,7 +92,12 @@ fill 768 454 tavern
 press Return
 saved '"name":"tavern"' "$json" "the place was not renamed"
 [ -e "$project/places/tavern/notes.txt" ] || fail "its files are not under the new name"
-[ -e "$project/places/front/notes.txt" ] || fail "undo would not find its files"
+press ctrl+z
+saved '"name":"front"' "$json" "undo did not bring the old name back"
+[ -e "$project/places/front/notes.txt" ] || fail "undo did not find its files"
+press ctrl+shift+z
+saved '"name":"tavern"' "$json" "redo did not rename it again"
+click 90 169
 sleep 2
 click 1255 541
 "$editor" place "$project" | head -1 | grep -q '^site' || fail "it is the first already"
