@@ -40,6 +40,35 @@ Status GiveOtherName(const fs::path& folder, const fs::path& other) {
   return Status::Error(folder.string(), "cannot be renamed: " + why, "look who may write there");
 }
 
+Status IsOfARemovedPlace(const fs::path& folder) {
+  return Status::Error(folder.string(), "is there already, of a place that was removed",
+                       "move it away, or choose another name");
+}
+
+// Files of the one folder that the other lacks.
+Status AddMissing(const fs::path& folder, const fs::path& other) {
+  std::error_code error;
+  for (auto at = fs::recursive_directory_iterator(folder, error);
+       !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+    const fs::path there = other / at->path().lexically_relative(folder);
+    std::error_code ignored;
+    if (at->is_directory(ignored)) {
+      fs::create_directories(there, ignored);
+    } else if (!fs::exists(there, ignored)) {
+      fs::create_hard_link(at->path(), there, ignored);
+      if (ignored) {
+        fs::copy_file(at->path(), there, error);
+      }
+    }
+    if (error) {
+      break;
+    }
+  }
+  return error ? Status::Error(other.string(), "cannot be filled: " + error.message(),
+                               "look who may write there")
+               : Status();
+}
+
 }  // namespace
 
 void SetPick(stage::Anchor& anchor, const stage::Pick& pick) {
@@ -79,6 +108,45 @@ size_t TakeOverOccluders(const PlaceDocument& from, PlaceDocument& place) {
   return taken;
 }
 
+SourceDocument RecordingAt(const ProjectPaths& paths, const std::filesystem::path& file) {
+  std::error_code ignored;
+  const bool folder = fs::is_directory(paths.Resolve(file.string()), ignored);
+  return {folder ? SourceDocument::Kind::kImages : SourceDocument::Kind::kVideo,
+          paths.Shorten(paths.Resolve(file.string()))};
+}
+
+void PutPlaceFirst(const std::string& name, ProjectDocument& document) {
+  const auto begin = document.places.begin();
+  const auto found = std::find_if(begin, document.places.end(),
+                                  [&](const PlaceDocument& place) { return place.name == name; });
+  if (found != document.places.end()) {
+    std::rotate(begin, found, found + 1);
+  }
+}
+
+Status GiveFolderOtherName(const ProjectPaths& paths,
+                           const std::string& from,
+                           const std::string& to) {
+  const fs::path before = paths.Place(from);
+  const fs::path after = paths.Place(to);
+  std::error_code error;
+  if (!fs::exists(after, error)) {
+    return fs::exists(before, error) ? GiveOtherName(before, after) : Status();
+  }
+  const bool same_map = fs::equivalent(paths.Scene(from), paths.Scene(to), error);
+  return same_map && !error ? AddMissing(before, after) : IsOfARemovedPlace(after);
+}
+
+void NamePlaceAnew(const ProjectPaths& paths,
+                   const std::string& from,
+                   const std::string& to,
+                   ProjectDocument& document) {
+  if (PlaceDocument* place = document.FindPlace(from)) {
+    place->name = to;
+    RelocateFolder(paths.Shorten(paths.Place(from)), paths.Shorten(paths.Place(to)), document);
+  }
+}
+
 Status RenamePlace(const ProjectPaths& paths,
                    const std::string& from,
                    const std::string& to,
@@ -87,16 +155,14 @@ Status RenamePlace(const ProjectPaths& paths,
   const fs::path after = paths.Place(to);
   std::error_code error;
   if (fs::exists(after, error)) {
-    return Status::Error(after.string(), "is there already, of a place that was removed",
-                         "move it away, or choose another name");
+    return IsOfARemovedPlace(after);
   }
   const bool has_folder = fs::exists(before, error);
   if (has_folder) {
     LARARIUM_RETURN_IF_ERROR(GiveOtherName(before, after));
   }
   ProjectDocument renamed = document;
-  renamed.FindPlace(from)->name = to;
-  RelocateFolder(paths.Shorten(before), paths.Shorten(after), renamed);
+  NamePlaceAnew(paths, from, to, renamed);
   const Status saved = SaveProject(paths, renamed);
   if (saved.ok()) {
     document = std::move(renamed);

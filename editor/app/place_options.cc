@@ -42,8 +42,11 @@ void AddPlace(CLI::App* command, PlaceOptions& options) {
   command->add_option("--from-images", options.images_of, "Likewise, a folder of images")
       ->check(CLI::ExistingDirectory)
       ->excludes(video);
-  command->add_option("--preview", options.preview, "What the camera view plays")
-      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--preview", options.preview,
+                   "What the camera view plays, a video or a folder of images; the training's is "
+                   "played where there is none besides")
+      ->check(CLI::ExistingPath);
   command->add_option("--occluders-of", options.occluders_of,
                       "Take over the shapes and models of this place");
   command->add_flag("--images", options.images, "List the training images, to pick in, too");

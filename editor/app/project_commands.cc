@@ -19,6 +19,8 @@ namespace lararium::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 // "la,it"; empty: as the lines have them.
 Result<std::vector<std::string>> ParseLanguages(const std::string& option,
                                                 const std::string& text) {
@@ -145,11 +147,10 @@ class PlaceWorker {
     }
     LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place,
                               Find(options_.add + options_.set + options_.first + options_.remove));
-    const auto at = document_.places.begin() + (place - document_.places.data());
     if (!options_.first.empty()) {
-      std::rotate(document_.places.begin(), at, at + 1);
+      PutPlaceFirst(options_.first, document_);
     } else if (!options_.remove.empty()) {
-      document_.places.erase(at);
+      document_.places.erase(document_.places.begin() + (place - document_.places.data()));
     } else {
       LARARIUM_RETURN_IF_ERROR(Change(*place));
     }
@@ -157,12 +158,17 @@ class PlaceWorker {
   }
 
   Status Change(PlaceDocument& place) {
-    for (const auto& [file, kind, source] :
-         {std::tuple{&options_.video, SourceDocument::Kind::kVideo, &place.training},
-          {&options_.images_of, SourceDocument::Kind::kImages, &place.training},
-          {&options_.preview, SourceDocument::Kind::kVideo, &place.preview}}) {
+    for (const auto& [file, kind] :
+         {std::pair{&options_.video, SourceDocument::Kind::kVideo},
+          std::pair{&options_.images_of, SourceDocument::Kind::kImages}}) {
       if (!file->empty()) {
-        *source = {kind, paths_.Shorten(*file)};
+        place.training = {kind, paths_.Shorten(*file)};
+      }
+    }
+    if (!options_.preview.empty()) {
+      place.preview = RecordingAt(paths_, fs::absolute(options_.preview));
+      if (place.preview.path == place.training.path) {
+        place.preview = SourceDocument();  // none besides
       }
     }
     if (!options_.occluders_of.empty()) {

@@ -24,8 +24,9 @@ std::string Workspace::PreviewKey() const {
   Json key = {{"place", at.name},
               {"map", map_loads_},
               {"training", at.training.path},
-              {"preview", at.preview.path},
-              {"view", {static_cast<int>(view_source_), live_camera_}}};
+              {"preview", {static_cast<int>(at.preview.kind), at.preview.path}},
+              {"view", {static_cast<int>(view_source_), live_camera_}},
+              {"languages", {document().speech.spoken, document().speech.captions}}};
   for (const char* file : {"lines.csv", "lines.json", "paradata.json"}) {
     key["texts"].push_back(FileStamp(paths_.folder / file));
   }
@@ -237,6 +238,7 @@ void Workspace::RequestPicture() {
     const PlaceDocument& at = *place();
     staged->map_from_stage = loaded_.picks.map_from_picked * at.picked_from_stage;
     staged->camera_nudge = at.camera_nudge;
+    staged->acoustics = at.acoustics;
     staged->camera = camera_look_ ? at.camera : std::nullopt;
     staged->probes = RelitProbes(loaded_.baked_light, loaded_.baked_probes, at.probes);
     for (stage::Occluder& occluder : staged->occluders) {

@@ -161,9 +161,8 @@ std::string DocumentPath(const app::Workspace& workspace, const std::string& typ
 }
 
 // "box", "box2" and so on.
-std::string FreeShapeName(const std::vector<app::OccluderDocument>& known,
-                          const app::OccluderShape& shape) {
-  const std::string kind = app::EntryOf(shape.kind).name;
+template <typename Entry>
+std::string FreeName(const std::vector<Entry>& known, const std::string& kind) {
   std::string name = kind;
   for (int number = 2; Taken(known, name); ++number) {
     name = kind + std::to_string(number);
@@ -200,7 +199,8 @@ void OccluderDialog(app::Workspace& workspace, EditorState& state) {
   }
   ImGui::Dummy(ImVec2(0, Px(2)));  // which such a row does not leave below it
   const std::vector<app::OccluderDocument>& known = workspace.place()->occluders;
-  const std::string usual_name = fields.own_model ? "" : FreeShapeName(known, fields.shape);
+  const std::string usual_name =
+      fields.own_model ? "" : FreeName(known, app::EntryOf(fields.shape.kind).name);
   if (BeginProperties("occluder")) {
     PropertyLabel(Tr("Name"));
     ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
@@ -340,29 +340,59 @@ void CastDialog(app::Workspace& workspace, EditorState& state) {
   }
 }
 
+// Which of the objects that are built in.
+void BuiltInObject(DialogFields& fields) {
+  const auto name_of = [](void*, int index, const char** text) {
+    *text = import::ObjectModelNames()[static_cast<size_t>(index)].data();
+    return true;
+  };
+  ImGui::Combo("##model", &fields.model, name_of, nullptr,
+               static_cast<int>(import::ObjectModelNames().size()));
+}
+
+// One that is built in, or a model. What nobody named is called by it.
 void ObjectDialog(app::Workspace& workspace, EditorState& state) {
   Hint(Tr("A thing that people of the drama use. Where it stands is chosen afterwards."));
   DialogFields& fields = state.fields;
-  const std::span<const std::string_view> models = import::ObjectModelNames();
+  const char* const ways[] = {Tr("Built in"), Tr("A model of your own")};
+  int way = fields.own_model ? 1 : 0;
+  if (Segmented("way", ways, way)) {
+    fields.own_model = way == 1;
+  }
+  ImGui::Dummy(ImVec2(0, Px(2)));  // which such a row does not leave below it
+  app::ObjectDocument object;
   if (BeginProperties("object")) {
-    PropertyLabel(Tr("Name"));
-    ImGui::InputText("##name", &fields.name);
     PropertyLabel(Tr("Model"));
-    const auto name_of = [](void*, int index, const char** text) {
-      *text = import::ObjectModelNames()[static_cast<size_t>(index)].data();
-      return true;
-    };
-    ImGui::Combo("##model", &fields.model, name_of, nullptr, static_cast<int>(models.size()));
+    if (fields.own_model) {
+      PathField("file", fields.file, workspace.paths().folder, kModels);
+      object.file = DocumentPath(workspace, fields.file);
+    } else {
+      BuiltInObject(fields);
+      object.model = import::ObjectModelNames()[static_cast<size_t>(fields.model)];
+    }
     EndProperties();
   }
-  std::string problem = NameProblem(fields.name);
-  if (problem.empty() && Taken(workspace.document().objects, fields.name)) {
+  const std::vector<app::ObjectDocument>& known = workspace.document().objects;
+  const std::string kind = object.model + std::filesystem::path(object.file).stem().string();
+  const std::string usual_name = app::IsPlainName(kind) ? FreeName(known, kind) : "";
+  if (BeginProperties("name")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
+    EndProperties();
+  }
+  if (fields.own_model) {
+    Hint(
+        Tr("In metres, upright, as it stands. How people use it is said in NAME.object.json beside "
+           "it; without that file it only stands there."));
+  }
+  object.name = fields.name.empty() ? usual_name : fields.name;
+  std::string problem = NameProblem(object.name);
+  if (fields.own_model && !Exists(workspace.paths(), fields.file)) {
+    problem = Tr("Choose a file that exists.");
+  } else if (problem.empty() && Taken(known, object.name)) {
     problem = Tr("That name is taken.");
   }
   if (DialogDone(state, Tr("Add"), problem)) {
-    app::ObjectDocument object;
-    object.name = fields.name;
-    object.model = models[static_cast<size_t>(fields.model)];
     workspace.Edit(Text(Tr("add %s"), object.name.c_str()),
                    [&](app::ProjectDocument& document) { document.objects.push_back(object); });
     state.selection = {Selection::Kind::kObject, object.name};

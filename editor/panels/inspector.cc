@@ -20,6 +20,8 @@
 #include "editor/panels/occluder_inspector.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/place_cards.h"
+#include "editor/panels/place_inspector.h"
+#include "editor/panels/project_inspector.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/trackball_view.h"
@@ -34,7 +36,7 @@ using geometry::Similarity3;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-void ShowProject(app::Workspace& workspace) {
+void ShowProject(app::Workspace& workspace, EditorState& state) {
   Heading(Tr("Project"));
   if (!BeginProperties("project")) {
     return;
@@ -60,6 +62,8 @@ void ShowProject(app::Workspace& workspace) {
   }
   PropertyText(Tr("Drama"), workspace.paths().Drama().filename().string());
   EndProperties();
+  ShowLanguages(workspace);
+  ShowSounds(workspace, state);
 }
 
 std::string SourceText(const app::SourceDocument& source) {
@@ -163,12 +167,27 @@ void ShowScale(app::Workspace& workspace, const app::PlaceDocument& place) {
   }
 }
 
+// What it does, or why it cannot be done.
+const char* AboutLayingOnFloor(const app::LoadedPlace& loaded) {
+  if (loaded.database == nullptr) {
+    return Tr("The place has to be trained first: its floor is looked for in the map.");
+  }
+  if (!loaded.measured) {
+    return Tr("The floor is still being looked for in the map.");
+  }
+  if (!loaded.measures.floor) {
+    return Tr("No large level surface was found among the points.");
+  }
+  return Tr("Levels the stage and lays it on the floor that was found in the map");
+}
+
 void LayOnFloorButton(app::Workspace& workspace) {
   ImGui::BeginDisabled(!workspace.loaded().measures.floor.has_value());
   if (ImGui::Button(Tr("Lay the stage on the floor"), ImVec2(-FLT_MIN, 0))) {
     workspace.LayStageOnFloor();
   }
   ImGui::EndDisabled();
+  Tooltip(AboutLayingOnFloor(workspace.loaded()));
 }
 
 void ShowFloor(app::Workspace& workspace, const app::PlaceDocument& place) {
@@ -306,13 +325,16 @@ void ShowPlace(app::Workspace& workspace, EditorState& state, const app::PlaceDo
     }
     EndProperties();
   }
+  ShowRecordingToLookAt(workspace, state, place);
   if (database != nullptr) {
     ShowTraining(workspace, state);
     ShowSessions(workspace, place, *workspace.loaded().statistics);
     ShowScale(workspace, place);
     ShowFloor(workspace, place);
   }
+  ShowPlaceSound(workspace, state, place);
   ImGui::Dummy(ImVec2(0, Px(6)));
+  ShowPlaceName(workspace, state, place);
   ShowOtherPlaces(workspace, place);
 }
 
@@ -510,7 +532,7 @@ void ShowInspector(app::Workspace& workspace, EditorState& state) {
     workspace.cast_pictures().Look("", {}, {});
   }
   if (state.selection.kind == Kind::kProject) {
-    ShowProject(workspace);
+    ShowProject(workspace, state);
     return;
   }
   if (state.selection.kind == Kind::kActor) {

@@ -227,6 +227,9 @@ void ShowDistance(app::Workspace& workspace, PlaceView& place) {
     workspace.SetDistance(place.points[0], place.points[1], place.metres);
   }
   ImGui::EndDisabled();
+  Tooltip(!(said > 0.0) ? Tr("The two points lie in one place. Choose others.")
+          : same        ? Tr("They are so far apart already. Type what it is in truth.")
+                        : Tr("Scales the stage about its origin until they are so far apart"));
   Hint(WhatSetsMetres(workspace.loaded()));
 }
 

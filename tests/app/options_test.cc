@@ -295,6 +295,15 @@ TEST(EditorOptions, PlaceDoesOneWorkWithAllThatItNeeds) {
   EXPECT_THAT(Refusal({"place", "p", "--occluders-of", "bar"}), HasSubstr("which one"));
 }
 
+TEST(EditorOptions, WhatTheCameraViewPlaysIsAFileOrFolderThatIsThere) {
+  const test::TemporaryFolder folder;
+  const std::string images = folder.path().string();
+  EXPECT_EQ(Parsed<PlaceOptions>({"place", "p", "--set", "site", "--preview", images}).preview,
+            images);
+  EXPECT_THAT(Refusal({"place", "p", "--set", "site", "--preview", images + "/none.mp4"}),
+              HasSubstr("none.mp4"));
+}
+
 TEST(EditorOptions, StageTakesPicksTagsAndNumbers) {
   const auto stage =
       Parsed<StageOptions>({"stage", "p", "--pick", "origin=000010.png,3.5,4", "--pick",

@@ -67,6 +67,9 @@ TEST_F(ProjectCommands, PlacesAreAddedPutFirstAndRemoved) {
   EXPECT_THAT(Places(), ElementsAre("maquette", "site", "yard"));
   ASSERT_TRUE(Place({.first = "yard"}).ok());
   EXPECT_THAT(Places(), ElementsAre("yard", "maquette", "site"));
+  ProjectDocument document = Saved();
+  PutPlaceFirst("moon", document);
+  EXPECT_EQ(FormatProject(document), FormatProject(Saved())) << "none is called so";
   EXPECT_THAT(Place({})->text, HasSubstr("yard: not trained"));
   ASSERT_TRUE(Place({.remove = "maquette"}).ok());
   EXPECT_THAT(Places(), ElementsAre("yard", "site"));
@@ -92,6 +95,51 @@ TEST_F(ProjectCommands, APlaceIsRenamedWithItsFolderAndAllThatLiesInIt) {
   EXPECT_THAT(Place({.rename = "tavern", .to = "maquette"}).status().message(),
               HasSubstr("of a place that was removed"));
   EXPECT_THAT(Places(), ElementsAre("tavern"));
+}
+
+TEST_F(ProjectCommands, WhatTheCameraViewPlaysIsAVideoAFolderOrThatOfTheTraining) {
+  ASSERT_TRUE(Place({.set = "site", .preview = folder_ / "evening.mp4"}).ok());
+  EXPECT_EQ(Saved().places[1].preview.kind, SourceDocument::Kind::kVideo);
+  EXPECT_EQ(Saved().places[1].preview.path, (folder_ / "evening.mp4").string());
+  EXPECT_THAT(Place({})->text, HasSubstr("seen by "));
+  std::filesystem::create_directories(paths_.folder / "walk");
+  ASSERT_TRUE(Place({.set = "site", .preview = paths_.folder / "walk"}).ok());
+  EXPECT_EQ(Saved().places[1].preview.kind, SourceDocument::Kind::kImages);
+  EXPECT_EQ(Saved().places[1].preview.path, "walk") << "as documents name what lies in the project";
+  ASSERT_TRUE(
+      Place({.set = "site", .images_of = paths_.folder / "walk", .preview = paths_.folder / "walk"})
+          .ok());
+  EXPECT_TRUE(Saved().places[1].preview.empty()) << "none besides that of the training";
+}
+
+TEST_F(ProjectCommands, AsAnEditARenamedPlaceHasItsFolderUnderBothNames) {
+  ProjectDocument document = Saved();
+  document.places[1].training = {SourceDocument::Kind::kVideo, "places/site/walk.mp4"};
+  ASSERT_TRUE(GiveFolderOtherName(paths_, "site", "tavern").ok());
+  NamePlaceAnew(paths_, "site", "tavern", document);
+  EXPECT_EQ(document.places[1].name, "tavern");
+  EXPECT_EQ(document.places[1].training.path, "places/tavern/walk.mp4");
+  EXPECT_TRUE(std::filesystem::exists(paths_.Scene("tavern")));
+  EXPECT_TRUE(std::filesystem::exists(paths_.Scene("site"))) << "where undo finds it";
+
+  // Undone, filmed again, and done once more: nothing of either is lost.
+  const auto film = [&](const std::string& place, const std::string& name) {
+    const std::filesystem::path file = paths_.Place(place) / "films" / name;
+    std::filesystem::create_directories(file.parent_path());
+    ASSERT_TRUE(WriteFileAtomically(file, std::string_view("film")).ok());
+  };
+  film("site", "new.mp4");
+  film("tavern", "kept.mp4");
+  ASSERT_TRUE(GiveFolderOtherName(paths_, "site", "tavern").ok());
+  EXPECT_TRUE(std::filesystem::exists(paths_.Place("tavern") / "films" / "new.mp4"));
+  EXPECT_TRUE(std::filesystem::exists(paths_.Place("tavern") / "films" / "kept.mp4"));
+}
+
+TEST_F(ProjectCommands, TheFolderOfAnotherMapGivesItsNameToNoPlace) {
+  EXPECT_THAT(GiveFolderOtherName(paths_, "site", "maquette").message(),
+              HasSubstr("of a place that was removed"));
+  EXPECT_TRUE(GiveFolderOtherName(paths_, "moon", "sea").ok()) << "not trained: without a folder";
+  EXPECT_FALSE(std::filesystem::exists(paths_.Place("sea")));
 }
 
 TEST_F(ProjectCommands, ARenamingThatIsNotSavedLeavesThePlaceAsItWas) {
