@@ -124,7 +124,27 @@ std::string CameraText(const light::CameraTraits& traits) {
   return text.data();
 }
 
+CommandResult CameraList(std::span<const capture::ConnectedCamera> cameras) {
+  CommandResult result;
+  result.json["cameras"] = Json::array();
+  for (const capture::ConnectedCamera& camera : cameras) {
+    const bool known = camera.problem.empty();
+    result.text +=
+        std::to_string(camera.number) + "  " + (known ? camera.name : camera.problem) + "\n";
+    result.json["cameras"].push_back(
+        {{"number", camera.number},
+         {known ? "name" : "problem", known ? camera.name : camera.problem}});
+  }
+  if (cameras.empty()) {
+    result.text = "no camera is connected\n";
+  }
+  return result;
+}
+
 Result<CommandResult> RunCamera(const CameraOptions& options, Progress& progress) {
+  if (options.list) {
+    return CameraList(capture::ConnectedCameras());
+  }
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
   LARARIUM_ASSIGN_OR_RETURN(const std::string name, ChoosePlace(paths, document, options.place));

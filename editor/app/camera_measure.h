@@ -3,10 +3,12 @@
 // What a camera's images are like, measured on a recording.
 
 #include <filesystem>
+#include <span>
 
 #include "editor/app/options.h"
 #include "editor/app/project.h"
 #include "editor/app/subcommands.h"
+#include "shared/capture/camera_list.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
@@ -31,6 +33,10 @@ Result<light::CameraResponse> LoadCameraResponse(const std::filesystem::path& fi
 
 // A line for people.
 std::string CameraText(const light::CameraTraits& traits);
+
+// A line for each, and the same for programs: {"cameras": [{"number", "name"}, ...]}, with
+// "problem" in place of the name of one that cannot be asked.
+CommandResult CameraList(std::span<const capture::ConnectedCamera> cameras);
 
 Result<CommandResult> RunCamera(const CameraOptions& options, Progress& progress);
 

@@ -55,6 +55,66 @@ Status MakeFolderOf(const std::filesystem::path& file) {
                : Status();
 }
 
+// Writes frames of a camera, and looks what of the place they show.
+class Recorder {
+ public:
+  static Result<std::unique_ptr<Recorder>> Create(const capture::FrameSource& camera,
+                                                  const std::filesystem::path& file) {
+    // The encoder takes even sizes only: at most one row and column are lost.
+    const cv::Rect even(0, 0, camera.width() & ~1, camera.height() & ~1);
+    LARARIUM_ASSIGN_OR_RETURN(
+        auto writer,
+        capture::VideoWriter::Create(file, even.width, even.height, camera.frames_per_second()));
+    return std::unique_ptr<Recorder>(new Recorder(camera, even, std::move(writer)));
+  }
+
+  // moment: of the frame before, and then of this one, unless it cannot be written.
+  Status Add(const geometry::Frame& frame, FilmMoment& moment) {
+    first_time_ = first_time_.value_or(frame.capture_time);
+    const double seconds = frame.capture_time - *first_time_;
+    // A frame that the camera dropped leaves its time to the one before.
+    index_ = std::max<int64_t>(index_ + 1, std::llround(seconds * rate_));
+    LARARIUM_RETURN_IF_ERROR(writer_->Write(frame.bgr(even_), index_));
+    moment.seconds = seconds;
+    moment.coverage = guide_.Add(tracker_.Measure(frame.grey, seconds));
+    moment.cells = guide_.cells();
+    moment.bgr = std::make_shared<const cv::Mat>(frame.bgr.clone());
+    ++moment.frames;
+    return Status();
+  }
+
+  Status Finish() { return writer_->Finish(); }
+
+ private:
+  Recorder(const capture::FrameSource& camera,
+           const cv::Rect& even,
+           std::unique_ptr<capture::VideoWriter> writer)
+      : even_(even),
+        rate_(camera.frames_per_second()),
+        writer_(std::move(writer)),
+        model_(train::TypicalCamera(camera.width(), camera.height())),
+        tracker_(model_),
+        guide_(train::HalfView(model_)) {}
+
+  cv::Rect even_;
+  double rate_;
+  std::unique_ptr<capture::VideoWriter> writer_;
+  geometry::CameraModel model_;
+  train::CornerTracker tracker_;
+  train::CoverageGuide guide_;
+  std::optional<double> first_time_;
+  int64_t index_ = -1;
+};
+
+// That little can be written any more: what was filmed still has to be completed.
+Status CheckSpace(const std::filesystem::path& folder, const FreeSpace& free_space) {
+  constexpr uint64_t kLeast = 64'000'000;  // bytes: the index, and frames that are not written yet
+  const std::optional<uint64_t> left = free_space(folder);
+  return left && *left < kLeast ? Status::Error(folder.string(), "the disk is nearly full",
+                                                "make room, then film again")
+                                : Status();
+}
+
 }  // namespace
 
 std::unique_ptr<capture::FrameSource> AtItsOwnPace(
@@ -77,48 +137,42 @@ Result<std::unique_ptr<capture::FrameSource>> OpenFilmCamera(const std::string& 
   return AtItsOwnPace(std::move(recording));
 }
 
-Result<FilmMoment> Film(capture::FrameSource& camera,
-                        const std::filesystem::path& file,
-                        const std::function<FilmStep(const FilmMoment&)>& next) {
+std::optional<uint64_t> FreeSpaceOf(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  return error ? std::nullopt : std::optional<uint64_t>(space.available);
+}
+
+Result<Filmed> Film(capture::FrameSource& camera,
+                    const std::filesystem::path& file,
+                    const std::function<FilmStep(const FilmMoment&)>& next,
+                    const FreeSpace& free_space) {
   LARARIUM_RETURN_IF_ERROR(MakeFolderOf(file));
-  // The encoder takes even sizes only: at most one row and column are lost.
-  const cv::Rect even(0, 0, camera.width() & ~1, camera.height() & ~1);
-  const double rate = camera.frames_per_second();
-  LARARIUM_ASSIGN_OR_RETURN(const auto writer,
-                            capture::VideoWriter::Create(file, even.width, even.height, rate));
-  const geometry::CameraModel model = train::TypicalCamera(camera.width(), camera.height());
-  train::CornerTracker tracker(model);
-  train::CoverageGuide guide(train::HalfView(model));
-  FilmMoment moment;
-  std::optional<double> first_time;
-  int64_t index = -1;
-  while (true) {
-    LARARIUM_ASSIGN_OR_RETURN(const auto frame, camera.Next());
-    if (!frame) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto recorder, Recorder::Create(camera, file));
+  Filmed filmed;
+  FilmStep step = FilmStep::kGoOn;
+  while (step == FilmStep::kGoOn) {
+    const auto frame = camera.Next();
+    filmed.stopped = frame.ok() ? CheckSpace(file.parent_path(), free_space) : frame.status();
+    if (!filmed.stopped.ok() || !*frame) {
       break;
     }
-    first_time = first_time.value_or(frame->capture_time);
-    moment.seconds = frame->capture_time - *first_time;
-    // A frame that the camera dropped leaves its time to the one before.
-    index = std::max<int64_t>(index + 1, std::llround(moment.seconds * rate));
-    LARARIUM_RETURN_IF_ERROR(writer->Write(frame->bgr(even), index));
-    moment.coverage = guide.Add(tracker.Measure(frame->grey, moment.seconds));
-    moment.cells = guide.cells();
-    moment.bgr = std::make_shared<const cv::Mat>(frame->bgr.clone());
-    ++moment.frames;
-    const FilmStep step = next(moment);
-    if (step == FilmStep::kDiscard) {
-      return Status::Error(file.string(), "recording was cancelled");
-    }
-    if (step == FilmStep::kFinish) {
+    filmed.stopped = recorder->Add(**frame, filmed.last);
+    if (!filmed.stopped.ok()) {
       break;
     }
+    step = next(filmed.last);
   }
-  if (moment.frames == 0) {
-    return Status::Error("the camera", "gave no image", "look whether another program has it");
+  if (step == FilmStep::kDiscard) {
+    return Status::Error(file.string(), "recording was cancelled");
   }
-  LARARIUM_RETURN_IF_ERROR(writer->Finish());
-  return moment;
+  Status problem = filmed.last.frames > 0 ? recorder->Finish()
+                                          : Status::Error("the camera", "gave no image",
+                                                          "look whether another program has it");
+  if (!problem.ok()) {
+    return filmed.stopped.ok() ? problem : filmed.stopped;  // what came first
+  }
+  return filmed;
 }
 
 std::filesystem::path NewFilmFile(const std::filesystem::path& folder) {
@@ -186,19 +240,19 @@ Json CoverageJson(const train::CoverageState& coverage) {
 FilmTask::FilmTask(std::unique_ptr<capture::FrameSource> camera, std::filesystem::path file)
     : file_(std::move(file)),
       thread_([this, camera = std::shared_ptr<capture::FrameSource>(std::move(camera))] {
-        const Result<FilmMoment> last = Film(*camera, file_, [this](const FilmMoment& moment) {
+        Result<Filmed> filmed = Film(*camera, file_, [this](const FilmMoment& moment) {
           const std::lock_guard lock(mutex_);
           moment_ = moment;
-          return finish_ ? FilmStep::kFinish : discard_ ? FilmStep::kDiscard : FilmStep::kGoOn;
+          return discard_ ? FilmStep::kDiscard : finish_ ? FilmStep::kFinish : FilmStep::kGoOn;
         });
         const std::lock_guard lock(mutex_);
-        outcome_ = last.status();
+        outcome_ = std::move(filmed);
       }) {}
 
 FilmTask::~FilmTask() {
-  discard_ = true;
+  finish_ = true;
   thread_.join();
-  if (!finish_ && outcome_->ok()) {  // the recording had ended by itself
+  if (discard_ && outcome_->ok()) {  // it was complete before
     std::error_code ignored;
     std::filesystem::remove(file_, ignored);
   }
@@ -209,7 +263,7 @@ FilmMoment FilmTask::moment() const {
   return moment_;
 }
 
-std::optional<Status> FilmTask::outcome() const {
+std::optional<Result<Filmed>> FilmTask::outcome() const {
   const std::lock_guard lock(mutex_);
   return outcome_;
 }

@@ -40,12 +40,25 @@ struct FilmMoment {
 
 enum class FilmStep { kGoOn, kFinish, kDiscard };
 
+// What came of filming. The file is complete.
+struct Filmed {
+  FilmMoment last;
+  // Why it ended before anybody ended it, where the camera failed or the disk is full.
+  Status stopped;
+};
+
+// Bytes that can still be written to a folder; nullopt where nobody knows.
+using FreeSpace = std::function<std::optional<uint64_t>(const std::filesystem::path& folder)>;
+std::optional<uint64_t> FreeSpaceOf(const std::filesystem::path& folder);
+
 // Records until the camera ends or next, which is told of each frame, says so. Training needs a
-// recording: it looks at frames more than once. Returns the last moment. On an error, as one that
-// was discarded is, a file that was there before stays as it was.
-Result<FilmMoment> Film(capture::FrameSource& camera,
-                        const std::filesystem::path& file,
-                        const std::function<FilmStep(const FilmMoment&)>& next);
+// recording: it looks at frames more than once. A camera that fails, or a disk that is nearly full,
+// ends it too: what was filmed until then is kept. On an error there was nothing to keep, or it
+// was discarded, and a file that was there before stays as it was.
+Result<Filmed> Film(capture::FrameSource& camera,
+                    const std::filesystem::path& file,
+                    const std::function<FilmStep(const FilmMoment&)>& next,
+                    const FreeSpace& free_space = FreeSpaceOf);
 
 // The first of film-1.mp4, film-2.mp4, ... that is not in a folder yet.
 std::filesystem::path NewFilmFile(const std::filesystem::path& folder);
@@ -61,7 +74,7 @@ Json CoverageJson(const train::CoverageState& coverage);
 class FilmTask {
  public:
   FilmTask(std::unique_ptr<capture::FrameSource> camera, std::filesystem::path file);
-  // Discards what was not finished.
+  // Ends the recording, and keeps it unless it was discarded.
   ~FilmTask();
   FilmTask(const FilmTask&) = delete;
   FilmTask& operator=(const FilmTask&) = delete;
@@ -71,8 +84,10 @@ class FilmTask {
   // Ends the recording and completes the file.
   void Finish() { finish_ = true; }
   bool finishing() const { return finish_; }
+  // There will be no file, even if it is complete by now.
+  void Discard() { discard_ = true; }
   // Once it has ended, by itself or not.
-  std::optional<Status> outcome() const;
+  std::optional<Result<Filmed>> outcome() const;
   const std::filesystem::path& file() const { return file_; }
 
  private:
@@ -81,7 +96,7 @@ class FilmTask {
   std::atomic<bool> discard_ = false;
   mutable std::mutex mutex_;
   FilmMoment moment_;
-  std::optional<Status> outcome_;
+  std::optional<Result<Filmed>> outcome_;
   std::jthread thread_;  // last: joined before the rest goes
 };
 

@@ -334,6 +334,7 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
     calibration_.Open();
   }
   film_.Show(workspace, state_);
+  live_camera_.Show(workspace, state_);
   AskBeforeLeaving(workspace);
   if (std::exchange(state_.begin_tour, false)) {
     tour_.Begin(panels::FactsOf(workspace, state_));

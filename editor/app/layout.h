@@ -12,6 +12,7 @@
 #include "editor/panels/camera_view.h"
 #include "editor/panels/editor_state.h"
 #include "editor/panels/film_dialog.h"
+#include "editor/panels/live_camera_dialog.h"
 #include "editor/panels/missing_panel.h"
 #include "editor/panels/pick_view.h"
 #include "editor/panels/script_panel.h"
@@ -58,6 +59,7 @@ class Layout {
   panels::ScriptPanel script_;
   panels::MissingPanel missing_;
   panels::FilmDialog film_;
+  panels::LiveCameraDialog live_camera_;
   panels::CalibrationDialog calibration_;
   panels::Tour tour_;
   bool opened_ = false;  // a frame was shown

@@ -75,13 +75,20 @@ Status FilmWith(const std::string& camera,
     }
     return moment.seconds >= seconds ? FilmStep::kFinish : FilmStep::kGoOn;
   };
-  return Film(*source, file, next).status();
+  LARARIUM_ASSIGN_OR_RETURN(const Filmed filmed, Film(*source, file, next));
+  if (!filmed.stopped.ok()) {
+    return Status::Error(filmed.stopped.message(),
+                         Text("what was filmed until then, %.0f s, is kept", filmed.last.seconds),
+                         "film again, or train from it with --video " + file.string());
+  }
+  return Status();
 }
 
-// The recording that the options name; records a camera for it. file: where to.
+// The recording that the options name; films the place with a camera for it, which replaces no
+// film that is there.
 Result<SourceDocument> ChooseRecording(const TrainOptions& options,
                                        const ProjectPaths& paths,
-                                       const std::filesystem::path& file,
+                                       const std::string& place,
                                        Progress& progress) {
   if (!options.video.empty()) {
     return SourceDocument{SourceDocument::Kind::kVideo, paths.Shorten(options.video)};
@@ -92,6 +99,7 @@ Result<SourceDocument> ChooseRecording(const TrainOptions& options,
   if (options.camera.empty()) {
     return SourceDocument{};
   }
+  const std::filesystem::path file = NewFilmFile(paths.Place(place));
   LARARIUM_RETURN_IF_ERROR(FilmWith(options.camera, options.seconds, file, progress));
   return SourceDocument{SourceDocument::Kind::kVideo, paths.Shorten(file)};
 }
@@ -115,9 +123,8 @@ Result<train::TrainReport> TrainFirst(const TrainOptions& options,
                                       PlaceDocument& place,
                                       Progress& progress,
                                       Log& log) {
-  LARARIUM_ASSIGN_OR_RETURN(
-      const SourceDocument recording,
-      ChooseRecording(options, paths, paths.Place(place.name) / "training.mp4", progress));
+  LARARIUM_ASSIGN_OR_RETURN(const SourceDocument recording,
+                            ChooseRecording(options, paths, place.name, progress));
   if (!recording.empty()) {
     place.training = recording;
   }
@@ -139,12 +146,8 @@ Result<train::TrainReport> TrainAnother(const TrainOptions& options,
     return Status::Error(place.name, "has as many recordings as a map can hold",
                          "train it anew from the best of them");
   }
-  const std::string number = std::to_string(place.added.size() + 1);
   SessionDocument session;
-  LARARIUM_ASSIGN_OR_RETURN(
-      session.source,
-      ChooseRecording(options, paths, paths.Place(place.name) / ("session-" + number + ".mp4"),
-                      progress));
+  LARARIUM_ASSIGN_OR_RETURN(session.source, ChooseRecording(options, paths, place.name, progress));
   LARARIUM_ASSIGN_OR_RETURN(session.intrinsics,
                             GivenIntrinsics(options.intrinsics, paths, session.source));
   LARARIUM_ASSIGN_OR_RETURN(train::TrainReport report,

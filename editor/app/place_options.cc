@@ -172,7 +172,7 @@ void AddMeasure(CLI::App* command, MeasureOptions& options) {
 }
 
 void AddCamera(CLI::App* command, CameraOptions& options) {
-  AddProject(command, options.project);
+  command->add_option("PROJECT", options.project, "The project's folder; none with --list");
   command->add_option("--place", options.place, "The place; the only one otherwise");
   CLI::Option* video =
       command->add_option("--video", options.video, "A recording instead of the training's");
@@ -192,6 +192,20 @@ void AddCamera(CLI::App* command, CameraOptions& options) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--device-out", options.device_out, "Write a device file for the player too");
   command->add_flag("--forget", options.forget, "People stay sharp and clean");
+  const std::vector<CLI::Option*> all = command->get_options();
+  CLI::Option* list =
+      command->add_flag("--list", options.list, "Say which cameras are connected, nothing else");
+  for (CLI::Option* other : all) {
+    if (other != command->get_help_ptr()) {
+      list->excludes(other);
+    }
+  }
+}
+
+void CheckCamera(const CameraOptions& options) {
+  if (options.project.empty() && !options.list) {
+    throw CLI::RequiredError("PROJECT");
+  }
 }
 
 void ParseBoard(const std::string& text, CalibrateOptions& calibrate) {
@@ -241,7 +255,8 @@ void AddPlaceCommands(CommandTable& table) {
   table.Add("prune", "Make a map smaller, and tell what smaller ones lose", AddPrune);
   table.Add("measure", "Measure between two points of a map, and scale the stage by that",
             AddMeasure);
-  table.Add("camera", "Measure how noisy and soft a place's images are", AddCamera);
+  table.Add("camera", "Measure how noisy and soft a place's images are, or list the cameras",
+            AddCamera, CheckCamera);
   table.Add("calibrate", "Measure a camera's intrinsics with a chessboard, and their errors",
             AddCalibrate);
 }

@@ -101,12 +101,13 @@ struct MeasureOptions {
   std::optional<double> metres;  // that it is in truth: the stage is scaled so
 };
 
-// What a place's camera is like.
+// What a place's camera is like, or which cameras are connected.
 struct CameraOptions {
-  std::filesystem::path project;
-  std::string place;             // empty: the only one
-  std::filesystem::path video;   // at most one recording; none: the training's
-  std::filesystem::path images;  // likewise
+  bool list = false;              // those that are connected, and nothing else
+  std::filesystem::path project;  // but for that
+  std::string place;              // empty: the only one
+  std::filesystem::path video;    // at most one recording; none: the training's
+  std::filesystem::path images;   // likewise
   std::filesystem::path response;
   std::optional<double> knee;     // instead of one fitted to the response
   std::optional<double> shutter;  // share of the time between frames; none: learnt

@@ -29,15 +29,6 @@ using train::CornerGrid;
 
 constexpr int kFewestViews = static_cast<int>(train::kFewestViews);
 
-void Warning(const std::string& text) {
-  if (text.empty()) {
-    return;
-  }
-  ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
-  ImGui::TextWrapped("%s", text.c_str());
-  ImGui::PopStyleColor();
-}
-
 const char* SightText(BoardSight sight) {
   switch (sight) {
     case BoardSight::kNone:
@@ -276,9 +267,11 @@ void CalibrationDialog::ShowSource(const app::ProjectPaths& paths) {
   const char* const kinds[] = {Tr("Video"), Tr("Folder of images"), Tr("Live camera")};
   Segmented("source", kinds, source_);
   const auto source = static_cast<Source>(source_);
-  PropertyLabel(source == Source::kVideo    ? Tr("File")
-                : source == Source::kImages ? Tr("Folder")
-                                            : Tr("Camera"));
+  if (source == Source::kCamera) {
+    camera_.Show(files_[source_], paths.folder);
+    return;
+  }
+  PropertyLabel(source == Source::kVideo ? Tr("File") : Tr("Folder"));
   PathField("file", files_[source_], paths.folder,
             source == Source::kImages ? std::span<const char* const>()
                                       : ExtensionsOf(app::FileKind::kVideo));
@@ -328,7 +321,7 @@ void CalibrationDialog::ShowStart(const app::ProjectPaths& paths) {
     EndProperties();
   }
   if (static_cast<Source>(source_) == Source::kCamera) {
-    Hint(Tr("The camera's number, 0 for the first; or a video, to try it without one."));
+    camera_.ShowHint();
   }
   Hint(Tr("Inner corners are where four squares meet: 10 \xc3\x97 7 squares have 9 \xc3\x97 6."));
   if (ImGui::Button(Tr("Write a board to print"), ImVec2(-FLT_MIN, 0))) {
@@ -338,7 +331,7 @@ void CalibrationDialog::ShowStart(const app::ProjectPaths& paths) {
     Hint(Text(Tr("Print %s at 100 %% on A4, and lay it on something flat and stiff."),
               written_.c_str()));
   }
-  Warning(problem_);
+  WarningText(problem_);
   std::string missing = board_.Validate().ok() ? "" : Tr("A side has 3 to 40 inner corners.");
   if (files_[source_].empty()) {
     missing = Tr("Choose what shows the board.");
@@ -436,7 +429,7 @@ void CalibrationDialog::ShowResult(const app::ProjectPaths& paths, DialogFields&
   ImGui::Dummy(ImVec2(0, Px(6)));
   ShowNumbers(calibration);
   ImGui::EndChild();
-  Warning(problem_);
+  WarningText(problem_);
   const DialogAnswer answer = DialogButtons(Tr("Use them"), "", Tr("Film again"));
   if (answer == DialogAnswer::kCancel) {
     Clear();

@@ -8,6 +8,7 @@
 
 #include "editor/app/calibrating.h"
 #include "editor/app/project.h"
+#include "editor/panels/camera_field.h"
 #include "editor/panels/editor_state.h"
 #include "editor/panels/picture_textures.h"
 
@@ -40,6 +41,7 @@ class CalibrationDialog {
   bool open_ = false;
   int source_ = 0;  // a Source
   std::string files_[3] = {"", "", "0"};
+  CameraField camera_;
   train::Board board_;
   std::string problem_;  // why there is no result, or it cannot be used
   std::string written_;  // the board to print

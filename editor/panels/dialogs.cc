@@ -10,7 +10,6 @@
 #include <string>
 
 #include "editor/app/document_fields.h"
-#include "editor/app/filming.h"
 #include "editor/app/training.h"
 #include "editor/import/cast_presets.h"
 #include "editor/import/objects/object_models.h"
@@ -428,27 +427,6 @@ void ProbeDialog(app::Workspace& workspace, EditorState& state) {
   }
 }
 
-void LiveCameraDialog(app::Workspace& workspace, EditorState& state) {
-  Hint(
-      Tr("Through the camera then shows what the camera sees now, with people in it. It must be "
-         "of the lens and proportions that the place was trained with. Nothing of it is saved."));
-  std::string& camera = state.fields.camera;
-  if (BeginProperties("live")) {
-    PropertyLabel(Tr("Camera"));
-    PathField("camera", camera, workspace.paths().folder, kVideos);
-    EndProperties();
-  }
-  Hint(Tr("The camera's number, 0 for the first; or a video, to try it without one."));
-  std::string problem;
-  if (!app::IsCameraNumber(camera) && !Exists(workspace.paths(), camera)) {
-    problem = Tr("Choose a file that exists.");
-  }
-  if (DialogDone(state, Tr("Show"), problem)) {
-    workspace.ShowLiveCamera(camera);
-    state.view = ViewKind::kCamera;
-  }
-}
-
 // One that knows no camera.
 template <void (*show)(app::Workspace&, EditorState&)>
 bool Plain(app::Workspace& workspace, EditorState& state) {
@@ -490,7 +468,6 @@ constexpr DialogEntry kDialogs[] = {
     {Dialog::kCast, TrLater("Add a person"), Plain<CastDialog>},
     {Dialog::kObject, TrLater("Add an object"), Plain<ObjectDialog>},
     {Dialog::kCheckPoint, TrLater("Add a check point"), Plain<CheckPointDialog>},
-    {Dialog::kLiveCamera, TrLater("Live camera"), Plain<LiveCameraDialog>},
     {Dialog::kLeave, TrLater("Work is not done"), Plain<LeaveDialog>}};
 
 }  // namespace
@@ -513,6 +490,14 @@ std::span<const char* const> ExtensionsOf(app::FileKind kind) {
       return app::SoundExtensions();
   }
   return {};
+}
+
+void WarningText(const std::string& text) {
+  if (!text.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
+  }
 }
 
 std::string NameProblem(const std::string& name) {

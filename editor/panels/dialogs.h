@@ -19,6 +19,9 @@ bool ShowDialogs(app::Workspace& workspace, EditorState& state);
 // Of files of a kind: with dots, lower case; none for folders.
 std::span<const char* const> ExtensionsOf(app::FileKind kind);
 
+// What went wrong, wrapped; nothing where the text is empty.
+void WarningText(const std::string& text);
+
 // What is wrong with the name of a project, place, person or thing; empty when nothing is.
 std::string NameProblem(const std::string& name);
 

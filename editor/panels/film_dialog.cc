@@ -4,7 +4,6 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -20,8 +19,6 @@ namespace lararium::panels {
 namespace {
 
 using train::CoverageGuide;
-
-constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", ".webm"};
 
 ImVec4 CellColour(CoverageGuide::Cell cell) {
   switch (cell) {
@@ -120,12 +117,40 @@ void ShowPicture(EditorState& state, const app::FilmMoment& moment, const ImVec2
   ImGui::Dummy(size);
 }
 
+// At the left of the buttons that end the dialog, apart from those that keep the film.
+bool DiscardButton() {
+  ImGui::SameLine(ImGui::GetStyle().WindowPadding.x);
+  const bool pressed = ImGui::Button(Tr("Discard"));
+  Tip(Tr("Deletes what was filmed"));
+  return pressed;
+}
+
 }  // namespace
 
 void FilmDialog::Close(EditorState& state) {
   film_.reset();
   problem_.clear();
+  asks_ = false;
   state.dialog = Dialog::kNone;
+}
+
+void FilmDialog::Discard(EditorState& state) {
+  film_->Discard();
+  Close(state);
+}
+
+void FilmDialog::Begin(app::Workspace& workspace, const std::string& place) {
+  std::error_code ignored;
+  const std::filesystem::path file = workspace.paths().Resolve(camera_);
+  auto camera = app::OpenFilmCamera(std::filesystem::is_regular_file(file, ignored) ? file.string()
+                                                                                    : camera_);
+  problem_ = camera.ok() ? "" : camera.message();
+  if (camera.ok()) {
+    place_ = place;
+    asks_ = false;
+    const std::filesystem::path folder = workspace.paths().Place(place);
+    film_ = std::make_unique<app::FilmTask>(*std::move(camera), app::NewFilmFile(folder));
+  }
 }
 
 void FilmDialog::ShowStart(app::Workspace& workspace, EditorState& state) {
@@ -136,36 +161,94 @@ void FilmDialog::ShowStart(app::Workspace& workspace, EditorState& state) {
   if (BeginProperties("film")) {
     PropertyLabel(Tr("Place"));
     ImGui::InputText("##place", &state.fields.place);
-    PropertyLabel(Tr("Camera"));
-    PathField("camera", camera_, workspace.paths().folder, kVideos);
+    field_.Show(camera_, workspace.paths().folder);
     EndProperties();
   }
-  Hint(Tr("The camera's number, 0 for the first; or a video, to try it without one."));
-  if (!problem_.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
-    ImGui::TextWrapped("%s", problem_.c_str());
-    ImGui::PopStyleColor();
-  }
+  field_.ShowHint();
+  WarningText(problem_);
   const DialogAnswer answer = DialogButtons(Tr("Film"), NameProblem(state.fields.place));
   if (answer == DialogAnswer::kCancel) {
     Close(state);
   }
   if (answer == DialogAnswer::kAct) {
-    std::error_code ignored;
-    const std::filesystem::path file = workspace.paths().Resolve(camera_);
-    auto camera = app::OpenFilmCamera(
-        std::filesystem::is_regular_file(file, ignored) ? file.string() : camera_);
-    problem_ = camera.ok() ? "" : camera.message();
-    if (camera.ok()) {
-      const std::filesystem::path folder = workspace.paths().Place(state.fields.place);
-      film_ = std::make_unique<app::FilmTask>(*std::move(camera), app::NewFilmFile(folder));
-    }
+    Begin(workspace, state.fields.place);
+  }
+}
+
+void FilmDialog::Train(app::Workspace& workspace, EditorState& state) {
+  DialogFields fields;
+  fields.place = place_;
+  fields.file = film_->file().string();
+  Close(state);
+  TrainRecording(workspace, fields);
+}
+
+// While it films.
+void FilmDialog::ShowButtons() {
+  const std::string problem =
+      film_->moment().frames == 0 ? Tr("Waiting for the camera\xe2\x80\xa6") : "";
+  switch (DialogButtons(Tr("Stop and train"), problem, Tr("Discard\xe2\x80\xa6"))) {
+    case DialogAnswer::kCancel:
+      asks_ = true;
+      break;
+    case DialogAnswer::kAct:
+      film_->Finish();
+      break;
+    case DialogAnswer::kNone:
+      break;
+  }
+}
+
+void FilmDialog::ShowQuestion(EditorState& state) {
+  ImGui::TextWrapped("%s", Text(Tr("%.0f s are filmed. Train from them, or discard them?"),
+                                film_->moment().seconds)
+                               .c_str());
+  const DialogAnswer answer = DialogButtons(Tr("Stop and train"), "", Tr("Keep filming"));
+  const bool discard = DiscardButton();
+  if (answer == DialogAnswer::kAct) {
+    film_->Finish();
+  }
+  asks_ = answer == DialogAnswer::kNone;
+  if (discard) {
+    Discard(state);
+  }
+}
+
+// By itself: the camera failed, the disk is full, or the recording is over.
+void FilmDialog::ShowEnded(const app::Filmed& filmed, EditorState& state) {
+  if (!filmed.stopped.ok()) {
+    WarningText(Text(Tr("Filming has stopped: %s"), filmed.stopped.message().c_str()));
+  }
+  ImGui::TextWrapped("%s", Text(Tr("%.0f s are filmed, and kept in %s."), filmed.last.seconds,
+                                film_->file().filename().c_str())
+                               .c_str());
+  const DialogAnswer answer = DialogButtons(Tr("Train from it"), "", Tr("Film again"));
+  const bool discard = DiscardButton();
+  if (answer == DialogAnswer::kAct) {
+    film_->Finish();
+  }
+  if (answer == DialogAnswer::kCancel) {
+    film_.reset();
+  } else if (discard) {
+    Discard(state);
+  }
+}
+
+// Without anything that could be kept.
+void FilmDialog::ShowFailed(const std::string& problem, EditorState& state) {
+  WarningText(problem);
+  const DialogAnswer answer = DialogButtons(Tr("Film again"), "");
+  if (answer == DialogAnswer::kCancel) {
+    Close(state);
+  }
+  if (answer == DialogAnswer::kAct) {
+    film_.reset();
   }
 }
 
 void FilmDialog::ShowFilming(app::Workspace& workspace, EditorState& state) {
   const app::FilmMoment moment = film_->moment();
-  const std::optional<Status> outcome = film_->outcome();
+  const std::optional<Result<app::Filmed>> outcome = film_->outcome();
   const float available = ImGui::GetContentRegionAvail().x;
   const float side = std::min(Px(320), 0.45f * available);
   ImVec2 picture(available - side - Px(14), 0.0f);
@@ -184,31 +267,39 @@ void FilmDialog::ShowFilming(app::Workspace& workspace, EditorState& state) {
   ImGui::PopItemWidth();
   ImGui::EndGroup();
 
-  const bool failed = outcome && !outcome->ok();
-  const std::string problem = failed               ? outcome->message()
-                              : moment.frames == 0 ? Tr("Waiting for the camera\xe2\x80\xa6")
-                                                   : "";
-  const DialogAnswer answer = DialogButtons(Tr("Stop and train"), problem, Tr("Discard"));
-  if (answer == DialogAnswer::kCancel) {
-    Close(state);
-    return;
+  if (outcome && !outcome->ok()) {
+    ShowFailed(outcome->message(), state);
+  } else if (outcome && film_->finishing()) {
+    Train(workspace, state);
+  } else if (outcome) {
+    ShowEnded(**outcome, state);
+  } else if (asks_) {
+    ShowQuestion(state);
+  } else {
+    ShowButtons();
   }
-  if (answer == DialogAnswer::kAct) {
-    film_->Finish();
-  }
-  if (outcome && outcome->ok() && film_->finishing()) {
-    DialogFields fields = state.fields;
-    fields.images = false;
-    fields.intrinsics.clear();
-    fields.file = film_->file().string();
+}
+
+void FilmDialog::Leave(app::Workspace& workspace, EditorState& state) {
+  if (film_ != nullptr && film_->outcome() && film_->outcome()->ok()) {
+    workspace.Tell(app::Message::Level::kInfo,
+                   Text(Tr("What was filmed is kept in %s."), film_->file().c_str()));
     Close(state);
-    TrainRecording(workspace, fields);
+  } else if (film_ != nullptr && !film_->outcome() && film_->moment().frames > 0) {
+    const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    asks_ = !(asks_ && escape);  // which answers the question, too: go on
+  } else if (film_ != nullptr) {
+    Discard(state);  // nothing of it was filmed yet
+  } else {
+    Close(state);
   }
 }
 
 void FilmDialog::Show(app::Workspace& workspace, EditorState& state) {
   if (state.dialog != Dialog::kFilm) {
-    film_.reset();
+    if (film_ != nullptr && state.dialog == Dialog::kNone) {
+      state.dialog = Dialog::kFilm;  // back from another, such as the list of keys
+    }
     return;
   }
   bool open = true;
@@ -218,8 +309,8 @@ void FilmDialog::Show(app::Workspace& workspace, EditorState& state) {
               filming ? ShowFilming(workspace, state) : ShowStart(workspace, state);
               open = state.dialog == Dialog::kFilm && filming == (film_ != nullptr);
             });
-  if (!open && filming == (film_ != nullptr)) {
-    Close(state);
+  if (!open && state.dialog == Dialog::kFilm && filming == (film_ != nullptr)) {
+    Leave(workspace, state);
   }
 }
 

@@ -123,6 +123,7 @@ void ShowModal(const char* title, float width, bool& open, const std::function<v
   bool kept = true;
   if (!ImGui::BeginPopupModal(title, &kept,
                               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    open &= kept;  // its cross was pressed
     return;
   }
   if (ImGui::IsWindowAppearing() && ImGui::GetIO().NavVisible) {
@@ -562,6 +563,8 @@ bool PathField(const char* id,
   if (ImGui::Button("\xe2\x80\xa6", ImVec2(button, 0))) {
     ImGui::OpenPopup("files");
   }
+  Tooltip(extensions.empty() ? Tr("Lists folders, to choose one")
+                             : Tr("Lists the folder, to choose a file"));
   ImGui::SetNextWindowSize(ImVec2(Px(460), Px(320)), ImGuiCond_Always);
   if (ImGui::BeginPopup("files")) {
     changed |= FolderList(path, folder, extensions);

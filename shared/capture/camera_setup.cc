@@ -115,9 +115,18 @@ Status SetExposure(const std::string& name, double milliseconds, VideoDevice& de
              : NoExposure(name, "V4L2_CID_EXPOSURE_ABSOLUTE");
 }
 
+// A driver's text, which need not end within its field.
+template <size_t size>
+std::string Printable(const uint8_t (&text)[size]) {
+  std::string printable(text, std::find(text, text + size, uint8_t{0}));
+  std::replace_if(
+      printable.begin(), printable.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return printable;
+}
+
 }  // namespace
 
-Status CheckIsCamera(const std::string& name, VideoDevice& device) {
+Result<std::string> CameraName(const std::string& name, VideoDevice& device) {
   v4l2_capability capability = Zeroed<v4l2_capability>();
   if (Ask(device, VIDIOC_QUERYCAP, &capability) != 0) {
     return CannotOpen(name, "VIDIOC_QUERYCAP");
@@ -128,7 +137,8 @@ Status CheckIsCamera(const std::string& name, VideoDevice& device) {
   if ((its & kNeeded) != kNeeded) {
     return Status::Error(name, "cannot be opened: it streams no video", "choose another number");
   }
-  return Status();
+  const std::string card = Printable(capability.card);
+  return card.empty() ? name : card;
 }
 
 // Sizes and formats belong together: first the format with its size, then the rate.

@@ -18,8 +18,9 @@ struct CameraMode {
   double frames_per_second = 30.0;
 };
 
-// That it is none, where so. name: for errors.
-Status CheckIsCamera(const std::string& name, VideoDevice& device);
+// What a camera's driver calls it, in printable ASCII; an error where it is no camera. name: for
+// errors.
+Result<std::string> CameraName(const std::string& name, VideoDevice& device);
 
 Result<CameraMode> SetUpCamera(const std::string& name,
                                const CameraSettings& settings,

@@ -92,7 +92,7 @@ class CameraSource final : public FrameSource {
 Result<std::unique_ptr<FrameSource>> OpenCamera(const std::string& name,
                                                 std::unique_ptr<VideoDevice> device,
                                                 const CameraSettings& settings) {
-  LARARIUM_RETURN_IF_ERROR(CheckIsCamera(name, *device));
+  LARARIUM_RETURN_IF_ERROR(CameraName(name, *device).status());
   LARARIUM_ASSIGN_OR_RETURN(FrameConverter converter, FrameConverter::Create(name, *device));
   LARARIUM_ASSIGN_OR_RETURN(const CameraMode mode, SetUpCamera(name, settings, *device, converter));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<BufferQueue> queue, BufferQueue::Start(name, *device));

@@ -43,8 +43,10 @@ class LinuxVideoDevice final : public VideoDevice {
 
 }  // namespace
 
+std::string VideoDeviceFile(int number) { return "/dev/video" + std::to_string(number); }
+
 Result<std::unique_ptr<VideoDevice>> OpenVideoDevice(const std::string& name, int number) {
-  const std::string file = "/dev/video" + std::to_string(number);
+  const std::string file = VideoDeviceFile(number);
   const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {
     return CannotOpen(name, file);

@@ -29,7 +29,10 @@ class VideoDevice {
   virtual int descriptor() const = 0;
 };
 
-// The driver behind /dev/video and the number. name: of the camera, for errors.
+// /dev/video and the number.
+std::string VideoDeviceFile(int number);
+
+// The driver behind it. name: of the camera, for errors.
 Result<std::unique_ptr<VideoDevice>> OpenVideoDevice(const std::string& name, int number);
 
 // Ioctl(), asked again where a signal came in between.

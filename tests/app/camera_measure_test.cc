@@ -80,5 +80,22 @@ TEST(MeasureCamera, SaysWhatToDoWhereNothingCanBeSeen) {
   EXPECT_NE(traits.message().find("good light"), std::string::npos);
 }
 
+TEST(CameraList, SaysNumberAndNameOrWhyThereIsNone) {
+  const std::vector<capture::ConnectedCamera> cameras = {
+      {0, "Integrated Camera", ""}, {2, "", "camera 2: cannot be opened (permission denied)"}};
+  const CommandResult listed = CameraList(cameras);
+  EXPECT_EQ(listed.text,
+            "0  Integrated Camera\n2  camera 2: cannot be opened (permission denied)\n");
+  EXPECT_EQ(listed.json["cameras"][0], Json({{"number", 0}, {"name", "Integrated Camera"}}));
+  EXPECT_EQ(listed.json["cameras"][1]["problem"], cameras[1].problem);
+  EXPECT_FALSE(listed.json["cameras"][1].contains("name"));
+}
+
+TEST(CameraList, WithoutCamerasItSaysSo) {
+  const CommandResult listed = CameraList({});
+  EXPECT_EQ(listed.text, "no camera is connected\n");
+  EXPECT_TRUE(listed.json["cameras"].is_array() && listed.json["cameras"].empty());
+}
+
 }  // namespace
 }  // namespace lararium::app

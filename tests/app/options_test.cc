@@ -85,6 +85,14 @@ TEST(EditorOptions, TrainWithoutARecordingTakesTheOneBefore) {
   EXPECT_FALSE(train.tag_size.has_value());
 }
 
+TEST(EditorOptions, CameraMeasuresAPlaceOrListsWhatIsConnected) {
+  EXPECT_EQ(Parsed<CameraOptions>({"camera", "p.lararium", "--knee", "0.8"}).project, "p.lararium");
+  EXPECT_TRUE(Parsed<CameraOptions>({"camera", "--list"}).list);
+  EXPECT_THAT(Refusal({"camera"}), HasSubstr("PROJECT"));
+  EXPECT_THAT(Refusal({"camera", "--list", "p.lararium"}), HasSubstr("--list"));
+  EXPECT_THAT(Refusal({"camera", "--list", "--forget"}), HasSubstr("--list"));
+}
+
 TEST(EditorOptions, CalibrateTakesOneSourceAndABoard) {
   const auto calibrate = Parsed<CalibrateOptions>(
       {"calibrate", "--camera", "1", "--board", "7x5", "--square", "0.03", "--seconds", "20"});

@@ -119,6 +119,7 @@ class FakeDevice final : public VideoDevice {
   int Describe(v4l2_capability& capability) {
     capability = Zeroed<v4l2_capability>();
     std::copy(camera_.driver.begin(), camera_.driver.end(), capability.driver);
+    std::copy(camera_.card.begin(), camera_.card.end(), capability.card);
     // What all nodes of the camera can do together, and this one.
     capability.capabilities =
         V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING | V4L2_CAP_META_CAPTURE;

@@ -30,6 +30,7 @@ struct FakeCamera {
   };
 
   std::string driver = "fake";
+  std::string card = "Fake camera";  // at most 32 bytes
   std::vector<Mode> modes = {{}};
   uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   std::vector<uint32_t> rates = {30};

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Films a place with a camera, for which a recording stands in, and presses "Stop and train": the
-# recording is kept in the project, the place is trained from it, and the window shows it.
+# Films a place with a camera, for which a recording stands in, and presses "Train from it" when that
+# is over: the recording is kept in the project, the place is trained from it, and the window shows it.
 #
 #   film_window_test.sh EDITOR OUTPUT_FOLDER VIDEO
 set -u
@@ -33,7 +33,7 @@ click 912 551  # Film
 sleep 6        # all of the recording, at its own pace
 shot filming
 [ -e "$map" ] && fail "there is a map before anything was filmed"
-click 1153 723  # Stop and train
+click 1153 735  # Train from it
 wait_for 30 test -s "$film" || fail "the recording was not kept"
 press ctrl+s
 named() { tr -d ' \n' < "$json" | grep -q '"video":"places/tavern/film-1.mp4"'; }

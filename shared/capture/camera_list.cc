@@ -1,0 +1,46 @@
+#include "shared/capture/camera_list.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "shared/capture/camera_setup.h"
+#include "shared/capture/camera_source.h"
+
+namespace lararium::capture {
+namespace {
+
+constexpr int kMostDevices = 256;  // numbers that Linux gives
+
+std::optional<Result<std::unique_ptr<VideoDevice>>> OpenIfThere(int number) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(VideoDeviceFile(number), ignored)) {
+    return std::nullopt;
+  }
+  return OpenVideoDevice("camera " + std::to_string(number), number);
+}
+
+}  // namespace
+
+std::vector<ConnectedCamera> ListCameras(const DeviceOpener& open) {
+  std::vector<ConnectedCamera> cameras;
+  for (int number = 0; number < kMostDevices; ++number) {
+    const auto device = open(number);
+    if (!device) {
+      continue;
+    }
+    if (!device->ok()) {
+      cameras.push_back({number, "", device->message()});
+      continue;
+    }
+    const Result<std::string> name = CameraName("camera " + std::to_string(number), ***device);
+    if (name.ok()) {
+      cameras.push_back({number, *name, ""});
+    }
+  }
+  return cameras;
+}
+
+std::vector<ConnectedCamera> ConnectedCameras() { return ListCameras(OpenIfThere); }
+
+}  // namespace lararium::capture
