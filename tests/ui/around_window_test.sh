@@ -93,9 +93,9 @@ wait_for 10 in_steps || fail "the drag in steps: $(adjust translation)"
 # The added session goes, after a question.
 click 37 147
 import -window root "$out/place.png"
-click 1307 513
+click 1307 545
 import -window root "$out/question.png"
-click 1176 614
+click 1176 646
 smaller() { [ "$(stat -c %s "$scene")" -lt "$before" ]; }
 wait_for 20 smaller || fail "the map has all its sessions"
 sleep 2
