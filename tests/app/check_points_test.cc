@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "editor/app/check_commands.h"
+#include "editor/app/picked_images.h"
 #include "tests/app/two_places.h"
 
 namespace lararium::app {
@@ -233,9 +234,9 @@ TEST_F(TwoPlaces, TheSubcommandSetsPicksLaysAndReports) {
   // One pick goes, and is made again; the last one takes the point's entry along.
   const vision::SceneDatabase site = MapOf(world_, kSiteFromStage);
   const stage::Pick seen = See(world_, site, points[0].second, 2);
-  ASSERT_TRUE(run({.place = "site", .clear = "left", .frame = seen.frame}).ok());
+  ASSERT_TRUE(run({.place = "site", .frame = seen.frame, .clear = "left"}).ok());
   EXPECT_EQ(FindCheckPicks(LoadProject(paths_)->places[1], "left")->picks.size(), 1u);
-  EXPECT_THAT(run({.place = "site", .clear = "left", .frame = seen.frame}).status().message(),
+  EXPECT_THAT(run({.place = "site", .frame = seen.frame, .clear = "left"}).status().message(),
               HasSubstr("was not picked in " + seen.frame));
   ASSERT_TRUE(run({.place = "site",
                    .pick = "left",
