@@ -5,6 +5,7 @@
 
 #include "editor/app/check_points.h"
 #include "editor/app/command_arguments.h"
+#include "editor/app/picked_images.h"
 #include "editor/app/staging.h"
 
 namespace lararium::app {
@@ -138,7 +139,16 @@ class CheckPointWorker {
   Status Clear() {
     LARARIUM_RETURN_IF_ERROR(FindPoint(options_.clear).status());
     LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, Place());
-    ClearCheckPicks(*place, options_.clear);
+    if (options_.frame.empty()) {
+      ClearCheckPicks(*place, options_.clear);
+      return Status();
+    }
+    const stage::Anchor* picks = FindCheckPicks(*place, options_.clear);
+    LARARIUM_ASSIGN_OR_RETURN(
+        const stage::Pick pick,
+        FindPick(picks != nullptr ? *picks : stage::Anchor{options_.clear, {}}, "--clear",
+                 options_.frame, static_cast<uint32_t>(options_.session)));
+    RemoveCheckPick(*place, options_.clear, pick);
     return Status();
   }
 

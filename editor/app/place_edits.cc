@@ -8,6 +8,7 @@
 
 #include "editor/app/missing_files.h"
 #include "editor/app/occluder_alignment.h"
+#include "editor/app/picked_images.h"
 
 namespace lararium::app {
 
@@ -72,10 +73,7 @@ Status AddMissing(const fs::path& folder, const fs::path& other) {
 }  // namespace
 
 void SetPick(stage::Anchor& anchor, const stage::Pick& pick) {
-  std::erase_if(anchor.picks, [&](const stage::Pick& known) {
-    return known.session == pick.session && known.frame_index == pick.frame_index &&
-           (known.frame.empty() || known.frame == pick.frame);
-  });
+  RemovePick(anchor, pick);
   anchor.picks.push_back(pick);
 }
 

@@ -4,6 +4,7 @@
 
 #include "editor/app/command_arguments.h"
 #include "editor/app/document_fields.h"
+#include "editor/app/picked_images.h"
 #include "editor/app/place_edits.h"
 #include "editor/app/stage_report.h"
 #include "editor/app/staging.h"
@@ -51,9 +52,8 @@ class StageWorker {
   }
 
   Status EditPicks() {
-    for (const std::string& name : options_.clear) {
-      LARARIUM_ASSIGN_OR_RETURN(stage::Anchor * anchor, Anchor("--clear", name));
-      anchor->picks.clear();
+    for (const std::string& text : options_.clear) {
+      LARARIUM_RETURN_IF_ERROR(Clear(text));
       changed_ = true;
     }
     for (const std::string& text : options_.picks) {
@@ -64,6 +64,21 @@ class StageWorker {
       place_->picks.length_m = *options_.length;
       changed_ = true;
     }
+    return Status();
+  }
+
+  // "POINT", or "POINT=FRAME"
+  Status Clear(const std::string& text) {
+    const size_t equals = text.find('=');
+    LARARIUM_ASSIGN_OR_RETURN(stage::Anchor * anchor, Anchor("--clear", text.substr(0, equals)));
+    if (equals == std::string::npos) {
+      anchor->picks.clear();
+      return Status();
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const stage::Pick pick,
+                              FindPick(*anchor, "--clear", text.substr(equals + 1),
+                                       static_cast<uint32_t>(options_.session)));
+    RemovePick(*anchor, pick);
     return Status();
   }
 

@@ -1,5 +1,6 @@
 #include "editor/app/stage_options.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <tuple>
@@ -17,22 +18,20 @@ namespace {
 
 void AddStagePicks(CLI::App* command, StageOptions& options) {
   command
-      ->add_option("--clear", options.clear, "Forget where this point was picked; may be repeated")
+      ->add_option("--clear", options.clear,
+                   "Forget where this point was picked, or POINT=FRAME: in this image alone; may "
+                   "be repeated")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->check(CLI::IsMember(AnchorNames()));
-  CLI::Option* pick =
-      command
-          ->add_option(
-              "--pick", options.picks,
-              "POINT=FRAME,x,y: where a point is seen in a training image, each in two or "
-              "more of them; may be repeated. origin, forward: straight ahead of it, floor: "
-              "a third point of the floor; length_from, length_to: ends of a known length")
-          ->expected(1)
-          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--pick", options.picks,
+                   "POINT=FRAME,x,y: where a point is seen in a training image, each in two or "
+                   "more of them; may be repeated. origin, forward: straight ahead of it, floor: "
+                   "a third point of the floor; length_from, length_to: ends of a known length")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--session", options.session, "Of these images; 0: the training")
-      ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
-      ->needs(pick);
+      ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)));
   command
       ->add_option("--length", options.length,
                    "Metres of the known length; without its points, from origin to forward")
@@ -70,13 +69,29 @@ void AddStage(CLI::App* command, StageOptions& options) {
       ->expected(3);
 }
 
+void CheckStage(const StageOptions& stage) {
+  const std::vector<std::string> names = AnchorNames();
+  bool in_images = !stage.picks.empty();
+  for (const std::string& cleared : stage.clear) {
+    const std::string name = cleared.substr(0, cleared.find('='));
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      throw CLI::ValidationError("--clear", name + " is no point of the stage");
+    }
+    in_images |= name != cleared;
+  }
+  if (stage.session != 0 && !in_images) {
+    throw CLI::ValidationError("--session", "needs --pick, or --clear of an image");
+  }
+}
+
 void AddCheckPoints(CLI::App* command, CheckPointsOptions& options) {
   AddProject(command, options.project);
   command->add_option("--place", options.place, "The place; all of them otherwise");
   CLI::Option_group* work = command->add_option_group("work", "Before the report");
   CLI::Option* set = work->add_option("--set", options.set, "Add the point NAME, or move it");
-  CLI::Option* pick = work->add_option("--pick", options.pick, "Pick NAME in a training image");
-  work->add_option("--clear", options.clear, "Forget where NAME was picked at the place");
+  work->add_option("--pick", options.pick, "Pick NAME in a training image");
+  work->add_option("--clear", options.clear,
+                   "Forget where NAME was picked at the place, or in --frame alone");
   work->add_option("--remove", options.remove, "Remove the point NAME, everywhere");
   CLI::Option* rename = work->add_option("--rename", options.rename, "Give NAME another name");
   rename->needs(command->add_option("--to", options.to, "The other name")->needs(rename));
@@ -89,14 +104,15 @@ void AddCheckPoints(CLI::App* command, CheckPointsOptions& options) {
   command->add_flag("--here", options.here, "It is where it was picked at the place")
       ->needs(set)
       ->excludes(at);
-  command->add_option("--frame", options.frame, "The image, as in the recording")->needs(pick);
-  command->add_option("--pixel", options.pixel, "x,y in it")
+  CLI::Option* frame =
+      command->add_option("--frame", options.frame, "The image, as in the recording");
+  command->add_option("--pixel", options.pixel, "x,y in it, of --pick")
       ->delimiter(',')
       ->expected(2)
-      ->needs(pick);
+      ->needs(frame);
   command->add_option("--session", options.session, "Of the image; 0: the training")
       ->check(CLI::Range(0, static_cast<int>(kMaxAddedSessions)))
-      ->needs(pick);
+      ->needs(frame);
 }
 
 void CheckCheckPoints(const CheckPointsOptions& points) {
@@ -105,6 +121,12 @@ void CheckCheckPoints(const CheckPointsOptions& points) {
   }
   if (!points.pick.empty() && (points.frame.empty() || points.pixel.empty())) {
     throw CLI::ValidationError("--pick", "needs --frame and --pixel");
+  }
+  if (points.pick.empty() && !points.pixel.empty()) {
+    throw CLI::ValidationError("--pixel", "needs --pick");
+  }
+  if (points.pick.empty() && points.clear.empty() && !points.frame.empty()) {
+    throw CLI::ValidationError("--frame", "needs --pick or --clear");
   }
 }
 
@@ -437,7 +459,8 @@ void AddProbe(CLI::App* probe, ProbeOptions& options) {
 }  // namespace
 
 void AddStageCommands(CommandTable& table) {
-  table.Add("stage", "Lay the stage at a place, and say how well it is known", AddStage);
+  table.Add("stage", "Lay the stage at a place, and say how well it is known", AddStage,
+            CheckStage);
   table.Add("check-points", "Say how the stage lies at each place, by points of it that are known",
             AddCheckPoints, CheckCheckPoints);
   table.Add("occluder", "List, add and change what hides people", AddOccluder, CheckOccluder);

@@ -13,7 +13,7 @@ namespace lararium::app {
 struct StageOptions {
   std::filesystem::path project = {};
   std::string place = {};               // empty: the only one
-  std::vector<std::string> clear = {};  // forgets where these of AnchorNames() were picked
+  std::vector<std::string> clear = {};  // forgets picks of these: POINT, or POINT=FRAME alone
   std::vector<std::string> picks = {};  // where points are seen: POINT=FRAME,x,y each
   int session = 0;                      // of these images
   std::optional<double> length = {};    // metres between length_from and length_to
@@ -40,7 +40,7 @@ struct CheckPointsOptions {
   std::string frame = {};       // name of the image
   std::vector<double> pixel = {};
   int session = 0;
-  std::string clear = {};   // forgets where a point was picked at the place
+  std::string clear = {};   // forgets where a point was picked at the place, or in frame alone
   std::string remove = {};  // a point, everywhere
   std::string rename = {};  // a point,
   std::string to = {};      // to this name

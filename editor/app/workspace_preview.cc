@@ -6,17 +6,12 @@
 #include "editor/app/drawn_occluder.h"
 #include "editor/app/file_stamp.h"
 #include "editor/app/filming.h"
+#include "editor/app/frame_times.h"
 #include "editor/app/object_pose.h"
 #include "editor/app/sounds.h"
 #include "editor/app/workspace.h"
 
 namespace lararium::app {
-
-namespace {
-
-constexpr double kSameFrame = 1e-6;  // frames: what rounding leaves of a frame's own moment
-
-}  // namespace
 
 std::string Workspace::PreviewKey() const {
   // Drawing on would open everything anew with each corner.
@@ -176,9 +171,7 @@ void Workspace::SetFrame(int64_t frame) {
 void Workspace::StepFrames(int64_t frames) {
   const std::optional<PreviewSource> source = recording();
   if (source && !source->live) {
-    const double rate = source->frames_per_second;
-    const double frame = std::floor(time_ * rate + kSameFrame) + static_cast<double>(frames);
-    SetTime(std::min(frame / rate, std::max(duration() - 1.0 / rate, time_)));
+    SetTime(TimeOfStep(time_, frames, source->frames_per_second, duration()));
   }
 }
 

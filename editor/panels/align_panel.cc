@@ -7,6 +7,7 @@
 #include "editor/app/occluder_alignment.h"
 #include "editor/panels/gizmo_view.h"
 #include "editor/panels/model_point.h"
+#include "editor/panels/picks_list.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -263,6 +264,9 @@ void ShowAlignment(app::Workspace& workspace,
   AlignByPointsButton(workspace, model, report, map_from_stage);
   ImGui::Dummy(ImVec2(0, Px(4)));
   ShowRefining(workspace, state, model);
+  if (align.pair) {
+    ShowPicksList(workspace, state);
+  }
 }
 
 ModelPairInWork PairInWork(const app::Workspace& workspace, const EditorState& state) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "editor/panels/align_panel.h"
+#include "editor/panels/around_look.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/frame_damage.h"
 #include "editor/panels/ghost.h"
@@ -427,9 +428,7 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   UpdateActors(workspace);
   if (!framed_ && database_ != nullptr) {
     framed_ = true;
-    state.orbit = OrbitCamera();
-    state.orbit.target = Vector3d(0.0, 0.9, -0.5);
-    state.orbit.distance = 7.0;
+    state.orbit = LookAtStage(workspace.place());
   }
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::GetContentRegionAvail();
@@ -465,7 +464,7 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
   }
   Point(workspace, state, view, hovered && !busy, draw);
   DrawChosenPoints(workspace, state, view, draw);
-  const char* keys = Tr("Drag to orbit, Shift or right drag to pan, wheel to zoom");
+  const char* keys = Tr("Drag or arrows to orbit, Shift to pan, wheel or Page Up and Down to zoom");
   const float wrap = size.x - Px(24);
   const float tall = ImGui::CalcTextSize(keys, nullptr, false, wrap).y;
   draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(),
@@ -473,6 +472,8 @@ void AroundView::Show(app::Workspace& workspace, EditorState& state) {
                nullptr, wrap);
   draw.PopClipRect();
   Interact(state, hovered, active && !busy, ToEigen(size));
+  LookByKeys(state, ToEigen(size));
+  LookWhereAsked(workspace, points_, ToEigen(size), state);
   const ImVec2 area(static_cast<float>(width), static_cast<float>(height));
   ShowPlaceTools(workspace, state, origin, area);
   ShowPointCard(workspace, state, origin, area);

@@ -7,6 +7,7 @@
 
 #include "editor/app/check_points.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/picks_list.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/widgets.h"
@@ -250,6 +251,7 @@ void ShowCheckPoint(app::Workspace& workspace,
   ShowTable(state, report);
   ShowOutcome(workspace, report);
   ImGui::Dummy(ImVec2(0, Px(4)));
+  ShowPicksList(workspace, state);
   ShowPointButtons(workspace, state, name, here);
 }
 

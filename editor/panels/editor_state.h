@@ -140,6 +140,8 @@ struct LightView {
 
 // How the view around the place shows the map, and what of it is chosen.
 struct PlaceView {
+  enum class LookAt { kWhereItDoes, kStage, kMap, kSelected };
+  LookAt look_at = LookAt::kWhereItDoes;  // next: asked for by a button or a key
   PointColour colours = PointColour::kPicture;
   ColourRange range;             // of the colours, as the points were coloured last
   bool measure = false;          // a click adds a second point to the first

@@ -19,6 +19,7 @@
 #include "editor/panels/object_inspector.h"
 #include "editor/panels/occluder_inspector.h"
 #include "editor/panels/pick_view.h"
+#include "editor/panels/picks_list.h"
 #include "editor/panels/place_cards.h"
 #include "editor/panels/place_inspector.h"
 #include "editor/panels/project_inspector.h"
@@ -443,6 +444,7 @@ void ShowPicks(app::Workspace& workspace, EditorState& state, const app::PlaceDo
   Hint(Tr(
       "The length lies between the two length points; without them, between origin and forward."));
   ShowLeftOut(workspace);
+  ShowPicksList(workspace, state);
   if (state.view != ViewKind::kPicks) {
     if (ImGui::Button(Tr("Pick in the training images"), ImVec2(-FLT_MIN, 0))) {
       state.view = ViewKind::kPicks;

@@ -58,13 +58,13 @@ void ShowColumns() {
     return;
   }
   ImGui::TableNextColumn();
-  for (const KeyScope scope :
-       {KeyScope::kAlways, KeyScope::kPanels, KeyScope::kViews, KeyScope::kCamera}) {
+  for (const KeyScope scope : {KeyScope::kAlways, KeyScope::kPanels, KeyScope::kViews,
+                               KeyScope::kCamera, KeyScope::kAround}) {
     ShowScope(scope);
   }
   ImGui::TableNextColumn();
-  for (const KeyScope scope :
-       {KeyScope::kTimeline, KeyScope::kWalk, KeyScope::kLight, KeyScope::kStart}) {
+  for (const KeyScope scope : {KeyScope::kTimeline, KeyScope::kPicks, KeyScope::kWalk,
+                               KeyScope::kLight, KeyScope::kStart}) {
     ShowScope(scope);
   }
   ImGui::EndTable();

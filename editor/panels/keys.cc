@@ -116,6 +116,33 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kCamera, Action::kNudgeBack, GLFW_KEY_PAGE_DOWN, 0, 0, TrLater("Back"),
      TrLater("by 5 cm")},
 
+    {Scope::kAround, Action::kOrbitLeft, GLFW_KEY_LEFT, 0, 0,
+     TrLater("Goes round the place to the left"), TrLater("moves that way")},
+    {Scope::kAround, Action::kOrbitRight, GLFW_KEY_RIGHT, 0, 0, TrLater("To the right"),
+     TrLater("moves that way")},
+    {Scope::kAround, Action::kOrbitUp, GLFW_KEY_UP, 0, 0, TrLater("Higher"),
+     TrLater("moves that way")},
+    {Scope::kAround, Action::kOrbitDown, GLFW_KEY_DOWN, 0, 0, TrLater("Lower"),
+     TrLater("moves that way")},
+    {Scope::kAround, Action::kComeNearer, GLFW_KEY_PAGE_UP, 0, 0, TrLater("Nearer")},
+    {Scope::kAround, Action::kGoFurther, GLFW_KEY_PAGE_DOWN, 0, 0, TrLater("Further")},
+    {Scope::kAround, Action::kLookAtStage, GLFW_KEY_HOME, 0, 0,
+     TrLater("Looks at the stage as at first"), TrLater("at all of the map")},
+    {Scope::kAround, Action::kLookAtSelected, GLFW_KEY_V, 0, 0,
+     TrLater("Looks at what is selected")},
+
+    {Scope::kPicks, Action::kImageBefore, GLFW_KEY_LEFT, 0, 0,
+     TrLater("To the training image before"), TrLater("ten before")},
+    {Scope::kPicks, Action::kImageAfter, GLFW_KEY_RIGHT, 0, 0, TrLater("To the next one"),
+     TrLater("ten further")},
+    {Scope::kPicks, Action::kPickedBefore, GLFW_KEY_PAGE_UP, 0, 0,
+     TrLater("To the image before that has a pick of the point")},
+    {Scope::kPicks, Action::kPickedAfter, GLFW_KEY_PAGE_DOWN, 0, 0,
+     TrLater("To the next image that has one")},
+    {Scope::kPicks, Action::kRemovePick, GLFW_KEY_DELETE, 0, 0,
+     TrLater("Removes the point's pick in this image")},
+    {Scope::kPicks, Action::kRemovePick, GLFW_KEY_BACKSPACE, 0, 0, nullptr},
+
     {Scope::kWalk, Action::kWalkLeft, GLFW_KEY_LEFT, 0, 0,
      TrLater("Moves it to the left over the floor by 1 cm"), TrLater("by 10 cm")},
     {Scope::kWalk, Action::kWalkRight, GLFW_KEY_RIGHT, 0, 0, TrLater("To the right"),
@@ -165,15 +192,17 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kTimeline, Action::kItemOn, GLFW_KEY_RIGHT, kAlt, 0,
      TrLater("Moves what is chosen on by 0.1 s"), TrLater("by a second")},
     {Scope::kTimeline, Action::kSelectBefore, GLFW_KEY_LEFT, kCtrl, 0,
-     TrLater("Chooses the item before")},
+     TrLater("Chooses the item before"), TrLater("adds it")},
     {Scope::kTimeline, Action::kSelectAfter, GLFW_KEY_RIGHT, kCtrl, 0,
-     TrLater("Chooses the item after")},
+     TrLater("Chooses the item after"), TrLater("adds it")},
     {Scope::kTimeline, Action::kSelectAbove, GLFW_KEY_UP, kCtrl, 0,
-     TrLater("Chooses one in the lane above")},
+     TrLater("Chooses one in the lane above"), TrLater("adds it")},
     {Scope::kTimeline, Action::kSelectBelow, GLFW_KEY_DOWN, kCtrl, 0,
-     TrLater("Chooses one in the lane below")},
+     TrLater("Chooses one in the lane below"), TrLater("adds it")},
     {Scope::kTimeline, Action::kSelectAll, GLFW_KEY_A, kCtrl, 0, TrLater("Chooses all")},
     {Scope::kTimeline, Action::kSelectNone, GLFW_KEY_ESCAPE, 0, 0, TrLater("Chooses nothing")},
+    {Scope::kTimeline, Action::kFold, GLFW_KEY_F, 0, 0,
+     TrLater("Folds the lanes of whose item is chosen, and unfolds them"), TrLater("all lanes")},
     {Scope::kTimeline, Action::kCut, GLFW_KEY_X, kCtrl, 0, TrLater("Cuts")},
     {Scope::kTimeline, Action::kCopy, GLFW_KEY_C, kCtrl, 0, TrLater("Copies")},
     {Scope::kTimeline, Action::kPaste, GLFW_KEY_V, kCtrl, 0, TrLater("Pastes at the playhead")},
@@ -302,6 +331,10 @@ const char* ScopeTitle(KeyScope scope) {
       return Tr("In the views");
     case Scope::kCamera:
       return Tr("Through the camera");
+    case Scope::kAround:
+      return Tr("Around the place");
+    case Scope::kPicks:
+      return Tr("Among the picks");
     case Scope::kWalk:
       return Tr("While the end of a walk is chosen");
     case Scope::kLight:

@@ -20,8 +20,20 @@ struct KeyPress {
 
 // Where a key means something. A press is ImGui's while it walks the panels (KeyboardFocus), else
 // it is offered to the timeline while that was clicked last, then to the light while a probe is
-// selected, then to the end of a walk while one is chosen, then to the camera view and to the rest.
-enum class KeyScope { kStart, kAlways, kPanels, kViews, kCamera, kWalk, kLight, kTimeline };
+// selected, then to the end of a walk while one is chosen, then to the view that is shown (the
+// camera's, around the place, the picks) and to the rest.
+enum class KeyScope {
+  kStart,
+  kAlways,
+  kPanels,
+  kViews,
+  kCamera,
+  kAround,
+  kPicks,
+  kWalk,
+  kLight,
+  kTimeline
+};
 
 enum class KeyAction {
   kNone,
@@ -82,6 +94,21 @@ enum class KeyAction {
   kNudgeDown,
   kNudgeForward,
   kNudgeBack,
+  // the view around the place
+  kOrbitLeft,
+  kOrbitRight,
+  kOrbitUp,
+  kOrbitDown,
+  kComeNearer,
+  kGoFurther,
+  kLookAtStage,
+  kLookAtSelected,
+  // the picks
+  kImageBefore,
+  kImageAfter,
+  kPickedBefore,
+  kPickedAfter,
+  kRemovePick,
   // the end of a walk
   kWalkLeft,
   kWalkRight,
@@ -122,6 +149,7 @@ enum class KeyAction {
   kSelectBelow,
   kSelectAll,
   kSelectNone,
+  kFold,
   kCut,
   kCopy,
   kPaste,

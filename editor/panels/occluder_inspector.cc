@@ -10,6 +10,7 @@
 #include "editor/app/drawn_occluder.h"
 #include "editor/panels/align_panel.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/picks_list.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
 #include "editor/panels/trackball_view.h"
@@ -125,6 +126,7 @@ void ShowCorners(app::Workspace& workspace,
       ImGui::PopStyleColor();
     }
   }
+  ShowPicksList(workspace, state);
   if (state.view != ViewKind::kPicks &&
       ImGui::Button(Tr("Draw on the training images"), ImVec2(-FLT_MIN, 0))) {
     state.view = ViewKind::kPicks;

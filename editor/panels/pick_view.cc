@@ -16,6 +16,7 @@
 #include "editor/panels/align_panel.h"
 #include "editor/panels/check_point_panel.h"
 #include "editor/panels/gizmo_view.h"
+#include "editor/panels/picks_list.h"
 #include "editor/panels/place_cards.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -327,6 +328,7 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
   }
   const int last = static_cast<int>(database->keyframes.size()) - 1;
   state.keyframe = std::clamp(state.keyframe, 0, last);
+  HandlePickKeys(workspace, state);
   const vision::Keyframe& keyframe = database->keyframes[static_cast<size_t>(state.keyframe)];
   ShowImage(workspace, state, keyframe);
   std::string name = keyframe.name;
@@ -334,12 +336,15 @@ void PickView::Show(app::Workspace& workspace, EditorState& state) {
     name += ", " + SessionName(*workspace.place(), keyframe.session);
   }
   const float name_width = ImGui::CalcTextSize(name.c_str()).x + Px(12);
-  const float width = ImGui::GetContentRegionAvail().x - name_width;
+  const float steps = 2 * ImGui::GetFrameHeight() + Px(4) + ImGui::GetStyle().ItemSpacing.x;
+  const float width = ImGui::GetContentRegionAvail().x - name_width - steps;
   const std::string longest = Text(Tr("training image %d"), last);
   const bool named = ImGui::CalcTextSize(longest.c_str()).x + Px(16) <= width;
   ImGui::SetNextItemWidth(width);
   ImGui::SliderInt("##keyframe", &state.keyframe, 0, last, named ? Tr("training image %d") : "%d",
                    ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SameLine();
+  ShowPickSteps(workspace, state);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   DimText(name);

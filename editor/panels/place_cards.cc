@@ -273,6 +273,33 @@ std::string SessionName(const app::PlaceDocument& place, uint32_t session) {
   return name.empty() ? Text(Tr("session %d"), static_cast<int>(session)) : name;
 }
 
+// What the view is brought to: back to the stage, too, wherever it was panned.
+void ShowLookButtons(PlaceView& place) {
+  using LookAt = PlaceView::LookAt;
+  struct Target {
+    const char* label;
+    LookAt look_at;
+    const char* tip;
+    const char* keys;
+  };
+  const std::string home = KeyText(KeyAction::kLookAtStage);
+  const std::string all = std::string(Tr("Shift")) + "+" + home;
+  const std::string selected = KeyText(KeyAction::kLookAtSelected);
+  const Target targets[] = {
+      {Tr("Stage"), LookAt::kStage, Tr("Looks at the stage as at first"), home.c_str()},
+      {Tr("Map"), LookAt::kMap, Tr("Looks at all of the map"), all.c_str()},
+      {Tr("Selected"), LookAt::kSelected, Tr("Looks at what is selected"), selected.c_str()}};
+  ImGui::AlignTextToFramePadding();
+  DimText(Tr("Look at"));
+  for (const Target& target : targets) {
+    SameLineIfFits(std::array{target.label});
+    if (ImGui::Button(target.label)) {
+      place.look_at = target.look_at;
+    }
+    Tip(std::string(target.tip) + " (" + target.keys + ")");
+  }
+}
+
 void ShowPlaceTools(app::Workspace& workspace,
                     EditorState& state,
                     const ImVec2& origin,
@@ -308,6 +335,7 @@ void ShowPlaceTools(app::Workspace& workspace,
         Tr("Handles move by 5 cm (1 cm with Shift), turn by 5\xc2\xb0, scale by a twentieth "
            "and stop at the floor. Ctrl does so for one drag."),
         KeyAction::kSnapHandles));
+    ShowLookButtons(state.place);
   });
 }
 

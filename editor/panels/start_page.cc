@@ -1,6 +1,7 @@
 #include "editor/panels/start_page.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -74,6 +75,12 @@ std::pair<ImVec2, ImVec2> Cover(const cv::Mat& picture, const ImVec2& size) {
   const float u = std::min(1.0f, ratio / picture_ratio);
   const float v = std::min(1.0f, picture_ratio / ratio);
   return {ImVec2(0.5f - 0.5f * u, 0.5f - 0.5f * v), ImVec2(0.5f + 0.5f * u, 0.5f + 0.5f * v)};
+}
+
+// Whether the keyboard's ring is on the item of this label, wherever the mouse is.
+bool HasKeyboard(const char* label) {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  return !g.NavDisableHighlight && g.NavId == ImGui::GetID(label);
 }
 
 }  // namespace
@@ -230,7 +237,7 @@ void StartPage::ShowCard(app::RecentProjects& recent,
     forget = ImGui::SmallButton(Tr("Forget"));
     ImGui::SameLine();
     ImGui::TextColored(Colours().warning, "%s", Tr("not there"));
-  } else if (hovered) {
+  } else if (hovered || HasKeyboard(Tr("Forget"))) {
     forget = ImGui::SmallButton(Tr("Forget"));
     Tooltip(Tr("Takes it off this list. The project itself stays."));
   } else {

@@ -78,7 +78,7 @@ void TimelinePanel::Refresh(const app::Workspace& workspace) {
       objects_folded_at_first_ = true;
       for (const TimelineRow& row : rows_) {
         if (row.of_object) {
-          folded_.insert("object " + row.group);
+          folded_.insert(KeyOfGroup(row));
         }
       }
     }
@@ -169,7 +169,7 @@ void TimelinePanel::FillShown() {
   bool folded = false;
   for (const TimelineRow& row : rows_) {
     if (row.kind == TimelineRow::Kind::kHeading) {
-      folded = folded_.contains((row.of_object ? "object " : "person ") + row.group);
+      folded = folded_.contains(KeyOfGroup(row));
     } else if (folded) {
       continue;
     }
@@ -289,7 +289,7 @@ void TimelinePanel::DrawGutter(const TimelineRow& row, const ImVec2& at, float w
     write(Px(22), Colours().dim, WithIcon(IconOf(row.lane), title));
     return;
   }
-  const bool folded = folded_.contains((row.of_object ? "object " : "person ") + row.group);
+  const bool folded = folded_.contains(KeyOfGroup(row));
   const ImVec2 c(at.x + Px(11), at.y + Px(0.5f * kRow));
   if (folded) {
     draw.AddTriangleFilled(ImVec2(c.x - Px(3), c.y - Px(5)), ImVec2(c.x - Px(3), c.y + Px(5)),
@@ -360,11 +360,11 @@ void TimelinePanel::ShowRuler(app::Workspace& workspace, float height) {
   draw.PopClipRect();
 }
 
-// Within the rows, as little as shows the row of what is chosen.
+// Within the rows, as little as shows the row of what was chosen last.
 void TimelinePanel::ScrollToChosen() {
-  for (size_t i = 0; i < shown_.size() && !selection_.empty(); ++i) {
-    const std::vector<size_t>& lanes = shown_[i]->lanes;
-    if (std::find(lanes.begin(), lanes.end(), selection_.front().lane) != lanes.end()) {
+  const std::optional<TimelineStop> chosen = ChosenLast();
+  for (size_t i = 0; i < shown_.size() && chosen; ++i) {
+    if (HasStop(*shown_[i], *chosen)) {
       const float lowest = tops_[i + 1] - ImGui::GetWindowHeight();
       ImGui::SetScrollY(std::clamp(ImGui::GetScrollY(), std::min(lowest, tops_[i]), tops_[i]));
       return;

@@ -17,6 +17,7 @@
 #include "editor/panels/editor_state.h"
 #include "editor/panels/timeline_maths.h"
 #include "editor/panels/timeline_rows.h"
+#include "editor/panels/timeline_steps.h"
 
 namespace lararium::panels {
 
@@ -128,13 +129,22 @@ class TimelinePanel {
   void SelectAll(const app::Workspace& workspace);
   // One alone, and brings it into view.
   void Choose(const drama::TimelineText& text, drama::TimelineItem item);
+  // What a step of the keys begins at: the item that was chosen last, or the block.
+  std::optional<TimelineStop> ChosenLast() const;
+  static bool HasStop(const TimelineRow& row, const TimelineStop& stop);
   void ScrollToChosen();
-  void StepSelection(const app::Workspace& workspace, int items, int rows);
+  void StepSelection(const app::Workspace& workspace, const TimelineStep& step);
+  // The group of a row, or unfolds it.
+  void Fold(const TimelineRow& row);
+  // That of what was chosen last.
+  void FoldChosen();
+  // All of them; unfolds them where any is folded.
+  void FoldAll();
   void JumpToEdge(app::Workspace& workspace, int direction);
   void GoToScript(const app::Workspace& workspace, EditorState& state);
   // Each true where the key was one of its kind. shift: it is held.
   bool HandleTimeKey(app::Workspace& workspace, KeyAction action, bool shift);
-  bool HandleSelectionKey(app::Workspace& workspace, KeyAction action);
+  bool HandleSelectionKey(app::Workspace& workspace, KeyAction action, bool shift);
   bool HandleEditKey(app::Workspace& workspace, EditorState& state, KeyAction action, bool shift);
   std::vector<double> Naturals(const app::Workspace& workspace);
   std::string NameOfSelection(const app::Workspace& workspace);
@@ -148,7 +158,9 @@ class TimelinePanel {
   bool scroll_to_chosen_ = false;  // in the rows that are shown next
   Hit context_;
   app::ItemSet selection_;
-  std::optional<uint32_t> block_;  // a task that is selected
+  std::optional<drama::TimelineItem> last_;  // that keys chose; may be gone
+  std::optional<uint32_t> block_;            // a task that is selected,
+  std::string block_group_;                  // in the row of this KeyOfGroup()
   Drag drag_;
   std::vector<TimelineRow> rows_;          // all
   std::vector<const TimelineRow*> shown_;  // without those of folded groups

@@ -131,65 +131,84 @@ void TimelinePanel::SelectAll(const app::Workspace& workspace) {
 void TimelinePanel::Choose(const TimelineText& text, TimelineItem item) {
   const TimelineLane& lane = text.lanes()[item.lane];
   selection_ = {item};
+  last_ = item;
   block_.reset();
   folded_.erase("person " + lane.actor);
   ScrollTo(scale_, lane.at[item.item]);
   scroll_to_chosen_ = true;
 }
 
-// To the item so many further in time in its line, or in the next line that has any.
-void TimelinePanel::StepSelection(const app::Workspace& workspace, int items, int rows) {
-  const TimelineText& text = *workspace.script().timeline();
-  struct Place {
-    TimelineItem item;
-    double at = 0.0;
-  };
-  std::vector<std::vector<Place>> lines;
-  size_t line = 0;
-  size_t place = 0;
-  bool known = false;
-  for (const TimelineRow* row : shown_) {
-    std::vector<Place> places;
-    for (const size_t lane : row->lanes) {
-      for (size_t i = 0; i < text.lanes()[lane].size(); ++i) {
-        places.push_back({{lane, i}, text.lanes()[lane].at[i]});
-      }
-    }
-    if (places.empty()) {
-      continue;
-    }
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place& a, const Place& b) { return a.at < b.at; });
-    for (size_t i = 0; i < places.size(); ++i) {
-      if (!selection_.empty() && places[i].item == selection_.back()) {
-        known = true;
-        line = lines.size();
-        place = i;
-      }
-    }
-    lines.push_back(std::move(places));
+std::optional<TimelineStop> TimelinePanel::ChosenLast() const {
+  if (last_ && app::Contains(selection_, *last_)) {
+    return TimelineStop{last_};
   }
-  if (lines.empty()) {
+  if (!selection_.empty()) {
+    return TimelineStop{selection_.back()};
+  }
+  return block_ ? std::optional(TimelineStop{std::nullopt, *block_, block_group_}) : std::nullopt;
+}
+
+bool TimelinePanel::HasStop(const TimelineRow& row, const TimelineStop& stop) {
+  return stop.item
+             ? std::find(row.lanes.begin(), row.lanes.end(), stop.item->lane) != row.lanes.end()
+             : KeyOfGroup(row) == stop.group &&
+                   std::find(row.blocks.begin(), row.blocks.end(), stop.block) != row.blocks.end();
+}
+
+void TimelinePanel::StepSelection(const app::Workspace& workspace, const TimelineStep& step) {
+  const TimelineText& text = *workspace.script().timeline();
+  const app::DramaRun* run = workspace.drama_run();
+  const std::vector<TimelineLine> lines = LinesOf(
+      rows_, text, run != nullptr ? std::span(run->tasks) : std::span<const TaskRecord>(), folded_);
+  const std::optional<TimelineStop> from = ChosenLast();
+  const std::optional<TimelineStop> to = StepFrom(lines, from, workspace.time(), step);
+  if (!to || (step.items && !to->item)) {
     return;
   }
-  double at = workspace.time();
-  if (known) {
-    at = lines[line][place].at;
-    line = static_cast<size_t>(
-        std::clamp<int>(static_cast<int>(line) + rows, 0, static_cast<int>(lines.size()) - 1));
+  if (!to->item) {
+    selection_.clear();
+    block_ = to->block;
+    block_group_ = to->group;
+    ScrollTo(scale_, to->at);
+    scroll_to_chosen_ = true;
+    return;
   }
-  const std::vector<Place>& in = lines[line];
-  if (known && rows == 0) {
-    place = static_cast<size_t>(
-        std::clamp<int>(static_cast<int>(place) + items, 0, static_cast<int>(in.size()) - 1));
-  } else {
-    place = static_cast<size_t>(std::min_element(in.begin(), in.end(),
-                                                 [at](const Place& a, const Place& b) {
-                                                   return std::abs(a.at - at) < std::abs(b.at - at);
-                                                 }) -
-                                in.begin());
+  app::ItemSet chosen = selection_;
+  Choose(text, *to->item);
+  if (step.items) {
+    Extend(chosen, from ? from->item : std::nullopt, *to->item);
+    selection_ = std::move(chosen);
   }
-  Choose(text, in[place].item);
+}
+
+void TimelinePanel::Fold(const TimelineRow& row) {
+  const std::string key = KeyOfGroup(row);
+  if (folded_.erase(key) == 0) {
+    folded_.insert(key);
+  }
+}
+
+void TimelinePanel::FoldChosen() {
+  const std::optional<TimelineStop> chosen = ChosenLast();
+  const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const TimelineRow& of) {
+    return chosen && HasStop(of, *chosen);
+  });
+  if (row != rows_.end()) {
+    Fold(*row);
+    scroll_to_chosen_ = true;
+  }
+}
+
+void TimelinePanel::FoldAll() {
+  const bool unfold = std::any_of(rows_.begin(), rows_.end(), [&](const TimelineRow& row) {
+    return folded_.contains(KeyOfGroup(row));
+  });
+  folded_.clear();
+  for (const TimelineRow& row : rows_) {
+    if (!unfold) {
+      folded_.insert(KeyOfGroup(row));
+    }
+  }
 }
 
 // The playhead to the next beginning or end of anything.
@@ -235,7 +254,7 @@ void TimelinePanel::GoToScript(const app::Workspace& workspace, EditorState& sta
   }
 }
 
-bool TimelinePanel::HandleSelectionKey(app::Workspace& workspace, KeyAction action) {
+bool TimelinePanel::HandleSelectionKey(app::Workspace& workspace, KeyAction action, bool shift) {
   switch (action) {
     case KeyAction::kSelectAll:
       SelectAll(workspace);
@@ -246,16 +265,19 @@ bool TimelinePanel::HandleSelectionKey(app::Workspace& workspace, KeyAction acti
       block_.reset();
       return true;
     case KeyAction::kSelectBefore:
-      StepSelection(workspace, -1, 0);
+      StepSelection(workspace, {-1, 0, shift});
       return true;
     case KeyAction::kSelectAfter:
-      StepSelection(workspace, 1, 0);
+      StepSelection(workspace, {1, 0, shift});
       return true;
     case KeyAction::kSelectAbove:
-      StepSelection(workspace, 0, -1);
+      StepSelection(workspace, {0, -1, shift});
       return true;
     case KeyAction::kSelectBelow:
-      StepSelection(workspace, 0, 1);
+      StepSelection(workspace, {0, 1, shift});
+      return true;
+    case KeyAction::kFold:
+      shift ? FoldAll() : FoldChosen();
       return true;
     default:
       return false;
@@ -364,7 +386,8 @@ void TimelinePanel::HandleKeys(app::Workspace& workspace, EditorState& state) {
   std::erase_if(state.keys, [&](const KeyPress& press) {
     const KeyAction action = ActionOf(KeyScope::kTimeline, press);
     const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
-    return HandleTimeKey(workspace, action, shift) || HandleSelectionKey(workspace, action) ||
+    return HandleTimeKey(workspace, action, shift) ||
+           HandleSelectionKey(workspace, action, shift) ||
            HandleEditKey(workspace, state, action, shift);
   });
 }

@@ -94,6 +94,7 @@ void TimelinePanel::BeginDrag(app::Workspace& workspace,
   if (hit.block) {
     selection_.clear();
     block_ = hit.block;
+    block_group_ = KeyOfGroup(*shown_[static_cast<size_t>(hit.row)]);
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
       GoToScript(workspace, state);
     }
@@ -311,6 +312,11 @@ void TimelinePanel::HandleMouse(app::Workspace& workspace,
         selection_ = {*hit.item};
         block_.reset();
       }
+      if (hit.block) {
+        selection_.clear();
+        block_ = hit.block;
+        block_group_ = KeyOfGroup(*shown_[static_cast<size_t>(hit.row)]);
+      }
       context_ = hit;
       open_context_ = true;
       drag_ = {};
@@ -318,11 +324,7 @@ void TimelinePanel::HandleMouse(app::Workspace& workspace,
       state.focus = Focus::kTimeline;
       if (hit.row >= 0 &&
           shown_[static_cast<size_t>(hit.row)]->kind == TimelineRow::Kind::kHeading) {
-        const TimelineRow& row = *shown_[static_cast<size_t>(hit.row)];
-        const std::string key = (row.of_object ? "object " : "person ") + row.group;
-        if (folded_.erase(key) == 0) {
-          folded_.insert(key);
-        }
+        Fold(*shown_[static_cast<size_t>(hit.row)]);
       }
       drag_ = {};
     } else {
@@ -336,6 +338,13 @@ void TimelinePanel::HandleMouse(app::Workspace& workspace,
   }
   if (ImGui::IsItemDeactivated() && drag_.kind != Drag::Kind::kScrub) {
     EndDrag(workspace);
+  }
+  if (hovered && in_gutter && !active && hit.row >= 0 &&
+      shown_[static_cast<size_t>(hit.row)]->kind == TimelineRow::Kind::kHeading) {
+    ImGui::SetTooltip("%s", WithKey(Tr("A click folds its lanes away, and unfolds them; by keys, "
+                                       "those of what is chosen"),
+                                    KeyAction::kFold)
+                                .c_str());
   }
   if (hovered && (hit.item || hit.block) && !active) {
     const bool edge = hit.part == Hit::Part::kBegin || hit.part == Hit::Part::kEnd;

@@ -88,6 +88,10 @@ std::vector<TimelineRow> MakeRows(const drama::TimelineText* text,
   return rows;
 }
 
+std::string KeyOfGroup(const TimelineRow& row) {
+  return (row.of_object ? "object " : "person ") + row.group;
+}
+
 int LineOfPlace(std::string_view place, std::string_view file) {
   const size_t at = place.find(std::string(file) + ":");
   if (at == std::string_view::npos) {

@@ -35,6 +35,9 @@ std::vector<TimelineRow> MakeRows(const drama::TimelineText* text,
                                   std::span<const std::string> people,
                                   std::span<const drama::TaskRecord> tasks);
 
+// What a group is remembered by: people, the stage and objects may have the same names.
+std::string KeyOfGroup(const TimelineRow& row);
+
 // The line of "drama.lua:12"; 0: there is none. Also of messages that begin with such a place
 // and go on with ": " or a column.
 int LineOfPlace(std::string_view place, std::string_view file);

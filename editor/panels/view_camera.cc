@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace lararium::panels {
 
@@ -25,6 +26,30 @@ double ViewCamera::UnitsPerPixel(const Eigen::Vector3d& point_in_world) const {
   return std::max((camera_from_world * point_in_world).z(), kNear) / focal_y;
 }
 
+std::optional<Ball> BallAround(std::span<const Eigen::Vector3f> points) {
+  constexpr double kMost = 0.95;
+  if (points.empty()) {
+    return std::nullopt;
+  }
+  const auto share_of = [](std::vector<float>& values, double share) {
+    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + at, values.end());
+    return static_cast<double>(values[static_cast<size_t>(at)]);
+  };
+  Ball ball;
+  std::vector<float> values(points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(points.begin(), points.end(), values.begin(),
+                   [axis](const Eigen::Vector3f& point) { return point[axis]; });
+    ball.center[axis] = share_of(values, 0.5);
+  }
+  std::transform(points.begin(), points.end(), values.begin(), [&](const Eigen::Vector3f& point) {
+    return static_cast<float>((point.cast<double>() - ball.center).norm());
+  });
+  ball.radius = share_of(values, kMost);
+  return ball;
+}
+
 void OrbitCamera::Orbit(const Eigen::Vector2d& drag_px, double view_width_px) {
   constexpr double kMaxElevation = 1.55;
   const double radians_per_px = 2.0 * std::numbers::pi / std::max(view_width_px, 1.0);
@@ -40,7 +65,14 @@ void OrbitCamera::Pan(const Eigen::Vector2d& drag_px, double view_height_px) {
 }
 
 void OrbitCamera::Zoom(double steps) {
-  distance = std::clamp(distance * std::pow(0.85, steps), 0.02, 2000.0);
+  distance = std::clamp(distance * std::pow(0.85, steps), kNearest, kFarthest);
+}
+
+void OrbitCamera::LookAt(const Ball& ball, const Eigen::Vector2d& view_size_px) {
+  const double ratio = view_size_px.x() / std::max(view_size_px.y(), 1.0);
+  const double slope = std::tan(0.5 * kVerticalFieldOfView) * std::min(ratio, 1.0);
+  target = ball.center;
+  distance = std::clamp(ball.radius / std::sin(std::atan(slope)), kNearest, kFarthest);
 }
 
 geometry::Rigid3 OrbitCamera::CameraFromWorld() const {

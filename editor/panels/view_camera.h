@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 
 #include "shared/geometry/transform.h"
 
@@ -38,6 +39,16 @@ struct ViewCamera {
   double UnitsPerPixel(const Eigen::Vector3d& point_in_world) const;
 };
 
+// Something round to look at, in the world.
+struct Ball {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius = 1.0;
+};
+
+// About most of the points: those that lie far from all others, as maps have some, are left out.
+// nullopt: there are none.
+std::optional<Ball> BallAround(std::span<const Eigen::Vector3f> points);
+
 // Looks at a target from a distance; the world's +Y is up.
 struct OrbitCamera {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
@@ -51,12 +62,17 @@ struct OrbitCamera {
   void Pan(const Eigen::Vector2d& drag_px, double view_height_px);
   // steps > 0 comes nearer.
   void Zoom(double steps);
+  // Shows all of a ball in a view of that size, in the middle, from the direction that it looks
+  // from already.
+  void LookAt(const Ball& ball, const Eigen::Vector2d& view_size_px);
 
   geometry::Rigid3 CameraFromWorld() const;
   // Pixels: those of a view whose top-left corner lies at origin.
   ViewCamera View(const Eigen::Vector2d& origin, const Eigen::Vector2d& size_px) const;
 
   static constexpr double kVerticalFieldOfView = 0.8;  // radians
+  static constexpr double kNearest = 0.02;             // of distance, world units
+  static constexpr double kFarthest = 2000.0;
 };
 
 }  // namespace lararium::panels

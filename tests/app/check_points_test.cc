@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "editor/app/check_commands.h"
+#include "editor/app/picked_images.h"
 #include "tests/app/two_places.h"
 
 namespace lararium::app {
@@ -186,6 +187,18 @@ TEST_F(CheckPoints, RenamingAndRemovingTakeThePicksOfEveryPlaceAlong) {
   EXPECT_EQ(FindCheckPicks(document_.places[1], "counter, left front corner"), nullptr);
 }
 
+TEST_F(CheckPoints, APointWhoseLastPickIsRemovedIsNotPickedAnyMore) {
+  for (const size_t keyframe : {1, 5}) {
+    EXPECT_TRUE(RemoveCheckPick(place_, "point 1", See(world_, map_, positions_[0], keyframe)));
+    ASSERT_NE(FindCheckPicks(place_, "point 1"), nullptr);
+  }
+  EXPECT_FALSE(RemoveCheckPick(place_, "point 1", See(world_, map_, positions_[0], 5)));
+  EXPECT_TRUE(RemoveCheckPick(place_, "point 1", See(world_, map_, positions_[0], 10)));
+  EXPECT_EQ(FindCheckPicks(place_, "point 1"), nullptr);
+  EXPECT_EQ(Check().points[0].verdict, Verdict::kNotPicked);
+  EXPECT_EQ(FindCheckPicks(place_, "point 2")->picks.size(), 3u);
+}
+
 class TwoPlaces : public testing::Test, protected test::TwoPlacesProject {};
 
 TEST_F(TwoPlaces, TheSubcommandSetsPicksLaysAndReports) {
@@ -217,6 +230,19 @@ TEST_F(TwoPlaces, TheSubcommandSetsPicksLaysAndReports) {
   EXPECT_EQ(report->json["maquette"]["verdict"], "good");
   EXPECT_EQ(report->json["site"]["verdict"], "good");
   EXPECT_LT(report->json["site"]["points"][2]["distance_cm"].get<double>(), 1e-3);
+
+  // One pick goes, and is made again; the last one takes the point's entry along.
+  const vision::SceneDatabase site = MapOf(world_, kSiteFromStage);
+  const stage::Pick seen = See(world_, site, points[0].second, 2);
+  ASSERT_TRUE(run({.place = "site", .frame = seen.frame, .clear = "left"}).ok());
+  EXPECT_EQ(FindCheckPicks(LoadProject(paths_)->places[1], "left")->picks.size(), 1u);
+  EXPECT_THAT(run({.place = "site", .frame = seen.frame, .clear = "left"}).status().message(),
+              HasSubstr("was not picked in " + seen.frame));
+  ASSERT_TRUE(run({.place = "site",
+                   .pick = "left",
+                   .frame = seen.frame,
+                   .pixel = {seen.pixel.x(), seen.pixel.y()}})
+                  .ok());
 
   // The site's stage is pushed aside: only there, and laying it by the points mends it.
   ProjectDocument document = *LoadProject(paths_);

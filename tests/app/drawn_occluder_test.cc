@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "editor/app/picked_images.h"
 #include "shared/geometry/glm_convert.h"
 #include "tests/support/synthetic_world.h"
 
@@ -65,6 +66,24 @@ double Volume(const geometry::TriangleMesh& mesh) {
         6.0;
   }
   return volume;
+}
+
+TEST_F(DrawnOccluderTest, ACornerThatIsPickedNowhereAnyMoreIsGone) {
+  OccluderDocument occluder = Draw(face_);
+  const stage::Pick second = occluder.corners[1].picks[1];
+  EXPECT_TRUE(RemoveCornerPick(occluder, 1, second));
+  EXPECT_FALSE(RemoveCornerPick(occluder, 1, second));
+  EXPECT_FALSE(RemoveCornerPick(occluder, 4, second));
+  ASSERT_EQ(occluder.corners.size(), 4u);
+  EXPECT_EQ(occluder.corners[1].picks.size(), 2u);
+  EXPECT_EQ(occluder.corners[0].picks.size(), 3u);
+  const std::vector<stage::Pick> behind = occluder.corners[2].picks;
+  for (const stage::Pick& pick : std::vector<stage::Pick>(occluder.corners[1].picks)) {
+    EXPECT_TRUE(RemoveCornerPick(occluder, 1, pick));
+  }
+  ASSERT_EQ(occluder.corners.size(), 3u);
+  EXPECT_EQ(occluder.corners[1].name, CornerName(1));
+  EXPECT_EQ(occluder.corners[1].picks[0].pixel, behind[0].pixel);
 }
 
 TEST_F(DrawnOccluderTest, CornersLieWhereTheyWerePicked) {

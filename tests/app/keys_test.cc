@@ -39,11 +39,25 @@ TEST(Keys, NoKeyMeansTwoThingsInOneScope) {
 }
 
 TEST(Keys, NoKeyThatWorksEverywhereIsHiddenByTheViews) {
-  for (const KeyScope scope :
-       {KeyScope::kViews, KeyScope::kCamera, KeyScope::kWalk, KeyScope::kLight}) {
+  for (const KeyScope scope : {KeyScope::kViews, KeyScope::kCamera, KeyScope::kAround,
+                               KeyScope::kPicks, KeyScope::kWalk, KeyScope::kLight}) {
     for (const KeyBinding& binding : KeyBindings()) {
       if (binding.scope == scope) {
         EXPECT_EQ(ActionOf(KeyScope::kAlways, PressOf(binding)), KeyAction::kNone)
+            << KeyText(binding);
+      }
+    }
+  }
+}
+
+TEST(Keys, ThoseOfOneViewMeanNothingElseInAllOfThem) {
+  // They are offered to both.
+  for (const KeyScope scope : {KeyScope::kCamera, KeyScope::kAround, KeyScope::kPicks}) {
+    for (const KeyBinding& binding : KeyBindings()) {
+      if (binding.scope == scope) {
+        EXPECT_EQ(ActionOf(KeyScope::kViews, PressOf(binding)), KeyAction::kNone)
+            << KeyText(binding);
+        EXPECT_EQ(ActionOf(KeyScope::kLight, PressOf(binding)), KeyAction::kNone)
             << KeyText(binding);
       }
     }

@@ -121,6 +121,15 @@ TEST(EditorOptions, CheckPointsDoesOneWorkWithAllThatItNeeds) {
   EXPECT_TRUE(Parsed<CheckPointsOptions>({"check-points", "p", "--lay"}).lay);
   EXPECT_THAT(Refusal({"check-points", "p", "--set", "a"}), HasSubstr("--at"));
   EXPECT_THAT(Refusal({"check-points", "p", "--pick", "a"}), HasSubstr("--frame"));
+  EXPECT_EQ(Parsed<CheckPointsOptions>(
+                {"check-points", "p", "--clear", "counter", "--frame", "000012.png"})
+                .frame,
+            "000012.png");
+  EXPECT_THAT(Refusal({"check-points", "p", "--frame", "000012.png"}), HasSubstr("--clear"));
+  EXPECT_THAT(Refusal({"check-points", "p", "--clear", "a", "--frame", "1.png", "--pixel", "1,2"}),
+              HasSubstr("--pick"));
+  EXPECT_THAT(Refusal({"check-points", "p", "--clear", "a", "--session", "1"}),
+              HasSubstr("--frame"));
   EXPECT_THAT(Refusal({"check-points", "p", "--at", "1,2,3"}), HasSubstr("--set"));
   EXPECT_THAT(Refusal({"check-points", "p", "--lay", "--remove", "a"}), HasSubstr("--lay"));
 }
@@ -325,7 +334,11 @@ TEST(EditorOptions, StageTakesPicksTagsAndNumbers) {
   EXPECT_THAT(Refusal({"stage", "p", "--clear", "middle"}), HasSubstr("middle"));
   EXPECT_THAT(Refusal({"stage", "p", "--without-tags", "--tag-size", "0.1"}),
               HasSubstr("excludes"));
+  EXPECT_THAT(Refusal({"stage", "p", "--clear", "middle=a.png"}), HasSubstr("middle"));
+  EXPECT_THAT(Refusal({"stage", "p", "--clear", "origin", "--session", "1"}), HasSubstr("--clear"));
   EXPECT_THAT(Refusal({"stage", "p", "--session", "1"}), HasSubstr("--pick"));
+  EXPECT_EQ(
+      Parsed<StageOptions>({"stage", "p", "--clear", "origin=a.png", "--session", "1"}).session, 1);
 }
 
 TEST(EditorOptions, TimelineWritesAddsOrChanges) {

@@ -62,6 +62,16 @@ TEST_F(StageCommands, APickInTheSameImageTakesThePlaceOfTheOneBefore) {
   EXPECT_EQ(Site().picks.origin.picks.size(), 4u);
 }
 
+TEST_F(StageCommands, OnePickIsForgottenAlone) {
+  const std::string frame = Site().picks.origin.picks[1].frame;
+  ASSERT_TRUE(Run({.clear = {"origin=" + frame}}).ok());
+  const PlaceDocument site = Site();
+  ASSERT_EQ(site.picks.origin.picks.size(), 2u);
+  EXPECT_NE(site.picks.origin.picks[0].frame, frame);
+  EXPECT_NE(site.picks.origin.picks[1].frame, frame);
+  EXPECT_EQ(site.picks.forward.picks.size(), 3u);
+}
+
 TEST_F(StageCommands, NumbersMoveItByHandAndBackToThePicks) {
   ASSERT_TRUE(Run({.at = {0.3, 0.1, -0.2}, .turn = {90}, .scale = 1.5}).ok());
   PlaceDocument site = Site();
@@ -89,6 +99,8 @@ TEST_F(StageCommands, WhatCannotBeIsRefusedAndNothingIsSaved) {
   EXPECT_THAT(problem({.picks = {"origin=99.png,3,4"}}), HasSubstr("no training image"));
   EXPECT_THAT(problem({.picks = {"origin=1.png,3,99999"}}), HasSubstr("outside of the image"));
   EXPECT_THAT(problem({.clear = {"middle"}}), HasSubstr("no point of the stage"));
+  EXPECT_THAT(problem({.clear = {"origin=99.png"}}), HasSubstr("it was picked in"));
+  EXPECT_THAT(problem({.clear = {"length_to=99.png"}}), HasSubstr("picked nowhere"));
   EXPECT_THAT(problem({.tag_size = 0.1, .tag_family = "tag9h9"}), HasSubstr("tag9h9"));
   EXPECT_THAT(problem({.on_floor = true}), HasSubstr("no large level surface"));
   EXPECT_EQ(FormatProject(*LoadProject(paths_)), before);

@@ -7,6 +7,7 @@
 #include "editor/panels/lua_colours.h"
 #include "editor/panels/timeline_maths.h"
 #include "editor/panels/timeline_rows.h"
+#include "editor/panels/timeline_steps.h"
 
 namespace lararium::panels {
 namespace {
@@ -218,6 +219,100 @@ TEST(Rows, AreThoseOfPeopleTheStageAndObjects) {
   EXPECT_THAT(seen, ElementsAre("=keeper", "items speech", "items clips", "=guest", "blocks speech",
                                 "blocks uses", "=", "items markers", "=cup", "blocks uses"));
   EXPECT_THAT(rows[4].blocks, ElementsAre(0u)) << "what was written is no block";
+}
+
+// Two people and an object: keeper's speech (1, 5 s), clips (0, 3, 8 s); what guest says by the
+// script (1 s); the marker (6 s); the cup, which guest takes (2 s).
+class TimelineSteps : public testing::Test {
+ protected:
+  TimelineSteps() {
+    TaskRecord said;
+    said.began = 1;
+    said.ended = 2;
+    said.actor = "guest";
+    said.action = "say ave";
+    TaskRecord used = said;
+    used.began = 2;
+    used.action = "take";
+    used.object = "cup";
+    tasks_ = {said, used};
+    rows_ = MakeRows(&text_, std::vector<std::string>{"keeper"}, tasks_);
+  }
+
+  std::vector<TimelineLine> Lines() const { return LinesOf(rows_, text_, tasks_, folded_); }
+  // "0/1" of an item, "#0" of a block.
+  std::string Step(const TimelineStep& step, double time = 0.0) {
+    at_ = StepFrom(Lines(), at_, time, step);
+    if (!at_) {
+      return "";
+    }
+    return at_->item ? std::to_string(at_->item->lane) + "/" + std::to_string(at_->item->item)
+                     : "#" + std::to_string(at_->block);
+  }
+  static constexpr TimelineStep kBefore{-1, 0};
+  static constexpr TimelineStep kAfter{1, 0};
+  static constexpr TimelineStep kAbove{0, -1};
+  static constexpr TimelineStep kBelow{0, 1};
+
+  const TimelineText text_ = MustRead(kScript);
+  std::vector<TaskRecord> tasks_;
+  std::vector<TimelineRow> rows_;
+  std::set<std::string> folded_;
+  std::optional<TimelineStop> at_;
+};
+
+TEST_F(TimelineSteps, GoAlongALineAndStopAtItsEnds) {
+  EXPECT_EQ(Step(kAfter, 4.5), "0/1") << "the nearest in time at first";
+  EXPECT_EQ(Step(kBefore), "0/0");
+  EXPECT_EQ(Step(kBefore), "0/0");
+  EXPECT_EQ(Step(kAfter), "0/1");
+  EXPECT_EQ(Step(kAfter), "0/1");
+}
+
+TEST_F(TimelineSteps, GoFromLineToLineAlsoToWhatTheScriptDidAndBack) {
+  std::vector<std::string> seen = {Step(kAfter, 4.5)};
+  for (int i = 0; i < 6; ++i) {
+    seen.push_back(Step(kBelow));
+  }
+  // Speech, clips, what guest says, what guest uses, markers, the cup, and no more.
+  EXPECT_THAT(seen, ElementsAre("0/1", "1/1", "#0", "#1", "2/0", "#1", "#1"));
+  EXPECT_EQ(at_->group, "object cup");
+  EXPECT_EQ(Step(kAbove), "2/0");
+  EXPECT_EQ(Step(kAbove), "#1");
+  EXPECT_EQ(at_->group, "person guest");
+}
+
+TEST_F(TimelineSteps, PassOverFoldedLanesButGoOnFromWithinThem) {
+  folded_ = {"person guest"};
+  EXPECT_EQ(Step(kAfter, 3.2), "0/1");
+  EXPECT_EQ(Step(kBelow), "1/1");
+  EXPECT_EQ(Step(kBelow), "2/0");
+  folded_ = {"person "};
+  EXPECT_EQ(Step(kAbove), "#1") << "though its own line is folded now";
+  folded_ = {"person keeper", "person guest", "person ", "object cup"};
+  at_.reset();
+  EXPECT_EQ(Step(kAfter), "") << "nothing is shown";
+}
+
+TEST_F(TimelineSteps, ThatAddItemsPassOverBlocks) {
+  EXPECT_EQ(Step({1, 0, true}, 3.2), "0/1");
+  EXPECT_EQ(Step({0, 1, true}), "1/1");
+  EXPECT_EQ(Step({0, 1, true}), "2/0");
+  EXPECT_EQ(Step({0, 1, true}), "2/0");
+}
+
+TEST(Extend, AddsAndTakesAwayAgainOnTheWayBack) {
+  app::ItemSet chosen = {{0, 1}};
+  Extend(chosen, drama::TimelineItem{0, 1}, {0, 2});
+  Extend(chosen, drama::TimelineItem{0, 2}, {0, 3});
+  EXPECT_THAT(chosen, ElementsAre(drama::TimelineItem{0, 1}, drama::TimelineItem{0, 2},
+                                  drama::TimelineItem{0, 3}));
+  Extend(chosen, drama::TimelineItem{0, 3}, {0, 2});
+  EXPECT_THAT(chosen, ElementsAre(drama::TimelineItem{0, 1}, drama::TimelineItem{0, 2}));
+  Extend(chosen, drama::TimelineItem{0, 2}, {0, 2});
+  EXPECT_EQ(chosen.size(), 2u) << "at the end of a line nothing changes";
+  Extend(chosen, std::nullopt, {1, 0});
+  EXPECT_EQ(chosen.size(), 3u);
 }
 
 TEST(Rows, ReadPlacesInMessages) {

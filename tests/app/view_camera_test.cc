@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 namespace lararium::panels {
 namespace {
 
@@ -58,6 +61,44 @@ TEST(OrbitCamera, PanKeepsTheTargetPlaneBelowThePointer) {
   orbit.Pan(drag, size.y());
   const Vector2d after = *orbit.View({0.0, 0.0}, size).Project(point);
   EXPECT_TRUE((after - before).isApprox(drag, 1e-9));
+}
+
+TEST(OrbitCamera, LookingAtABallShowsAllOfItAndNotMuchElseInAWideAndInATallView) {
+  const Ball ball{Vector3d(3.0, -1.0, 2.0), 0.7};
+  for (const Vector2d& size : {Vector2d(900.0, 300.0), Vector2d(300.0, 900.0)}) {
+    OrbitCamera orbit = SomeOrbit();
+    const double azimuth = orbit.azimuth;
+    orbit.LookAt(ball, size);
+    EXPECT_EQ(orbit.azimuth, azimuth) << "from where it looked";
+    const ViewCamera view = orbit.View({0.0, 0.0}, size);
+    EXPECT_TRUE(view.Project(ball.center)->isApprox(0.5 * size, 1e-9));
+    // How far from the middle its rim is seen.
+    const double rim = view.focal_x * std::tan(std::asin(ball.radius / orbit.distance));
+    EXPECT_NEAR(rim, 150.0, 1e-6);
+  }
+}
+
+TEST(OrbitCamera, ComesNoNearerAndGoesNoFurtherThanZoomingDoes) {
+  OrbitCamera orbit;
+  orbit.LookAt({Vector3d::Zero(), 0.0}, {800.0, 600.0});
+  EXPECT_EQ(orbit.distance, OrbitCamera::kNearest);
+  orbit.LookAt({Vector3d::Zero(), 1e9}, {800.0, 600.0});
+  EXPECT_EQ(orbit.distance, OrbitCamera::kFarthest);
+}
+
+TEST(BallAround, LeavesOutThePointsThatLieFarFromAllOthers) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 100; ++i) {
+    const float angle = 0.0628f * static_cast<float>(i);
+    points.emplace_back(2.0f + std::cos(angle), 0.5f, std::sin(angle));
+  }
+  points.emplace_back(500.0f, 3.0f, 0.0f);
+  points.emplace_back(0.0f, -800.0f, 70.0f);
+  const std::optional<Ball> ball = BallAround(points);
+  ASSERT_TRUE(ball.has_value());
+  EXPECT_LT((ball->center - Vector3d(2.0, 0.5, 0.0)).norm(), 0.1);
+  EXPECT_NEAR(ball->radius, 1.0, 0.1);
+  EXPECT_FALSE(BallAround({}).has_value());
 }
 
 }  // namespace

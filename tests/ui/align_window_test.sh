@@ -73,7 +73,7 @@ wait_for 10 has_pairs 4 || fail "$(pairs) pairs after a click on the model"
 sleep 1
 import -window root "$out/picking.png"
 click 733 514
-click 802 690  # the slider, to image 8
+click 757 690  # the slider, to image 8
 click 892 499
 click 1263 587  # Align by the points
 press ctrl+s

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The map in the view around the place: points in other colours, a keyframe below the pointer and
+# The map in the view around the place: turned, moved and brought back by keys, points in other colours, a keyframe below the pointer and
 # in Picks, a point and a distance, the scale by a known one with undo, a drag in steps, a session
 # taken out of the map. Looks at the saved project and at screenshots.
 #
@@ -8,7 +8,7 @@ set -u
 make_room_map=$3
 
 . "$(dirname "$0")/window.sh"
-need identify convert
+need identify convert compare
 begin_test "$0" "$@"
 
 # adjust FIELD: of the saved stage, without spaces.
@@ -41,6 +41,32 @@ press F8  # the messages leave the most room above
 press 2
 sleep 2
 import -window root "$out/picture.png"
+
+# By keys round the place, past it and nearer; Home and a button lead back to the stage.
+same() { [ "$(difference "$1" "$2")" -lt 100 ]; }
+shot first
+for key in Left Up shift+Right Prior; do
+  press $key
+  sleep 1
+  shot "$key"
+done
+for pair in "first Left" "Left Up" "Up shift+Right" "shift+Right Prior"; do
+  same $pair && fail "a key does not change the view: $pair"
+done
+press Home
+sleep 1
+shot home
+same first home || fail "Home does not look at the stage as at first"
+press shift+Home
+sleep 1
+shot map
+same home map && fail "Shift+Home does not look at all of the map"
+click 349 170  # Look at: Stage
+xdotool mousemove 700 780
+sleep 1
+shot button
+same first button || fail "the button does not look at the stage as at first"
+
 for colours in error views sessions; do
   press c
   sleep 0.5
@@ -59,6 +85,12 @@ press 2
 # A point, and with Shift the other end of a distance.
 click 601 343
 import -window root "$out/point.png"
+press v
+sleep 1
+shot looked_at
+same point looked_at && fail "V does not look at the chosen point"
+press Home
+sleep 1
 xdotool keydown shift
 click 622 616
 xdotool keyup shift

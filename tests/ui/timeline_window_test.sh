@@ -1,12 +1,12 @@
 #!/bin/bash
-# Drives the timeline with real input events: scrubs, adds, chooses, drags, trims, copies,
-# pastes, deletes, undoes; edits the file by hand beside it; types in the script. Looks at
-# drama.lua and at screenshots.
+# Drives the timeline with real input events: goes to it from a check, scrubs, adds, chooses, drags,
+# trims, copies, pastes, deletes, undoes; chooses several and folds by keys; edits the file by hand
+# beside it; types in the script. Looks at drama.lua and at screenshots.
 #
 #   timeline_window_test.sh EDITOR OUTPUT_FOLDER
 set -u
 . "$(dirname "$0")/window.sh"
-need identify
+need identify compare
 begin_test "$0" "$@"
 script=$project/drama.lua
 
@@ -44,6 +44,19 @@ LUA
 open_window 700 300 "$project"
 sleep 3
 import -window root "$out/timeline.png"
+
+# What a check found leads to the item that it is about, which keys then mean.
+press F7
+click 394 640  # Check the saved project
+sleep 4
+click 311 748  # there is no line 'quid'
+import -window root "$out/checked.png"
+press Delete
+script_has_not 'id = "ask"' "the check did not lead to its item"
+script_has 'id = "hail"' "the check led to another item"
+press ctrl+z
+script_has 'id = "ask", at = 8, length = 2' "undo of deleting it"
+xdotool mousemove 700 300
 
 # Times on the screen: the first view shows all of the drama.
 left=196
@@ -90,6 +103,30 @@ drag "$(x_of 3)" $speech "$(x_of 4.5)" $speech
 script_has 'id = "ask", at = 9\.[0-9]+' "ripple left what comes later"
 press r
 import -window root "$out/edited.png"
+
+# By keys: one more is chosen along the lane, both go at once; lanes are folded and unfolded.
+same() { [ "$(difference "$1" "$2")" -lt 100 ]; }
+click "$(x_of 4.5)" $speech
+press ctrl+shift+Right
+shot both
+press Delete
+script_has_not 'id = "ask"' "Shift did not add the next item to what is chosen"
+script_has_not 'id = "hail"' "Shift chose another item in place of the first"
+press ctrl+z
+script_has 'id = "hail"' "undo of deleting two"
+click "$(x_of 4.5)" $speech
+xdotool mousemove 700 300 sleep 0.5
+shot unfolded
+press f
+shot folded
+same unfolded folded && fail "F does not fold the lanes"
+press f
+shot again
+same unfolded again || fail "F does not unfold the lanes"
+press shift+f
+press shift+f
+shot all
+same unfolded all || fail "Shift+F does not fold and unfold all lanes"
 
 # A hand edits the file: the timeline shows it, and undo takes it back.
 press ctrl+s
