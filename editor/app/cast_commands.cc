@@ -6,8 +6,12 @@
 
 #include "editor/app/baking.h"
 #include "editor/app/bone_review.h"
+#include "editor/app/cast_edits.h"
 #include "editor/app/command_arguments.h"
 #include "editor/app/thumbnail.h"
+#include "editor/app/voice_sample.h"
+#include "editor/bake/line_table.h"
+#include "shared/core/file.h"
 
 namespace lararium::app {
 
@@ -60,17 +64,7 @@ Status AddClip(const CastOptions& options, const ProjectPaths& paths, CastDocume
   clip.file = paths.Shorten(options.add_clip);
   clip.loops = options.loops;
   LARARIUM_RETURN_IF_ERROR(CheckPlainName("--clip-name", clip.name));
-  std::erase_if(member.clips, [&](const ClipDocument& other) { return other.name == clip.name; });
-  member.clips.push_back(std::move(clip));
-  return Status();
-}
-
-Status RemoveClip(const std::string& name, CastDocument& member) {
-  LARARIUM_ASSIGN_OR_RETURN(
-      const ClipDocument* clip,
-      FindNamed(member.clips, name, "--remove-clip", member.name + " has no recorded motion"));
-  member.clips.erase(member.clips.begin() + (clip - member.clips.data()));
-  return Status();
+  return app::AddClip(std::move(clip), member);
 }
 
 Status Change(const CastOptions& options, const ProjectPaths& paths, CastDocument& member) {
@@ -79,6 +73,9 @@ Status Change(const CastOptions& options, const ProjectPaths& paths, CastDocumen
   LARARIUM_RETURN_IF_ERROR(ChangeVoice(options, member));
   if (!options.remove_clip.empty()) {
     LARARIUM_RETURN_IF_ERROR(RemoveClip(options.remove_clip, member));
+  }
+  if (!options.rename_clip.empty()) {
+    LARARIUM_RETURN_IF_ERROR(RenameClip(options.rename_clip, options.to, member));
   }
   return options.add_clip.empty() ? Status() : AddClip(options, paths, member);
 }
@@ -128,6 +125,30 @@ Result<CommandResult> Build(const ProjectPaths& paths, const CastDocument& membe
   return result;
 }
 
+// Says where the drama still names a motion that somebody has no more. A script that cannot be read
+// is none of this command's.
+void WarnOfUses(const ProjectPaths& paths, const std::string& clip, CommandResult& result) {
+  const Result<std::string> script = ReadText(paths.Drama());
+  if (clip.empty() || !script.ok()) {
+    return;
+  }
+  for (const size_t line : LinesThatSay(*script, clip)) {
+    result.text +=
+        paths.Drama().string() + ":" + std::to_string(line) + ": says \"" + clip + "\" still\n";
+    result.json["still_said"].push_back({{"clip", clip}, {"line", line}});
+  }
+}
+
+Status WriteSample(const ProjectPaths& paths,
+                   const ProjectDocument& document,
+                   const CastDocument& member,
+                   const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const bake::LineTable lines, bake::LoadLines(paths.folder));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> sound,
+                            SpeakSample(SampleOf(lines, document.speech, member), member.voice));
+  return WriteFileAtomically(file, sound);
+}
+
 class CastWorker {
  public:
   CastWorker(ProjectPaths paths, ProjectDocument document, const CastOptions& options)
@@ -148,6 +169,13 @@ class CastWorker {
     LARARIUM_RETURN_IF_ERROR(Change(options_, paths_, *member));
     LARARIUM_ASSIGN_OR_RETURN(CommandResult result, Build(paths_, *member));
     LARARIUM_RETURN_IF_ERROR(SaveProject(paths_, document_));
+    WarnOfUses(paths_, options_.remove_clip, result);
+    WarnOfUses(paths_, options_.rename_clip, result);
+    if (!options_.listen.empty()) {
+      LARARIUM_RETURN_IF_ERROR(WriteSample(paths_, document_, *member, options_.listen));
+      result.text += "wrote " + options_.listen.string() + "\n";
+      result.json["voice"] = options_.listen.string();
+    }
     return result;
   }
 
@@ -158,7 +186,8 @@ class CastWorker {
   // Whoever is called so; somebody new, unless what is asked is of somebody who is there.
   Result<CastDocument*> Wanted() {
     const Result<CastDocument*> known = Known(options_.name);
-    if (known.ok() || !options_.add_clip.empty() || !options_.remove_clip.empty()) {
+    if (known.ok() || !options_.add_clip.empty() || !options_.remove_clip.empty() ||
+        !options_.rename_clip.empty()) {
       return known;
     }
     LARARIUM_RETURN_IF_ERROR(CheckPlainName("--name", options_.name));

@@ -157,9 +157,11 @@ CastPictures::CastPictures(ProjectPaths project,
 
 CastPictures::~CastPictures() = default;
 
-// Changes with what the person is made of: what the project says, and the files it names.
+// Changes with what is seen of the person: what the project says, and the files it names.
 std::string CastPictures::KeyOf(const CastDocument& member) const {
-  std::string key = FormatCastMember(member).dump();
+  CastDocument seen = member;
+  seen.voice = {};
+  std::string key = FormatCastMember(seen).dump();
   for (const std::string& file : {member.model, member.bone_map}) {
     key += file.empty() ? "" : StampOf(project_.Resolve(file));
   }

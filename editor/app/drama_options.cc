@@ -59,6 +59,11 @@ void AddClips(CLI::App* command, CLI::Option* name, CastOptions& options) {
   command->add_flag("--loop", options.loops, "The motion repeats")->needs(clip);
   command->add_option("--remove-clip", options.remove_clip, "Forget the motion of this name")
       ->needs(name);
+  CLI::Option* rename =
+      command->add_option("--rename-clip", options.rename_clip, "Give the motion of this name...")
+          ->needs(name);
+  CLI::Option* to = command->add_option("--to", options.to, "...this one")->needs(rename);
+  rename->needs(to);
 }
 
 void AddCast(CLI::App* command, CastOptions& options) {
@@ -79,6 +84,11 @@ void AddCast(CLI::App* command, CastOptions& options) {
         {"--voice-rate", &options.voice_rate, "Words a minute, from 80 to 450"}}) {
     command->add_option(option, *value, text)->needs(name);
   }
+  command
+      ->add_option("--listen", options.listen,
+                   "Write their first line, or a sentence, into this FLAC file: the voice to "
+                   "listen to")
+      ->needs(name);
 }
 
 void AddLines(CLI::App* command, LinesOptions& in) {

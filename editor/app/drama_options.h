@@ -26,6 +26,9 @@ struct CastOptions {
   std::string clip_name = {};           // empty: the file's
   bool loops = false;
   std::string remove_clip = {};
+  std::string rename_clip = {};
+  std::string to = {};                // what it is called from then on
+  std::filesystem::path listen = {};  // a FLAC file that the voice is written into
   std::optional<double> height = {};  // of the plain figure, metres
   std::vector<double> tunic = {};     // of the plain figure, linear albedo; or empty
   // bake::VoiceSettings

@@ -147,7 +147,9 @@ const CastCatalogue* Workspace::catalogue() {
 }
 
 const BoneReview* Workspace::bone_review(const CastDocument& member) {
-  std::string key = FormatCastMember(member).dump() + FileStamp(paths_.Resolve(member.model)) +
+  CastDocument figure = member;
+  figure.voice = {};  // is none of its bones
+  std::string key = FormatCastMember(figure).dump() + FileStamp(paths_.Resolve(member.model)) +
                     FileStamp(paths_.Resolve(member.bone_map));
   if (key != review_key_) {
     const auto review = std::make_shared<BoneReview>();

@@ -8,10 +8,12 @@
 
 #include "editor/app/cast_document.h"
 #include "editor/panels/bone_panel.h"
+#include "editor/panels/clips_panel.h"
 #include "editor/panels/portrait_view.h"
 #include "editor/panels/recipe_panel.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
+#include "editor/panels/voice_panel.h"
 #include "editor/panels/widgets.h"
 
 namespace lararium::panels {
@@ -79,7 +81,8 @@ void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDoc
   const float height = std::max(ImGui::GetContentRegionAvail().y, Px(kLeast));
   ImGui::BeginChild("figure", ImVec2(0, height), false, ImGuiWindowFlags_NavFlattened);
   app::CastDocument edited = member;
-  const RecipeChange change = ShowFigure(workspace, state, edited);
+  RecipeChange change = ShowFigure(workspace, state, edited);
+  ShowVoice(workspace, edited, change);
   if (change.any()) {
     workspace.Edit(
         Text(Tr("%s of %s"), change.what.c_str(), member.name.c_str()),
@@ -90,13 +93,7 @@ void ShowActor(app::Workspace& workspace, EditorState& state, const app::CastDoc
         },
         change.gesture);
   }
-  if (!member.clips.empty() && Fold(Label(Tr("Clips"), "clips"), false) &&
-      BeginProperties("clips")) {
-    for (const app::ClipDocument& clip : member.clips) {
-      PropertyText(clip.name.c_str(), clip.file);
-    }
-    EndProperties();
-  }
+  ShowClips(workspace, state, member);
   Hint(Tr("Where people stand and what they do is written in the drama."));
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.Edit(Text(Tr("remove %s"), member.name.c_str()),

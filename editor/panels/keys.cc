@@ -57,7 +57,8 @@ constexpr auto kBindings = std::to_array<KeyBinding>({
     {Scope::kAlways, Action::kPanelLarger, GLFW_KEY_F4, 0, 0, TrLater("Larger")},
 
     {Scope::kPanels, Action::kWalkOn, GLFW_KEY_LEFT, 0, 0,
-     TrLater("Walks; changes the number that was pressed")},
+     TrLater("Walks; changes the number that was pressed; turns a portrait, which Home shows from "
+             "the front")},
     {Scope::kPanels, Action::kWalkOn, GLFW_KEY_RIGHT, 0, 0, nullptr},
     {Scope::kPanels, Action::kWalkOn, GLFW_KEY_UP, 0, 0, nullptr},
     {Scope::kPanels, Action::kWalkOn, GLFW_KEY_DOWN, 0, 0, nullptr},

@@ -1,6 +1,6 @@
 #include "editor/panels/portrait_view.h"
 
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -79,6 +79,30 @@ void DrawSkeleton(const app::CastPortrait& portrait, const Place& place, const s
   }
 }
 
+void Turn(EditorState& state, float radians) {
+  state.cast.azimuth = std::remainder(state.cast.azimuth + radians, 2.0f * kPi);
+}
+
+// While the portrait has the ring, the arrows to the sides and Home walk no further. ImGui 1.86
+// draws no ring around such a button by itself.
+void TurnByKeys(EditorState& state, const ImRect& frame) {
+  constexpr float kStep = kPi / 12.0f;
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (!ImGui::IsItemFocused() || !state.keyboard.walks()) {
+    return;
+  }
+  ImGui::RenderNavHighlight(frame, g.NavId);
+  const bool front = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Home));
+  if (front) {
+    state.cast.azimuth = 0.0f;
+  } else if (g.NavMoveDir == ImGuiDir_Left || g.NavMoveDir == ImGuiDir_Right) {
+    Turn(state, g.NavMoveDir == ImGuiDir_Left ? -kStep : kStep);
+  } else {
+    return;
+  }
+  ImGui::NavMoveRequestCancel();
+}
+
 void Interact(EditorState& state,
               const app::CastPortrait* portrait,
               const Place& place,
@@ -86,11 +110,11 @@ void Interact(EditorState& state,
   const ImVec2 size(place.to.x - place.from.x, place.to.y - place.from.y);
   ImGui::SetCursorScreenPos(place.from);
   ImGui::InvisibleButton("portrait", size);
+  TurnByKeys(state, ImRect(place.from, place.to));
   const bool hovered = ImGui::IsItemHovered();
   if (ImGui::IsItemActive()) {
     // A person turns with the hand: dragging to the right shows their right side.
-    state.cast.azimuth =
-        std::remainder(state.cast.azimuth + kPi * ImGui::GetIO().MouseDelta.x / size.x, 2.0f * kPi);
+    Turn(state, kPi * ImGui::GetIO().MouseDelta.x / size.x);
   }
   if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
     state.cast.azimuth = 0.0f;
@@ -171,11 +195,16 @@ void ShowPortrait(app::Workspace& workspace,
     Caption(frame, Tr("Building\xe2\x80\xa6"));
   }
   const char* const labels[] = {Tr("Bust"), Tr("Face"), Tr("Figure")};
-  Segmented("frame", labels, state.cast.frame);
+  const std::string tips[] = {Tr("Head and shoulders"), Tr("The face alone"),
+                              Tr("From head to foot")};
+  Segmented("frame", labels, state.cast.frame, tips);
   if (FitsBeside(std::array{Tr("Drag to turn")})) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     DimText(Tr("Drag to turn"));
+    Tip(
+        Tr("Drag the picture to turn it, double-click it for the front. While the keyboard is on "
+           "it, the arrows to the left and right turn it, and Home shows the front."));
   } else {
     ImGui::Dummy(ImVec2(0, 0));  // the space below a row
   }

@@ -187,9 +187,12 @@ class RecipePanel {
     }
     EndGestureWithItem(workspace_);
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    if (set && ImGui::Button(kReset, ImVec2(reset, 0))) {
-      recipe_.modifiers.erase(slider.modifier);
-      change_.Choose(Text(Tr("reset of %s"), what.c_str()));
+    if (set) {
+      if (ImGui::Button(kReset, ImVec2(reset, 0))) {
+        recipe_.modifiers.erase(slider.modifier);
+        change_.Choose(Text(Tr("reset of %s"), what.c_str()));
+      }
+      Tip(Tr("As it was before it was changed"));
     }
     ImGui::PopID();
   }
@@ -302,6 +305,7 @@ class RecipePanel {
         change_.Choose(Text(Tr("reset of the %s"), what.c_str()));
         changed = true;
       }
+      Tip(Tr("Without a dye: the colour that the part was made with"));
     }
     return changed;
   }

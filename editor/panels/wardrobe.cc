@@ -154,6 +154,7 @@ Order Header(Json& garment, bool first, RecipeChange& change) {
   Tooltip(Tr("Put on earlier: below what comes before"));
   ImGui::SameLine(0, gap);
   const bool off = ImGui::Button("\xc3\x97", ImVec2(button, 0));
+  Tip(Text(Tr("Without the %s"), NameOf(garment).c_str()));
   return up ? Order::kUp : off ? Order::kTakeOff : Order::kStay;
 }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "editor/bake/speech_sound.h"
+#include "shared/core/file.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::app {
@@ -89,12 +91,44 @@ TEST_F(CastCommands, OneIsTakenOutAndTheOthersStay) {
   EXPECT_EQ(Saved(0), ada);
 }
 
+TEST_F(CastCommands, AMotionIsRenamedAndTheLinesThatStillSayItAreTold) {
+  ProjectDocument document = *LoadProject(paths_);
+  const std::filesystem::path motion = std::filesystem::path(LARARIUM_MOTION);
+  document.cast[0].clips = {{"wave", motion.string(), true}};
+  ASSERT_TRUE(SaveProject(paths_, document).ok());
+  ASSERT_TRUE(WriteFileAtomically(paths_.Drama(), std::string_view("\nada:play(\"wave\")\n")).ok());
+
+  const auto renamed = Run({.name = "ada", .rename_clip = "wave", .to = "hail"});
+  ASSERT_TRUE(renamed.ok()) << renamed.message();
+  EXPECT_EQ(Saved(0)["clips"][0]["name"], "hail");
+  EXPECT_EQ(Saved(0)["clips"][0]["loops"], true);
+  EXPECT_THAT(renamed->text, HasSubstr("drama.lua:2: says \"wave\" still"));
+  EXPECT_EQ(renamed->json["still_said"][0]["line"], 2);
+  EXPECT_THAT(Problem({.name = "ada", .rename_clip = "wave", .to = "hail"}),
+              HasSubstr("it has hail"));
+}
+
+TEST_F(CastCommands, TheVoiceIsWrittenToListenTo) {
+  const auto first = Run({.name = "ada", .listen = folder_ / "ada.flac"});
+  ASSERT_TRUE(first.ok()) << first.message();
+  EXPECT_THAT(first->text, HasSubstr("ada.flac"));
+  ASSERT_TRUE(Run({.name = "ada", .listen = folder_ / "fast.flac", .voice_rate = 300}).ok());
+  const auto slow = bake::ReadSound(folder_ / "ada.flac");
+  const auto fast = bake::ReadSound(folder_ / "fast.flac");
+  ASSERT_TRUE(slow.ok() && fast.ok());
+  EXPECT_LT(fast->duration(), 0.7 * slow->duration());
+}
+
 TEST_F(CastCommands, WhatCannotBeIsRefusedAndNothingIsSaved) {
   const Json before = FormatProject(*LoadProject(paths_));
   EXPECT_THAT(Problem({.remove = "bob"}), HasSubstr("nobody called \"bob\"; it has ada, ben"));
   EXPECT_THAT(Problem({.name = "bob", .add_clip = "walk.bvh"}), HasSubstr("nobody called \"bob\""));
   EXPECT_THAT(Problem({.name = "bob", .remove_clip = "walk"}), HasSubstr("nobody called \"bob\""));
   EXPECT_THAT(Problem({.name = "ada", .remove_clip = "walk"}), HasSubstr("no recorded motion"));
+  EXPECT_THAT(Problem({.name = "bob", .rename_clip = "walk", .to = "go"}),
+              HasSubstr("nobody called \"bob\""));
+  EXPECT_THAT(Problem({.name = "ada", .rename_clip = "walk", .to = "go"}),
+              HasSubstr("no recorded motion"));
   EXPECT_THAT(Problem({.name = "ada", .add_clip = folder_ / "none.bvh"}), HasSubstr("none.bvh"));
   EXPECT_THAT(Problem({.name = "ada", .add_clip = folder_ / "a walk.bvh"}),
               HasSubstr("--clip-name"));

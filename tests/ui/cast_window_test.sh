@@ -1,7 +1,8 @@
 #!/bin/bash
 # Drives the cast in the editor's window with real input events: adds a person from a preset
-# by its thumbnail, moves a slider, undoes, redoes, dyes a garment; imports a figure of
-# another program, names a bone of it, undoes, redoes, saves. Looks at the saved project.
+# by its thumbnail, moves a slider, undoes, redoes, dyes a garment; gives a plain figure a voice
+# and hears it, renames, adds and removes a recorded motion, turns the portrait by keys; imports a
+# figure of another program, names a bone of it, undoes, redoes, saves. Looks at the saved project.
 #
 #   cast_window_test.sh EDITOR OUTPUT_FOLDER
 set -u
@@ -87,4 +88,71 @@ wait_for 200 test -e "$project/cast/keeper.thumbnail.png" || fail "no thumbnail 
 sleep 1
 import -window root "$out/bones.png"
 quit
-echo "passed; screenshots: $out/recipe.png $out/bones.png"
+
+# A plain figure with a recorded motion, which the drama names. Sound goes into a file.
+project=$out/voice.lararium
+json=$project/project.json
+motion=$(cd "$(dirname "$0")/../.." && pwd)/scenes/thermopolium/thermopolium.lararium/motion
+"$editor" new "$project" > /dev/null || fail "cannot make a project"
+cat > "$json" << JSON
+{"schema": 1, "title": "Voice", "credits": "", "places": [], "cast": [{
+  "name": "ada", "height": 1.6, "tunic": [0.6, 0.5, 0.4],
+  "clips": [{"name": "nod", "file": "$motion/nod.bvh"}]}]}
+JSON
+echo 'hail = "nod"' > "$project/drama.lua"
+printf 'drivers=wave\n[wave]\nfile=%s/heard.wav\n' "$out" > "$out/alsoft.conf"
+export ALSOFT_CONF=$out/alsoft.conf ALSOFT_DRIVERS=wave
+open_window 700 780 "$project"
+sleep 2
+xdotool key F8 sleep 1
+click 60 205
+click 1160 484  # opens Clips
+click 1160 462  # opens Voice
+
+drag 1337 523 1270 523
+saved "$(has '"pitch":[0-9]+')" "the slider did not change the pitch"
+saved "$(has_not '"pitch":50')" "the pitch is as it was"
+click 1396 523  # the button that sets it back, which goes then
+saved "$(has_not '"pitch"')" "the pitch was not set back"
+press ctrl+z
+saved "$(has '"pitch":')" "undo of that"
+click 1260 620
+wait_for 60 bash -c "[ \$(stat -c %s '$out/heard.wav') -gt 200000 ]" || fail "the voice was not heard"
+
+click 1160 462  # folds Voice
+fill 1280 512 bow
+hold Return
+saved "$(has '"name":"bow"')" "the motion was not renamed"
+shot clips
+click 1260 650  # asks for a further one
+click 1234 677
+xdotool type --delay 40 "$motion/pray.bvh"
+sleep 0.5
+click 1369 773
+saved "$(has '"name":"pray"')" "the motion was not added"
+press ctrl+z
+saved "$(has_not '"name":"pray"')" "undo of the addition"
+click 1396 512
+saved "$(has_not '"clips"')" "the motion was not removed"
+press ctrl+z
+press ctrl+z
+saved "$(has '"name":"nod"')" "undo of both"
+
+# The portrait turns by keys once they have come to it.
+wait_for 200 test -e "$project/cast/ada.thumbnail.png" || fail "no thumbnail of the plain figure"
+press ctrl+shift+Tab
+press ctrl+Tab
+for ((n = 0; n < 8; ++n)); do press Up; done
+sleep 3
+shot front
+for ((n = 0; n < 4; ++n)); do press Right; done
+sleep 3
+shot side
+[ "$(difference front side)" -gt 3000 ] || fail "the portrait does not turn by keys"
+press Home
+sleep 3
+shot front_again
+[ "$(difference front front_again)" -lt 500 ] || fail "Home does not show the front"
+quit
+[ -s "$out/heard.wav" ] || fail "nothing was heard"
+echo "passed; screenshots: $out/recipe.png $out/bones.png $out/clips.png"

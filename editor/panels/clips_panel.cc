@@ -1,0 +1,236 @@
+#include "editor/panels/clips_panel.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "editor/app/cast_edits.h"
+#include "editor/app/document_fields.h"
+#include "editor/panels/icons.h"
+#include "editor/panels/text.h"
+#include "editor/panels/theme.h"
+#include "editor/panels/widgets.h"
+
+namespace lararium::panels {
+namespace {
+
+constexpr const char* kMotions[] = {".bvh", ".fbx", ".glb", ".gltf", ".vrm"};
+constexpr float kLabels = 70.0f;  // logical pixels
+constexpr float kAddingWidth = 460.0f;
+
+// "12, 40": the lines of the script; empty: nothing there says it.
+std::string LinesOf(const app::Workspace& workspace, const std::string& word) {
+  constexpr size_t kMost = 6;
+  const std::vector<size_t> lines = app::LinesThatSay(workspace.script().text(), word);
+  std::string text;
+  for (size_t i = 0; i < std::min(lines.size(), kMost); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(lines[i]);
+  }
+  return text + (lines.size() > kMost ? "\xe2\x80\xa6" : "");
+}
+
+class ClipsPanel {
+ public:
+  ClipsPanel(app::Workspace& workspace, EditorState& state, const app::CastDocument& member)
+      : workspace_(workspace), state_(state), member_(member) {}
+
+  void Show() {
+    for (const app::ClipDocument& clip : member_.clips) {
+      ImGui::PushID(clip.name.c_str());
+      ShowClip(clip);
+      ImGui::PopID();
+    }
+    if (member_.clips.empty()) {
+      Hint(Tr("Recorded motions that are carried over to the figure, beside those that it has."));
+    }
+    ShowAdding();
+  }
+
+ private:
+  void Edit(const std::string& what, const std::function<Status(app::CastDocument&)>& change) {
+    workspace_.Edit(Text(Tr("%s of %s"), what.c_str(), member_.name.c_str()),
+                    [&](app::ProjectDocument& document) {
+                      for (app::CastDocument& known : document.cast) {
+                        if (known.name == member_.name) {
+                          Tell(change(known));
+                        }
+                      }
+                    });
+  }
+
+  void Tell(const Status& status) {
+    if (!status.ok()) {
+      workspace_.Tell(app::Message::Level::kError, status.message());
+    }
+  }
+
+  // The drama is the author's: it is told of, not rewritten.
+  void WarnOfUses(const std::string& name) {
+    if (const std::string lines = LinesOf(workspace_, name); !lines.empty()) {
+      workspace_.Tell(app::Message::Level::kWarning,
+                      Text(Tr("The drama still says \"%s\": line %s of the script."), name.c_str(),
+                           lines.c_str()));
+    }
+  }
+
+  void Rename(const std::string& name, const std::string& to) {
+    if (const Status status = app::CheckClipName(member_, to); !status.ok()) {
+      Tell(status);
+      return;
+    }
+    Edit(Text(Tr("rename the clip %s"), name.c_str()),
+         [&](app::CastDocument& known) { return app::RenameClip(name, to, known); });
+    WarnOfUses(name);
+  }
+
+  void Remove(const std::string& name) {
+    Edit(Text(Tr("remove the clip %s"), name.c_str()),
+         [&](app::CastDocument& known) { return app::RemoveClip(name, known); });
+    WarnOfUses(name);
+  }
+
+  void ShowHeader(const app::ClipDocument& clip) {
+    const float button = ImGui::GetFrameHeight();
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    std::string name = clip.name;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
+    if (ImGui::InputText("##name", &name, ImGuiInputTextFlags_EnterReturnsTrue) &&
+        name != clip.name) {
+      Rename(clip.name, name);
+    }
+    Tip(Tr("As the drama calls it: Enter renames it"));
+    ImGui::SameLine(0, gap);
+    const bool remove = ImGui::Button("\xc3\x97", ImVec2(button, 0));
+    if (ImGui::IsItemHovered()) {
+      const std::string lines = LinesOf(workspace_, clip.name);
+      Tip(lines.empty() ? std::string(Tr("Remove it; its file stays"))
+                        : Text(Tr("Remove it; its file stays. The drama says \"%s\": line %s of "
+                                  "the script"),
+                               clip.name.c_str(), lines.c_str()));
+    }
+    if (remove) {
+      Remove(clip.name);
+    }
+  }
+
+  void ShowClip(const app::ClipDocument& clip) {
+    ShowHeader(clip);
+    if (BeginProperties("clip", kLabels)) {
+      PropertyLabel(Tr("File"));
+      ImGui::AlignTextToFramePadding();
+      ImGui::TextUnformatted(ElidedFront(clip.file, ImGui::GetContentRegionAvail().x).c_str());
+      Tip(clip.file);
+      PropertyText(Tr("Length"), LengthOf(clip.name));
+      PropertyLabel(Tr("Loops"));
+      bool loops = clip.loops;
+      if (ImGui::Checkbox("##loops", &loops)) {
+        SetLoops(clip, loops);
+      }
+      Tip(Tr("It begins again where it ends, until the drama wants something else"));
+      EndProperties();
+    }
+    ImGui::Separator();
+  }
+
+  // Known once the drama was run with it.
+  std::string LengthOf(const std::string& name) const {
+    const app::DramaRun* run = workspace_.drama_run();
+    const double seconds = run != nullptr ? run->words.ClipSeconds(member_.name, name) : 0.0;
+    return seconds > 0.0 ? Text("%.2f s", seconds) : "\xe2\x80\x93";
+  }
+
+  void SetLoops(app::ClipDocument clip, bool loops) {
+    clip.loops = loops;
+    Edit(Text(Tr("loop of the clip %s"), clip.name.c_str()), [&](app::CastDocument& known) {
+      std::replace_if(
+          known.clips.begin(), known.clips.end(),
+          [&](const auto& other) { return other.name == clip.name; }, clip);
+      return Status();
+    });
+  }
+
+  // ---- a further one ----
+
+  std::string NewName() const {
+    const DialogFields& fields = state_.fields;
+    return fields.name.empty() ? std::filesystem::path(fields.file).stem().string() : fields.name;
+  }
+
+  // Why it cannot be added yet; empty: it can.
+  std::string NewProblem() const {
+    const std::string& file = state_.fields.file;
+    std::error_code ignored;
+    if (file.empty()) {
+      return Tr("It needs a file: BVH, FBX, glTF or VRM.");
+    }
+    if (!std::filesystem::is_regular_file(workspace_.paths().Resolve(file), ignored)) {
+      return Tr("There is no such file.");
+    }
+    if (!app::IsPlainName(NewName())) {
+      return Tr("The name takes letters, digits, _ and -.");
+    }
+    return app::CheckClipName(member_, NewName()).ok() ? "" : Tr("That name is taken.");
+  }
+
+  void ShowAdding() {
+    if (ImGui::Button(Tr("Add a clip\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
+      state_.fields = {};
+      ImGui::OpenPopup("new clip");
+    }
+    Tip(Tr("A recorded motion of a BVH, FBX, glTF or VRM file, carried over to the figure"));
+    ImGui::SetNextWindowSize(ImVec2(Px(kAddingWidth), 0));
+    if (ImGui::BeginPopup("new clip")) {
+      ShowNewClip();
+      ImGui::EndPopup();
+    }
+  }
+
+  void ShowNewClip() {
+    DialogFields& fields = state_.fields;
+    if (BeginProperties("new clip")) {
+      PropertyLabel(Tr("File"));
+      PathField("file", fields.file, workspace_.paths().folder, kMotions);
+      PropertyLabel(Tr("Name"));
+      const std::string as_file = fields.file.empty() ? Tr("as the file") : NewName();
+      ImGui::InputTextWithHint("##name", as_file.c_str(), &fields.name);
+      Tip(Tr("As the drama calls it; empty: as the file is called"));
+      EndProperties();
+    }
+    const DialogAnswer answer = DialogButtons(Tr("Add"), NewProblem());
+    if (answer == DialogAnswer::kAct) {
+      Add();
+    }
+    if (answer != DialogAnswer::kNone) {
+      ImGui::CloseCurrentPopup();
+    }
+  }
+
+  void Add() {
+    const std::filesystem::path file = workspace_.paths().Resolve(state_.fields.file);
+    const app::ClipDocument clip{NewName(), workspace_.paths().Shorten(file), false};
+    Edit(Text(Tr("add the clip %s"), clip.name.c_str()),
+         [&](app::CastDocument& known) { return app::AddClip(clip, known); });
+  }
+
+  app::Workspace& workspace_;
+  EditorState& state_;
+  const app::CastDocument& member_;
+};
+
+}  // namespace
+
+void ShowClips(app::Workspace& workspace, EditorState& state, const app::CastDocument& member) {
+  if (Fold(Label(Tr("Clips"), "clips"), false)) {
+    ClipsPanel(workspace, state, member).Show();
+  }
+}
+
+}  // namespace lararium::panels
