@@ -169,8 +169,7 @@ void KeepRingOffButtons(const char* first, const char* second) {
   if (frames == 0 && g.NavTabbingCounter > 0) {
     ImGui::NavMoveRequestCancel();
     g.NavDisableHighlight = true;
-  } else if (frames == 1 &&
-             (g.NavId == ImGui::GetID(first) || g.NavId == ImGui::GetID(second))) {
+  } else if (frames == 1 && (g.NavId == ImGui::GetID(first) || g.NavId == ImGui::GetID(second))) {
     g.NavDisableHighlight = true;
   }
 }

@@ -144,15 +144,17 @@ press ctrl+shift+Tab
 press ctrl+Tab
 for ((n = 0; n < 8; ++n)); do press Up; done
 sleep 3
-shot front
+# The portrait alone, above what says that it is still being built: until it is it does not turn.
+portrait() {
+  import -window root -crop 300x190+1114+120 +repage "$out/$1.png"
+}
+portrait front
 for ((n = 0; n < 4; ++n)); do press Right; done
-sleep 3
-shot side
-[ "$(difference front side)" -gt 3000 ] || fail "the portrait does not turn by keys"
+turned() { portrait side && [ "$(difference front side)" -gt 3000 ]; }
+wait_for 20 turned || fail "the portrait does not turn by keys"
 press Home
-sleep 3
-shot front_again
-[ "$(difference front front_again)" -lt 500 ] || fail "Home does not show the front"
+front_again() { portrait front_again && [ "$(difference front front_again)" -lt 500 ]; }
+wait_for 20 front_again || fail "Home does not show the front"
 quit
 [ -s "$out/heard.wav" ] || fail "nothing was heard"
 echo "passed; screenshots: $out/recipe.png $out/bones.png $out/clips.png"
