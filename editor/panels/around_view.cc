@@ -306,7 +306,7 @@ Status AroundView::Draw(const app::Workspace& workspace,
 }
 
 void AroundView::MeasurePoints() {
-  constexpr double kMovingBudget = 0.005;  // seconds
+  constexpr double kMovingBudget = 0.003;  // seconds
   constexpr size_t kLeast = 2000;
   const auto seconds_of = [&](size_t points) {
     render::RenderTarget::Finish();
