@@ -11,6 +11,7 @@ set -u
 editor=$(realpath "$1")
 sample=$(realpath "$2")
 root=$(cd "$(dirname "$0")/../.." && pwd)
+mkdir -p "${3:-$root/docs/images}"
 images=$(realpath "${3:-$root/docs/images}")
 out=$root/build/doc_pictures
 
@@ -92,7 +93,8 @@ sleep 1
 click 912 551   # Film
 sleep 2.2
 picture film 1100x620+170+140 1000
-click 1033 723  # Discard
+sleep 4         # the recording is over
+press Escape    # keeps the film, in the copy
 sleep 1
 
 # The ways of the keeper's walks, around the place.
