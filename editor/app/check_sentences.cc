@@ -1,10 +1,16 @@
 #include "editor/app/check_sentences.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "editor/app/text.h"
 
 namespace lararium::app {
+
+void Append(std::vector<Sentence> more, std::vector<Sentence>& sentences) {
+  std::move(more.begin(), more.end(), std::back_inserter(sentences));
+}
 
 std::string SecondsText(double seconds) { return Text("%.2f s", seconds); }
 

@@ -4,10 +4,13 @@
 // (editor/panels/problem_place.h) reads the English.
 
 #include <string>
+#include <vector>
 
 #include "shared/core/sentence.h"
 
 namespace lararium::app {
+
+void Append(std::vector<Sentence> more, std::vector<Sentence>& sentences);
 
 // "3.20 s"
 std::string SecondsText(double seconds);

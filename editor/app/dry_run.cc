@@ -1,7 +1,6 @@
 #include "editor/app/dry_run.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -152,10 +151,6 @@ class SeekCheck {
   std::vector<int64_t> wanted_;
   std::map<int64_t, stage::StageSnapshot> seen_;
 };
-
-void Append(std::vector<Sentence> more, std::vector<Sentence>& problems) {
-  std::move(more.begin(), more.end(), std::back_inserter(problems));
-}
 
 class DryRunner {
  public:

@@ -19,10 +19,6 @@
 namespace lararium::app {
 namespace {
 
-void Append(const std::vector<Sentence>& more, std::vector<Sentence>& sentences) {
-  sentences.insert(sentences.end(), more.begin(), more.end());
-}
-
 // Lines that cannot be read are a problem, and none.
 ProjectLines CheckLines(const ProjectPaths& paths,
                         const ProjectDocument& document,

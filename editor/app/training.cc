@@ -106,35 +106,25 @@ Result<train::TrainReport> Finish(const ProjectPaths& paths,
 }
 
 // As train::Train reports them, with their shares of the time in the maquette's training.
-void AddTrainingSteps(std::vector<TaskStep>& steps) {
-  steps.insert(steps.end(), {{"reading", 0.02},
-                             {"features", 0.14},
-                             {"matching", 0.27},
-                             {"mapping", 0.36},
-                             {"refining", 0.12},
-                             {"database", 0.03},
-                             {"locating", 0.06}});
-}
-
-void AddSessionSteps(std::vector<TaskStep>& steps) {
-  AddTrainingSteps(steps);
-  steps.push_back({"merging", 0.15});
+std::vector<TaskStep> StepsOfOne() {
+  return {{"reading", 0.02},  {"features", 0.14}, {"matching", 0.27}, {"mapping", 0.36},
+          {"refining", 0.12}, {"database", 0.03}, {"locating", 0.06}};
 }
 
 }  // namespace
 
-std::vector<TaskStep> TrainingSteps(size_t sessions) {
-  std::vector<TaskStep> steps;
-  AddTrainingSteps(steps);
-  for (size_t session = 0; session < sessions; ++session) {
-    AddSessionSteps(steps);
-  }
+std::vector<TaskStep> SessionSteps() {
+  std::vector<TaskStep> steps = StepsOfOne();
+  steps.push_back({"merging", 0.15});
   return steps;
 }
 
-std::vector<TaskStep> SessionSteps() {
-  std::vector<TaskStep> steps;
-  AddSessionSteps(steps);
+std::vector<TaskStep> TrainingSteps(size_t sessions) {
+  std::vector<TaskStep> steps = StepsOfOne();
+  for (size_t session = 0; session < sessions; ++session) {
+    const std::vector<TaskStep> more = SessionSteps();
+    steps.insert(steps.end(), more.begin(), more.end());
+  }
   return steps;
 }
 

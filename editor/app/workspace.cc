@@ -378,15 +378,24 @@ bool IsThere(const std::filesystem::path& file) {
   return std::filesystem::exists(file, ignored);
 }
 
+// Whether a file is another than its stamp says, which then says it; what was wrong with it is
+// over.
+bool IsAnother(const std::filesystem::path& file, std::string& stamp, std::string& damage) {
+  std::string now = FileStamp(file);
+  if (now == stamp) {
+    return false;
+  }
+  stamp = std::move(now);
+  damage.clear();
+  return true;
+}
+
 }  // namespace
 
 void Workspace::LookAtScript() {
-  std::string stamp = FileStamp(paths_.Drama());
-  if (stamp == script_stamp_) {
+  if (!IsAnother(paths_.Drama(), script_stamp_, script_damage_)) {
     return;
   }
-  script_stamp_ = std::move(stamp);
-  script_damage_.clear();
   outside_script_.reset();
   const Result<std::string> text = ReadText(paths_.Drama(), drama::TimelineText::kMaxBytes);
   if (!text.ok()) {
@@ -399,12 +408,9 @@ void Workspace::LookAtScript() {
 }
 
 void Workspace::LookAtProject() {
-  std::string stamp = FileStamp(paths_.Project());
-  if (stamp == project_stamp_) {
+  if (!IsAnother(paths_.Project(), project_stamp_, project_damage_)) {
     return;
   }
-  project_stamp_ = std::move(stamp);
-  project_damage_.clear();
   outside_project_ = nullptr;
   Result<ProjectDocument> project = LoadProject(paths_);
   if (!project.ok()) {

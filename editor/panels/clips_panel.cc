@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "editor/app/cast_edits.h"
-#include "editor/app/document_fields.h"
+#include "editor/panels/dialogs.h"
 #include "editor/panels/icons.h"
 #include "editor/panels/text.h"
 #include "editor/panels/theme.h"
@@ -174,8 +174,8 @@ class ClipsPanel {
     if (!std::filesystem::is_regular_file(workspace_.paths().Resolve(file), ignored)) {
       return Tr("There is no such file.");
     }
-    if (!app::IsPlainName(NewName())) {
-      return Tr("The name takes letters, digits, _ and -.");
+    if (std::string problem = NameProblem(NewName()); !problem.empty()) {
+      return problem;
     }
     return app::CheckClipName(member_, NewName()).ok() ? "" : Tr("That name is taken.");
   }

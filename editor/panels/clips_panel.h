@@ -5,8 +5,8 @@
 
 namespace lararium::panels {
 
-// Somebody's recorded motions: what they are called, whether they repeat, how they look in the
-// portrait; removes them and adds others.
+// Somebody's recorded motions: what they are called, how long they are, whether they repeat;
+// removes them and adds others.
 void ShowClips(app::Workspace& workspace, EditorState& state, const app::CastDocument& member);
 
 }  // namespace lararium::panels
